@@ -1,0 +1,22 @@
+#pragma once
+
+// The kinds of texture nodes and how images continue past their edges.
+
+#include <cstdint>
+
+namespace alhazen {
+
+enum class TextureKind : uint32_t {
+  constant,
+  checkerboard,  ///< one of two textures, over uv or in space
+  image,
+  fbm,       ///< Perlin noise summed over octaves
+  wrinkled,  ///< the same of its absolute value (turbulence)
+  marble,    ///< a fixed spline of colours over displaced veins
+  scale,     ///< product of two textures
+  mix,       ///< two textures blended by a third
+};
+
+enum class WrapMode : uint32_t { repeat, black, clamp };
+
+}  // namespace alhazen

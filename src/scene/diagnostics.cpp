@@ -1,0 +1,26 @@
+#include "scene/diagnostics.h"
+
+namespace alhazen {
+
+std::string SourceLocation::to_string() const {
+  std::string text = file;
+  if (line > 0) text += ":" + std::to_string(line);
+  if (line > 0 && column > 0) text += ":" + std::to_string(column);
+  return text;
+}
+
+static std::string located(const SourceLocation& where, const std::string& message) {
+  const std::string place = where.to_string();
+  return place.empty() ? message : place + ": " + message;
+}
+
+InputError::InputError(const SourceLocation& where, const std::string& message, const std::string& excerpt)
+    : std::runtime_error(located(where, message) + (excerpt.empty() ? "" : "\n" + excerpt)) {}
+
+std::string Diagnostics::Warning::to_string() const { return located(where, message); }
+
+void Diagnostics::warn(const SourceLocation& where, const std::string& message) {
+  if (seen_.insert(message).second) warnings_.push_back({where, message});
+}
+
+}  // namespace alhazen

@@ -1,0 +1,199 @@
+#pragma once
+
+// The described scene: what a file says, before it is validated, flattened and given a BVH.
+// Colours are linear sRGB (D65). Lengths are in the scene's own unit, angles in degrees, times in [0, 1] of the
+// shutter unless said otherwise.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/math/vec.h"
+#include "core/textures/kinds.h"
+#include "scene/diagnostics.h"
+#include "scene/transform.h"
+
+namespace alhazen {
+
+inline constexpr uint32_t no_index = 0xffffffffu;
+
+/// A transform at the start and at the end of the shutter interval.
+struct MovingTransform {
+  Transform start;
+  Transform end;
+  bool is_moving() const { return !(start == end); }
+};
+
+/// Texels of one picture. Rows run from the top of the picture down.
+struct ImageTexels {
+  int width = 0, height = 0;
+  /// Three channels a texel either way. `bytes` are sRGB-encoded or linear as `srgb` says; `floats` are linear.
+  /// Exactly one of the two holds width * height * 3 values.
+  std::vector<uint8_t> bytes;
+  std::vector<float> floats;
+  bool srgb = true;
+  std::string name;  ///< the file it came from
+};
+
+/// A texture is a node over other textures. A scalar texture holds its value in all three channels.
+struct Texture {
+  std::string name;
+  TextureKind kind = TextureKind::constant;
+  Vec3d value{1, 1, 1};  ///< constant
+  /// Inputs, indices into Scene::textures. checkerboard: even, odd. scale: factor, factor. mix: at 0, at 1, amount.
+  std::array<uint32_t, 3> inputs{no_index, no_index, no_index};
+  /// Two-dimensional mapping: (s, t) = uv_scale * (u, v) + uv_offset.
+  Vec2d uv_scale{1, 1}, uv_offset{0, 0};
+  uint32_t image = no_index;  ///< image: index into Scene::images
+  WrapMode wrap = WrapMode::repeat;
+  bool nearest = false;      ///< image: nearest texel instead of bilinear
+  double image_scale = 1;    ///< image: factor on the value
+  bool invert = false;       ///< image: 1 - value, before the factor
+  bool solid_checks = false; ///< checkerboard in three dimensions instead of over uv
+  /// Solid textures (noise, solid checkerboard): from world space to the space of the texture.
+  Transform texture_from_world;
+  int octaves = 8;           ///< fbm, wrinkled, marble
+  double roughness = 0.5;    ///< fbm, wrinkled, marble: factor on the amplitude for each octave
+  double noise_scale = 1;    ///< marble: factor on the point
+  double variation = 0.2;    ///< marble: how far the noise displaces the veins
+};
+
+enum class MaterialType {
+  diffuse,     ///< Lambert
+  conductor,   ///< smooth or GGX-rough, Fresnel of (eta, k), or coloured by `reflectance` alone
+  dielectric,  ///< smooth or GGX-rough
+};
+
+struct Material {
+  std::string name;
+  MaterialType type = MaterialType::diffuse;
+  uint32_t reflectance = no_index;  ///< texture. diffuse; conductor where eta and k are not given
+  uint32_t eta = no_index;          ///< texture. conductor: index of refraction relative to the outside
+  uint32_t k = no_index;            ///< texture. conductor: absorption coefficient
+  double ior = 1.5;                 ///< dielectric: index inside relative to outside
+  uint32_t roughness_u = no_index;  ///< scalar textures, absent = smooth
+  uint32_t roughness_v = no_index;
+  bool remap_roughness = true;      ///< alpha = sqrt(roughness) as pbrt-v4 has it, instead of alpha = roughness
+};
+
+/// A triangle mesh in object space. Indices come in threes. Normals and uvs are per vertex or absent (empty).
+struct Mesh {
+  std::vector<Vec3d> positions;
+  std::vector<uint32_t> indices;
+  std::vector<Vec3f> normals;
+  std::vector<Vec2f> uvs;
+  std::string name;  ///< the file it came from, for messages
+
+  size_t triangle_count() const { return indices.size() / 3; }
+};
+
+/// Emission of a surface: radiance, W / (m^2 sr), on the side of the normal or on both.
+struct Emission {
+  Vec3d radiance;
+  bool two_sided = false;
+};
+
+enum class ShapeType { sphere, mesh };
+
+struct Shape {
+  ShapeType type = ShapeType::mesh;
+  double radius = 1;         ///< sphere, about the origin of object space
+  uint32_t mesh = no_index;  ///< mesh: index into Scene::meshes
+  MovingTransform world_from_object;
+  uint32_t material = no_index;  ///< index into Scene::materials
+  std::optional<Emission> emission;
+  /// Normals (so also the emitting side) turned round. Meshes: the normal is that of the counter-clockwise winding
+  /// in object space; spheres: outward.
+  bool reverse_orientation = false;
+  SourceLocation where;
+};
+
+/// Shapes that stand together. Group 0 of a scene is the world itself; others are placed by instances.
+struct ShapeGroup {
+  std::string name;
+  std::vector<Shape> shapes;  ///< of groups other than 0: `world_from_object` leads into the group's space
+};
+
+struct Instance {
+  uint32_t group = no_index;
+  MovingTransform world_from_group;
+  bool reverse_orientation = false;  ///< of the instance itself, on top of that of its shapes
+  SourceLocation where;
+};
+
+enum class LightType {
+  constant_infinite,  ///< `radiance` from every direction
+  point,              ///< `radiance` is intensity, W / sr, at `position`
+  distant,            ///< `radiance` is irradiance at normal incidence, W / m^2, travelling along `direction`
+  spot,               ///< as point, about `direction`, falling off from `cone_falloff_start` to `cone_angle`
+};
+
+struct Light {
+  LightType type = LightType::constant_infinite;
+  Vec3d radiance;
+  Vec3d position;             ///< world space
+  Vec3d direction{0, 0, 1};   ///< world space, unit length, the way the light travels
+  double cone_angle = 30;     ///< spot: degrees from the axis to darkness
+  double falloff_start = 25;  ///< spot: degrees from the axis to where the falloff begins
+  SourceLocation where;
+};
+
+struct Camera {
+  /// Camera space as in pbrt: x right, y up, z into the scene.
+  MovingTransform world_from_camera;
+  double fov = 90;  ///< degrees over the shorter axis of the picture (of the screen window [-1, 1])
+  /// x0, x1, y0, y1 on the plane at distance 1 / tan(fov / 2); absent: [-1, 1] over the shorter axis.
+  std::optional<std::array<double, 4>> screen_window;
+  std::optional<double> frame_aspect_ratio;
+  double lens_radius = 0;
+  double focal_distance = 1e6;
+  double shutter_open = 0, shutter_close = 1;
+};
+
+struct Film {
+  int64_t width = 1280, height = 720;
+  /// Pixels x0, x1, y0, y1 to render, half open; absent: all.
+  std::optional<std::array<int64_t, 4>> pixel_bounds;
+  std::string filename;   ///< as the file says, may be empty
+  double exposure = 1;    ///< factor on the radiance that is recorded
+};
+
+enum class FilterType { box, triangle, gaussian, mitchell, sinc };
+
+struct Filter {
+  FilterType type = FilterType::gaussian;
+  double x_radius = 1.5, y_radius = 1.5;  ///< pixels
+  double sigma = 0.5;                     ///< gaussian
+  double b = 1.0 / 3, c = 1.0 / 3;        ///< mitchell
+  double tau = 3;                         ///< sinc
+};
+
+enum class SamplerType { sobol, independent };
+enum class IntegratorType { branching, recursive, iterative, path };
+
+/// The whole description. A reader fills it; `flatten` (scene/flatten.h) turns it into what integrators see.
+struct Scene {
+  std::string name;  ///< the file it came from
+  Camera camera;
+  Film film;
+  Filter filter;
+  SamplerType sampler = SamplerType::sobol;
+  int64_t samples_per_pixel = 16;
+  uint32_t seed = 0;
+  IntegratorType integrator = IntegratorType::path;
+  int64_t max_depth = 5;  ///< bounces, as pbrt counts them
+  /// Motion is given between these times; the camera's shutter is cut out of them.
+  double transform_start_time = 0, transform_end_time = 1;
+
+  std::vector<ImageTexels> images;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<ShapeGroup> groups{1};
+  std::vector<Instance> instances;
+  std::vector<Light> lights;
+};
+
+}  // namespace alhazen
