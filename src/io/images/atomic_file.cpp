@@ -44,6 +44,10 @@ std::string write_error_message(const std::string& path, int error) {
   return "cannot write " + path + ": " + std::generic_category().message(error) + remedy(error);
 }
 
+[[noreturn]] void throw_write_error(const std::string& path, int error) {
+  throw RenderError(write_error_message(path, error));
+}
+
 /// Where a write to `path` ends up. A link is followed, so that the rename replaces the file and not the link.
 std::string resolve(const std::string& path) {
   std::error_code ignored;
@@ -62,8 +66,6 @@ std::string temporary_name() {
 }
 
 }  // namespace
-
-void throw_write_error(const std::string& path, int error) { throw RenderError(write_error_message(path, error)); }
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(resolve(path)) {
   if (path.empty()) throw RenderError("cannot write a picture without a file name: give one");

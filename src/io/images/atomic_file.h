@@ -37,7 +37,4 @@ class AtomicFile {
   std::string failure_;
 };
 
-/// The RenderError of a write to `path` that failed with `error` (of errno).
-[[noreturn]] void throw_write_error(const std::string& path, int error);
-
 }  // namespace alhazen
