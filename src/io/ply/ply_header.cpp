@@ -13,28 +13,22 @@ namespace alhazen {
 
 namespace {
 
-struct TypeName {
-  std::string_view name;
-  PlyType type;
+/// In the order of PlyType: the name of the format of 1994, the name that later writers use, and the size in bytes.
+struct TypeInfo {
+  std::string_view name, later_name;
+  size_t size;
 };
 
-// The names of the format of 1994, and those that later writers use.
-constexpr std::array<TypeName, 16> type_names{{{"char", PlyType::int8},
-                                               {"int8", PlyType::int8},
-                                               {"uchar", PlyType::uint8},
-                                               {"uint8", PlyType::uint8},
-                                               {"short", PlyType::int16},
-                                               {"int16", PlyType::int16},
-                                               {"ushort", PlyType::uint16},
-                                               {"uint16", PlyType::uint16},
-                                               {"int", PlyType::int32},
-                                               {"int32", PlyType::int32},
-                                               {"uint", PlyType::uint32},
-                                               {"uint32", PlyType::uint32},
-                                               {"float", PlyType::float32},
-                                               {"float32", PlyType::float32},
-                                               {"double", PlyType::float64},
-                                               {"float64", PlyType::float64}}};
+constexpr std::array<TypeInfo, 8> types{{
+    {"char", "int8", 1},
+    {"uchar", "uint8", 1},
+    {"short", "int16", 2},
+    {"ushort", "uint16", 2},
+    {"int", "int32", 4},
+    {"uint", "uint32", 4},
+    {"float", "float32", 4},
+    {"double", "float64", 8},
+}};
 
 /// A header that is longer is none: what looks like one may be any file that begins with "ply".
 constexpr uint64_t longest_header = 1u << 20;
@@ -151,8 +145,8 @@ void HeaderReader::read_element() {
 }
 
 PlyType HeaderReader::read_type(const Word& word) const {
-  for (const TypeName& known : type_names)
-    if (known.name == word.text) return known.type;
+  for (size_t i = 0; i < types.size(); ++i)
+    if (word.text == types[i].name || word.text == types[i].later_name) return static_cast<PlyType>(i);
   fail(word.column,
        "unknown type " + quoted(word.text) + "; known are char, uchar, short, ushort, int, uint, float, double");
 }
@@ -201,10 +195,7 @@ PlyHeader HeaderReader::read() {
 
 }  // namespace
 
-size_t size_of(PlyType type) {
-  constexpr std::array<size_t, 8> sizes{1, 1, 2, 2, 4, 4, 4, 8};
-  return sizes[static_cast<size_t>(type)];
-}
+size_t size_of(PlyType type) { return types[static_cast<size_t>(type)].size; }
 
 bool is_integer(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
 

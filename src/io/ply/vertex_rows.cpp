@@ -34,7 +34,7 @@ void assign(VertexLayout& layout, const PlyElement& element, const Names& names,
 
 /// To float, where doubles beyond its range become infinite: the conversion itself is undefined for them.
 float to_float(double value) {
-  constexpr double largest = std::numeric_limits<float>::max();
+  constexpr double largest = static_cast<double>(std::numeric_limits<float>::max());
   if (std::abs(value) <= largest) return static_cast<float>(value);
   return std::isnan(value) ? std::numeric_limits<float>::quiet_NaN() : std::numeric_limits<float>::infinity();
 }
