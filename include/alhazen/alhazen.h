@@ -63,9 +63,8 @@ struct Picture {
   const float* plane(const std::string& channel) const;
 };
 
-/// Bad input or settings: what() is one message, `file:line:column: what is wrong and what to do`.
-class InputError;
-/// Renders a pbrt-v4 scene. Throws std::runtime_error (InputError for bad input) and std::bad_alloc.
+/// Renders a pbrt-v4 scene. Throws std::runtime_error, whose what() is one message (for bad input
+/// `file:line:column: what is wrong and what to do`), and std::bad_alloc.
 Picture render(const std::string& scene_file, const Settings& settings = {}, const ProgressFunction& progress = {});
 
 const char* version();

@@ -1,4 +1,4 @@
-#include "cli/compare.h"
+// `alhazen compare`: how far two pictures are apart.
 
 #include <fmt/format.h>
 
@@ -6,10 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "cli/subcommands.h"
 #include "io/images/compare.h"
 #include "io/images/image.h"
 
-using namespace alhazen;
+namespace alhazen {
 
 namespace {
 
@@ -84,3 +85,5 @@ CLI::App* register_compare(CLI::App& app) {
   command->callback([options] { run_compare(*options); });
   return command;
 }
+
+}  // namespace alhazen

@@ -174,9 +174,9 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
 ImageSource Rendering::source() const {
   return std::visit(
       [](const auto& any_film) {
-        const auto* film = any_film.get();
-        return ImageSource{film->window().width(), film->window().height(), film->channels(),
-                           [film](int y, std::span<float> row) { film->resolve_row(y, row); }};
+        const auto* planes = any_film.get();
+        return ImageSource{planes->window().width(), planes->window().height(), planes->channels(),
+                           [planes](int y, std::span<float> row) { planes->resolve_row(y, row); }};
       },
       film);
 }

@@ -78,7 +78,7 @@ PixelWindow window_from(const std::array<int64_t, 4>& bounds, int width, int hei
 }
 
 /// The scene's own bounds are in pixels of the scene's own size; another size scales them.
-PixelWindow scene_window(const Film& film, int width, int height) {
+PixelWindow scene_window(const FilmSettings& film, int width, int height) {
   if (!film.pixel_bounds) return {0, width, 0, height};
   const auto& b = *film.pixel_bounds;
   const auto fraction = [](int64_t pixel, int64_t size) { return static_cast<double>(pixel) / static_cast<double>(size); };
