@@ -338,15 +338,14 @@ void limit_memory(rlim_t bytes) {
 
 TEST(Ply, HeaderThatLiesTakesNoMemory) {
   read_lies();
-#if defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "the sanitizer maps memory of its own; the limit is tested without it";
-#endif
+#if !defined(__SANITIZE_ADDRESS__)  // which maps memory of its own
   const auto under_limit = [] {
     limit_memory(64u << 20);
     read_lies();
     std::_Exit(testing::Test::HasFailure() ? 1 : 0);
   };
   EXPECT_EXIT(under_limit(), testing::ExitedWithCode(0), "");
+#endif
 }
 
 TEST(Ply, Warnings) {
