@@ -58,7 +58,7 @@ TEST(Cie1931, Observer) {
 }
 
 TEST(Reflectance, ConstantIsGrey) {
-  EXPECT_EQ(reflectance_rgb(constant_spectrum(1)), Vec3d(1, 1, 1));
+  EXPECT_EQ(reflectance_rgb(constant_spectrum(1)), (Vec3d{1, 1, 1}));
   expect_near(reflectance_rgb(constant_spectrum(0.18)), splat(0.18), 1e-15, "grey");
   expect_near(reflectance_rgb(constant_spectrum(7)), splat(7.0), 1e-13, "unbounded");
   EXPECT_EQ(reflectance_rgb(Spectrum()), Vec3d());
@@ -207,7 +207,7 @@ TEST(NamedSpectrum, CoversTheVisibleRange) {
 }
 
 TEST(RgbSpace, PrimariesAndWhites) {
-  EXPECT_EQ(to_srgb("srgb", {0.1, 0.2, 0.3}), Vec3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(to_srgb("srgb", {0.1, 0.2, 0.3}), (Vec3d{0.1, 0.2, 0.3}));
   for (const char* const space : {"rec2020", "dci-p3", "aces2065-1"}) {
     EXPECT_TRUE(is_rgb_space(space));
     expect_near(to_srgb(space, {1, 1, 1}), {1, 1, 1}, 1e-12, space);
