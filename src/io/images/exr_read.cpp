@@ -59,7 +59,8 @@ Image read_part(const std::string& path, uint64_t file_size) {
   const int64_t width = int64_t{window.max.x} - window.min.x + 1, height = int64_t{window.max.y} - window.min.y + 1;
   const std::vector<ExrChannel> channels = channels_of(header);
   if (channels.empty()) throw_malformed(path, "the EXR file has no channels");
-  check_declared_size(path, width, height, static_cast<int64_t>(4 * channels.size()), file_size);
+  check_size(path, width, height);
+  check_plausible(path, sizeof(float) * channels.size() * static_cast<uint64_t>(width * height), file_size);
 
   Image image{static_cast<int>(width), static_cast<int>(height), {}, {}};
   Imf::FrameBuffer frame;
