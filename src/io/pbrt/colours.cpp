@@ -64,11 +64,14 @@ std::optional<Spectrum> spectrum_of(const Build& build, const Parameter& paramet
 }
 
 Vec3d colour_of(const Build& build, const Parameter& parameter, ColourUse use) {
-  if (parameter.type == ParameterType::rgb) return rgb_of(parameter, use);
-  if (parameter.type == ParameterType::xyz) return srgb_from_xyz(three_numbers(parameter));
-  const Spectrum spectrum = *spectrum_of(build, parameter);
-  const Vec3d rgb = use == ColourUse::illuminant ? illuminant_rgb(spectrum) : reflectance_rgb(spectrum);
-  if (!is_finite(rgb)) fail(parameter.place, quoted(parameter.name) + ": the spectrum has no finite colour");
+  const auto projected = [&] {
+    if (parameter.type == ParameterType::rgb) return rgb_of(parameter, use);
+    if (parameter.type == ParameterType::xyz) return srgb_from_xyz(three_numbers(parameter));
+    const Spectrum spectrum = *spectrum_of(build, parameter);
+    return use == ColourUse::illuminant ? illuminant_rgb(spectrum) : reflectance_rgb(spectrum);
+  };
+  const Vec3d rgb = projected();
+  if (!is_finite(rgb)) fail(parameter.place, quoted(parameter.name) + " is not a finite colour in linear sRGB");
   return rgb;
 }
 

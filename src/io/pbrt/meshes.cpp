@@ -15,6 +15,9 @@ namespace {
 /// Triangles that subdivision may lead to.
 constexpr size_t max_subdivided_triangles = size_t{1} << 22;
 
+/// Vertices that indices of 32 bits can tell apart, with room for one more patch.
+constexpr size_t max_vertices = (size_t{1} << 32) - 1000;
+
 void orient_by_normals(Mesh& mesh) {
   if (mesh.normals.empty()) return;
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -73,7 +76,9 @@ void release_slack(Mesh& mesh) {
 
 }  // namespace
 
-uint32_t add_mesh(Build& build, Mesh mesh) {
+uint32_t add_mesh(Build& build, const ParameterList& list, Mesh mesh) {
+  for (const Vec3d& position : mesh.positions)
+    if (!is_finite(position)) fail(list.place(), list.directive() + ": a coordinate grows past double precision");
   orient_by_normals(mesh);
   release_slack(mesh);
   build.scene.meshes.push_back(std::move(mesh));
@@ -84,7 +89,7 @@ uint32_t read_triangle_mesh(Build& build, ParameterList& list) {
   Mesh mesh = read_faces(list, 3);
   read_vertex_data(list, mesh);
   list.ignore({"S", "faceIndices"});
-  return add_mesh(build, std::move(mesh));
+  return add_mesh(build, list, std::move(mesh));
 }
 
 uint32_t read_bilinear_mesh(Build& build, ParameterList& list) {
@@ -103,8 +108,10 @@ uint32_t read_bilinear_mesh(Build& build, ParameterList& list) {
       if (!patches.uvs.empty()) patch.uvs[corner] = patches.uvs[vertex];
     }
     append_bilinear_patch(patch, !patches.normals.empty(), mesh);
+    if (mesh.positions.size() > max_vertices)
+      fail(list.place(), list.directive() + " has too many patches for indices of 32 bits; split it");
   }
-  return add_mesh(build, std::move(mesh));
+  return add_mesh(build, list, std::move(mesh));
 }
 
 uint32_t read_ply_mesh(Build& build, ParameterList& list) {
@@ -114,7 +121,7 @@ uint32_t read_ply_mesh(Build& build, ParameterList& list) {
   if (!list.has("filename")) fail(list.place(), list.directive() + " needs \"string filename\" [ \"mesh.ply\" ]");
   const std::string path = build.existing_file(list.place_of("filename"), list.string("filename", ""));
   const auto [entry, is_new] = build.meshes_by_key.try_emplace("ply " + path, 0u);
-  if (is_new) entry->second = add_mesh(build, read_ply(path, build.diagnostics));
+  if (is_new) entry->second = add_mesh(build, list, read_ply(path, build.diagnostics));
   return entry->second;
 }
 
@@ -126,7 +133,7 @@ uint32_t read_loop_subdivision(Build& build, ParameterList& list) {
   if (control.triangle_count() << (2 * levels) > max_subdivided_triangles)
     fail(list.place_of("levels"), "subdividing " + std::to_string(control.triangle_count()) + " triangles " +
                                       std::to_string(levels) + " times makes over four million; use fewer levels");
-  return add_mesh(build, loop_subdivided(std::move(control), levels));
+  return add_mesh(build, list, loop_subdivided(std::move(control), levels));
 }
 
 }  // namespace alhazen::pbrt

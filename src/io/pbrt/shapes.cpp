@@ -48,7 +48,8 @@ Extent read_extent(ParameterList& list, double z_min, double z_max) {
 
 /// The mesh of a curved shape with these measures: made once for all shapes that are alike.
 template <class Make>
-uint32_t shared_mesh(Build& build, const std::string& kind, const std::array<double, 4>& measures, Make make) {
+uint32_t shared_mesh(Build& build, const ParameterList& list, const std::string& kind,
+                     const std::array<double, 4>& measures, Make make) {
   std::string key = kind;
   for (const double measure : measures) {
     std::array<char, 40> text{};
@@ -57,7 +58,7 @@ uint32_t shared_mesh(Build& build, const std::string& kind, const std::array<dou
   }
   const auto found = build.meshes_by_key.find(key);
   if (found != build.meshes_by_key.end()) return found->second;
-  const uint32_t mesh = add_mesh(build, make(measures[0], measures[1], measures[2], measures[3]));
+  const uint32_t mesh = add_mesh(build, list, make(measures[0], measures[1], measures[2], measures[3]));
   build.meshes_by_key[key] = mesh;
   return mesh;
 }
@@ -67,8 +68,8 @@ void become_mesh(Shape& shape, uint32_t mesh) {
   shape.mesh = mesh;
 }
 
-uint32_t sphere_mesh(Build& build, double radius, const Extent& extent) {
-  return shared_mesh(build, "sphere", {radius, extent.z_min, extent.z_max, extent.phi_max}, tessellated_sphere);
+uint32_t sphere_mesh(Build& build, const ParameterList& list, double radius, const Extent& extent) {
+  return shared_mesh(build, list, "sphere", {radius, extent.z_min, extent.z_max, extent.phi_max}, tessellated_sphere);
 }
 
 void read_sphere(Build& build, ParameterList& list, Shape& shape) {
@@ -80,13 +81,13 @@ void read_sphere(Build& build, ParameterList& list, Shape& shape) {
   const bool is_whole = extent.z_min == -shape.radius && extent.z_max == shape.radius && extent.phi_max == 360;
   shape.type = ShapeType::sphere;
   if (!is_whole || !is_similarity(shape.world_from_object))
-    become_mesh(shape, sphere_mesh(build, shape.radius, extent));
+    become_mesh(shape, sphere_mesh(build, list, shape.radius, extent));
 }
 
 void read_cylinder(Build& build, ParameterList& list, Shape& shape) {
   const double radius = list.positive("radius", 1);
   const Extent extent = read_extent(list, -1, 1);
-  become_mesh(shape, shared_mesh(build, "cylinder", {radius, extent.z_min, extent.z_max, extent.phi_max},
+  become_mesh(shape, shared_mesh(build, list, "cylinder", {radius, extent.z_min, extent.z_max, extent.phi_max},
                                  tessellated_cylinder));
 }
 
@@ -95,7 +96,7 @@ void read_disk(Build& build, ParameterList& list, Shape& shape) {
   const double height = list.number("height", 0), phi_max = read_phi_max(list);
   if (!(inner >= 0 && inner < radius))
     fail(list.place_of("innerradius"), "\"innerradius\" must be at least 0 and under \"radius\"");
-  become_mesh(shape, shared_mesh(build, "disk", {radius, inner, height, phi_max}, tessellated_disk));
+  become_mesh(shape, shared_mesh(build, list, "disk", {radius, inner, height, phi_max}, tessellated_disk));
 }
 
 template <uint32_t (*read)(Build&, ParameterList&)>
@@ -197,7 +198,7 @@ void tessellate_spheres_of_skewed_instances(Build& build) {
     if (is_similarity(instance.world_from_group)) continue;
     for (Shape& shape : build.scene.groups[instance.group].shapes)
       if (shape.type == ShapeType::sphere)
-        become_mesh(shape, sphere_mesh(build, shape.radius, {-shape.radius, shape.radius, 360}));
+        become_mesh(shape, sphere_mesh(build, {}, shape.radius, {-shape.radius, shape.radius, 360}));
   }
 }
 

@@ -106,17 +106,18 @@ void read_image(const TextureRequest& request, Texture& texture) {
 /// For kinds that vary between their inputs: the mean of those. A textured input counts as 0.5.
 void replace_by_mean(const TextureRequest& request, Texture& texture,
                      const std::vector<std::pair<std::string_view, double>>& inputs) {
+  const double weight = 1 / static_cast<double>(inputs.size());
   texture.value = {};
   for (const auto& [name, fallback] : inputs) {
     const Parameter* parameter = request.list.find(name);
-    if (parameter && parameter->type == ParameterType::texture)
-      texture.value += splat(0.5);
-    else if (request.is_float)
-      texture.value += splat(request.list.number(name, fallback));
-    else
-      texture.value += colour(request.build, request.list, name, ColourUse::unbounded, splat(fallback));
+    Vec3d value = splat(0.5);
+    const bool is_textured = parameter && parameter->type == ParameterType::texture;
+    if (!is_textured && request.is_float)
+      value = splat(request.list.number(name, fallback));
+    else if (!is_textured)
+      value = colour(request.build, request.list, name, ColourUse::unbounded, splat(fallback));
+    texture.value += value * weight;
   }
-  texture.value *= 1 / static_cast<double>(inputs.size());
   request.list.ignore_all();
   request.build.warn_replaced(request.list, "a constant of its mean is used instead");
 }
