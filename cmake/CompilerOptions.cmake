@@ -4,6 +4,10 @@ add_library(alhazen_options INTERFACE)
 target_compile_options(alhazen_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Werror -Wdouble-promotion -fno-math-errno -fno-trapping-math)
 
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # False alarms on string concatenation (GCC bug 105651).
+  target_compile_options(alhazen_options INTERFACE -Wno-restrict)
+endif()
 if(NOT ALHAZEN_ARCH STREQUAL "")
   target_compile_options(alhazen_options INTERFACE -march=${ALHAZEN_ARCH})
 endif()

@@ -152,7 +152,7 @@ struct Camera {
   double shutter_open = 0, shutter_close = 1;
 };
 
-struct Film {
+struct FilmSettings {
   int64_t width = 1280, height = 720;
   /// Pixels x0, x1, y0, y1 to render, half open; absent: all.
   std::optional<std::array<int64_t, 4>> pixel_bounds;
@@ -177,7 +177,7 @@ enum class IntegratorType { branching, recursive, iterative, path };
 struct Scene {
   std::string name;  ///< the file it came from
   Camera camera;
-  Film film;
+  FilmSettings film;
   Filter filter;
   SamplerType sampler = SamplerType::sobol;
   int64_t samples_per_pixel = 16;

@@ -17,8 +17,8 @@ struct ImageDifference {
   double psnr = 0;    ///< dB, of the sRGB-encoded values clamped to [0, 1]; infinite for equal pictures
   double ssim = 0;    ///< structural similarity of the encoded luminance (Wang et al. 2004), Gaussian window of 11
   double flip = 0;    ///< mean LDR-FLIP (Andersson et al. 2020) at 67 pixels per degree
-  double mean_a = 0, mean_b = 0;  ///< mean luminance of each
-  double max_abs = 0;             ///< largest absolute difference of a channel
+  double mean_a = 0, mean_b = 0;             ///< mean luminance of each
+  double max_abs = 0;                        ///< largest absolute difference of a channel
   int64_t nonfinite_a = 0, nonfinite_b = 0;  ///< pixels with a NaN or infinite channel
 };
 

@@ -17,7 +17,7 @@ namespace alhazen {
 /// A picture in memory: planes of float, one a channel, rows from the top down.
 struct Image {
   int width = 0, height = 0;
-  std::vector<std::string> channels;      ///< "R", "G", "B", "albedo.R", "depth.Z", ...
+  std::vector<std::string> channels;       ///< "R", "G", "B", "albedo.R", "depth.Z", ...
   std::vector<std::vector<float>> planes;  ///< one a channel, width * height each
 
   /// Index of a channel, or -1.

@@ -1,0 +1,72 @@
+#pragma once
+
+// Alhazen as a library: render a scene file into memory.
+//
+//   alhazen::Settings settings;
+//   settings.samples_per_pixel = 64;
+//   alhazen::Picture picture = alhazen::render("scene.pbrt", settings);
+//   const float* red = picture.plane("R");
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace alhazen {
+
+/// How to render. What is left empty, zero or negative is taken from the scene file, or chosen.
+struct Settings {
+  std::string backend = "auto";     ///< auto, serial, openmp
+  std::string strategy = "auto";    ///< openmp: rows, collapse, rows+reduction, reduction, tiles
+  std::string schedule;             ///< openmp: static, dynamic or guided, with an optional ",CHUNK"
+  std::string precision = "float";  ///< float, double
+  std::string integrator;           ///< path, iterative, recursive, branching
+  std::string sampler;              ///< sobol, independent
+  int threads = 0;                  ///< 0: all
+  int64_t samples_per_pixel = 0;
+  int64_t max_depth = -1;         ///< bounces: a path has at most max_depth + 1 segments
+  int64_t width = 0, height = 0;  ///< pixels
+  std::optional<uint32_t> seed;
+  /// Part of the picture to render: x0, x1, y0, y1 in [0, 1], or in pixels (half open). At most one of the two.
+  std::optional<std::array<double, 4>> crop_window;
+  std::optional<std::array<int64_t, 4>> pixel_bounds;
+  /// Further layers: albedo, normal, depth, bounces, samples, variance.
+  std::vector<std::string> aovs;
+  double time_limit = 0;      ///< seconds of rendering; stops after the last whole pass within it; 0: none
+  std::string checkpoint;     ///< file to save the state in, and to go on from with `resume`
+  double checkpoint_seconds = 60;
+  bool resume = false;
+};
+
+struct Progress {
+  double fraction = 0;  ///< of the samples, 0 to 1
+  double seconds = 0;   ///< of rendering so far
+  uint64_t samples_done = 0, samples_total = 0;
+};
+
+/// Called about ten times a second from another thread. False stops the render; the picture so far is returned.
+using ProgressFunction = std::function<bool(const Progress&)>;
+
+/// Planes of linear values, rows from the top down: R, G, B (radiance, linear sRGB) and the layers that were asked for
+/// (albedo.R, .G, .B; normal.X, .Y, .Z; depth.Z; bounces.Y; samples.Y; variance.Y).
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;
+  std::vector<std::vector<float>> planes;
+  bool complete = true;               ///< false: stopped before all samples were taken
+  std::vector<std::string> warnings;  ///< what the reader or the renderer had to say
+
+  /// width * height values of a channel, or null.
+  const float* plane(const std::string& channel) const;
+};
+
+/// Renders a pbrt-v4 scene. Throws std::runtime_error, whose what() is one message (for bad input
+/// `file:line:column: what is wrong and what to do`), and std::bad_alloc.
+Picture render(const std::string& scene_file, const Settings& settings = {}, const ProgressFunction& progress = {});
+
+const char* version();
+
+}  // namespace alhazen

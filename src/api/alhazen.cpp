@@ -1,0 +1,39 @@
+#include "alhazen/alhazen.h"
+
+#include "io/read_scene.h"
+#include "render/renderer.h"
+
+namespace alhazen {
+
+const float* Picture::plane(const std::string& channel) const {
+  for (size_t i = 0; i < channels.size(); ++i)
+    if (channels[i] == channel) return planes[i].data();
+  return nullptr;
+}
+
+Picture render(const std::string& scene_file, const Settings& settings, const ProgressFunction& progress) {
+  Diagnostics diagnostics;
+  Scene scene = read_scene(scene_file, diagnostics);
+  const RenderSettings resolved = resolve_settings(settings, scene);
+  const Rendering rendering = render_scene(std::move(scene), resolved, 0, RenderEvents{progress, {}}, diagnostics);
+  const ImageSource source = rendering.source();
+  Picture picture;
+  picture.width = source.width;
+  picture.height = source.height;
+  picture.channels = source.channels;
+  picture.complete = rendering.statistics.complete;
+  const size_t width = static_cast<size_t>(source.width), height = static_cast<size_t>(source.height);
+  picture.planes.assign(source.channels.size(), std::vector<float>(width * height));
+  std::vector<float> row(source.channels.size() * width);
+  for (size_t y = 0; y < height; ++y) {
+    source.fill_row(static_cast<int>(y), row);
+    for (size_t c = 0; c < picture.planes.size(); ++c)
+      std::copy_n(row.data() + c * width, width, picture.planes[c].data() + y * width);
+  }
+  for (const Diagnostics::Warning& warning : diagnostics.warnings()) picture.warnings.push_back(warning.to_string());
+  return picture;
+}
+
+const char* version() { return ALHAZEN_VERSION; }
+
+}  // namespace alhazen

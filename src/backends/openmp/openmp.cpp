@@ -1,0 +1,154 @@
+#include <omp.h>
+
+#include <algorithm>
+#include <string>
+
+#include "backends/pixel_blocks.h"
+#include "render/backend.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The edge of a tile of strategy `tiles`, pixels.
+constexpr int tile_size = 16;
+
+/// Sums the blocks of one pixel by all threads of a team; the sum is then taken in their order.
+template <class Real>
+void reduce_pixel(const RenderPass<Real>& pass, int x, int y) {
+  BlockSum<Real> blocks[most_samples_per_pass / samples_per_block];
+  const int count = static_cast<int>(block_count(pass));
+#pragma omp parallel num_threads(pass.settings.threads)
+  {
+    // Within another parallel region this is a team of one, and the thread of the outer team is the one that works.
+    const int index = omp_get_level() > 1 ? omp_get_ancestor_thread_num(1) : omp_get_thread_num();
+    ThreadStatistics& statistics = pass.control.thread(index);
+    const BusyTimer timer(statistics);
+#pragma omp for schedule(static) nowait
+    for (int block = 0; block < count; ++block)
+      blocks[block] = take_block(pass, x, y, static_cast<uint32_t>(block), statistics);
+  }
+  for (int block = 0; block < count; ++block) pass.film.add(x, y, blocks[block]);
+}
+
+/// Algorithm 4: the outer loop in parallel.
+template <class Real>
+void render_rows(const RenderPass<Real>& pass) {
+  const PixelWindow& window = pass.film.window();
+#pragma omp parallel num_threads(pass.settings.threads)
+  {
+    ThreadStatistics& statistics = pass.control.thread(omp_get_thread_num());
+    const BusyTimer timer(statistics);
+#pragma omp for schedule(runtime) nowait
+    for (int y = window.y0; y < window.y1; ++y) {
+      if (pass.control.is_stopped()) continue;
+      for (int x = window.x0; x < window.x1; ++x) render_pixel(pass, x, y, statistics);
+      pass.control.add_samples(static_cast<uint64_t>(window.width()) * pass.sample_count);
+    }
+  }
+}
+
+/// Algorithm 4 with both loops joined.
+template <class Real>
+void render_collapsed(const RenderPass<Real>& pass) {
+  const PixelWindow& window = pass.film.window();
+#pragma omp parallel num_threads(pass.settings.threads)
+  {
+    ThreadStatistics& statistics = pass.control.thread(omp_get_thread_num());
+    const BusyTimer timer(statistics);
+#pragma omp for collapse(2) schedule(runtime) nowait
+    for (int y = window.y0; y < window.y1; ++y)
+      for (int x = window.x0; x < window.x1; ++x) {
+        if (pass.control.is_stopped()) continue;
+        render_pixel(pass, x, y, statistics);
+        pass.control.add_samples(pass.sample_count);
+      }
+  }
+}
+
+/// Algorithm 4 with a parallel sum over samples inside the parallel loop over rows. All threads are at the rows, so
+/// OpenMP gives the inner loop a team of one, and it is the inner loop's overhead that shows, as in the report.
+template <class Real>
+void render_rows_with_reduction(const RenderPass<Real>& pass) {
+  const PixelWindow& window = pass.film.window();
+#pragma omp parallel for schedule(runtime) num_threads(pass.settings.threads)
+  for (int y = window.y0; y < window.y1; ++y) {
+    if (pass.control.is_stopped()) continue;
+    for (int x = window.x0; x < window.x1; ++x) reduce_pixel(pass, x, y);
+    pass.control.add_samples(static_cast<uint64_t>(window.width()) * pass.sample_count);
+  }
+}
+
+/// Only the sum over samples in parallel.
+template <class Real>
+void render_with_reduction(const RenderPass<Real>& pass) {
+  const PixelWindow& window = pass.film.window();
+  for (int y = window.y0; y < window.y1; ++y) {
+    if (pass.control.is_stopped()) return;
+    for (int x = window.x0; x < window.x1; ++x) reduce_pixel(pass, x, y);
+    pass.control.add_samples(static_cast<uint64_t>(window.width()) * pass.sample_count);
+  }
+}
+
+/// Square tiles, so that neighbouring rays stay with one thread.
+template <class Real>
+void render_tiles(const RenderPass<Real>& pass) {
+  const PixelWindow& window = pass.film.window();
+  const int columns = (window.width() + tile_size - 1) / tile_size;
+  const int rows = (window.height() + tile_size - 1) / tile_size;
+#pragma omp parallel num_threads(pass.settings.threads)
+  {
+    ThreadStatistics& statistics = pass.control.thread(omp_get_thread_num());
+    const BusyTimer timer(statistics);
+#pragma omp for schedule(runtime) nowait
+    for (int tile = 0; tile < columns * rows; ++tile) {
+      if (pass.control.is_stopped()) continue;
+      const int x0 = window.x0 + tile % columns * tile_size, x1 = std::min(x0 + tile_size, window.x1);
+      const int y0 = window.y0 + tile / columns * tile_size, y1 = std::min(y0 + tile_size, window.y1);
+      for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x) render_pixel(pass, x, y, statistics);
+      pass.control.add_samples(static_cast<uint64_t>((x1 - x0) * (y1 - y0)) * pass.sample_count);
+    }
+  }
+}
+
+omp_sched_t openmp_schedule(ScheduleKind kind) {
+  switch (kind) {
+    case ScheduleKind::static_: return omp_sched_static;
+    case ScheduleKind::guided: return omp_sched_guided;
+    case ScheduleKind::dynamic: break;
+  }
+  return omp_sched_dynamic;
+}
+
+class OpenMpBackend final : public Backend {
+ public:
+  BackendDescription describe() const override {
+    return {"openmp",
+            {"tiles", "rows", "collapse", "rows+reduction", "reduction"},
+            true,
+            std::to_string(omp_get_num_procs()) + " processors"};
+  }
+  void render_pass(const RenderPass<float>& pass) override { render(pass); }
+  void render_pass(const RenderPass<double>& pass) override { render(pass); }
+
+ private:
+  template <class Real>
+  static void render(const RenderPass<Real>& pass) {
+    const std::string& strategy = pass.settings.strategy;
+    omp_set_dynamic(0);
+    omp_set_max_active_levels(1);
+    omp_set_schedule(openmp_schedule(pass.settings.schedule.kind), pass.settings.schedule.chunk);
+    if (strategy == "rows") return render_rows(pass);
+    if (strategy == "collapse") return render_collapsed(pass);
+    if (strategy == "rows+reduction") return render_rows_with_reduction(pass);
+    if (strategy == "reduction") return render_with_reduction(pass);
+    render_tiles(pass);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_openmp_backend() { return std::make_unique<OpenMpBackend>(); }
+
+}  // namespace alhazen

@@ -1,0 +1,32 @@
+#include "backends/pixel_blocks.h"
+#include "render/backend.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The report's Algorithm 1: one thread, pixel after pixel.
+class SerialBackend final : public Backend {
+ public:
+  BackendDescription describe() const override { return {"serial", {}, true, "one core"}; }
+  void render_pass(const RenderPass<float>& pass) override { render(pass); }
+  void render_pass(const RenderPass<double>& pass) override { render(pass); }
+
+ private:
+  template <class Real>
+  static void render(const RenderPass<Real>& pass) {
+    const PixelWindow& window = pass.film.window();
+    ThreadStatistics& statistics = pass.control.thread(0);
+    const BusyTimer timer(statistics);
+    for (int y = window.y0; y < window.y1 && !pass.control.is_stopped(); ++y) {
+      for (int x = window.x0; x < window.x1; ++x) render_pixel(pass, x, y, statistics);
+      pass.control.add_samples(static_cast<uint64_t>(window.width()) * pass.sample_count);
+    }
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_serial_backend() { return std::make_unique<SerialBackend>(); }
+
+}  // namespace alhazen

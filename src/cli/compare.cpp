@@ -1,0 +1,89 @@
+// `alhazen compare`: how far two pictures are apart.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/subcommands.h"
+#include "io/images/compare.h"
+#include "io/images/image.h"
+
+namespace alhazen {
+
+namespace {
+
+struct CompareOptions {
+  std::string a, b;
+  bool json = false;
+  std::string diff;
+};
+
+/// Numbers that are not finite (psnr of equal pictures) are null: JSON has no infinity.
+std::string json_text(const ImageDifference& d) {
+  const nlohmann::ordered_json object{{"mse", d.mse},
+                                      {"rmse", d.rmse},
+                                      {"relmse", d.relmse},
+                                      {"psnr", d.psnr},
+                                      {"ssim", d.ssim},
+                                      {"flip", d.flip},
+                                      {"mean_a", d.mean_a},
+                                      {"mean_b", d.mean_b},
+                                      {"max_abs", d.max_abs},
+                                      {"nonfinite_a", d.nonfinite_a},
+                                      {"nonfinite_b", d.nonfinite_b}};
+  return object.dump();
+}
+
+std::string table_text(const ImageDifference& d) {
+  std::string text;
+  const auto line = [&](const char* name, double value, const char* meaning) {
+    text += fmt::format("{:<8} {:>12.6g}   {}\n", name, value, meaning);
+  };
+  line("MSE", d.mse, "mean squared error, linear");
+  line("RMSE", d.rmse, "its root");
+  line("relMSE", d.relmse, "squared error over (B^2 + 0.01)");
+  line("PSNR", d.psnr, "dB, sRGB-encoded");
+  line("SSIM", d.ssim, "1 for equal pictures, encoded luminance");
+  line("FLIP", d.flip, "0 for equal pictures, 67 pixels a degree");
+  line("max", d.max_abs, "largest difference of a channel");
+  line("mean A", d.mean_a, "luminance");
+  line("mean B", d.mean_b, "luminance, of the reference");
+  if (d.nonfinite_a + d.nonfinite_b > 0)
+    text += fmt::format("left out: pixels with NaN or infinity, {} in A and {} in B\n", d.nonfinite_a, d.nonfinite_b);
+  return text;
+}
+
+void write_difference(const std::string& path, const Image& a, const Image& b) {
+  const Image difference = difference_image(a, b);
+  if (extension_of(path) == "exr")
+    write_exr(path, source_of(difference), {});
+  else
+    write_png(path, source_of(difference), {});
+}
+
+void run_compare(const CompareOptions& options) {
+  const std::string extension = extension_of(options.diff);
+  if (!options.diff.empty() && extension != "png" && extension != "exr")
+    throw InputError("--diff " + options.diff + ": give a file name that ends in .png or .exr");
+  const Image a = read_image(options.a), b = read_image(options.b);
+  const ImageDifference difference = compare_images(a, b);
+  if (!options.diff.empty()) write_difference(options.diff, a, b);
+  fmt::print("{}{}", options.json ? json_text(difference) : table_text(difference), options.json ? "\n" : "");
+}
+
+}  // namespace
+
+CLI::App* register_compare(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("compare", "How far two pictures are apart");
+  const auto options = std::make_shared<CompareOptions>();
+  command->add_option("A", options->a, "the picture in question: EXR, PNG, JPEG, TGA, BMP, HDR or PFM")->required();
+  command->add_option("B", options->b, "the reference, of the same size")->required();
+  command->add_flag("--json", options->json, "print one JSON object");
+  command->add_option("--diff", options->diff, "write a picture of where they differ (FLIP), .png or .exr");
+  command->callback([options] { run_compare(*options); });
+  return command;
+}
+
+}  // namespace alhazen

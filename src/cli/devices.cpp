@@ -1,0 +1,42 @@
+// `alhazen devices`: every backend, and where one is not available, why and what to do.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/subcommands.h"
+#include "render/backend.h"
+
+namespace alhazen {
+
+namespace {
+
+void print_table() {
+  for (const auto& backend : all_backends()) {
+    const BackendDescription d = backend->describe();
+    fmt::print("{:<8} {:<14} {}\n", d.name, d.available ? "available" : "not available", d.details);
+    if (!d.strategies.empty()) fmt::print("{:<8} {:<14} {}\n", "", "strategies", fmt::join(d.strategies, ", "));
+  }
+}
+
+void print_json() {
+  auto list = nlohmann::ordered_json::array();
+  for (const auto& backend : all_backends()) {
+    const BackendDescription d = backend->describe();
+    list.push_back({{"name", d.name}, {"available", d.available}, {"details", d.details}, {"strategies", d.strategies}});
+  }
+  fmt::print("{}\n", list.dump());
+}
+
+}  // namespace
+
+CLI::App* register_devices(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("devices", "List the backends and what they run on");
+  auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "One JSON array instead of the table");
+  command->callback([json] { *json ? print_json() : print_table(); });
+  return command;
+}
+
+}  // namespace alhazen

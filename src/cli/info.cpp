@@ -1,0 +1,82 @@
+// `alhazen info`: what a scene file holds, without rendering it.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/subcommands.h"
+#include "io/read_scene.h"
+#include "render/statistics.h"
+#include "scene/flatten.h"
+
+namespace alhazen {
+
+namespace {
+
+struct InfoOptions {
+  std::string scene;
+  bool json = false;
+};
+
+const char* name_of(FilterType type) {
+  switch (type) {
+    case FilterType::box: return "box";
+    case FilterType::triangle: return "triangle";
+    case FilterType::gaussian: return "gaussian";
+    case FilterType::mitchell: return "mitchell";
+    case FilterType::sinc: return "sinc";
+  }
+  return "";
+}
+
+void show(const InfoOptions& options) {
+  Diagnostics diagnostics;
+  Scene scene = read_scene(options.scene, diagnostics);
+  const RenderSettings settings = resolve_settings({}, scene);
+  const size_t materials = scene.materials.size(), textures = scene.textures.size(), images = scene.images.size(),
+               meshes = scene.meshes.size(), instances = scene.instances.size();
+  const char* filter = name_of(scene.filter.type);
+  const SceneStatistics sizes = flatten<float>(std::move(scene), {}, diagnostics).statistics;
+  const nlohmann::ordered_json j{{"scene", options.scene},
+                                 {"width", settings.window.width()},
+                                 {"height", settings.window.height()},
+                                 {"spp", settings.samples_per_pixel},
+                                 {"max_depth", settings.max_segments - 1},
+                                 {"integrator", to_string(settings.integrator)},
+                                 {"sampler", to_string(settings.sampler)},
+                                 {"filter", filter},
+                                 {"triangles", sizes.triangles},
+                                 {"spheres", sizes.spheres},
+                                 {"lights", sizes.lights},
+                                 {"meshes", meshes},
+                                 {"instances", instances},
+                                 {"materials", materials},
+                                 {"textures", textures},
+                                 {"images", images},
+                                 {"nodes", sizes.nodes},
+                                 {"scene_bytes", sizes.bytes},
+                                 {"build_seconds", sizes.build_seconds},
+                                 {"peak_rss_bytes", peak_rss_bytes()}};
+  if (options.json) {
+    fmt::print("{}\n", j.dump());
+  } else {
+    for (const auto& [key, value] : j.items())
+      fmt::print("{:<15} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  for (const Diagnostics::Warning& warning : diagnostics.warnings())
+    fmt::print(stderr, "warning: {}\n", warning.to_string());
+}
+
+}  // namespace
+
+CLI::App* register_info(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("info", "Read a scene and say what it holds");
+  auto options = std::make_shared<InfoOptions>();
+  command->add_option("SCENE", options->scene, "Scene (.pbrt) or mesh (.ply), also as .gz")->required();
+  command->add_flag("--json", options->json, "One JSON object instead of the list");
+  command->callback([options] { show(*options); });
+  return command;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,77 @@
+#include "cli/output.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+namespace alhazen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_output(const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (extension != "exr" && extension != "png")
+    throw InputError({path}, "pictures are written as .exr or .png: give a name that ends in one of them");
+  const fs::path parent = fs::path(path).parent_path();
+  const fs::path folder = parent.empty() ? fs::path(".") : parent;
+  if (!fs::is_directory(folder)) throw InputError({path}, "the folder does not exist: create it first");
+  if (fs::is_directory(path)) throw InputError({path}, "this is a folder: give the name of a file");
+  if (access(folder.c_str(), W_OK) != 0) throw InputError({path}, "the folder cannot be written to");
+}
+
+std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
+  const RenderSettings& settings = s.settings;
+  return {{"software", std::string("Alhazen ") + version()},
+          {"scene", s.scene},
+          {"samples", std::to_string(s.samples_per_pixel)},
+          {"seed", std::to_string(settings.seed)},
+          {"seconds", fmt::format("{:.3f}", s.render_seconds)},
+          {"settings", fmt::format("--backend {}{}{} --precision {} --integrator {} --sampler {} --max-depth {} --threads {}",
+                                   settings.backend, settings.strategy.empty() ? "" : " --strategy ",
+                                   settings.strategy, to_string(settings.precision), to_string(settings.integrator),
+                                   to_string(settings.sampler), settings.max_segments - 1, settings.threads)}};
+}
+
+}  // namespace
+
+std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, const std::string& film_filename,
+                                        const std::string& scene_path) {
+  std::vector<std::string> paths = asked;
+  if (paths.empty()) {
+    const std::string name = fs::path(film_filename).filename().string();
+    const std::string extension = extension_of(name);
+    if (extension == "exr" || extension == "png") {
+      paths = {name};
+    } else {
+      fs::path stem = fs::path(scene_path).filename();
+      while (stem.has_extension()) stem = stem.stem();
+      paths = {stem.string() + ".exr"};
+    }
+  }
+  for (const std::string& path : paths) check_output(path);
+  return paths;
+}
+
+void write_outputs(const OutputOptions& options, const Rendering& rendering) {
+  const ImageSource source = rendering.source();
+  const RenderSettings& settings = rendering.statistics.settings;
+  for (const std::string& path : options.paths) {
+    if (extension_of(path) == "png") {
+      write_png(path, source, options.png);
+      continue;
+    }
+    ExrOptions exr;
+    exr.pixel_type = options.exr_type;
+    exr.metadata = metadata_of(rendering.statistics);
+    exr.x_offset = settings.window.x0;
+    exr.y_offset = settings.window.y0;
+    exr.full_width = settings.width;
+    exr.full_height = settings.height;
+    write_exr(path, source, exr);
+  }
+}
+
+}  // namespace alhazen

@@ -1,0 +1,28 @@
+#pragma once
+
+// Where a render's pictures go.
+
+#include <string>
+#include <vector>
+
+#include "io/images/image.h"
+#include "render/renderer.h"
+
+namespace alhazen {
+
+struct OutputOptions {
+  std::vector<std::string> paths;
+  ExrPixelType exr_type = ExrPixelType::half;
+  PngOptions png;
+};
+
+/// The paths that were asked for, else the scene's own file name in the current folder, else the scene's name with
+/// .exr. Throws InputError for what cannot be written: an unknown extension, a folder that is not there or not
+/// writable - before anything is rendered.
+std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, const std::string& film_filename,
+                                        const std::string& scene_path);
+
+/// Writes every picture. Throws RenderError.
+void write_outputs(const OutputOptions& options, const Rendering& rendering);
+
+}  // namespace alhazen

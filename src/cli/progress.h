@@ -1,0 +1,38 @@
+#pragma once
+
+// How a render shows itself while it runs, on stderr: a bar on a terminal, lines elsewhere, JSON for programs.
+
+#include <string>
+
+#include "alhazen/alhazen.h"
+
+namespace alhazen {
+
+enum class ProgressStyle { bar, lines, json, none };
+
+/// `name` is auto, plain, json or none. Throws InputError.
+ProgressStyle parse_progress_style(const std::string& name);
+
+class ProgressPrinter {
+ public:
+  explicit ProgressPrinter(ProgressStyle style) : style_(style) {}
+  /// Prints where the style says it is time.
+  void show(const Progress& progress);
+  /// Ends the bar's line.
+  void finish();
+
+ private:
+  void show_bar(const Progress& progress);
+  void show_line(const Progress& progress);
+  void show_json(const Progress& progress);
+
+  ProgressStyle style_;
+  double last_shown_ = -1;
+  double interval_ = 1;
+  bool bar_open_ = false;
+};
+
+/// 3725 as "1 h 02 min", 75.2 as "1 min 15 s", 4.21 as "4.2 s".
+std::string format_seconds(double seconds);
+
+}  // namespace alhazen

@@ -1,0 +1,238 @@
+// `alhazen render`: a scene file to pictures.
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <memory>
+
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/subcommands.h"
+#include "io/read_scene.h"
+#include "render/renderer.h"
+
+namespace alhazen {
+
+namespace {
+
+struct RenderOptions {
+  std::string scene;
+  Settings settings;
+  OutputOptions output;
+  std::string size, crop, pixel_bounds, checkpoint, seed;
+  std::string tone_map = "none", exr_type = "half";
+  std::string progress = "auto", stats;
+  bool quiet = false, verbose = false;
+};
+
+std::atomic<bool> interrupted{false};
+
+/// The first signal stops the render at the next row, the second ends the program at once.
+extern "C" void handle_interrupt(int signal_number) {
+  interrupted.store(true, std::memory_order_relaxed);
+  std::signal(signal_number, SIG_DFL);
+}
+
+/// Numbers parted by `separator`, exactly `values.size()` of them.
+template <class Number, size_t count>
+std::array<Number, count> parse_numbers(const std::string& text, char separator, const std::string& form) {
+  std::array<Number, count> values{};
+  const char* at = text.data();
+  const char* end = at + text.size();
+  for (size_t i = 0; i < count; ++i) {
+    const auto [next, error] = std::from_chars(at, end, values[i]);
+    const bool is_last = i + 1 == count;
+    if (error != std::errc() || (is_last ? next != end : next == end || *next != separator))
+      throw InputError("'" + text + "' is not of the form " + form);
+    at = is_last ? next : next + 1;
+  }
+  return values;
+}
+
+void parse_settings(RenderOptions& o) {
+  Settings& s = o.settings;
+  if (!o.size.empty()) {
+    const auto size = parse_numbers<int64_t, 2>(o.size, 'x', "--size WIDTHxHEIGHT, for example 800x600");
+    if (size[0] < 1 || size[1] < 1) throw InputError("--size " + o.size + ": both sides must be at least 1 pixel");
+    s.width = size[0];
+    s.height = size[1];
+  }
+  if (!o.crop.empty())
+    s.crop_window = parse_numbers<double, 4>(o.crop, ',', "--crop x0,x1,y0,y1, fractions of the picture from 0 to 1");
+  if (!o.pixel_bounds.empty())
+    s.pixel_bounds = parse_numbers<int64_t, 4>(o.pixel_bounds, ',', "--pixelbounds x0,x1,y0,y1, in pixels");
+  if (!o.seed.empty()) s.seed = parse_numbers<uint32_t, 1>(o.seed, ',', "--seed N, a whole number from 0 to 4294967295")[0];
+  if (!o.checkpoint.empty()) {
+    const size_t comma = o.checkpoint.rfind(',');
+    s.checkpoint = o.checkpoint.substr(0, comma);
+    if (comma != std::string::npos)
+      s.checkpoint_seconds =
+          parse_numbers<double, 1>(o.checkpoint.substr(comma + 1), ',', "--checkpoint FILE,SECONDS")[0];
+  }
+  if (o.exr_type != "half" && o.exr_type != "float")
+    throw InputError("unknown pixel type '" + o.exr_type + "': it may be half, float");
+  o.output.exr_type = o.exr_type == "half" ? ExrPixelType::half : ExrPixelType::single;
+  if (o.tone_map != "none" && o.tone_map != "reinhard" && o.tone_map != "filmic")
+    throw InputError("unknown tone map '" + o.tone_map + "': it may be none, reinhard, filmic");
+  o.output.png.tone_map = o.tone_map == "none"       ? ToneMap::none
+                          : o.tone_map == "reinhard" ? ToneMap::reinhard
+                                                     : ToneMap::filmic;
+  if (!o.stats.empty() && o.stats != "text" && o.stats != "json")
+    throw InputError("unknown statistics '" + o.stats + "': it may be text, json");
+}
+
+void print_warnings(const Diagnostics& diagnostics, size_t first) {
+  for (size_t i = first; i < diagnostics.warnings().size(); ++i)
+    fmt::print(stderr, "warning: {}\n", diagnostics.warnings()[i].to_string());
+}
+
+void print_start(const RenderStatistics& s) {
+  const RenderSettings& r = s.settings;
+  fmt::print(stderr, "{}: {} triangles, {} spheres, {} lights; read in {:.2f} s, BVH of {} nodes in {:.2f} s\n",
+             s.scene, s.scene_sizes.triangles, s.scene_sizes.spheres, s.scene_sizes.lights, s.load_seconds,
+             s.scene_sizes.nodes, s.build_seconds);
+  fmt::print(stderr, "{} x {} pixels, {} samples each, {} in {}, depth {}; {}{}{} on {} thread{}\n", r.window.width(),
+             r.window.height(), r.samples_per_pixel, to_string(r.integrator), to_string(r.precision),
+             r.max_segments - 1, r.backend, r.strategy.empty() ? "" : " ", r.strategy, r.threads,
+             r.threads == 1 ? "" : "s");
+}
+
+std::string text_statistics(const RenderStatistics& s) {
+  return fmt::format(
+      "load    {:.3f} s\nbuild   {:.3f} s\nrender  {:.3f} s\nsamples {} ({:.3f} million a second)\n"
+      "rays    {} and {} shadow rays ({:.3f} million a second)\nbounces {:.3f} segments a path\nmemory  {:.1f} MB at "
+      "most, {:.1f} MB of it the scene\n",
+      s.load_seconds, s.build_seconds, s.render_seconds, s.camera_samples, s.msamples_per_second(), s.rays,
+      s.shadow_rays, s.mrays_per_second(), s.mean_segments(), static_cast<double>(s.peak_rss_bytes) * 1e-6,
+      static_cast<double>(s.scene_sizes.bytes) * 1e-6);
+}
+
+void print_end(const RenderOptions& options, const RenderStatistics& statistics) {
+  if (!options.quiet) {
+    fmt::print(stderr, "{} samples a pixel in {}", statistics.samples_per_pixel,
+               format_seconds(statistics.render_seconds));
+    for (size_t i = 0; i < options.output.paths.size(); ++i)
+      fmt::print(stderr, "{}{}", i == 0 ? "; wrote " : ", ", options.output.paths[i]);
+    fmt::print(stderr, "\n");
+  }
+  if (options.stats == "json") fmt::print("{}\n", statistics.to_json());
+  if (options.stats == "text") fmt::print("{}", text_statistics(statistics));
+}
+
+int run(RenderOptions& options) {
+  parse_settings(options);
+  ProgressPrinter printer(options.quiet ? ProgressStyle::none : parse_progress_style(options.progress));
+  Diagnostics diagnostics;
+  const auto start = std::chrono::steady_clock::now();
+  Scene scene = read_scene(options.scene, diagnostics);
+  const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const RenderSettings settings = resolve_settings(options.settings, scene);
+  options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene);
+
+  size_t warnings_shown = 0;
+  RenderEvents events;
+  events.progress = [&](const Progress& progress) {
+    printer.show(progress);
+    return !interrupted.load(std::memory_order_relaxed);
+  };
+  events.started = [&](const RenderStatistics& statistics) {
+    print_warnings(diagnostics, 0);
+    warnings_shown = diagnostics.warnings().size();
+    if (options.verbose) print_start(statistics);
+    std::signal(SIGINT, handle_interrupt);
+    std::signal(SIGTERM, handle_interrupt);
+  };
+  const Rendering rendering = render_scene(std::move(scene), settings, load_seconds, events, diagnostics);
+  printer.finish();
+  print_warnings(diagnostics, warnings_shown);
+  write_outputs(options.output, rendering);
+  print_end(options, rendering.statistics);
+  if (!interrupted.load(std::memory_order_relaxed)) return exit_done;
+  fmt::print(stderr, "interrupted: the picture is of the samples so far\n");
+  return exit_interrupted;
+}
+
+void add_picture_options(CLI::App& command, RenderOptions& o) {
+  const char* group = "Picture";
+  command.add_option("--spp", o.settings.samples_per_pixel, "Samples per pixel")
+      ->check(CLI::Range(int64_t{1}, int64_t{1} << 24))
+      ->group(group);
+  command.add_option("--max-depth,--maxdepth", o.settings.max_depth, "Bounces: a path has at most N + 1 segments")
+      ->check(CLI::Range(int64_t{0}, int64_t{1'000'000}))
+      ->group(group);
+  command.add_option("--size", o.size, "WxH: pixels of the whole picture")->group(group);
+  command.add_option("--crop,--cropwindow", o.crop, "x0,x1,y0,y1: render this part only, fractions from 0 to 1")
+      ->group(group);
+  command.add_option("--pixelbounds", o.pixel_bounds, "x0,x1,y0,y1: render these pixels only")->group(group);
+  command.add_option("--integrator", o.settings.integrator,
+                     "path (next-event estimation), or emission by chance: iterative, recursive, branching")
+      ->group(group);
+  command.add_option("--sampler", o.settings.sampler, "sobol or independent")->group(group);
+  command.add_option("--seed", o.seed, "Another number, other noise")->group(group);
+}
+
+void add_engine_options(CLI::App& command, RenderOptions& o) {
+  const char* group = "Engine";
+  command.add_option("--backend", o.settings.backend, "auto, serial or openmp; 'alhazen devices' lists them")
+      ->group(group);
+  command.add_option("--strategy", o.settings.strategy,
+                     "openmp: auto, tiles, rows, collapse, rows+reduction or reduction")
+      ->group(group);
+  command.add_option("--schedule", o.settings.schedule, "openmp: static, dynamic or guided, and a chunk: dynamic,4")
+      ->group(group);
+  command.add_option("-t,--threads,--nthreads", o.settings.threads, "Threads; 0 for all")
+      ->check(CLI::Range(0, 4096))
+      ->group(group);
+  command.add_option("--precision", o.settings.precision, "float or double")->group(group);
+}
+
+void add_output_options(CLI::App& command, RenderOptions& o) {
+  const char* group = "Output";
+  command.add_option("-o,--output,--outfile", o.output.paths,
+                     "Picture to write, .exr or .png; may be given more than once. Default: as the scene says")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(group);
+  command.add_option("--aov", o.settings.aovs,
+                     "Layers to add to the EXR, with commas: albedo, normal, depth, bounces, samples, variance")
+      ->delimiter(',')
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(group);
+  command.add_option("--exr-type", o.exr_type, "half or float")->group(group);
+  command.add_option("--exposure", o.output.png.exposure, "PNG: stops; each doubles the brightness")->group(group);
+  command.add_option("--tone-map", o.tone_map, "PNG: none, reinhard or filmic")->group(group);
+}
+
+void add_running_options(CLI::App& command, RenderOptions& o) {
+  const char* group = "While it runs";
+  command.add_option("--progress", o.progress, "auto (a bar on a terminal), plain, json or none")->group(group);
+  command.add_flag("-q,--quiet", o.quiet, "Say nothing but warnings and errors")->group(group);
+  command.add_flag("-v,--verbose", o.verbose, "Say what is rendered and how")->group(group);
+  command.add_flag("--stats{text}", o.stats, "Print what it cost to stdout; --stats=json as one object")->group(group);
+  command.add_option("--time-limit", o.settings.time_limit, "Seconds; stops after the last whole pass within them")
+      ->check(CLI::Range(0.0, 1e9))
+      ->group(group);
+  command.add_option("--checkpoint", o.checkpoint, "FILE[,SECONDS]: save the state every so many seconds (60)")
+      ->group(group);
+  command.add_flag("--resume", o.settings.resume, "Go on from the checkpoint file")->group(group);
+}
+
+}  // namespace
+
+CLI::App* register_render(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("render", "Render a scene to pictures");
+  auto options = std::make_shared<RenderOptions>();
+  command->add_option("SCENE", options->scene, "Scene (.pbrt) or mesh (.ply), also as .gz")->required();
+  add_output_options(*command, *options);
+  add_picture_options(*command, *options);
+  add_engine_options(*command, *options);
+  add_running_options(*command, *options);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+  return command;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,21 @@
+#pragma once
+
+// The subcommands. Each adds its options to the program and runs when it is the one that was called.
+
+#include <CLI/CLI.hpp>
+
+namespace alhazen {
+
+/// Exit codes of the program.
+inline constexpr int exit_done = 0;
+inline constexpr int exit_failed = 1;
+inline constexpr int exit_bad_input = 2;
+inline constexpr int exit_interrupted = 130;
+
+/// `exit_code` is what the program ends with where the subcommand has more to say than done.
+CLI::App* register_render(CLI::App& app, int& exit_code);
+CLI::App* register_compare(CLI::App& app);
+CLI::App* register_devices(CLI::App& app);
+CLI::App* register_info(CLI::App& app);
+
+}  // namespace alhazen

@@ -1,0 +1,125 @@
+#pragma once
+
+// Closest-hit and any-hit queries over the binary BVH: nearer child first, a short stack of node indices.
+
+#include "core/scene_view.h"
+#include "core/shapes/sphere.h"
+#include "core/shapes/triangle.h"
+
+namespace alhazen {
+
+/// Distance at which the ray enters the box, or infinity where it misses it or enters beyond t_max. Conservative: the
+/// far distance is raised by its rounding (Ize 2013, "Robust BVH Ray Traversal"). A NaN (origin on a slab's plane,
+/// direction within it) counts as inside.
+template <class Real>
+ALHAZEN_HD Real enter_box(const BvhNode<Real>& node, const Ray<Real>& ray, const Vec3<Real>& inverse, Real t_max) {
+  Real t_near = 0, t_far = t_max;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Real a = (node.low[axis] - ray.origin[axis]) * inverse[axis];
+    const Real b = (node.high[axis] - ray.origin[axis]) * inverse[axis];
+    const Real low = inverse[axis] < 0 ? b : a;
+    const Real high = (inverse[axis] < 0 ? a : b) * (1 + 2 * rounding_bound<Real>(3));
+    t_near = low > t_near ? low : t_near;
+    t_far = high < t_far ? high : t_far;
+  }
+  return t_near <= t_far ? t_near : infinity<Real>;
+}
+
+/// Tests one primitive; on a hit nearer than `hit.t` replaces it.
+template <class Real>
+ALHAZEN_HD bool intersect_primitive(const SceneView<Real>& scene, PrimitiveId primitive, const Ray<Real>& ray,
+                                    const ShearedRay<Real>& sheared, Hit<Real>& hit) {
+  bool met = false;
+  switch (primitive.kind()) {
+    case PrimitiveKind::triangle: {
+      const uint32_t* v = scene.triangles[primitive.index()].vertex;
+      met = intersect_triangle(sheared, scene.positions[v[0]], scene.positions[v[1]], scene.positions[v[2]], hit.t,
+                               hit.t, hit.b1, hit.b2);
+      break;
+    }
+    case PrimitiveKind::sphere: {
+      const SphereRecord<Real>& s = scene.spheres[primitive.index()];
+      met = intersect_sphere(ray, s.center, s.radius, hit.t, hit.t);
+      break;
+    }
+    case PrimitiveKind::moving_sphere: {
+      const MovingSphereRecord<Real>& s = scene.moving_spheres[primitive.index()];
+      met = intersect_sphere(ray, s.center + s.motion * ray.time, s.radius, hit.t, hit.t);
+      break;
+    }
+  }
+  if (met) hit.primitive = primitive;
+  return met;
+}
+
+/// Walks the tree. With `any_hit` it ends at the first primitive met before `hit.t`.
+template <bool any_hit, class Real>
+ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray, Hit<Real>& hit) {
+  if (scene.nodes_count == 0) return false;
+  const Vec3<Real> inverse = Vec3<Real>{1, 1, 1} / ray.direction;
+  const ShearedRay<Real> sheared = shear_ray(ray);
+  struct Entry {
+    uint32_t node;
+    Real t;
+  };
+  Entry stack[max_bvh_depth];
+  int height = 0;
+  uint32_t current = 0;
+  bool found = false;
+  if (enter_box(scene.nodes[0], ray, inverse, hit.t) == infinity<Real>) return false;
+  for (;;) {
+    const BvhNode<Real>& node = scene.nodes[current];
+    if (node.count > 0) {
+      for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+        if (!intersect_primitive(scene, scene.primitives[i], ray, sheared, hit)) continue;
+        found = true;
+        if (any_hit) return true;
+      }
+    } else {
+      const Real t_left = enter_box(scene.nodes[node.first], ray, inverse, hit.t);
+      const Real t_right = enter_box(scene.nodes[node.first + 1], ray, inverse, hit.t);
+      const bool left = t_left < infinity<Real>, right = t_right < infinity<Real>;
+      if (left && right) {
+        const bool left_first = t_left <= t_right;
+        stack[height++] = {left_first ? node.first + 1 : node.first, left_first ? t_right : t_left};
+        current = left_first ? node.first : node.first + 1;
+        continue;
+      }
+      if (left || right) {
+        current = left ? node.first : node.first + 1;
+        continue;
+      }
+    }
+    do {
+      if (height == 0) return found;
+      --height;
+    } while (!(stack[height].t <= hit.t));
+    current = stack[height].node;
+  }
+}
+
+/// The ray queries that integrators ask, answered by the BVH. Embree or OptiX stand in its place.
+template <class Real>
+class BvhIntersector {
+ public:
+  ALHAZEN_HD explicit BvhIntersector(const SceneView<Real>& scene) : scene_(&scene) {}
+
+  /// The nearest hit before t_max; among hits at the same distance the first that the walk meets.
+  ALHAZEN_HD bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
+    hit.t = t_max;
+    hit.b1 = hit.b2 = 0;
+    return traverse_bvh<false>(*scene_, ray, hit);
+  }
+
+  /// Whether anything stands before t_max.
+  ALHAZEN_HD bool occluded(const Ray<Real>& ray, Real t_max) const {
+    Hit<Real> hit;
+    hit.t = t_max;
+    return traverse_bvh<true>(*scene_, ray, hit);
+  }
+
+ private:
+  const SceneView<Real>* scene_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,50 @@
+#pragma once
+
+// One sample of one pixel: camera ray, then the integrator that was asked for.
+
+#include "core/integrators/branching.h"
+#include "core/integrators/iterative.h"
+#include "core/integrators/path.h"
+#include "core/integrators/recursive.h"
+
+namespace alhazen {
+
+enum class IntegratorKind : uint32_t { branching, recursive, iterative, path };
+
+template <class Real>
+struct CameraSample {
+  Ray<Real> ray;
+  Real filter_weight;
+};
+
+template <class Real, class Sampler>
+ALHAZEN_HD CameraSample<Real> sample_camera(const SceneView<Real>& scene, const Sampler& sampler, uint32_t x,
+                                            uint32_t y) {
+  const FilterSample<Real> filter = sample_filter(
+      scene.filter, scene.filter_cdf, sampler.template get_2d<Real>(CameraDimensions::film));
+  const Vec2<Real> film{static_cast<Real>(x) + Real(0.5) + filter.offset.x,
+                        static_cast<Real>(y) + Real(0.5) + filter.offset.y};
+  const Vec2<Real> lens =
+      scene.camera.lens_radius > 0 ? sampler.template get_2d<Real>(CameraDimensions::lens) : Vec2<Real>{};
+  const Real time = scene.moving_spheres_count > 0 ? sampler.template get_1d<Real>(CameraDimensions::time) : Real(0);
+  return {camera_ray(scene.camera, film, lens, time), filter.weight};
+}
+
+/// Radiance along `ray` by the integrator `kind`, from at most `max_segments` >= 1 segments.
+template <IntegratorKind kind, class Real, class Intersector, class Sampler>
+ALHAZEN_HD SampleRecord<Real> integrate(const SceneView<Real>& scene, const Intersector& intersector,
+                                        const Sampler& sampler, const Ray<Real>& ray, uint32_t max_segments) {
+  SampleRecord<Real> record;
+  if constexpr (kind == IntegratorKind::path)
+    path_radiance(scene, intersector, sampler, ray, max_segments, record);
+  else if constexpr (kind == IntegratorKind::iterative)
+    iterative_radiance(scene, intersector, sampler, ray, max_segments, record);
+  else if constexpr (kind == IntegratorKind::recursive)
+    record.radiance = cast_ray_recursive(scene, intersector, sampler, ray, max_segments, 0, record);
+  else
+    record.radiance = cast_ray_branching(scene, intersector, sampler, ray, max_segments, 0, record);
+  record.radiance *= scene.exposure;
+  return record;
+}
+
+}  // namespace alhazen

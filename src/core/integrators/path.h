@@ -1,0 +1,91 @@
+#pragma once
+
+// Path tracing with next-event estimation, multiple importance sampling and Russian roulette
+// (Kajiya 1986; Veach 1997, chapters 9 and 10).
+
+#include "core/integrators/stages.h"
+
+namespace alhazen {
+
+/// A path under way, between two segments.
+template <class Real>
+struct PathState {
+  Ray<Real> ray;
+  Vec3<Real> throughput = splat(Real(1));
+  Real bsdf_pdf = 0;          ///< of the ray's direction
+  Real eta_scale = 1;         ///< product of eta^2 over refractions, undone for roulette
+  uint32_t vertex = 0;        ///< how many surfaces it met so far
+  bool is_specular = true;    ///< lights could not have been sampled for this ray
+};
+
+/// Weight of light that the ray found by chance, against sampling it with density `light_pdf`.
+template <class Real>
+ALHAZEN_HD Real chance_weight(const PathState<Real>& path, Real light_pdf) {
+  return path.is_specular ? Real(1) : power_heuristic(path.bsdf_pdf, light_pdf);
+}
+
+template <class Real>
+ALHAZEN_HD void gather_background(const SceneView<Real>& scene, const PathState<Real>& path,
+                                  SampleRecord<Real>& record) {
+  if (is_zero(scene.background)) return;
+  record.radiance += path.throughput * scene.background * chance_weight(path, pdf_background(scene));
+}
+
+template <class Real>
+ALHAZEN_HD void gather_emission(const SceneView<Real>& scene, const PathState<Real>& path, const Hit<Real>& hit,
+                                const ShadingPoint<Real>& point, SampleRecord<Real>& record) {
+  const Vec3<Real> emission = surface_emission(scene, point);
+  if (is_zero(emission)) return;
+  const Real light_pdf =
+      path.is_specular ? Real(0) : pdf_light(scene, scene.lights[point.light], path.ray, hit, point.si);
+  record.radiance += path.throughput * emission * chance_weight(path, light_pdf);
+}
+
+/// Picks the next ray. False: the path ends here.
+template <class Real, class Sampler>
+ALHAZEN_HD bool continue_path(const Sampler& sampler, const ShadingPoint<Real>& point, PathState<Real>& path) {
+  const VertexDimensions dimensions(path.vertex);
+  const BsdfSample<Real> s = scatter(point, sampler, dimensions);
+  if (!(s.pdf > 0)) return false;
+  path.throughput *= s.weight;
+  path.bsdf_pdf = s.pdf;
+  path.is_specular = s.specular;
+  path.eta_scale *= s.eta * s.eta;
+  path.ray = spawn_ray(point.si, s.direction);
+  const Real survival = max_component(path.throughput) * path.eta_scale;
+  if (!(survival > 0)) return false;
+  if (++path.vertex < 2 || survival >= 1) return true;
+  if (sampler.template get_1d<Real>(dimensions.roulette()) >= survival) return false;
+  path.throughput *= 1 / survival;
+  return true;
+}
+
+/// One segment: trace, gather, light, scatter. False when the path has ended.
+template <class Real, class Intersector, class Sampler>
+ALHAZEN_HD bool path_segment(const SceneView<Real>& scene, const Intersector& intersector, const Sampler& sampler,
+                             uint32_t max_segments, PathState<Real>& path, SampleRecord<Real>& record) {
+  ++record.segments;
+  Hit<Real> hit;
+  if (!intersector.closest_hit(path.ray, infinity<Real>, hit)) {
+    gather_background(scene, path, record);
+    return false;
+  }
+  const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
+  if (path.vertex == 0) record_first_hit(point, hit, record);
+  gather_emission(scene, path, hit, point, record);
+  if (record.segments >= max_segments) return false;
+  record.radiance +=
+      path.throughput * direct_light(scene, intersector, sampler, VertexDimensions(path.vertex), point, record);
+  return continue_path(sampler, point, path);
+}
+
+template <class Real, class Intersector, class Sampler>
+ALHAZEN_HD void path_radiance(const SceneView<Real>& scene, const Intersector& intersector, const Sampler& sampler,
+                              const Ray<Real>& camera_ray, uint32_t max_segments, SampleRecord<Real>& record) {
+  PathState<Real> path;
+  path.ray = camera_ray;
+  while (path_segment(scene, intersector, sampler, max_segments, path, record)) {
+  }
+}
+
+}  // namespace alhazen

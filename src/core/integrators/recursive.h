@@ -1,0 +1,27 @@
+#pragma once
+
+// The report's Algorithm 3: recursion with one branch, chosen at random at a dielectric.
+
+#include "core/integrators/stages.h"
+
+namespace alhazen {
+
+/// Radiance that arrives along `ray`, from at most `segments_left` segments; `segment` counts those before it.
+template <class Real, class Intersector, class Sampler>
+ALHAZEN_HD Vec3<Real> cast_ray_recursive(const SceneView<Real>& scene, const Intersector& intersector,
+                                         const Sampler& sampler, const Ray<Real>& ray, uint32_t segments_left,
+                                         uint32_t segment, SampleRecord<Real>& record) {
+  if (segments_left == 0) return {};
+  ++record.segments;
+  Hit<Real> hit;
+  if (!intersector.closest_hit(ray, infinity<Real>, hit)) return scene.background;
+  const ShadingPoint<Real> point = shading_point(scene, ray, hit);
+  if (segment == 0) record_first_hit(point, hit, record);
+  const Vec3<Real> emission = surface_emission(scene, point);
+  const BsdfSample<Real> s = scatter(point, sampler, VertexDimensions(segment));
+  if (!(s.pdf > 0) || is_zero(s.weight)) return emission;
+  return emission + s.weight * cast_ray_recursive(scene, intersector, sampler, spawn_ray(point.si, s.direction),
+                                                  segments_left - 1, segment + 1, record);
+}
+
+}  // namespace alhazen

@@ -1,0 +1,163 @@
+#pragma once
+
+// Lights: choosing one by power, sampling a direction towards it, and the density of that for a ray that found a light
+// by itself. All densities are over solid angle at the reference point, the probability of the choice included.
+
+#include "core/sampling/discrete.h"
+#include "core/sampling/warp.h"
+#include "core/shapes/interaction.h"
+
+namespace alhazen {
+
+template <class Real>
+struct LightSample {
+  Vec3<Real> direction{};  ///< unit, from the reference point
+  Vec3<Real> radiance{};   ///< arriving along it, where nothing stands between
+  Real pdf = 0;            ///< 0: nothing was sampled
+  bool is_delta = false;   ///< the light cannot be met by chance; pdf is then the probability of the choice
+  /// Where the shadow ray ends: a point with its error and normal, or nowhere (infinite, distant).
+  bool is_finite = false;
+  Vec3<Real> point{}, point_error{}, normal{};
+};
+
+template <class Real>
+ALHAZEN_HD Vec3<Real> emitted_radiance(const LightRecord<Real>& light, const Vec3<Real>& front_normal,
+                                       const Vec3<Real>& towards) {
+  return light.two_sided || dot(front_normal, towards) > 0 ? light.radiance : Vec3<Real>{};
+}
+
+template <class Real>
+ALHAZEN_HD LightSample<Real> sample_triangle_light(const SceneView<Real>& scene, const LightRecord<Real>& light,
+                                                   const Vec3<Real>& reference, const Vec2<Real>& u) {
+  LightSample<Real> s;
+  const TriangleRecord& triangle = scene.triangles[light.primitive];
+  const Vec2<Real> b = sample_triangle(u);
+  const Vec3<Real> q0 = scene.positions[triangle.vertex[0]] * b.x;
+  const Vec3<Real> q1 = scene.positions[triangle.vertex[1]] * b.y;
+  const Vec3<Real> q2 = scene.positions[triangle.vertex[2]] * (1 - b.x - b.y);
+  s.point = q0 + q1 + q2;
+  s.point_error = (abs(q0) + abs(q1) + abs(q2)) * rounding_bound<Real>(7);
+  s.normal = triangle_front_normal(scene, triangle);
+  const Vec3<Real> to_light = s.point - reference;
+  const Real distance_squared = length_squared(to_light);
+  if (!(distance_squared > 0)) return s;
+  s.direction = to_light * (1 / std::sqrt(distance_squared));
+  const Real cos_area = abs_dot(s.normal, s.direction) * Real(0.5) * length(triangle_cross(scene, triangle));
+  if (!(cos_area > 0)) return s;
+  s.pdf = distance_squared / cos_area;
+  s.radiance = emitted_radiance(light, s.normal, -s.direction);
+  s.is_finite = true;
+  return s;
+}
+
+template <class Real>
+ALHAZEN_HD LightSample<Real> sample_sphere_light(const SceneView<Real>& scene, const LightRecord<Real>& light,
+                                                 const Vec3<Real>& center, Real radius, uint32_t surface,
+                                                 const Vec3<Real>& reference, const Vec2<Real>& u) {
+  LightSample<Real> s;
+  Vec3<Real> outward;
+  s.direction = sample_sphere(center, radius, reference, u, outward, s.pdf);
+  s.point = center + outward * radius;
+  s.point_error = (abs(center) + splat(radius)) * rounding_bound<Real>(8);
+  s.normal = scene.surfaces[surface].flip_normal ? -outward : outward;
+  s.radiance = emitted_radiance(light, s.normal, -s.direction);
+  s.is_finite = true;
+  return s;
+}
+
+/// Smooth fall from 1 at cos_inner to 0 at cos_outer.
+template <class Real>
+ALHAZEN_HD Real spot_falloff(const LightRecord<Real>& light, Real cos_angle) {
+  if (cos_angle <= light.cos_outer) return 0;
+  if (cos_angle >= light.cos_inner) return 1;
+  const Real x = (cos_angle - light.cos_outer) / (light.cos_inner - light.cos_outer);
+  return x * x * (3 - 2 * x);
+}
+
+template <class Real>
+ALHAZEN_HD LightSample<Real> sample_point_light(const LightRecord<Real>& light, const Vec3<Real>& reference) {
+  LightSample<Real> s;
+  const Vec3<Real> to_light = light.position - reference;
+  const Real distance_squared = length_squared(to_light);
+  if (!(distance_squared > 0)) return s;
+  s.direction = to_light * (1 / std::sqrt(distance_squared));
+  const Real falloff = light.kind == LightKind::spot ? spot_falloff(light, -dot(s.direction, light.direction)) : Real(1);
+  s.radiance = light.radiance * (falloff / distance_squared);
+  s.pdf = 1;
+  s.is_delta = true;
+  s.is_finite = true;
+  s.point = light.position;
+  return s;
+}
+
+/// One light, chosen by `u_choice`, towards a point of it.
+template <class Real>
+ALHAZEN_HD LightSample<Real> sample_light(const SceneView<Real>& scene, const Vec3<Real>& reference, Real time,
+                                          Real u_choice, const Vec2<Real>& u) {
+  LightSample<Real> s;
+  if (scene.lights_count == 0) return s;
+  const LightRecord<Real>& light =
+      scene.lights[scene.lights_count == 1 ? 0 : sample_cdf(scene.light_cdf, scene.lights_count, u_choice)];
+  switch (light.kind) {
+    case LightKind::triangle: s = sample_triangle_light(scene, light, reference, u); break;
+    case LightKind::sphere: {
+      const SphereRecord<Real>& sphere = scene.spheres[light.primitive];
+      s = sample_sphere_light(scene, light, sphere.center, sphere.radius, sphere.surface, reference, u);
+      break;
+    }
+    case LightKind::moving_sphere: {
+      const MovingSphereRecord<Real>& sphere = scene.moving_spheres[light.primitive];
+      s = sample_sphere_light(scene, light, sphere.center + sphere.motion * time, sphere.radius, sphere.surface,
+                              reference, u);
+      break;
+    }
+    case LightKind::point:
+    case LightKind::spot: s = sample_point_light(light, reference); break;
+    case LightKind::distant:
+      s.direction = -light.direction;
+      s.radiance = light.radiance;
+      s.pdf = 1;
+      s.is_delta = true;
+      break;
+    case LightKind::constant_infinite:
+      s.direction = sample_uniform_sphere(u);
+      s.radiance = light.radiance;
+      s.pdf = pdf_uniform_sphere<Real>;
+      break;
+  }
+  s.pdf *= light.pmf;
+  return s;
+}
+
+/// Density with which `sample_light` at the origin of `ray` returns its direction by way of the emissive surface that
+/// the ray met.
+template <class Real>
+ALHAZEN_HD Real pdf_light(const SceneView<Real>& scene, const LightRecord<Real>& light, const Ray<Real>& ray,
+                          const Hit<Real>& hit, const SurfaceInteraction<Real>& si) {
+  switch (light.kind) {
+    case LightKind::triangle: {
+      const Real area = Real(0.5) * length(triangle_cross(scene, scene.triangles[light.primitive]));
+      const Real cos_area = abs_dot(si.normal, ray.direction) * area;
+      return cos_area > 0 ? light.pmf * hit.t * hit.t / cos_area : 0;
+    }
+    case LightKind::sphere: {
+      const SphereRecord<Real>& s = scene.spheres[light.primitive];
+      return light.pmf * pdf_sphere(s.center, s.radius, ray.origin, ray.direction, hit.t, si.normal);
+    }
+    case LightKind::moving_sphere: {
+      const MovingSphereRecord<Real>& s = scene.moving_spheres[light.primitive];
+      return light.pmf *
+             pdf_sphere(s.center + s.motion * ray.time, s.radius, ray.origin, ray.direction, hit.t, si.normal);
+    }
+    default: return 0;
+  }
+}
+
+/// The same for a ray that left the scene.
+template <class Real>
+ALHAZEN_HD Real pdf_background(const SceneView<Real>& scene) {
+  return scene.background_light == no_light ? Real(0)
+                                            : scene.lights[scene.background_light].pmf * pdf_uniform_sphere<Real>;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,99 @@
+#pragma once
+
+// Glass and other dielectrics: reflection and refraction at a smooth interface or at GGX microfacets (Walter et al.
+// 2007). Radiance is scaled by 1 / eta^2 when it is refracted, as camera paths need.
+
+#include "core/materials/fresnel.h"
+#include "core/materials/microfacet.h"
+#include "core/materials/sample.h"
+
+namespace alhazen {
+
+template <class Real>
+struct DielectricBsdf {
+  Real ior;    ///< inside (against the normal) relative to outside
+  Real alpha;  ///< below smooth_alpha: a smooth interface
+};
+
+/// Both ways on from an interface, for the microfacet normal that `u` picks. Their weights leave the Fresnel share out:
+/// the radiance that leaves is  rate * L(reflected) * weight + (1 - rate) * L(refracted) * weight.
+template <class Real>
+struct DielectricBranches {
+  BsdfSample<Real> reflected, refracted;  ///< pdf 0: that way is shut
+  Real reflected_rate = 1;
+};
+
+template <class Real>
+ALHAZEN_HD DielectricBranches<Real> dielectric_branches(const DielectricBsdf<Real>& bsdf, const Vec3<Real>& wo,
+                                                        const Vec2<Real>& u) {
+  DielectricBranches<Real> branches;
+  if (wo.z == 0) return branches;
+  // Work on the side of wo: z towards it, eta the index of the other side relative to this one.
+  const Real side = wo.z < 0 ? Real(-1) : Real(1);
+  const Real eta = wo.z < 0 ? 1 / bsdf.ior : bsdf.ior;
+  const Vec3<Real> o = wo * side;
+  const bool smooth = bsdf.alpha < smooth_alpha<Real> || bsdf.ior == 1;
+  const Vec3<Real> m = smooth ? Vec3<Real>{0, 0, 1} : sample_visible_normal(o, bsdf.alpha, u);
+  const Real cos_o = smooth ? o.z : dot(o, m);
+  if (!(cos_o > 0)) return branches;
+  Real cos_t;
+  const Real rate = fresnel_dielectric(cos_o, eta, cos_t);
+  branches.reflected_rate = rate;
+  const Real density = smooth ? Real(1) : pdf_visible_normal(o, m, bsdf.alpha);
+  const Real g1 = smooth ? Real(1) : ggx_g1(o, bsdf.alpha);
+
+  BsdfSample<Real>& r = branches.reflected;
+  const Vec3<Real> mirrored = m * (2 * cos_o) - o;
+  if (rate > 0 && mirrored.z > 0) {
+    r.direction = mirrored * side;
+    r.weight = splat(smooth ? Real(1) : ggx_g2(o, mirrored, bsdf.alpha) / g1);
+    r.pdf = smooth ? Real(1) : density / (4 * cos_o);
+    r.specular = smooth;
+  }
+  BsdfSample<Real>& t = branches.refracted;
+  const Vec3<Real> bent = m * (cos_o / eta - cos_t) - o * (1 / eta);
+  if (rate < 1 && bent.z < 0) {
+    t.direction = normalize(bent) * side;
+    t.weight = splat((smooth ? Real(1) : ggx_g2(o, bent, bsdf.alpha) / g1) / (eta * eta));
+    t.pdf = smooth ? Real(1) : density * cos_t / sqr(cos_o / eta - cos_t);
+    t.eta = eta;
+    t.specular = smooth;
+  }
+  return branches;
+}
+
+/// One of the two ways, reflection with the probability of its Fresnel share.
+template <class Real>
+ALHAZEN_HD BsdfSample<Real> sample_dielectric(const DielectricBsdf<Real>& bsdf, const Vec3<Real>& wo, Real u_lobe,
+                                              const Vec2<Real>& u) {
+  const DielectricBranches<Real> branches = dielectric_branches(bsdf, wo, u);
+  const bool reflect = u_lobe < branches.reflected_rate;
+  BsdfSample<Real> s = reflect ? branches.reflected : branches.refracted;
+  s.pdf *= reflect ? branches.reflected_rate : 1 - branches.reflected_rate;
+  return s;
+}
+
+template <class Real>
+ALHAZEN_HD BsdfValue<Real> evaluate_dielectric(const DielectricBsdf<Real>& bsdf, const Vec3<Real>& wo,
+                                               const Vec3<Real>& wi) {
+  if (bsdf.alpha < smooth_alpha<Real> || bsdf.ior == 1 || wo.z == 0 || wi.z == 0) return {};
+  const Real side = wo.z < 0 ? Real(-1) : Real(1);
+  const Real eta = wo.z < 0 ? 1 / bsdf.ior : bsdf.ior;
+  const Vec3<Real> o = wo * side, i = wi * side;
+  const bool reflect = i.z > 0;
+  const Vec3<Real> half = reflect ? o + i : o + i * eta;
+  if (is_zero(half)) return {};
+  Vec3<Real> m = normalize(half);
+  if (m.z < 0) m = -m;
+  const Real cos_o = dot(o, m), cos_i = dot(i, m);
+  if (!(cos_o > 0) || (reflect ? !(cos_i > 0) : !(cos_i < 0))) return {};
+  Real cos_t;
+  const Real rate = fresnel_dielectric(cos_o, eta, cos_t);
+  const Real d = ggx_d(m, bsdf.alpha), g2 = ggx_g2(o, i, bsdf.alpha);
+  const Real density = ggx_g1(o, bsdf.alpha) * d * cos_o / o.z;
+  if (reflect) return {splat(rate * d * g2 / (4 * o.z)), rate * density / (4 * cos_o)};
+  const Real jacobian = -cos_i / sqr(cos_i + cos_o / eta);
+  return {splat((1 - rate) * d * g2 * jacobian * cos_o / (o.z * eta * eta)), (1 - rate) * density * jacobian};
+}
+
+}  // namespace alhazen

@@ -1,0 +1,65 @@
+#pragma once
+
+// The isotropic GGX distribution of microfacet normals (Trowbridge and Reitz 1975; Walter et al. 2007) and sampling of
+// the normals that a direction sees (Heitz 2018, JCGT 7(4)). Local coordinates, z along the shading normal.
+
+#include "core/math/scalar.h"
+#include "core/math/vec.h"
+#include "core/sampling/warp.h"
+
+namespace alhazen {
+
+/// Below this alpha a surface is treated as smooth.
+template <class Real>
+inline constexpr Real smooth_alpha = Real(1e-3);
+
+/// Density of normals per unit of projected area: the integral of ggx_d * cos over the hemisphere is 1.
+template <class Real>
+ALHAZEN_HD Real ggx_d(const Vec3<Real>& m, Real alpha) {
+  const Real a2 = alpha * alpha;
+  const Real d = m.z * m.z + (m.x * m.x + m.y * m.y) / a2;
+  return 1 / (pi<Real> * a2 * d * d);
+}
+
+template <class Real>
+ALHAZEN_HD Real ggx_lambda(const Vec3<Real>& w, Real alpha) {
+  const Real tan2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
+  return Real(0.5) * (std::sqrt(1 + alpha * alpha * tan2) - 1);
+}
+
+/// Share of the microfacets visible from `w`.
+template <class Real>
+ALHAZEN_HD Real ggx_g1(const Vec3<Real>& w, Real alpha) {
+  return w.z == 0 ? Real(0) : 1 / (1 + ggx_lambda(w, alpha));
+}
+
+/// Share visible from both, heights correlated.
+template <class Real>
+ALHAZEN_HD Real ggx_g2(const Vec3<Real>& wo, const Vec3<Real>& wi, Real alpha) {
+  if (wo.z == 0 || wi.z == 0) return 0;
+  return 1 / (1 + ggx_lambda(wo, alpha) + ggx_lambda(wi, alpha));
+}
+
+/// Density over solid angle with which `sample_visible_normal` returns m.
+template <class Real>
+ALHAZEN_HD Real pdf_visible_normal(const Vec3<Real>& w, const Vec3<Real>& m, Real alpha) {
+  return ggx_g1(w, alpha) / std::abs(w.z) * ggx_d(m, alpha) * larger(Real(0), dot(w, m));
+}
+
+/// A microfacet normal as seen from `w`, w.z > 0.
+template <class Real>
+ALHAZEN_HD Vec3<Real> sample_visible_normal(const Vec3<Real>& w, Real alpha, const Vec2<Real>& u) {
+  const Vec3<Real> stretched = normalize(Vec3<Real>{alpha * w.x, alpha * w.y, w.z});
+  const Real sin2 = stretched.x * stretched.x + stretched.y * stretched.y;
+  const Vec3<Real> t1 = sin2 > Real(1e-12) ? Vec3<Real>{-stretched.y, stretched.x, 0} * (1 / std::sqrt(sin2))
+                                           : Vec3<Real>{1, 0, 0};
+  const Vec3<Real> t2 = cross(stretched, t1);
+  Vec2<Real> p = sample_disk_polar(u);
+  const Real h = safe_sqrt(1 - p.x * p.x), s = Real(0.5) * (1 + stretched.z);
+  p.y = (1 - s) * h + s * p.y;
+  const Real pz = safe_sqrt(1 - p.x * p.x - p.y * p.y);
+  const Vec3<Real> n = t1 * p.x + t2 * p.y + stretched * pz;
+  return normalize(Vec3<Real>{alpha * n.x, alpha * n.y, larger(Real(1e-6), n.z)});
+}
+
+}  // namespace alhazen

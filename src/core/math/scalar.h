@@ -1,0 +1,85 @@
+#pragma once
+
+// Constants, rounding bounds and the few scalar functions that the rest of the core is built on.
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/math/platform.h"
+
+namespace alhazen {
+
+template <class Real>
+inline constexpr Real pi = Real(3.14159265358979323846264338327950288);
+template <class Real>
+inline constexpr Real inv_pi = Real(0.318309886183790671537767526745028724);
+template <class Real>
+inline constexpr Real infinity = std::numeric_limits<Real>::infinity();
+/// The largest number below 1.
+template <class Real>
+inline constexpr Real one_minus_epsilon = Real(1) - std::numeric_limits<Real>::epsilon() / 2;
+
+/// Bound on the relative error of a chain of `n` rounded operations (Higham 2002, section 3.1).
+template <class Real>
+ALHAZEN_HD constexpr Real rounding_bound(int n) {
+  const Real unit = std::numeric_limits<Real>::epsilon() / 2;
+  return (static_cast<Real>(n) * unit) / (Real(1) - static_cast<Real>(n) * unit);
+}
+
+template <class Real>
+ALHAZEN_HD constexpr Real sqr(Real x) {
+  return x * x;
+}
+
+template <class Real>
+ALHAZEN_HD constexpr Real clamp(Real x, Real low, Real high) {
+  return x < low ? low : x > high ? high : x;
+}
+
+/// Square root of a number that is negative only by rounding.
+template <class Real>
+ALHAZEN_HD inline Real safe_sqrt(Real x) {
+  return std::sqrt(x > 0 ? x : Real(0));
+}
+
+template <class Real>
+ALHAZEN_HD constexpr Real smaller(Real a, Real b) {
+  return a < b ? a : b;
+}
+
+template <class Real>
+ALHAZEN_HD constexpr Real larger(Real a, Real b) {
+  return a > b ? a : b;
+}
+
+/// a * b + c with one rounding where the processor has that operation, with two otherwise.
+template <class Real>
+ALHAZEN_HD inline Real multiply_add(Real a, Real b, Real c) {
+#if defined(__CUDA_ARCH__) || defined(__FMA__)
+  return std::fma(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+
+/// a * b - c * d. With fused operations the error is below 1.5 ulp and the sign is always right (Kahan; Jeannerod,
+/// Louvet and Muller 2013). Without them it is still exactly antisymmetric under exchange of the two products.
+template <class Real>
+ALHAZEN_HD inline Real difference_of_products(Real a, Real b, Real c, Real d) {
+#if defined(__CUDA_ARCH__) || defined(__FMA__)
+  const Real cd = c * d;
+  return std::fma(a, b, -cd) + std::fma(-c, d, cd);
+#else
+  return a * b - c * d;
+#endif
+}
+
+/// The neighbouring number away from `x` in the direction of the sign of `towards`.
+template <class Real>
+ALHAZEN_HD inline Real next_towards(Real x, Real towards) {
+  const Real step = std::abs(x) * std::numeric_limits<Real>::epsilon() + std::numeric_limits<Real>::min();
+  return towards > 0 ? x + step : towards < 0 ? x - step : x;
+}
+
+}  // namespace alhazen

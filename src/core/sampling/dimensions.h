@@ -1,0 +1,30 @@
+#pragma once
+
+// Which random number is used for what. A dimension is one draw, of one number or of a pair.
+
+#include <cstdint>
+
+#include "core/math/platform.h"
+
+namespace alhazen {
+
+struct CameraDimensions {
+  static constexpr uint32_t film = 0;  ///< pair
+  static constexpr uint32_t lens = 1;  ///< pair
+  static constexpr uint32_t time = 2;
+  static constexpr uint32_t count = 3;
+};
+
+/// The draws at one vertex of a path; `vertex` 0 is the first surface that the camera ray meets.
+struct VertexDimensions {
+  uint32_t base;
+
+  ALHAZEN_HD explicit constexpr VertexDimensions(uint32_t vertex) : base(CameraDimensions::count + 5 * vertex) {}
+  ALHAZEN_HD constexpr uint32_t bsdf_lobe() const { return base; }
+  ALHAZEN_HD constexpr uint32_t bsdf_direction() const { return base + 1; }  ///< pair
+  ALHAZEN_HD constexpr uint32_t light_choice() const { return base + 2; }
+  ALHAZEN_HD constexpr uint32_t light_point() const { return base + 3; }  ///< pair
+  ALHAZEN_HD constexpr uint32_t roulette() const { return base + 4; }
+};
+
+}  // namespace alhazen

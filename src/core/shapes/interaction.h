@@ -1,0 +1,145 @@
+#pragma once
+
+// From a hit to the point on the surface: position with a bound on its error, normals, uv.
+
+#include "core/scene_view.h"
+#include "core/shapes/sphere.h"
+#include "core/shapes/triangle.h"
+
+namespace alhazen {
+
+template <class Real>
+struct SurfaceInteraction {
+  Vec3<Real> position;
+  Vec3<Real> position_error;  ///< bound on the error of each coordinate
+  Vec3<Real> normal;          ///< geometric, unit length, on the side that the surface calls its front
+  Vec3<Real> shading_normal;
+  Vec2<Real> uv;
+  uint32_t surface;
+  Real time;
+};
+
+/// Geometric normal of a triangle by its winding, not of unit length.
+template <class Real>
+ALHAZEN_HD Vec3<Real> triangle_cross(const SceneView<Real>& scene, const TriangleRecord& triangle) {
+  const Vec3<Real> p0 = scene.positions[triangle.vertex[0]];
+  return cross(scene.positions[triangle.vertex[1]] - p0, scene.positions[triangle.vertex[2]] - p0);
+}
+
+template <class Real>
+ALHAZEN_HD const Vec3<Real>& vertex_normal(const SceneView<Real>& scene, const SurfaceRecord& surface,
+                                           uint32_t vertex) {
+  return scene.normals[vertex + surface.normal_offset];
+}
+
+/// uv of a corner; without uvs (0, 0), (1, 0), (1, 1) as pbrt has it.
+template <class Real>
+ALHAZEN_HD Vec2<Real> vertex_uv(const SceneView<Real>& scene, const SurfaceRecord& surface, const uint32_t vertex[3],
+                                int corner) {
+  if (surface.uv_offset == no_offset) return {corner > 0 ? Real(1) : Real(0), corner > 1 ? Real(1) : Real(0)};
+  return scene.uvs[vertex[corner] + surface.uv_offset];
+}
+
+/// Unit geometric normal on the front of the surface: flipped where the surface says so, and towards the shading
+/// normals of the mesh where it has them.
+template <class Real>
+ALHAZEN_HD Vec3<Real> triangle_front_normal(const SceneView<Real>& scene, const TriangleRecord& triangle) {
+  const SurfaceRecord& surface = scene.surfaces[triangle.surface];
+  Vec3<Real> n = normalize(triangle_cross(scene, triangle));
+  if (surface.normal_offset != no_offset) {
+    const uint32_t* v = triangle.vertex;
+    n = face_forward(n, vertex_normal(scene, surface, v[0]) + vertex_normal(scene, surface, v[1]) +
+                            vertex_normal(scene, surface, v[2]));
+  }
+  return surface.flip_normal ? -n : n;
+}
+
+template <class Real>
+ALHAZEN_HD SurfaceInteraction<Real> triangle_interaction(const SceneView<Real>& scene, const Hit<Real>& hit) {
+  const TriangleRecord& triangle = scene.triangles[hit.primitive.index()];
+  const SurfaceRecord& surface = scene.surfaces[triangle.surface];
+  const Real b0 = 1 - hit.b1 - hit.b2;
+  const uint32_t* v = triangle.vertex;
+  const Vec3<Real> q0 = scene.positions[v[0]] * b0;
+  const Vec3<Real> q1 = scene.positions[v[1]] * hit.b1;
+  const Vec3<Real> q2 = scene.positions[v[2]] * hit.b2;
+  SurfaceInteraction<Real> si;
+  si.position = q0 + q1 + q2;
+  si.position_error = (abs(q0) + abs(q1) + abs(q2)) * rounding_bound<Real>(7);
+  si.normal = normalize(triangle_cross(scene, triangle));
+  si.shading_normal = si.normal;
+  if (surface.normal_offset != no_offset) {
+    const Vec3<Real> n0 = vertex_normal(scene, surface, v[0]);
+    const Vec3<Real> n1 = vertex_normal(scene, surface, v[1]);
+    const Vec3<Real> n2 = vertex_normal(scene, surface, v[2]);
+    si.normal = face_forward(si.normal, n0 + n1 + n2);
+    const Vec3<Real> n = n0 * b0 + n1 * hit.b1 + n2 * hit.b2;
+    si.shading_normal = length_squared(n) > 0 ? normalize(n) : si.normal;
+  }
+  if (surface.flip_normal) {
+    si.normal = -si.normal;
+    si.shading_normal = -si.shading_normal;
+  }
+  const Vec2<Real> uv0 = vertex_uv(scene, surface, v, 0);
+  const Vec2<Real> uv1 = vertex_uv(scene, surface, v, 1);
+  const Vec2<Real> uv2 = vertex_uv(scene, surface, v, 2);
+  si.uv = {uv0.x * b0 + uv1.x * hit.b1 + uv2.x * hit.b2, uv0.y * b0 + uv1.y * hit.b1 + uv2.y * hit.b2};
+  si.surface = triangle.surface;
+  return si;
+}
+
+/// The hit point is pushed onto the sphere along the radius, so its error depends on centre and radius alone, not on
+/// the distance that the ray came.
+template <class Real>
+ALHAZEN_HD SurfaceInteraction<Real> sphere_interaction(const SceneView<Real>& scene, const Ray<Real>& ray, Real t,
+                                                       const Vec3<Real>& center, Real radius, uint32_t surface,
+                                                       uint32_t frame) {
+  SurfaceInteraction<Real> si;
+  const Vec3<Real> outward = normalize(ray.origin - center + ray.direction * t);
+  const Vec3<Real> from_center = outward * radius;
+  si.position = center + from_center;
+  si.position_error = (abs(center) + splat(radius)) * rounding_bound<Real>(8);
+  si.normal = scene.surfaces[surface].flip_normal ? -outward : outward;
+  si.shading_normal = si.normal;
+  si.uv = {};
+  if (frame != no_sphere_frame) {
+    const SphereFrame<Real>& axes = scene.sphere_frames[frame];
+    si.uv = sphere_uv(Vec3<Real>{dot(outward, axes.x), dot(outward, axes.y), dot(outward, axes.z)});
+  }
+  si.surface = surface;
+  return si;
+}
+
+template <class Real>
+ALHAZEN_HD SurfaceInteraction<Real> surface_interaction(const SceneView<Real>& scene, const Ray<Real>& ray,
+                                                        const Hit<Real>& hit) {
+  SurfaceInteraction<Real> si;
+  switch (hit.primitive.kind()) {
+    case PrimitiveKind::sphere: {
+      const SphereRecord<Real>& s = scene.spheres[hit.primitive.index()];
+      si = sphere_interaction(scene, ray, hit.t, s.center, s.radius, s.surface, s.frame);
+      break;
+    }
+    case PrimitiveKind::moving_sphere: {
+      const MovingSphereRecord<Real>& s = scene.moving_spheres[hit.primitive.index()];
+      si = sphere_interaction(scene, ray, hit.t, s.center + s.motion * ray.time, s.radius, s.surface, s.frame);
+      break;
+    }
+    default: si = triangle_interaction(scene, hit); break;
+  }
+  si.time = ray.time;
+  return si;
+}
+
+/// The shading normal, bent as little as needed for `wo` to lie on the same side of it as of the geometric normal.
+/// Interpolated normals break that near silhouettes, and black rims come of it.
+template <class Real>
+ALHAZEN_HD Vec3<Real> consistent_shading_normal(const SurfaceInteraction<Real>& si, const Vec3<Real>& wo) {
+  const Real side = dot(wo, si.normal) < 0 ? Real(-1) : Real(1);
+  const Real seen = side * dot(wo, si.shading_normal);
+  constexpr Real least = Real(1e-3);
+  if (seen >= least) return si.shading_normal;
+  return normalize(si.shading_normal + wo * (side * (least - seen)));
+}
+
+}  // namespace alhazen

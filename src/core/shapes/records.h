@@ -1,0 +1,78 @@
+#pragma once
+
+// How shapes lie in memory. World space throughout.
+
+#include <cstdint>
+
+#include "core/math/vec.h"
+
+namespace alhazen {
+
+enum class PrimitiveKind : uint32_t { triangle = 0, sphere = 1, moving_sphere = 2 };
+
+/// Kind in the two high bits, index into the array of that kind below.
+struct PrimitiveId {
+  uint32_t bits = 0xffffffffu;
+
+  PrimitiveId() = default;
+  ALHAZEN_HD constexpr PrimitiveId(PrimitiveKind kind, uint32_t index)
+      : bits((static_cast<uint32_t>(kind) << 30) | index) {}
+  ALHAZEN_HD constexpr PrimitiveKind kind() const { return static_cast<PrimitiveKind>(bits >> 30); }
+  ALHAZEN_HD constexpr uint32_t index() const { return bits & 0x3fffffffu; }
+  ALHAZEN_HD constexpr bool is_none() const { return bits == 0xffffffffu; }
+  friend ALHAZEN_HD constexpr bool operator==(PrimitiveId, PrimitiveId) = default;
+};
+inline constexpr uint32_t max_primitives_of_a_kind = 0x3fffffffu;
+
+/// Vertices are indices into `positions`; normals and uvs of a vertex stand at vertex + offset of the surface.
+struct TriangleRecord {
+  uint32_t vertex[3];
+  uint32_t surface;
+};
+
+template <class Real>
+struct SphereRecord {
+  Vec3<Real> center;
+  Real radius;
+  uint32_t surface;
+  uint32_t frame;  ///< index into sphere_frames, or no_sphere_frame where no texture asks for uv
+};
+
+/// A sphere whose centre moves linearly: center + time * motion, time in [0, 1] over the shutter.
+template <class Real>
+struct MovingSphereRecord {
+  Vec3<Real> center;
+  Real radius;
+  Vec3<Real> motion;
+  uint32_t surface;
+  uint32_t frame;
+};
+
+/// The axes of a sphere's object space in world space, for its uv coordinates: z is the polar axis.
+template <class Real>
+struct SphereFrame {
+  Vec3<Real> x, y, z;
+};
+
+inline constexpr uint32_t no_light = 0xffffffffu;
+inline constexpr uint32_t no_offset = 0xffffffffu;
+inline constexpr uint32_t no_sphere_frame = 0xffffffffu;
+
+/// What the primitives of a mesh, or a sphere, have in common. An emissive triangle has a surface of its own.
+struct SurfaceRecord {
+  uint32_t material;
+  uint32_t light;         ///< index into lights, or no_light
+  uint32_t normal_offset;  ///< added to the vertex index modulo 2^32; no_offset: no shading normals
+  uint32_t uv_offset;      ///< the same for uvs
+  uint32_t flip_normal;   ///< 1: the normal is against the winding (triangles) or inward (spheres)
+};
+
+/// Where a ray met a primitive. b1 and b2 are the barycentric weights of vertices 1 and 2; spheres leave them 0.
+template <class Real>
+struct Hit {
+  Real t;  ///< distance along the unit direction
+  Real b1{}, b2{};
+  PrimitiveId primitive;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,92 @@
+#pragma once
+
+// Watertight triangles (Woop, Benthin, Wald 2013, JCGT 2(1)), and triangles as lights sampled by area.
+
+#include "core/math/ray.h"
+#include "core/math/scalar.h"
+#include "core/shapes/records.h"
+
+namespace alhazen {
+
+/// The ray as the triangle test wants it: axes permuted so that the direction is longest along the last, and the shear
+/// that turns the direction into that axis. Made once a ray.
+template <class Real>
+struct ShearedRay {
+  Vec3<Real> origin;
+  Vec3<Real> shear;
+  int kx, ky, kz;
+};
+
+template <class Real>
+ALHAZEN_HD ShearedRay<Real> shear_ray(const Ray<Real>& ray) {
+  ShearedRay<Real> s;
+  s.origin = ray.origin;
+  s.kz = max_axis(abs(ray.direction));
+  s.kx = s.kz == 2 ? 0 : s.kz + 1;
+  s.ky = s.kx == 2 ? 0 : s.kx + 1;
+  const Real inverse = Real(1) / ray.direction[s.kz];
+  s.shear = {ray.direction[s.kx] * inverse, ray.direction[s.ky] * inverse, inverse};
+  return s;
+}
+
+/// A lower bound on t that the rounding of `intersect_triangle` cannot reach from a hit behind the origin
+/// (PBR 4th ed., 6.8.7). `p` are the sheared vertices, `inverse_det` the reciprocal of the sum of edge functions `e`.
+template <class Real>
+ALHAZEN_HD Real triangle_t_error(const Vec3<Real> p[3], const Vec3<Real>& e, Real inverse_det) {
+  const auto largest = [](Real a, Real b, Real c) {
+    return larger(std::abs(a), larger(std::abs(b), std::abs(c)));
+  };
+  const Real max_x = largest(p[0].x, p[1].x, p[2].x);
+  const Real max_y = largest(p[0].y, p[1].y, p[2].y);
+  const Real max_z = largest(p[0].z, p[1].z, p[2].z);
+  const Real max_e = largest(e.x, e.y, e.z);
+  const Real error_x = rounding_bound<Real>(5) * (max_x + max_z);
+  const Real error_y = rounding_bound<Real>(5) * (max_y + max_z);
+  const Real error_z = rounding_bound<Real>(3) * max_z;
+  const Real error_e =
+      2 * (rounding_bound<Real>(2) * max_x * max_y + error_y * max_x + error_x * max_y);
+  return 3 * (rounding_bound<Real>(3) * max_e * max_z + error_e * max_z + error_z * max_e) * std::abs(inverse_det);
+}
+
+/// Meets the triangle p0 p1 p2 at a distance in (0, t_max): sets t and the barycentric weights. Rays through a shared
+/// edge or vertex always meet one of the triangles; degenerate triangles are never met.
+template <class Real>
+ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>& p0, const Vec3<Real>& p1,
+                                   const Vec3<Real>& p2, Real t_max, Real& t, Real& b1, Real& b2) {
+  const auto sheared = [&](const Vec3<Real>& p) {
+    const Vec3<Real> q = p - ray.origin;
+    const Real z = q[ray.kz];
+    return Vec3<Real>{multiply_add(-ray.shear.x, z, q[ray.kx]), multiply_add(-ray.shear.y, z, q[ray.ky]), z};
+  };
+  const Vec3<Real> p_t[3] = {sheared(p0), sheared(p1), sheared(p2)};
+  Vec3<Real> e{difference_of_products(p_t[1].x, p_t[2].y, p_t[1].y, p_t[2].x),
+               difference_of_products(p_t[2].x, p_t[0].y, p_t[2].y, p_t[0].x),
+               difference_of_products(p_t[0].x, p_t[1].y, p_t[0].y, p_t[1].x)};
+  if ((e.x < 0 || e.y < 0 || e.z < 0) && (e.x > 0 || e.y > 0 || e.z > 0)) return false;
+  const Real det = e.x + e.y + e.z;
+  if (det == 0) return false;
+  const Real inverse_det = Real(1) / det;
+  const Vec3<Real> z = Vec3<Real>{p_t[0].z, p_t[1].z, p_t[2].z} * ray.shear.z;
+  const Real distance = dot(e, z) * inverse_det;
+  if (!(distance > 0 && distance < t_max)) return false;
+  const Vec3<Real> scaled[3] = {{p_t[0].x, p_t[0].y, z.x}, {p_t[1].x, p_t[1].y, z.y}, {p_t[2].x, p_t[2].y, z.z}};
+  if (distance <= triangle_t_error(scaled, e, inverse_det)) return false;
+  t = distance;
+  b1 = e.y * inverse_det;
+  b2 = e.z * inverse_det;
+  return true;
+}
+
+/// A point on the triangle by area, from two uniform numbers: barycentric weights of vertices 0 and 1, pdf 1 / area
+/// (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
+template <class Real>
+ALHAZEN_HD Vec2<Real> sample_triangle(const Vec2<Real>& u) {
+  if (u.x < u.y) {
+    const Real b0 = u.x * Real(0.5);
+    return {b0, u.y - b0};
+  }
+  const Real b1 = u.y * Real(0.5);
+  return {u.x - b1, b1};
+}
+
+}  // namespace alhazen

@@ -1,0 +1,29 @@
+#pragma once
+
+// The bytes of a picture on disk, and the bounds that keep a hostile one from taking all memory.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/diagnostics.h"
+
+namespace alhazen {
+
+inline constexpr int64_t max_texels = int64_t{1} << 30;
+
+/// Throws InputError where `path` is not a readable regular file.
+std::vector<uint8_t> read_bytes(const std::string& path);
+
+/// Throws InputError where `path` is not a readable regular file; its size in bytes otherwise.
+uint64_t checked_file_size(const std::string& path);
+
+/// Throws InputError where a size that a header declares is empty, over `max_texels`, or beyond all that a file of
+/// `file_size` bytes could decode to. It is called before anything of that size is allocated.
+void check_declared_size(const std::string& path, int64_t width, int64_t height, int64_t bytes_per_texel,
+                         uint64_t file_size);
+
+[[noreturn]] void throw_malformed(const std::string& path, const std::string& message);
+
+}  // namespace alhazen

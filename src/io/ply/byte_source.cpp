@@ -1,0 +1,63 @@
+#include "io/ply/byte_source.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "scene/diagnostics.h"
+
+namespace alhazen {
+
+size_t MemorySource::read(char* into, size_t capacity) {
+  const size_t count = left_.copy(into, capacity);
+  left_.remove_prefix(count);
+  return count;
+}
+
+/// zlib puts the path before its messages; ours have it already.
+static std::string without_path(const std::string& message, const std::string& path) {
+  const std::string prefix = path + ": ";
+  return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
+}
+
+struct FileSource::Handle {
+  gzFile file;
+};
+
+FileSource::FileSource(const std::string& path) : path_(path) {
+  errno = 0;
+  const gzFile file = gzopen(path.c_str(), "rb");
+  if (!file) throw InputError({path}, std::string("cannot open: ") + std::strerror(errno ? errno : ENOMEM));
+  gzbuffer(file, 1u << 16);
+  handle_.reset(new Handle{file});
+}
+
+FileSource::~FileSource() { gzclose(handle_->file); }
+
+size_t FileSource::read(char* into, size_t capacity) {
+  const unsigned request = static_cast<unsigned>(std::min<size_t>(capacity, 1u << 30));
+  const int count = gzread(handle_->file, into, request);
+  if (count > 0) return static_cast<size_t>(count);
+  int status = Z_OK;
+  const char* const message = gzerror(handle_->file, &status);
+  if (status == Z_ERRNO) throw InputError({path_}, std::string("cannot read: ") + std::strerror(errno));
+  // A compressed stream that is cut off reads like the end of the file, with this status.
+  if (status == Z_BUF_ERROR) throw InputError({path_}, "the compressed data end early; the file is cut off");
+  if (count < 0) throw InputError({path_}, "the compressed data are damaged: " + without_path(message, path_));
+  return 0;
+}
+
+uint64_t FileSource::plausible_size() const {
+  constexpr uint64_t unknown = 64u << 20;
+  // Meshes are seldom compressed further than this; beyond it the mesh grows as it is read.
+  constexpr uint64_t compression = 20;
+  std::error_code error;
+  const uint64_t size = std::filesystem::file_size(path_, error);
+  if (error) return unknown;
+  return gzdirect(handle_->file) ? size : size * compression;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,66 @@
+#pragma once
+
+// Rows of the element `vertex`: which property is what, and their values into the mesh.
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "io/ply/ply_header.h"
+#include "scene/scene.h"
+
+namespace alhazen {
+
+/// Where the values of a row go, in this order, whatever the order of the file.
+enum VertexSlot { slot_x, slot_y, slot_z, slot_nx, slot_ny, slot_nz, slot_u, slot_v, slot_count, slot_none };
+
+struct VertexLayout {
+  std::vector<VertexSlot> slots;  ///< of each property of the element
+  bool normals = false, uvs = false;
+};
+
+/// Throws InputError where there are no positions.
+VertexLayout vertex_layout(const PlyElement& element, const std::string& name, Diagnostics& diagnostics);
+
+/// Takes rows in the order of slots. Normals or uvs that are of no use are left out for all vertices, with a warning.
+class VertexRows {
+ public:
+  using Row = std::array<double, slot_count>;
+
+  VertexRows(const VertexLayout& layout, uint64_t expected, Mesh& mesh);
+  void add(const Row& row);
+  void warn(Diagnostics& diagnostics) const;
+
+ private:
+  void add_normal(const Row& row);
+  void add_uv(const Row& row);
+
+  Mesh& mesh_;
+  bool normals_, uvs_;
+  std::string complaint_about_normals_, complaint_about_uvs_;
+};
+
+template <class Values>
+void read_vertices(Values& values, const PlyElement& element, const VertexLayout& layout, VertexRows& rows) {
+  static constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+  VertexRows::Row row{};
+  for (uint64_t i = 0; i < element.count; ++i) {
+    values.begin_row(element, i);
+    for (size_t p = 0; p < layout.slots.size(); ++p) {
+      const PlyProperty& property = element.properties[p];
+      const VertexSlot slot = layout.slots[p];
+      if (slot == slot_none) {
+        values.skip(property, property.is_list ? values.list_length(property) : 1);
+        continue;
+      }
+      row[slot] = values.real(property);
+      if (slot <= slot_z && !std::isfinite(row[slot]))
+        values.fail(std::string(axes[slot]) + " is " + std::to_string(row[slot]) + "; coordinates must be finite");
+    }
+    values.end_row();
+    rows.add(row);
+  }
+}
+
+}  // namespace alhazen

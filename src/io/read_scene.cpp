@@ -1,0 +1,48 @@
+#include "io/read_scene.h"
+
+#include <filesystem>
+
+#include "core/math/bounds.h"
+#include "io/images/image.h"
+#include "io/pbrt/pbrt.h"
+#include "io/ply/ply.h"
+
+namespace alhazen {
+
+namespace {
+
+/// A mesh under a white sky, seen from the front, above and aside, so that it fills the picture.
+Scene scene_around(Mesh&& mesh, const std::string& path) {
+  Bounds3<double> box;
+  for (const Vec3d& p : mesh.positions) box.extend(p);
+  if (box.is_empty() || mesh.indices.empty()) throw InputError({path}, "the mesh has no faces, so there is no picture");
+  Scene scene;
+  scene.name = path;
+  const double radius = std::max(0.5 * length(box.diagonal()), 1e-30);
+  scene.camera.fov = 40;
+  const Vec3d center = box.center();
+  const Vec3d eye = center + normalize(Vec3d{0.5, 0.35, 1}) * (radius / 0.34);
+  scene.camera.world_from_camera.start = Transform::look_at(eye, center, {0, 1, 0}).inverse();
+  scene.camera.world_from_camera.end = scene.camera.world_from_camera.start;
+  Light sky;
+  sky.radiance = {1, 1, 1};
+  scene.lights.push_back(sky);
+  scene.meshes.push_back(std::move(mesh));
+  Shape shape;
+  shape.mesh = 0;
+  shape.where = {path};
+  scene.groups[0].shapes.push_back(shape);
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& path, Diagnostics& diagnostics) {
+  std::string extension = extension_of(path);
+  if (extension == "gz") extension = extension_of(std::filesystem::path(path).stem().string());
+  if (extension == "pbrt") return read_pbrt(path, diagnostics);
+  if (extension == "ply") return scene_around(read_ply(path, diagnostics), path);
+  throw InputError({path}, "the format is not known by this name: give a .pbrt scene or a .ply mesh (or either as .gz)");
+}
+
+}  // namespace alhazen

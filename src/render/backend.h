@@ -1,0 +1,56 @@
+#pragma once
+
+// What an engine must do to be one: say whether it is here, and take samples of pixels.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/control.h"
+#include "render/film.h"
+#include "render/sample_kernel.h"
+#include "render/settings.h"
+
+namespace alhazen {
+
+/// Samples [first_sample, first_sample + sample_count) of every pixel of the film. `first_sample` and, but for the last
+/// pass, `sample_count` are multiples of samples_per_block; sample_count is at most most_samples_per_pass.
+template <class Real>
+struct RenderPass {
+  const SceneView<Real>& scene;
+  SampleKernel<Real> kernel;
+  const RenderSettings& settings;
+  Film<Real>& film;
+  RenderControl& control;
+  uint32_t first_sample;
+  uint32_t sample_count;
+};
+
+inline constexpr uint32_t most_samples_per_pass = 64;
+
+struct BackendDescription {
+  std::string name;
+  std::vector<std::string> strategies;  ///< the first is the default
+  bool available = true;
+  std::string details;  ///< what it runs on; or why it cannot, and what to do
+};
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  virtual BackendDescription describe() const = 0;
+  virtual void render_pass(const RenderPass<float>& pass) = 0;
+  virtual void render_pass(const RenderPass<double>& pass) = 0;
+};
+
+std::unique_ptr<Backend> make_serial_backend();
+std::unique_ptr<Backend> make_openmp_backend();
+
+/// Every backend that this binary knows, available or not.
+std::vector<std::unique_ptr<Backend>> all_backends();
+std::unique_ptr<Backend> make_backend(const std::string& name);
+
+/// Sets backend, strategy and thread count of `settings`; `auto` becomes what measures fastest.
+void choose_backend(const Settings& asked, RenderSettings& settings);
+
+}  // namespace alhazen

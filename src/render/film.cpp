@@ -1,0 +1,128 @@
+#include "render/film.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Running mean and sum of squared deviations over two sets of samples (Chan, Golub, LeVeque 1983).
+template <class Real>
+void merge_moments(Real& mean, Real& m2, uint32_t count, Real other_mean, Real other_m2, uint32_t other_count) {
+  const Real n = static_cast<Real>(count), m = static_cast<Real>(other_count);
+  const Real delta = other_mean - mean;
+  mean += delta * m / (n + m);
+  m2 += other_m2 + delta * delta * n * m / (n + m);
+}
+
+template <class Vector>
+void allocate_if(bool wanted, Vector& plane, size_t size) {
+  if (wanted) plane.resize(size);
+}
+
+}  // namespace
+
+template <class Real>
+void BlockSum<Real>::add(const SampleRecord<Real>& sample, Real filter_weight) {
+  segments += sample.segments;
+  shadow_rays += sample.shadow_rays;
+  ++samples;
+  weight += filter_weight;
+  if (sample.has_hit) {
+    ++hits;
+    albedo += sample.albedo;
+    normal += sample.normal;
+    depth += sample.depth;
+  }
+  Vec3<Real> value = sample.radiance;
+  if (!is_finite(value)) {
+    ++nonfinite;
+    value = {};
+  }
+  radiance += value * filter_weight;
+  const Real y = luminance(value);
+  const Real delta = y - luminance_mean;
+  luminance_mean += delta / static_cast<Real>(samples);
+  luminance_m2 += delta * (y - luminance_mean);
+}
+
+template <class Real>
+Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, bool weighted) : window_(window), aovs_(aovs) {
+  const size_t pixels = static_cast<size_t>(window.pixels());
+  radiance_.resize(pixels);
+  samples_.resize(pixels);
+  allocate_if(weighted, weights_, pixels);
+  allocate_if(aovs.albedo, albedo_, pixels);
+  allocate_if(aovs.normal, normal_, pixels);
+  allocate_if(aovs.depth, depth_, pixels);
+  allocate_if(aovs.depth, hits_, pixels);
+  allocate_if(aovs.bounces, segments_, pixels);
+  allocate_if(aovs.variance, luminance_m2_, pixels);
+  allocate_if(aovs.variance, luminance_mean_, pixels);
+}
+
+template <class Real>
+void Film<Real>::add(int x, int y, const BlockSum<Real>& block) {
+  const size_t i = static_cast<size_t>(y - window_.y0) * static_cast<size_t>(window_.width()) +
+                   static_cast<size_t>(x - window_.x0);
+  if (aovs_.variance)
+    merge_moments(luminance_mean_[i], luminance_m2_[i], samples_[i], block.luminance_mean, block.luminance_m2,
+                  block.samples);
+  radiance_[i] += block.radiance;
+  samples_[i] += block.samples;
+  if (!weights_.empty()) weights_[i] += block.weight;
+  if (aovs_.albedo) albedo_[i] += block.albedo;
+  if (aovs_.normal) normal_[i] += block.normal;
+  if (aovs_.depth) {
+    depth_[i] += block.depth;
+    hits_[i] += block.hits;
+  }
+  if (aovs_.bounces) segments_[i] += block.segments;
+}
+
+template <class Real>
+std::vector<std::string> Film<Real>::channels() const {
+  std::vector<std::string> names{"R", "G", "B"};
+  const auto add = [&](bool wanted, std::initializer_list<const char*> layer) {
+    if (wanted) names.insert(names.end(), layer.begin(), layer.end());
+  };
+  add(aovs_.albedo, {"albedo.R", "albedo.G", "albedo.B"});
+  add(aovs_.normal, {"normal.X", "normal.Y", "normal.Z"});
+  add(aovs_.depth, {"depth.Z"});
+  add(aovs_.bounces, {"bounces.Y"});
+  add(aovs_.samples, {"samples.Y"});
+  add(aovs_.variance, {"variance.Y"});
+  return names;
+}
+
+template <class Real>
+void Film<Real>::resolve_row(int y, std::span<float> row) const {
+  const size_t width = static_cast<size_t>(window_.width());
+  for (size_t x = 0; x < width; ++x) {
+    const size_t i = static_cast<size_t>(y) * width + x;
+    float* out = row.data() + x;
+    const auto put = [&](Real value) {
+      *out = static_cast<float>(value);
+      out += width;
+    };
+    const auto put3 = [&](const Vec3<Real>& value) {
+      put(value.x);
+      put(value.y);
+      put(value.z);
+    };
+    const auto mean = [](const Vec3<Real>& sum, Real count) { return count != 0 ? sum / count : Vec3<Real>{}; };
+    const Real n = static_cast<Real>(samples_[i]);
+    put3(mean(radiance_[i], weights_.empty() ? n : weights_[i]));
+    if (aovs_.albedo) put3(mean(albedo_[i], n));
+    if (aovs_.normal) put3(mean(normal_[i], n));
+    if (aovs_.depth) put(hits_[i] > 0 ? depth_[i] / static_cast<Real>(hits_[i]) : Real(0));
+    if (aovs_.bounces) put(n > 0 ? static_cast<Real>(segments_[i]) / n : Real(0));
+    if (aovs_.samples) put(n);
+    if (aovs_.variance) put(n > 1 ? luminance_m2_[i] / (n - 1) : Real(0));
+  }
+}
+
+template struct BlockSum<float>;
+template struct BlockSum<double>;
+template class Film<float>;
+template class Film<double>;
+
+}  // namespace alhazen

@@ -1,0 +1,196 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "render/backend.h"
+#include "render/checkpoint.h"
+#include "render/sample_kernel.h"
+#include "scene/flatten.h"
+
+namespace alhazen {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Tells the progress from a thread of its own, and stops the render where the listener says so.
+class ProgressReporter {
+ public:
+  ProgressReporter(const ProgressFunction& listener, RenderControl& control, uint64_t total)
+      : listener_(listener), control_(control), total_(total) {
+    if (listener_) thread_ = std::thread([this] { run(); });
+  }
+
+  ~ProgressReporter() {
+    if (!thread_.joinable()) return;
+    {
+      const std::lock_guard lock(mutex_);
+      done_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
+  }
+
+ private:
+  void run() {
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, std::chrono::milliseconds(100), [this] { return done_; })) tell();
+    tell();
+  }
+
+  void tell() {
+    Progress p;
+    p.samples_done = std::min(control_.samples_done(), total_);
+    p.samples_total = total_;
+    p.fraction = total_ > 0 ? static_cast<double>(p.samples_done) / static_cast<double>(total_) : 1;
+    p.seconds = seconds_since(start_);
+    if (!listener_(p)) control_.stop();
+  }
+
+  const ProgressFunction& listener_;
+  RenderControl& control_;
+  uint64_t total_;
+  Clock::time_point start_ = Clock::now();
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool done_ = false;
+  std::thread thread_;
+};
+
+/// How many samples the next pass takes: whole blocks, large enough for its end not to matter, and small enough for
+/// the picture to grow evenly and for a time limit to be met.
+uint32_t pass_size(const RenderSettings& settings, uint32_t samples_done, double elapsed) {
+  const uint32_t left = settings.samples_per_pixel - samples_done;
+  uint32_t size = std::clamp(settings.samples_per_pixel / 16, 16u, most_samples_per_pass);
+  if (settings.time_limit > 0) {
+    size = samples_per_block;
+    if (samples_done > 0) {
+      const double per_sample = elapsed / samples_done;
+      size = static_cast<uint32_t>(std::clamp((settings.time_limit - elapsed) / 8 / std::max(per_sample, 1e-9), 1.0,
+                                              static_cast<double>(most_samples_per_pass)));
+    }
+  }
+  size = (size + samples_per_block - 1) / samples_per_block * samples_per_block;
+  return std::min(size, left);
+}
+
+template <class Real>
+class PassLoop {
+ public:
+  PassLoop(const FlatScene<Real>& scene, const RenderSettings& settings, Film<Real>& film)
+      : scene_(scene),
+        settings_(settings),
+        film_(film),
+        control_(settings.threads),
+        backend_(make_backend(settings.backend)) {}
+
+  void run(const RenderEvents& events, RenderStatistics& statistics) {
+    const CheckpointFile checkpoint(settings_, scene_fingerprint(scene_));
+    if (settings_.resume) samples_done_ = checkpoint.load(film_);
+    const uint64_t pixels = static_cast<uint64_t>(settings_.window.pixels());
+    control_.add_samples(pixels * samples_done_);
+    {
+      const ProgressReporter reporter(events.progress, control_, pixels * settings_.samples_per_pixel);
+      take_passes(checkpoint);
+    }
+    if (!settings_.checkpoint.empty() && !control_.is_stopped()) checkpoint.save(film_, samples_done_);
+    statistics.render_seconds = elapsed_;
+    statistics.samples_per_pixel = samples_done_;
+    statistics.complete = samples_done_ == settings_.samples_per_pixel;
+    statistics.threads = control_.threads();
+    for (const ThreadStatistics& thread : control_.threads()) {
+      statistics.camera_samples += thread.samples;
+      statistics.rays += thread.rays;
+      statistics.shadow_rays += thread.shadow_rays;
+      statistics.nonfinite_samples += thread.nonfinite_samples;
+    }
+  }
+
+ private:
+  void take_passes(const CheckpointFile& checkpoint) {
+    const SampleKernel<Real> kernel = select_sample_kernel<Real>(settings_.integrator, settings_.sampler);
+    Clock::time_point saved = Clock::now();
+    double last_pass_per_sample = 0;
+    while (samples_done_ < settings_.samples_per_pixel && !control_.is_stopped()) {
+      const uint32_t size = pass_size(settings_, samples_done_, elapsed_);
+      if (settings_.time_limit > 0 && elapsed_ > 0 && elapsed_ + last_pass_per_sample * size > settings_.time_limit)
+        return;
+      const Clock::time_point start = Clock::now();
+      backend_->render_pass(
+          RenderPass<Real>{scene_.view, kernel, settings_, film_, control_, samples_done_, size});
+      const double seconds = seconds_since(start);
+      elapsed_ += seconds;
+      if (control_.is_stopped()) return;
+      last_pass_per_sample = seconds / size;
+      samples_done_ += size;
+      if (!settings_.checkpoint.empty() && seconds_since(saved) >= settings_.checkpoint_seconds) {
+        checkpoint.save(film_, samples_done_);
+        saved = Clock::now();
+      }
+    }
+  }
+
+  const FlatScene<Real>& scene_;
+  const RenderSettings& settings_;
+  Film<Real>& film_;
+  RenderControl control_;
+  std::unique_ptr<Backend> backend_;
+  uint32_t samples_done_ = 0;
+  double elapsed_ = 0;
+};
+
+template <class Real>
+Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, double load_seconds,
+                              const RenderEvents& events, Diagnostics& diagnostics) {
+  Rendering rendering;
+  RenderStatistics& statistics = rendering.statistics;
+  statistics.settings = settings;
+  statistics.scene = scene.name;
+  const Clock::time_point start = Clock::now();
+  const FlatScene<Real> flat = flatten<Real>(
+      std::move(scene), FlattenOptions{settings.width, settings.height, settings.threads}, diagnostics);
+  statistics.scene_sizes = flat.statistics;
+  statistics.build_seconds = flat.statistics.build_seconds;
+  statistics.load_seconds = load_seconds + seconds_since(start) - statistics.build_seconds;
+  auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
+  if (events.started) events.started(statistics);
+  PassLoop<Real>(flat, settings, *film).run(events, statistics);
+  statistics.peak_rss_bytes = peak_rss_bytes();
+  if (statistics.nonfinite_samples > 0)
+    diagnostics.warn({statistics.scene}, std::to_string(statistics.nonfinite_samples) +
+                                             " samples came out infinite or not a number and were counted as black");
+  rendering.film = std::move(film);
+  return rendering;
+}
+
+}  // namespace
+
+ImageSource Rendering::source() const {
+  return std::visit(
+      [](const auto& any_film) {
+        const auto* planes = any_film.get();
+        return ImageSource{planes->window().width(), planes->window().height(), planes->channels(),
+                           [planes](int y, std::span<float> row) { planes->resolve_row(y, row); }};
+      },
+      film);
+}
+
+Rendering render_scene(Scene&& scene, const RenderSettings& settings, double load_seconds, const RenderEvents& events,
+                       Diagnostics& diagnostics) {
+  if (settings.integrator != IntegratorKind::path)
+    for (const Light& light : scene.lights)
+      if (light.type != LightType::constant_infinite)
+        diagnostics.warn(light.where, "point, spot and distant lights cannot be met by chance: the integrator '" +
+                                          to_string(settings.integrator) + "' does not show them; 'path' does");
+  return settings.precision == Precision::single
+             ? render_in_precision<float>(std::move(scene), settings, load_seconds, events, diagnostics)
+             : render_in_precision<double>(std::move(scene), settings, load_seconds, events, diagnostics);
+}
+
+}  // namespace alhazen

@@ -1,0 +1,39 @@
+#pragma once
+
+// From a described scene and settings to a film: flatten, then pass after pass until all samples are taken, the time is
+// up or somebody stops it.
+
+#include <functional>
+#include <memory>
+#include <variant>
+
+#include "render/film.h"
+#include "render/settings.h"
+#include "render/statistics.h"
+#include "scene/scene.h"
+
+namespace alhazen {
+
+struct RenderEvents {
+  /// Called about ten times a second, and once at the end, from a thread of its own. False stops the render.
+  ProgressFunction progress;
+  /// Called before the first sample, when the scene is ready.
+  std::function<void(const RenderStatistics&)> started;
+};
+
+class Rendering {
+ public:
+  using AnyFilm = std::variant<std::unique_ptr<Film<float>>, std::unique_ptr<Film<double>>>;
+
+  AnyFilm film;
+  RenderStatistics statistics;
+
+  /// Rows of the picture as means so far. Refers to this object.
+  ImageSource source() const;
+};
+
+/// `load_seconds` is what reading the scene took, for the statistics. Throws InputError, RenderError, std::bad_alloc.
+Rendering render_scene(Scene&& scene, const RenderSettings& settings, double load_seconds, const RenderEvents& events,
+                       Diagnostics& diagnostics);
+
+}  // namespace alhazen

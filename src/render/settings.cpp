@@ -1,0 +1,159 @@
+#include "render/settings.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <thread>
+
+#include "render/backend.h"
+
+namespace alhazen {
+
+namespace {
+
+template <class Value>
+struct Named {
+  const char* name;
+  Value value;
+};
+
+constexpr Named<Precision> precisions[] = {{"float", Precision::single}, {"double", Precision::double_}};
+constexpr Named<IntegratorKind> integrators[] = {{"path", IntegratorKind::path},
+                                                 {"iterative", IntegratorKind::iterative},
+                                                 {"recursive", IntegratorKind::recursive},
+                                                 {"branching", IntegratorKind::branching}};
+constexpr Named<SamplerType> samplers[] = {{"sobol", SamplerType::sobol}, {"independent", SamplerType::independent}};
+constexpr Named<ScheduleKind> schedules[] = {
+    {"static", ScheduleKind::static_}, {"dynamic", ScheduleKind::dynamic}, {"guided", ScheduleKind::guided}};
+constexpr Named<bool AovSet::*> layers[] = {{"albedo", &AovSet::albedo},   {"normal", &AovSet::normal},
+                                            {"depth", &AovSet::depth},     {"bounces", &AovSet::bounces},
+                                            {"samples", &AovSet::samples}, {"variance", &AovSet::variance}};
+
+template <class Value, size_t count>
+Value by_name(const Named<Value> (&table)[count], const std::string& name, const std::string& what) {
+  std::string choices;
+  for (const Named<Value>& entry : table) {
+    if (name == entry.name) return entry.value;
+    choices += (choices.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  throw InputError("unknown " + what + " '" + name + "': it may be " + choices);
+}
+
+template <class Value, size_t count>
+std::string name_of(const Named<Value> (&table)[count], Value value) {
+  for (const Named<Value>& entry : table)
+    if (entry.value == value) return entry.name;
+  return {};
+}
+
+IntegratorKind kind_of(IntegratorType type) {
+  switch (type) {
+    case IntegratorType::branching: return IntegratorKind::branching;
+    case IntegratorType::recursive: return IntegratorKind::recursive;
+    case IntegratorType::iterative: return IntegratorKind::iterative;
+    case IntegratorType::path: return IntegratorKind::path;
+  }
+  return IntegratorKind::path;
+}
+
+int64_t in_range(int64_t value, int64_t low, int64_t high, const std::string& what) {
+  if (value < low || value > high)
+    throw InputError(what + " must be between " + std::to_string(low) + " and " + std::to_string(high) + ", not " +
+                     std::to_string(value));
+  return value;
+}
+
+PixelWindow window_from(const std::array<double, 4>& crop, int width, int height) {
+  const auto edge = [](double fraction, int size) {
+    return static_cast<int>(std::ceil(std::clamp(fraction, 0.0, 1.0) * size));
+  };
+  if (!(crop[0] < crop[1] && crop[2] < crop[3]))
+    throw InputError("the crop window must be x0,x1,y0,y1 with x0 < x1 and y0 < y1, within 0 and 1");
+  return {edge(crop[0], width), edge(crop[1], width), edge(crop[2], height), edge(crop[3], height)};
+}
+
+PixelWindow window_from(const std::array<int64_t, 4>& bounds, int width, int height) {
+  const auto edge = [](int64_t pixel, int size) { return static_cast<int>(std::clamp<int64_t>(pixel, 0, size)); };
+  return {edge(bounds[0], width), edge(bounds[1], width), edge(bounds[2], height), edge(bounds[3], height)};
+}
+
+/// The scene's own bounds are in pixels of the scene's own size; another size scales them.
+PixelWindow scene_window(const FilmSettings& film, int width, int height) {
+  if (!film.pixel_bounds) return {0, width, 0, height};
+  const auto& b = *film.pixel_bounds;
+  const auto fraction = [](int64_t pixel, int64_t size) { return static_cast<double>(pixel) / static_cast<double>(size); };
+  if (width == film.width && height == film.height) return window_from(b, width, height);
+  return window_from(std::array<double, 4>{fraction(b[0], film.width), fraction(b[1], film.width),
+                                           fraction(b[2], film.height), fraction(b[3], film.height)},
+                     width, height);
+}
+
+void resolve_picture(const Settings& asked, const Scene& scene, RenderSettings& s) {
+  constexpr int64_t longest = 100'000, most_pixels = 1'000'000'000;
+  s.width = static_cast<int>(in_range(asked.width ? asked.width : scene.film.width, 1, longest, "the picture's width"));
+  s.height =
+      static_cast<int>(in_range(asked.height ? asked.height : scene.film.height, 1, longest, "the picture's height"));
+  if (asked.crop_window && asked.pixel_bounds) throw InputError("give a crop window or pixel bounds, not both");
+  s.window = asked.crop_window    ? window_from(*asked.crop_window, s.width, s.height)
+             : asked.pixel_bounds ? window_from(*asked.pixel_bounds, s.width, s.height)
+                                  : scene_window(scene.film, s.width, s.height);
+  if (s.window.width() < 1 || s.window.height() < 1)
+    throw InputError("the part of the picture to render holds no pixel: widen the crop window or pixel bounds");
+  if (s.window.pixels() > most_pixels)
+    throw InputError("a picture of over 10^9 pixels cannot be rendered at once: render parts of it with --crop");
+}
+
+}  // namespace
+
+Schedule parse_schedule(const std::string& text) {
+  const size_t comma = text.find(',');
+  Schedule schedule;
+  schedule.kind = by_name(schedules, text.substr(0, comma), "schedule");
+  if (comma == std::string::npos) return schedule;
+  const std::string chunk = text.substr(comma + 1);
+  const auto [end, error] = std::from_chars(chunk.data(), chunk.data() + chunk.size(), schedule.chunk);
+  if (error != std::errc() || end != chunk.data() + chunk.size() || schedule.chunk < 1)
+    throw InputError("the chunk of a schedule must be a whole number of at least 1, not '" + chunk + "'");
+  return schedule;
+}
+
+RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
+  RenderSettings s;
+  resolve_picture(asked, scene, s);
+  s.precision = by_name(precisions, asked.precision, "precision");
+  s.integrator = asked.integrator.empty() ? kind_of(scene.integrator)
+                                          : by_name(integrators, asked.integrator, "integrator");
+  s.sampler = asked.sampler.empty() ? scene.sampler : by_name(samplers, asked.sampler, "sampler");
+  s.samples_per_pixel = static_cast<uint32_t>(
+      in_range(asked.samples_per_pixel ? asked.samples_per_pixel : scene.samples_per_pixel, 1, 1 << 24,
+               "the number of samples per pixel"));
+  const int64_t depth = in_range(asked.max_depth >= 0 ? asked.max_depth : scene.max_depth, 0, 1'000'000, "the depth");
+  s.max_segments = static_cast<uint32_t>(depth + 1);
+  if ((s.integrator == IntegratorKind::recursive || s.integrator == IntegratorKind::branching) && depth > 1000)
+    throw InputError("the integrators 'recursive' and 'branching' call themselves for each bounce: give a depth of at "
+                     "most 1000, or use 'iterative'");
+  s.seed = asked.seed.value_or(scene.seed);
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  s.threads = asked.threads == 0 ? processors
+                                 : static_cast<int>(in_range(asked.threads, 1, 4096, "the number of threads"));
+  for (const std::string& layer : asked.aovs) s.aovs.*by_name(layers, layer, "layer") = true;
+  if (asked.time_limit < 0 || !std::isfinite(asked.time_limit)) throw InputError("the time limit must not be negative");
+  s.time_limit = asked.time_limit;
+  s.checkpoint = asked.checkpoint;
+  if (!(asked.checkpoint_seconds >= 0)) throw InputError("the time between checkpoints must not be negative");
+  s.checkpoint_seconds = asked.checkpoint_seconds;
+  s.resume = asked.resume;
+  if (s.resume && s.checkpoint.empty()) throw InputError("to resume, name the file to go on from: --checkpoint FILE");
+  s.schedule = parse_schedule(asked.schedule.empty() ? "dynamic" : asked.schedule);
+  choose_backend(asked, s);
+  return s;
+}
+
+std::string to_string(Precision precision) { return name_of(precisions, precision); }
+std::string to_string(IntegratorKind integrator) { return name_of(integrators, integrator); }
+std::string to_string(SamplerType sampler) { return name_of(samplers, sampler); }
+std::string to_string(const Schedule& schedule) {
+  return name_of(schedules, schedule.kind) + (schedule.chunk > 0 ? "," + std::to_string(schedule.chunk) : "");
+}
+
+}  // namespace alhazen

@@ -1,0 +1,68 @@
+#pragma once
+
+// Settings after they were checked and joined with what the scene says.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "alhazen/alhazen.h"
+#include "core/integrators/camera_sample.h"
+#include "scene/scene.h"
+
+namespace alhazen {
+
+enum class Precision { single, double_ };
+
+enum class ScheduleKind { static_, dynamic, guided };
+
+struct Schedule {
+  ScheduleKind kind = ScheduleKind::dynamic;
+  int chunk = 0;  ///< 0: OpenMP's default
+};
+
+/// Layers beside the picture itself.
+struct AovSet {
+  bool albedo = false, normal = false, depth = false, bounces = false, samples = false, variance = false;
+};
+
+/// Pixels x0 <= x < x1, y0 <= y < y1 of the whole picture.
+struct PixelWindow {
+  int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  int64_t pixels() const { return static_cast<int64_t>(width()) * height(); }
+};
+
+struct RenderSettings {
+  std::string backend;
+  std::string strategy;
+  Schedule schedule;
+  Precision precision = Precision::single;
+  IntegratorKind integrator = IntegratorKind::path;
+  SamplerType sampler = SamplerType::sobol;
+  int threads = 1;
+  uint32_t samples_per_pixel = 16;
+  uint32_t max_segments = 6;  ///< D, bounces + 1
+  int width = 0, height = 0;
+  PixelWindow window;
+  uint32_t seed = 0;
+  AovSet aovs;
+  double time_limit = 0;
+  std::string checkpoint;
+  double checkpoint_seconds = 60;
+  bool resume = false;
+};
+
+/// Joins `asked` with `scene`. Throws InputError that names the setting and what it may be.
+RenderSettings resolve_settings(const Settings& asked, const Scene& scene);
+
+std::string to_string(Precision precision);
+std::string to_string(IntegratorKind integrator);
+std::string to_string(SamplerType sampler);
+std::string to_string(const Schedule& schedule);
+
+/// Parses `static`, `dynamic,4`, ... Throws InputError.
+Schedule parse_schedule(const std::string& text);
+
+}  // namespace alhazen

@@ -1,0 +1,71 @@
+#include "render/statistics.h"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+namespace alhazen {
+
+namespace {
+
+double ratio(double a, double b) { return b > 0 ? a / b : 0; }
+
+}  // namespace
+
+uint64_t peak_rss_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+double RenderStatistics::mean_segments() const {
+  return ratio(static_cast<double>(rays), static_cast<double>(camera_samples));
+}
+
+double RenderStatistics::msamples_per_second() const {
+  return ratio(static_cast<double>(camera_samples) * 1e-6, render_seconds);
+}
+
+double RenderStatistics::mrays_per_second() const {
+  return ratio(static_cast<double>(rays + shadow_rays) * 1e-6, render_seconds);
+}
+
+std::string RenderStatistics::to_json() const {
+  nlohmann::ordered_json j;
+  j["scene"] = scene;
+  j["backend"] = settings.backend;
+  j["strategy"] = settings.strategy;
+  j["precision"] = to_string(settings.precision);
+  j["schedule"] = settings.backend == "serial" ? "" : to_string(settings.schedule);
+  j["threads"] = settings.threads;
+  j["integrator"] = to_string(settings.integrator);
+  j["sampler"] = to_string(settings.sampler);
+  j["seed"] = settings.seed;
+  j["width"] = settings.window.width();
+  j["height"] = settings.window.height();
+  j["spp"] = samples_per_pixel;
+  j["max_depth"] = settings.max_segments - 1;
+  j["triangles"] = scene_sizes.triangles;
+  j["spheres"] = scene_sizes.spheres;
+  j["lights"] = scene_sizes.lights;
+  j["nodes"] = scene_sizes.nodes;
+  j["scene_bytes"] = scene_sizes.bytes;
+  j["load_seconds"] = load_seconds;
+  j["build_seconds"] = build_seconds;
+  j["render_seconds"] = render_seconds;
+  j["complete"] = complete;
+  j["camera_samples"] = camera_samples;
+  j["rays"] = rays;
+  j["shadow_rays"] = shadow_rays;
+  j["nonfinite_samples"] = nonfinite_samples;
+  j["msamples_per_s"] = msamples_per_second();
+  j["mrays_per_s"] = mrays_per_second();
+  j["mean_segments"] = mean_segments();
+  j["peak_rss_bytes"] = peak_rss_bytes;
+  j["thread_statistics"] = nlohmann::ordered_json::array();
+  for (const ThreadStatistics& t : threads)
+    j["thread_statistics"].push_back({{"busy_seconds", t.busy_seconds}, {"samples", t.samples}});
+  return j.dump();
+}
+
+}  // namespace alhazen

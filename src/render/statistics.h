@@ -1,0 +1,36 @@
+#pragma once
+
+// What a render did and what it cost.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "render/control.h"
+#include "render/settings.h"
+#include "scene/flat_scene.h"
+
+namespace alhazen {
+
+struct RenderStatistics {
+  RenderSettings settings;
+  std::string scene;
+  SceneStatistics scene_sizes;
+  double load_seconds = 0;    ///< reading and flattening, without the BVH
+  double build_seconds = 0;   ///< the BVH
+  double render_seconds = 0;  ///< taking samples, nothing else
+  uint32_t samples_per_pixel = 0;  ///< whole passes that were done
+  bool complete = false;
+  uint64_t camera_samples = 0, rays = 0, shadow_rays = 0, nonfinite_samples = 0;
+  uint64_t peak_rss_bytes = 0;  ///< of the process, at its highest
+  std::vector<ThreadStatistics> threads;
+
+  double mean_segments() const;
+  double msamples_per_second() const;
+  double mrays_per_second() const;  ///< closest-hit and shadow rays
+  std::string to_json() const;      ///< one object
+};
+
+uint64_t peak_rss_bytes();
+
+}  // namespace alhazen

@@ -1,0 +1,315 @@
+#include "scene/flatten.h"
+
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "core/shapes/interaction.h"
+#include "scene/bvh_builder.h"
+#include "scene/flatten_camera.h"
+#include "scene/flatten_lights.h"
+#include "scene/flatten_materials.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Where a shape stands in the end: its own transform, or that of an instance over it.
+struct Placement {
+  const Shape* shape;
+  MovingTransform world_from_object;
+  bool reverse_orientation;
+};
+
+template <class Real>
+class Flattener {
+ public:
+  Flattener(Scene& scene, const FlattenOptions& options, Diagnostics& diagnostics)
+      : scene_(scene), options_(options), diagnostics_(diagnostics) {}
+
+  FlatScene<Real> run() {
+    check_film();
+    FlatScene<Real> flat;
+    flatten_camera(scene_, width_, height_, out_, flat.view, diagnostics_);
+    for (const Material& material : scene_.materials) needs_uv_.push_back(material_needs_uv(scene_, material));
+    flatten_materials(scene_, out_);
+    add_described_lights(scene_, out_, flat.view);
+    light_areas_.assign(out_.lights.size(), 0);
+    place_shapes();
+    build_tree(flat);
+    assign_light_probabilities(light_areas_, out_);
+    flat.statistics.triangles = out_.triangles.size();
+    flat.statistics.spheres = out_.spheres.size() + out_.moving_spheres.size();
+    flat.statistics.nodes = out_.nodes.size();
+    flat.statistics.lights = out_.lights.size();
+    out_.move_into(flat);
+    return flat;
+  }
+
+ private:
+  void check_film() {
+    width_ = options_.width > 0 ? options_.width : scene_.film.width;
+    height_ = options_.height > 0 ? options_.height : scene_.film.height;
+    if (width_ < 1 || height_ < 1 || width_ > 100'000 || height_ > 100'000)
+      throw InputError({scene_.name}, "a picture of " + std::to_string(width_) + " x " + std::to_string(height_) +
+                                          " pixels cannot be rendered: give sides between 1 and 100000");
+  }
+
+  std::vector<Placement> placements() const {
+    std::vector<Placement> all;
+    for (const Shape& shape : scene_.groups.at(0).shapes)
+      all.push_back({&shape, shape.world_from_object, shape.reverse_orientation});
+    for (const Instance& instance : scene_.instances) {
+      if (instance.group >= scene_.groups.size()) throw InputError(instance.where, "the instance names no object");
+      const MovingTransform& outer = instance.world_from_group;
+      for (const Shape& shape : scene_.groups[instance.group].shapes)
+        all.push_back({&shape,
+                       {outer.start * shape.world_from_object.start, outer.end * shape.world_from_object.end},
+                       shape.reverse_orientation != instance.reverse_orientation});
+    }
+    return all;
+  }
+
+  void place_shapes() {
+    const std::vector<Placement> all = placements();
+    std::vector<uint32_t> uses(scene_.meshes.size());
+    size_t triangles = 0, vertices = 0, normals = 0, uvs = 0;
+    for (const Placement& p : all) {
+      if (p.shape->type != ShapeType::mesh) continue;
+      if (p.shape->mesh >= scene_.meshes.size()) throw InputError(p.shape->where, "the shape names no mesh");
+      const Mesh& mesh = scene_.meshes[p.shape->mesh];
+      ++uses[p.shape->mesh];
+      triangles += mesh.triangle_count();
+      vertices += mesh.positions.size();
+      normals += mesh.normals.size();
+      uvs += mesh.uvs.size();
+    }
+    if (triangles > max_primitives_of_a_kind || vertices > 0xfffffff0u || all.size() > max_primitives_of_a_kind)
+      throw InputError({scene_.name}, "the scene has " + std::to_string(triangles) + " triangles with " +
+                                          std::to_string(vertices) + " vertices once instances are expanded, more " +
+                                          "than 2^30 or 2^32: split it");
+    out_.triangles.reserve(triangles);
+    out_.positions.reserve(vertices);
+    out_.normals.reserve(normals);
+    out_.uvs.reserve(uvs);
+    for (const Placement& p : all) {
+      if (p.shape->type == ShapeType::sphere) {
+        place_sphere(p);
+        continue;
+      }
+      Mesh& mesh = scene_.meshes[p.shape->mesh];
+      place_mesh(p, mesh);
+      if (--uses[p.shape->mesh] == 0) mesh = Mesh{};
+    }
+  }
+
+  uint32_t material_of(const Shape& shape) const {
+    if (shape.material == no_index) return static_cast<uint32_t>(scene_.materials.size());
+    if (shape.material >= scene_.materials.size()) throw InputError(shape.where, "the shape names no material");
+    return shape.material;
+  }
+
+  uint32_t add_surface(const Shape& shape, uint32_t light, uint32_t normal_offset, uint32_t uv_offset, bool flip) {
+    out_.surfaces.push_back({material_of(shape), light, normal_offset, uv_offset, flip ? 1u : 0u});
+    return static_cast<uint32_t>(out_.surfaces.size() - 1);
+  }
+
+  uint32_t add_light(const Emission& emission, LightKind kind, size_t primitive, double area) {
+    LightRecord<Real> light{};
+    light.kind = kind;
+    light.primitive = static_cast<uint32_t>(primitive);
+    light.radiance = convert<Real>(emission.radiance);
+    light.two_sided = emission.two_sided ? 1 : 0;
+    out_.lights.push_back(light);
+    light_areas_.push_back(area);
+    return static_cast<uint32_t>(out_.lights.size() - 1);
+  }
+
+  static bool emits(const Shape& shape) { return shape.emission && max_component(shape.emission->radiance) > 0; }
+
+  void place_sphere(const Placement& p) {
+    const Shape& shape = *p.shape;
+    if (!(shape.radius > 0) || !std::isfinite(shape.radius))
+      throw InputError(shape.where, "the radius of a sphere must be above 0, not " + std::to_string(shape.radius));
+    double scale = 1;
+    if (!p.world_from_object.start.is_similarity(scale))
+      diagnostics_.warn(shape.where, "a sphere is stretched by an instance; it stays round here, of the same volume");
+    const double radius = shape.radius * scale;
+    const auto [center, motion] = motion_of(p.world_from_object);
+    if (!is_finite(center) || !is_finite(motion) || !std::isfinite(radius))
+      throw InputError(shape.where, "the sphere's position or size is not finite");
+    const bool moves = !is_zero(motion);
+    const size_t index = moves ? out_.moving_spheres.size() : out_.spheres.size();
+    uint32_t light = no_light;
+    if (emits(shape))
+      light = add_light(*shape.emission, moves ? LightKind::moving_sphere : LightKind::sphere, index,
+                        4 * 3.14159265358979 * radius * radius);
+    const uint32_t surface = add_surface(shape, light, no_offset, no_offset, p.reverse_orientation);
+    const uint32_t frame = sphere_frame(shape, p.world_from_object.start);
+    if (moves)
+      out_.moving_spheres.push_back(
+          {convert<Real>(center), static_cast<Real>(radius), convert<Real>(motion), surface, frame});
+    else
+      out_.spheres.push_back({convert<Real>(center), static_cast<Real>(radius), surface, frame});
+  }
+
+  /// Centre when the shutter opens, and the way it goes until the shutter closes.
+  std::pair<Vec3d, Vec3d> motion_of(const MovingTransform& transform) const {
+    const Vec3d start = transform.start.point({}), end = transform.end.point({});
+    const double span = scene_.transform_end_time - scene_.transform_start_time;
+    if (!transform.is_moving() || !(span > 0)) return {start, {}};
+    const auto at = [&](double time) {
+      return lerp(start, end, clamp((time - scene_.transform_start_time) / span, 0.0, 1.0));
+    };
+    const Vec3d open = at(scene_.camera.shutter_open);
+    return {open, at(scene_.camera.shutter_close) - open};
+  }
+
+  uint32_t sphere_frame(const Shape& shape, const Transform& world_from_object) {
+    if (shape.material == no_index || !needs_uv_[shape.material]) return no_sphere_frame;
+    const auto axis = [&](const Vec3d& a) { return convert<Real>(normalize(world_from_object.direction(a))); };
+    out_.sphere_frames.push_back({axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})});
+    return static_cast<uint32_t>(out_.sphere_frames.size() - 1);
+  }
+
+  void check_mesh(const Shape& shape, const Mesh& mesh) const {
+    const size_t vertices = mesh.positions.size();
+    if (mesh.indices.size() % 3 != 0) throw InputError(shape.where, "the mesh's indices do not come in threes");
+    for (const uint32_t index : mesh.indices)
+      if (index >= vertices)
+        throw InputError(shape.where, "vertex index " + std::to_string(index) + " is out of range: the mesh has " +
+                                          std::to_string(vertices) + " vertices");
+    if ((!mesh.normals.empty() && mesh.normals.size() != vertices) ||
+        (!mesh.uvs.empty() && mesh.uvs.size() != vertices))
+      throw InputError(shape.where, "the mesh has another number of normals or uvs than of vertices");
+  }
+
+  void place_mesh(const Placement& p, const Mesh& mesh) {
+    const Shape& shape = *p.shape;
+    check_mesh(shape, mesh);
+    if (p.world_from_object.is_moving())
+      diagnostics_.warn(shape.where, "a mesh moves; meshes stand still here, where they are at the start");
+    const Transform& transform = p.world_from_object.start;
+    const uint32_t base = static_cast<uint32_t>(out_.positions.size());
+    const auto offset_to = [&](size_t count) { return static_cast<uint32_t>(count) - base; };
+    for (const Vec3d& position : mesh.positions) {
+      const Vec3<Real> moved = convert<Real>(transform.point(position));
+      if (!is_finite(moved)) throw InputError(shape.where, "a vertex of the mesh is not finite");
+      out_.positions.push_back(moved);
+    }
+    const uint32_t normal_offset = mesh.normals.empty() ? no_offset : offset_to(out_.normals.size());
+    for (const Vec3f& normal : mesh.normals) {
+      const Vec3d n = transform.normal(convert<double>(normal));
+      out_.normals.push_back(length_squared(n) > 0 ? convert<Real>(normalize(n)) : Vec3<Real>{});
+    }
+    const uint32_t uv_offset = mesh.uvs.empty() ? no_offset : offset_to(out_.uvs.size());
+    for (const Vec2f& uv : mesh.uvs) out_.uvs.push_back({static_cast<Real>(uv.x), static_cast<Real>(uv.y)});
+    // With shading normals the front is theirs; without, that of the winding in object space.
+    const bool flip = mesh.normals.empty() ? p.reverse_orientation != transform.swaps_handedness()
+                                           : p.reverse_orientation;
+    add_triangles(shape, mesh, base, normal_offset, uv_offset, flip);
+  }
+
+  void add_triangles(const Shape& shape, const Mesh& mesh, uint32_t base, uint32_t normal_offset, uint32_t uv_offset,
+                     bool flip) {
+    const uint32_t shared = emits(shape) ? 0 : add_surface(shape, no_light, normal_offset, uv_offset, flip);
+    size_t without_area = 0;
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      TriangleRecord triangle{{base + mesh.indices[i], base + mesh.indices[i + 1], base + mesh.indices[i + 2]}, shared};
+      const Vec3<Real> p0 = out_.positions[triangle.vertex[0]];
+      const Real twice_area =
+          length(cross(out_.positions[triangle.vertex[1]] - p0, out_.positions[triangle.vertex[2]] - p0));
+      if (!(twice_area > 0) || !std::isfinite(1 / twice_area)) {
+        ++without_area;
+        continue;
+      }
+      if (emits(shape)) {
+        const uint32_t light = add_light(*shape.emission, LightKind::triangle, out_.triangles.size(),
+                                         0.5 * static_cast<double>(twice_area));
+        triangle.surface = add_surface(shape, light, normal_offset, uv_offset, flip);
+      }
+      out_.triangles.push_back(triangle);
+    }
+    if (without_area > 0)
+      diagnostics_.warn(shape.where, (mesh.name.empty() ? std::string() : mesh.name + ": ") +
+                                         std::to_string(without_area) + " of " +
+                                         std::to_string(mesh.triangle_count()) +
+                                         " triangles have no area and are left out");
+  }
+
+  std::vector<Bounds3<Real>> primitive_boxes() const {
+    std::vector<Bounds3<Real>> boxes;
+    boxes.reserve(out_.triangles.size() + out_.spheres.size() + out_.moving_spheres.size());
+    for (const TriangleRecord& triangle : out_.triangles) {
+      Bounds3<Real> box;
+      for (const uint32_t v : triangle.vertex) box.extend(out_.positions[v]);
+      boxes.push_back(box);
+    }
+    const auto sphere_box = [](const Vec3<Real>& center, Real radius) {
+      // Wider by what rounding of centre +- radius can lose.
+      const Vec3<Real> r =
+          splat(radius) + (abs(center) + splat(radius)) * (2 * std::numeric_limits<Real>::epsilon());
+      return Bounds3<Real>{center - r, center + r};
+    };
+    for (const SphereRecord<Real>& s : out_.spheres) boxes.push_back(sphere_box(s.center, s.radius));
+    for (const MovingSphereRecord<Real>& s : out_.moving_spheres) {
+      boxes.push_back(sphere_box(s.center, s.radius));
+      boxes.back().extend(sphere_box(s.center + s.motion, s.radius));
+    }
+    return boxes;
+  }
+
+  void build_tree(FlatScene<Real>& flat) {
+    const auto start = std::chrono::steady_clock::now();
+    BvhTree<Real> tree;
+    {
+      const std::vector<Bounds3<Real>> boxes = primitive_boxes();
+      tree = build_bvh<Real>(boxes, options_.threads);
+    }
+    order_primitives(tree.order);
+    out_.nodes = std::move(tree.nodes);
+    flat.statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  /// Lays triangles down in the order of the leaves, so that a leaf's triangles are neighbours in memory.
+  void order_primitives(const std::vector<uint32_t>& order) {
+    const uint32_t triangles = static_cast<uint32_t>(out_.triangles.size());
+    const uint32_t spheres = static_cast<uint32_t>(out_.spheres.size());
+    std::vector<TriangleRecord> ordered;
+    ordered.reserve(triangles);
+    out_.primitives.reserve(order.size());
+    for (const uint32_t i : order) {
+      if (i < triangles) {
+        out_.primitives.emplace_back(PrimitiveKind::triangle, static_cast<uint32_t>(ordered.size()));
+        ordered.push_back(out_.triangles[i]);
+        const uint32_t light = out_.surfaces[ordered.back().surface].light;
+        if (light != no_light) out_.lights[light].primitive = static_cast<uint32_t>(ordered.size() - 1);
+      } else if (i < triangles + spheres) {
+        out_.primitives.emplace_back(PrimitiveKind::sphere, i - triangles);
+      } else {
+        out_.primitives.emplace_back(PrimitiveKind::moving_sphere, i - triangles - spheres);
+      }
+    }
+    out_.triangles = std::move(ordered);
+  }
+
+  Scene& scene_;
+  const FlattenOptions& options_;
+  Diagnostics& diagnostics_;
+  int64_t width_ = 0, height_ = 0;
+  SceneArrays<Real> out_;
+  std::vector<bool> needs_uv_;
+  std::vector<double> light_areas_;
+};
+
+}  // namespace
+
+template <class Real>
+FlatScene<Real> flatten(Scene&& scene, const FlattenOptions& options, Diagnostics& diagnostics) {
+  return Flattener<Real>(scene, options, diagnostics).run();
+}
+
+template FlatScene<float> flatten(Scene&&, const FlattenOptions&, Diagnostics&);
+template FlatScene<double> flatten(Scene&&, const FlattenOptions&, Diagnostics&);
+
+}  // namespace alhazen

@@ -1,0 +1,22 @@
+#pragma once
+
+// From the described scene to the flat one: validation, transforms applied, instances expanded, BVH built.
+
+#include "scene/flat_scene.h"
+#include "scene/scene.h"
+
+namespace alhazen {
+
+/// What the command line or a caller may override in the description.
+struct FlattenOptions {
+  int64_t width = 0, height = 0;  ///< 0: as the scene says
+  int threads = 0;                ///< for the BVH; 0: as OpenMP has it
+};
+
+/// Takes the description apart as it goes, so that meshes are not held twice.
+/// Throws InputError for what cannot be rendered: indices out of range, coordinates that are not finite, radii that are
+/// not positive, too many primitives. Warns of what is left out: triangles of no area, motion of meshes and cameras.
+template <class Real>
+FlatScene<Real> flatten(Scene&& scene, const FlattenOptions& options, Diagnostics& diagnostics);
+
+}  // namespace alhazen

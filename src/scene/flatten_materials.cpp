@@ -1,0 +1,201 @@
+#include "scene/flatten_materials.h"
+
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "core/textures/texture.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Perlin's permutation of 0 to 255 (Perlin 2002, reference implementation's table).
+constexpr uint8_t perlin_permutation[256] = {
+    151, 160, 137, 91,  90,  15,  131, 13,  201, 95,  96,  53,  194, 233, 7,   225, 140, 36,  103, 30,  69,  142,
+    8,   99,  37,  240, 21,  10,  23,  190, 6,   148, 247, 120, 234, 75,  0,   26,  197, 62,  94,  252, 219, 203,
+    117, 35,  11,  32,  57,  177, 33,  88,  237, 149, 56,  87,  174, 20,  125, 136, 171, 168, 68,  175, 74,  165,
+    71,  134, 139, 48,  27,  166, 77,  146, 158, 231, 83,  111, 229, 122, 60,  211, 133, 230, 220, 105, 92,  41,
+    55,  46,  245, 40,  244, 102, 143, 54,  65,  25,  63,  161, 1,   216, 80,  73,  209, 76,  132, 187, 208, 89,
+    18,  169, 200, 196, 135, 130, 116, 188, 159, 86,  164, 100, 109, 198, 173, 186, 3,   64,  52,  217, 226, 250,
+    124, 123, 5,   202, 38,  147, 118, 126, 255, 82,  85,  212, 207, 206, 59,  227, 47,  16,  58,  17,  182, 189,
+    28,  42,  223, 183, 170, 213, 119, 248, 152, 2,   44,  154, 163, 70,  221, 153, 101, 155, 167, 43,  172, 9,
+    129, 22,  39,  253, 19,  98,  108, 110, 79,  113, 224, 232, 178, 185, 112, 104, 218, 246, 97,  228, 251, 34,
+    242, 193, 238, 210, 144, 12,  191, 179, 162, 241, 81,  51,  145, 235, 249, 14,  239, 107, 49,  192, 214, 31,
+    181, 199, 106, 157, 184, 84,  204, 176, 115, 121, 50,  45,  127, 4,   150, 254, 138, 236, 205, 93,  222, 114,
+    67,  29,  24,  72,  243, 141, 128, 195, 78,  66,  215, 61,  156, 180};
+
+template <class Real>
+void add_srgb_table(SceneArrays<Real>& out) {
+  for (int i = 0; i < 256; ++i) {
+    const double v = i / 255.0;
+    out.srgb_decode_table.push_back(static_cast<Real>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4)));
+  }
+  for (int i = 0; i < 256; ++i) out.srgb_decode_table.push_back(static_cast<Real>(i / 255.0));
+}
+
+/// One record for each image and each way that textures look it up.
+template <class Real>
+class TextureBuilder {
+ public:
+  TextureBuilder(Scene& scene, SceneArrays<Real>& out) : scene_(scene), out_(out) { add_texels(); }
+
+  /// The program of texture `root`; the same range when it is asked for again.
+  TextureRange range(uint32_t root) {
+    if (root == no_index) return {};
+    if (root >= scene_.textures.size()) throw InputError("texture index " + std::to_string(root) + " is out of range");
+    if (ranges_.empty()) ranges_.resize(scene_.textures.size());
+    TextureRange& known = ranges_[root];
+    if (known.count == 0) {
+      known.first = static_cast<uint32_t>(out_.textures.size());
+      append(root, 0, 0);
+      known.count = static_cast<uint32_t>(out_.textures.size()) - known.first;
+    }
+    return known;
+  }
+
+  TextureRange constant(double value) {
+    out_.textures.push_back(
+        {TextureKind::constant, 0, 0, 0, splat(static_cast<Real>(value))});
+    return {static_cast<uint32_t>(out_.textures.size() - 1), 1};
+  }
+
+ private:
+  void add_texels() {
+    for (ImageTexels& image : scene_.images) {
+      const size_t values = static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * 3;
+      const bool is_float = !image.floats.empty();
+      if (values == 0 || (is_float ? image.floats.size() : image.bytes.size()) != values)
+        throw InputError({image.name}, "the picture does not hold width * height * 3 values");
+      first_texel_.push_back(is_float ? out_.texel_floats.size() : out_.texel_bytes.size());
+      is_float_.push_back(is_float);
+      out_.texel_bytes.insert(out_.texel_bytes.end(), image.bytes.begin(), image.bytes.end());
+      out_.texel_floats.insert(out_.texel_floats.end(), image.floats.begin(), image.floats.end());
+      std::vector<uint8_t>().swap(image.bytes);
+      std::vector<float>().swap(image.floats);
+    }
+  }
+
+  uint32_t add_image(const Texture& texture) {
+    if (texture.image >= scene_.images.size())
+      throw InputError("texture '" + texture.name + "': image index is out of range");
+    const ImageTexels& image = scene_.images[texture.image];
+    out_.images.push_back({first_texel_[texture.image], static_cast<uint32_t>(image.width),
+                           static_cast<uint32_t>(image.height), is_float_[texture.image] ? 1u : 0u,
+                           image.srgb ? 1u : 0u, static_cast<uint32_t>(texture.wrap), texture.nearest ? 1u : 0u});
+    return static_cast<uint32_t>(out_.images.size() - 1);
+  }
+
+  uint32_t add_mapping(const Texture& texture) {
+    TextureMapping<Real> mapping{static_cast<Real>(texture.uv_scale.x), static_cast<Real>(texture.uv_scale.y),
+                                 static_cast<Real>(texture.uv_offset.x), static_cast<Real>(texture.uv_offset.y), {}};
+    for (size_t i = 0; i < 3; ++i)
+      for (size_t j = 0; j < 4; ++j)
+        mapping.texture_from_world[i][j] = static_cast<Real>(texture.texture_from_world.matrix()[i][j]);
+    out_.texture_mappings.push_back(mapping);
+    return static_cast<uint32_t>(out_.texture_mappings.size() - 1);
+  }
+
+  /// Appends the program of `index` in postorder; `waiting` values lie on the stack when it starts.
+  void append(uint32_t index, uint32_t waiting, int nesting) {
+    if (index >= scene_.textures.size()) throw InputError("a texture refers to one that does not exist");
+    const Texture& texture = scene_.textures[index];
+    const uint32_t inputs = texture_input_count(texture.kind);
+    if (nesting > 64 || waiting + std::max(inputs, 1u) > max_texture_stack || out_.textures.size() > (1u << 24))
+      throw InputError("texture '" + texture.name + "' is made of too many textures within each other");
+    for (uint32_t i = 0; i < inputs; ++i) append(texture.inputs[i], waiting + i, nesting + 1);
+    TextureRecord<Real> node{texture.kind, 0, 0, static_cast<uint32_t>(std::clamp(texture.octaves, 1, 64)), {}};
+    switch (texture.kind) {
+      case TextureKind::constant: node.parameters = convert<Real>(texture.value); break;
+      case TextureKind::checkerboard:
+        node.mapping = add_mapping(texture);
+        node.octaves = texture.solid_checks ? 1 : 0;
+        break;
+      case TextureKind::image:
+        node.mapping = add_mapping(texture);
+        node.image = add_image(texture);
+        node.parameters = {static_cast<Real>(texture.image_scale), texture.invert ? Real(1) : Real(0), 0};
+        break;
+      case TextureKind::fbm:
+      case TextureKind::wrinkled:
+      case TextureKind::marble:
+        node.mapping = add_mapping(texture);
+        node.parameters = {static_cast<Real>(texture.roughness), static_cast<Real>(texture.noise_scale),
+                           static_cast<Real>(texture.variation)};
+        break;
+      case TextureKind::scale:
+      case TextureKind::mix: break;
+    }
+    out_.textures.push_back(node);
+  }
+
+  Scene& scene_;
+  SceneArrays<Real>& out_;
+  std::vector<TextureRange> ranges_;
+  std::vector<uint64_t> first_texel_;
+  std::vector<bool> is_float_;
+};
+
+template <class Real>
+MaterialRecord<Real> material_record(const Material& material, TextureBuilder<Real>& textures) {
+  MaterialRecord<Real> record{};
+  record.ior = static_cast<Real>(material.ior);
+  record.remap_roughness = material.remap_roughness ? 1 : 0;
+  switch (material.type) {
+    case MaterialType::diffuse:
+      record.kind = MaterialKind::diffuse;
+      record.reflectance =
+          material.reflectance == no_index ? textures.constant(0.5) : textures.range(material.reflectance);
+      return record;
+    case MaterialType::conductor:
+      record.kind = MaterialKind::conductor;
+      record.reflectance = textures.range(material.reflectance);
+      if (material.reflectance == no_index) {
+        if (material.eta == no_index || material.k == no_index)
+          throw InputError("material '" + material.name + "': a conductor needs a reflectance, or eta and k");
+        record.eta = textures.range(material.eta);
+        record.k = textures.range(material.k);
+      }
+      break;
+    case MaterialType::dielectric:
+      record.kind = MaterialKind::dielectric;
+      if (!(material.ior > 0) || !std::isfinite(material.ior))
+        throw InputError("material '" + material.name + "': the index of refraction must be above 0");
+      break;
+  }
+  record.roughness = textures.range(material.roughness_u != no_index ? material.roughness_u : material.roughness_v);
+  return record;
+}
+
+bool texture_needs_uv(const Scene& scene, uint32_t index, int nesting) {
+  if (index >= scene.textures.size() || nesting > 64) return false;
+  const Texture& texture = scene.textures[index];
+  if (texture.kind == TextureKind::image || (texture.kind == TextureKind::checkerboard && !texture.solid_checks))
+    return true;
+  for (const uint32_t input : texture.inputs)
+    if (texture_needs_uv(scene, input, nesting + 1)) return true;
+  return false;
+}
+
+}  // namespace
+
+bool material_needs_uv(const Scene& scene, const Material& material) {
+  for (const uint32_t texture :
+       {material.reflectance, material.eta, material.k, material.roughness_u, material.roughness_v})
+    if (texture_needs_uv(scene, texture, 0)) return true;
+  return false;
+}
+
+template <class Real>
+void flatten_materials(Scene& scene, SceneArrays<Real>& out) {
+  add_srgb_table(out);
+  out.noise_permutation.assign(perlin_permutation, perlin_permutation + 256);
+  TextureBuilder<Real> textures(scene, out);
+  for (const Material& material : scene.materials) out.materials.push_back(material_record(material, textures));
+  out.materials.push_back(material_record(Material{}, textures));
+}
+
+template void flatten_materials(Scene&, SceneArrays<float>&);
+template void flatten_materials(Scene&, SceneArrays<double>&);
+
+}  // namespace alhazen
