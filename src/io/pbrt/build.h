@@ -1,0 +1,98 @@
+#pragma once
+
+// What the reader carries along while it goes through a scene file: the scene so far, the graphics state of the
+// format, and what has a name. The directives are functions over it, a file for each topic.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "io/pbrt/parameters.h"
+#include "scene/scene.h"
+
+namespace alhazen::pbrt {
+
+/// The emission that AreaLightSource gives to the shapes that follow.
+struct AreaLight {
+  Vec3d radiance;
+  bool two_sided = false;
+  double power = 0;  ///< watts of the whole shape, where over 0: scales `radiance` by the area of each
+  Place place;
+};
+
+/// The directives that `Attribute` sets defaults for.
+struct AttributeDefaults {
+  InheritedParameters shape, light, material, medium, texture;
+};
+
+/// What AttributeBegin saves and AttributeEnd brings back.
+struct GraphicsState {
+  Transform ctm_start, ctm_end;
+  bool start_active = true, end_active = true;  ///< which of the two the transform directives change
+  bool reverse_orientation = false;
+  uint32_t material = no_index;  ///< absent: the default material
+  std::optional<AreaLight> area_light;
+  ColourSpace colour_space = ColourSpace::srgb;
+  AttributeDefaults defaults;
+
+  MovingTransform ctm() const { return {ctm_start, ctm_end}; }
+};
+
+/// A material or object that is referred to by name, perhaps before it is defined.
+struct NamedEntry {
+  uint32_t index = no_index;
+  bool defined = false;
+  std::optional<InputError> undefined;  ///< what to throw where no definition comes, with the place of the first use
+};
+
+struct Build {
+  Build(std::string folder_, Diagnostics& diagnostics_);
+
+  Scene scene;
+  Diagnostics& diagnostics;
+  std::string folder;  ///< relative paths start here
+
+  GraphicsState state;
+  bool in_world = false;
+  std::map<std::string, MovingTransform> coordinate_systems;
+  uint32_t open_object = 0;  ///< index of the group between ObjectBegin and ObjectEnd, else 0
+
+  std::map<std::string, NamedEntry> materials;
+  std::map<std::string, NamedEntry> objects;
+  std::map<std::string, uint32_t> float_textures, spectrum_textures;
+  std::vector<bool> material_is_invisible;  ///< by material: the surface is left out
+  uint32_t default_material = no_index;
+
+  /// Meshes and images that are read or made once: by file or by the numbers that make them.
+  std::map<std::string, uint32_t> meshes_by_key;
+  std::map<std::tuple<std::string, int, bool>, uint32_t> images_by_key;
+  std::map<std::array<double, 3>, uint32_t> constants;
+
+  double iso = 100;
+  std::optional<double> exposure_time;  ///< seconds; absent: as long as the shutter is open
+
+  void warn(const Place& place, const std::string& message) { diagnostics.warn(place.location(), message); }
+  /// `directive` is not done by this reader; `instead` says what it does.
+  void warn_replaced(const ParameterList& list, const std::string& instead);
+
+  /// The file `name` of parameter `parameter`, relative to the scene's folder. Throws where there is none.
+  std::string existing_file(const Place& place, const std::string& name) const;
+
+  /// The texture that is `value` everywhere.
+  uint32_t constant_texture(const Vec3d& value);
+
+  NamedEntry& named_material(const std::string& name, const Place& place);
+  NamedEntry& named_object(const std::string& name, const Place& place);
+
+  std::vector<Shape>& shapes() { return scene.groups[open_object].shapes; }
+
+  /// Settles what is known only at the end of the file: forward references, invisible surfaces, exposure.
+  Scene finish();
+};
+
+}  // namespace alhazen::pbrt

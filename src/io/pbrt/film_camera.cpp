@@ -1,0 +1,128 @@
+// The directives Camera and Film.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "io/pbrt/options.h"
+
+namespace alhazen::pbrt {
+
+namespace {
+
+constexpr int32_t max_side = 100'000;
+constexpr int64_t max_pixels = 1'000'000'000;
+
+int64_t read_side(ParameterList& list, std::string_view name, int32_t fallback) {
+  const int32_t side = list.integer(name, fallback);
+  if (side < 1 || side > max_side)
+    fail(list.place_of(name),
+         "\"" + std::string(name) + "\" is " + std::to_string(side) + "; a picture has from 1 to 100000 pixels a side");
+  return side;
+}
+
+std::array<int64_t, 4> read_pixel_bounds(Build& build, ParameterList& list, const Film& film) {
+  const Place place = list.place_of("pixelbounds");
+  const Integers values = list.take_integers("pixelbounds");
+  if (values.size() != 4) fail(place, "\"pixelbounds\" takes four values: x0 x1 y0 y1");
+  std::array<int64_t, 4> bounds{};
+  for (size_t i = 0; i < 4; ++i) bounds[i] = static_cast<int32_t>(values[i]);
+  const std::array<int64_t, 4> inside{
+      std::clamp<int64_t>(bounds[0], 0, film.width), std::clamp<int64_t>(bounds[1], 0, film.width),
+      std::clamp<int64_t>(bounds[2], 0, film.height), std::clamp<int64_t>(bounds[3], 0, film.height)};
+  if (inside[0] >= inside[1] || inside[2] >= inside[3])
+    fail(place, "\"pixelbounds\" leaves no pixel of the picture; it takes x0 x1 y0 y1");
+  if (inside != bounds) build.warn(place, "\"pixelbounds\" reaches past the picture; it is cut to it");
+  return inside;
+}
+
+std::array<int64_t, 4> read_crop_window(ParameterList& list, const Film& film) {
+  const Place place = list.place_of("cropwindow");
+  const Numbers values = list.take_numbers("cropwindow");
+  if (values.size() != 4) fail(place, "\"cropwindow\" takes four values: x0 x1 y0 y1, from 0 to 1");
+  const auto pixel = [](double part, int64_t side) {
+    return static_cast<int64_t>(std::ceil(std::clamp(part, 0.0, 1.0) * static_cast<double>(side)));
+  };
+  const auto [x0, x1] = std::minmax(values[0], values[1]);
+  const auto [y0, y1] = std::minmax(values[2], values[3]);
+  const std::array<int64_t, 4> bounds{pixel(x0, film.width), pixel(x1, film.width), pixel(y0, film.height),
+                                      pixel(y1, film.height)};
+  if (bounds[0] >= bounds[1] || bounds[2] >= bounds[3]) fail(place, "\"cropwindow\" leaves no pixel of the picture");
+  return bounds;
+}
+
+/// What scales the radiance, and the simulated sensors that are not supported.
+void read_sensor(Build& build, ParameterList& list) {
+  build.iso = list.positive("iso", 100);
+  build.exposure_time.reset();
+  if (list.has("exposuretime")) build.exposure_time = list.positive("exposuretime", 1);
+  const std::string sensor = list.string("sensor", "cie1931");
+  if (sensor != "cie1931")
+    build.warn(list.place_of("sensor"),
+               "the sensor \"" + sensor + "\" is not supported; the picture is in linear sRGB");
+  if (list.number("whitebalance", 0) != 0)
+    build.warn(list.place_of("whitebalance"), "\"whitebalance\" is not supported; it is left out");
+  if (list.has("maxcomponentvalue"))
+    build.warn(list.place_of("maxcomponentvalue"), "\"maxcomponentvalue\" is not supported; samples are not clamped");
+}
+
+}  // namespace
+
+void set_film(Build& build, const std::string& kind, ParameterList& list) {
+  if (kind == "spectral")
+    build.warn_replaced(list, "linear sRGB is written instead");
+  else if (kind != "rgb" && kind != "gbuffer")
+    fail(list.place(), "unknown film \"" + kind + "\"; use rgb");
+  Film film;
+  film.width = read_side(list, "xresolution", 1280);
+  film.height = read_side(list, "yresolution", 720);
+  if (film.width * film.height > max_pixels)
+    fail(list.place_of("yresolution"), "the picture has over 10^9 pixels; lower xresolution or yresolution");
+  film.filename = list.string("filename", "");
+  if (list.has("pixelbounds")) film.pixel_bounds = read_pixel_bounds(build, list, film);
+  if (list.has("cropwindow")) {
+    if (film.pixel_bounds)
+      build.warn(list.place_of("cropwindow"),
+                 "both \"pixelbounds\" and \"cropwindow\" are given; the crop window is used");
+    film.pixel_bounds = read_crop_window(list, film);
+  }
+  read_sensor(build, list);
+  if (build.state.colour_space != ColourSpace::srgb)
+    build.warn(list.place(), "the picture is written in linear sRGB, not in the colour space of the film");
+  list.ignore({"diagonal", "savefp16", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"});
+  list.reject_unknown();
+  build.scene.film = film;
+}
+
+void set_camera(Build& build, const std::string& kind, ParameterList& list) {
+  Camera camera;
+  camera.world_from_camera = {build.state.ctm_start.inverse(), build.state.ctm_end.inverse()};
+  build.coordinate_systems["camera"] = camera.world_from_camera;
+  if (kind == "orthographic" || kind == "spherical" || kind == "realistic") {
+    build.warn_replaced(list, "a perspective camera is used instead");
+    list.ignore_all();
+  } else if (kind != "perspective") {
+    fail(list.place(), "unknown camera \"" + kind + "\"; use perspective");
+  }
+  camera.fov = list.number("fov", 90);
+  if (!(camera.fov > 0 && camera.fov < 180)) fail(list.place_of("fov"), "\"fov\" must be over 0 and under 180 degrees");
+  if (list.has("frameaspectratio")) camera.frame_aspect_ratio = list.positive("frameaspectratio", 1);
+  if (list.has("screenwindow")) {
+    const Place place = list.place_of("screenwindow");
+    const Numbers window = list.take_numbers("screenwindow");
+    if (window.size() != 4) fail(place, "\"screenwindow\" takes four values: x0 x1 y0 y1");
+    if (window[0] == window[1] || window[2] == window[3]) fail(place, "\"screenwindow\" has no area");
+    camera.screen_window = {window[0], window[1], window[2], window[3]};
+  }
+  camera.lens_radius = list.number("lensradius", 0);
+  if (camera.lens_radius < 0) fail(list.place_of("lensradius"), "\"lensradius\" cannot be negative");
+  camera.focal_distance = list.positive("focaldistance", 1e6);
+  camera.shutter_open = list.number("shutteropen", 0);
+  camera.shutter_close = list.number("shutterclose", 1);
+  if (!(camera.shutter_open < camera.shutter_close))
+    fail(list.place_of("shutterclose"), "\"shutterclose\" must be later than \"shutteropen\", or no light is recorded");
+  list.reject_unknown();
+  build.scene.camera = camera;
+}
+
+}  // namespace alhazen::pbrt

@@ -1,0 +1,166 @@
+#include "io/pbrt/lights.h"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "io/images/texture.h"
+#include "io/pbrt/colours.h"
+#include "io/pbrt/image_texture.h"
+#include "io/pbrt/nearest.h"
+
+namespace alhazen::pbrt {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// `scale` times the colour of `name`, white where it is not given.
+Vec3d emitted_colour(const Build& build, ParameterList& list, std::string_view name) {
+  return colour(build, list, name, ColourUse::illuminant, {1, 1, 1}) * list.number("scale", 1);
+}
+
+/// Watts asked for by `power` are shared out over `measure` (steradians, or steradians times area).
+double power_factor(ParameterList& list, double measure) {
+  const double power = list.number("power", -1);
+  return power > 0 ? power / measure : 1;
+}
+
+/// The way from `from` to `to` in world space.
+Vec3d direction_of_light(const Build& build, ParameterList& list, const Vec3d& from, const Vec3d& to) {
+  const Vec3d along = build.state.ctm_start.direction(to - from);
+  if (!(length_squared(along) > 0) || !std::isfinite(length_squared(along)))
+    fail(list.place_of("to"), "\"from\" and \"to\" of " + list.directive() + " must be two points apart");
+  return normalize(along);
+}
+
+Light read_point(Build& build, ParameterList& list) {
+  Light light;
+  light.type = LightType::point;
+  light.radiance = emitted_colour(build, list, "I") * power_factor(list, 4 * pi);
+  light.position = build.state.ctm_start.point(list.point("from", {}));
+  return light;
+}
+
+Light read_distant(Build& build, ParameterList& list) {
+  Light light;
+  light.type = LightType::distant;
+  light.radiance = emitted_colour(build, list, "L");
+  const double illuminance = list.number("illuminance", -1);
+  if (illuminance > 0) light.radiance *= illuminance;
+  const Vec3d from = list.point("from", {}), to = list.point("to", {0, 0, 1});
+  light.direction = direction_of_light(build, list, from, to);
+  return light;
+}
+
+Light read_spot(Build& build, ParameterList& list) {
+  Light light;
+  light.type = LightType::spot;
+  light.cone_angle = list.number("coneangle", 30);
+  light.falloff_start = light.cone_angle - list.number("conedeltaangle", 5);
+  if (!(light.cone_angle > 0 && light.cone_angle <= 180))
+    fail(list.place_of("coneangle"), "\"coneangle\" must be over 0 and at most 180 degrees");
+  if (!(light.falloff_start >= 0 && light.falloff_start <= light.cone_angle))
+    fail(list.place_of("conedeltaangle"), "\"conedeltaangle\" must be from 0 to \"coneangle\"");
+  const double cos_end = std::cos(light.cone_angle * pi / 180), cos_start = std::cos(light.falloff_start * pi / 180);
+  // The falloff is smooth and symmetric in the cosine, so its part of the cone counts half.
+  const double solid_angle = 2 * pi * ((1 - cos_start) + (cos_start - cos_end) / 2);
+  light.radiance = emitted_colour(build, list, "I") * power_factor(list, solid_angle);
+  const Vec3d from = list.point("from", {}), to = list.point("to", {0, 0, 1});
+  light.position = build.state.ctm_start.point(from);
+  light.direction = direction_of_light(build, list, from, to);
+  return light;
+}
+
+Light read_infinite(Build& build, ParameterList& list) {
+  Light light;
+  const std::string name = list.string("filename", "");
+  if (!name.empty() && list.has("L"))
+    fail(list.place_of("filename"), "an infinite light takes either \"L\" or \"filename\", not both");
+  light.radiance = emitted_colour(build, list, "L");
+  double illuminance_of_unit = pi;  // of a hemisphere of radiance 1
+  if (!name.empty()) {
+    const std::string path = build.existing_file(list.place_of("filename"), name);
+    const Vec3d mean = mean_of_sphere(read_texture(path, TextureEncoding::automatic));
+    build.warn(list.place_of("filename"), "the picture \"" + name +
+                                              "\" of an infinite light is not supported; a "
+                                              "constant sky of its mean colour is used");
+    light.radiance = light.radiance * mean;
+    illuminance_of_unit *= luminance(mean);
+  }
+  const double illuminance = list.number("illuminance", -1);
+  if (illuminance > 0 && illuminance_of_unit > 0) light.radiance *= illuminance / illuminance_of_unit;
+  list.ignore({"portal"});
+  return light;
+}
+
+Light read_goniometric(Build& build, ParameterList& list) {
+  build.warn_replaced(list, "a point light without its distribution is used instead");
+  list.ignore({"filename"});
+  return read_point(build, list);
+}
+
+/// A spot light about the same axis that covers the projected square; its picture is taken as white.
+Light read_projection(Build& build, ParameterList& list) {
+  build.warn_replaced(list, "a white spot light of its field of view is used instead");
+  list.ignore({"filename"});
+  Light light;
+  light.type = LightType::spot;
+  light.cone_angle = list.number("fov", 90) / 2;
+  if (!(light.cone_angle > 0 && light.cone_angle < 90))
+    fail(list.place_of("fov"), "\"fov\" must be over 0 and under 180 degrees");
+  light.falloff_start = light.cone_angle;
+  const double solid_angle = 2 * pi * (1 - std::cos(light.cone_angle * pi / 180));
+  light.radiance = splat(list.number("scale", 1) * power_factor(list, solid_angle));
+  light.position = build.state.ctm_start.point({});
+  light.direction = direction_of_light(build, list, {}, {0, 0, 1});
+  return light;
+}
+
+using LightReader = Light (*)(Build&, ParameterList&);
+const std::map<std::string, LightReader> readers{
+    {"point", read_point},       {"distant", read_distant},         {"spot", read_spot},
+    {"infinite", read_infinite}, {"goniometric", read_goniometric}, {"projection", read_projection}};
+
+}  // namespace
+
+void add_light(Build& build, const std::string& kind, ParameterList& list) {
+  list.inherit(build.state.defaults.light);
+  const auto reader = readers.find(kind);
+  if (reader == readers.end()) {
+    std::vector<std::string> kinds;
+    for (const auto& [known, function] : readers) kinds.push_back(known);
+    fail(list.place(), "unknown light \"" + kind + "\"" + suggestion(kind, kinds));
+  }
+  if (build.open_object != 0)
+    build.warn(list.place(), "a light is not part of the object it stands in; it is placed once, where it is defined");
+  if (build.state.ctm().is_moving())
+    build.warn(list.place(), "moving lights are not supported; a light stands where it is at the start");
+  Light light = reader->second(build, list);
+  list.reject_unknown();
+  if (!is_finite(light.radiance) || !is_finite(light.position))
+    fail(list.place(), list.directive() + ": its emission or position is too large for double precision");
+  light.where = list.place().location();
+  build.scene.lights.push_back(std::move(light));
+}
+
+void set_area_light(Build& build, const std::string& kind, ParameterList& list) {
+  list.inherit(build.state.defaults.light);
+  if (kind != "diffuse") fail(list.place(), "unknown area light \"" + kind + "\"; the format has \"diffuse\" only");
+  AreaLight light;
+  light.place = list.place();
+  light.two_sided = list.boolean("twosided", false);
+  light.power = list.number("power", -1);
+  const std::string name = list.string("filename", "");
+  if (!name.empty() && list.has("L"))
+    fail(list.place_of("filename"), "an area light takes either \"L\" or \"filename\", not both");
+  if (!name.empty()) build.warn(list.place_of("filename"), "pictures of area lights are not supported; white is used");
+  light.radiance = emitted_colour(build, list, "L");
+  if (!is_finite(light.radiance)) fail(list.place(), list.directive() + ": its emission is too large");
+  list.reject_unknown();
+  build.state.area_light = std::move(light);
+}
+
+}  // namespace alhazen::pbrt

@@ -1,0 +1,14 @@
+#pragma once
+
+// LightSource and AreaLightSource.
+
+#include <string>
+
+#include "io/pbrt/build.h"
+
+namespace alhazen::pbrt {
+
+void add_light(Build& build, const std::string& kind, ParameterList& list);
+void set_area_light(Build& build, const std::string& kind, ParameterList& list);
+
+}  // namespace alhazen::pbrt

@@ -1,0 +1,20 @@
+#pragma once
+
+// The shapes that a scene file gives as vertices and indices.
+
+#include "io/pbrt/build.h"
+
+namespace alhazen::pbrt {
+
+/// Adds a mesh to the scene. Where it has normals, the winding of each triangle is turned to agree with them: pbrt
+/// takes the side of a surface from its normals where it has them. Throws at the place of the directive where a
+/// coordinate is not finite.
+uint32_t add_mesh(Build& build, const ParameterList& list, Mesh mesh);
+
+// Each returns an index into Scene::meshes.
+uint32_t read_triangle_mesh(Build& build, ParameterList& list);
+uint32_t read_bilinear_mesh(Build& build, ParameterList& list);
+uint32_t read_ply_mesh(Build& build, ParameterList& list);
+uint32_t read_loop_subdivision(Build& build, ParameterList& list);
+
+}  // namespace alhazen::pbrt

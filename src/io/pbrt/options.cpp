@@ -1,0 +1,157 @@
+#include "io/pbrt/options.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "io/pbrt/nearest.h"
+
+namespace alhazen::pbrt {
+
+namespace {
+
+template <class Value>
+const Value& known_kind(const std::map<std::string, Value>& kinds, const std::string& what, const std::string& kind,
+                        const ParameterList& list) {
+  if (const auto found = kinds.find(kind); found != kinds.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [name, value] : kinds) names.push_back(name);
+  fail(list.place(), "unknown " + what + " \"" + kind + "\"" + suggestion(kind, names));
+}
+
+/// What stands in for an integrator of pbrt-v4, and what to say where the picture is another one for it.
+struct IntegratorReplacement {
+  IntegratorType type = IntegratorType::path;
+  const char* difference = nullptr;
+};
+
+constexpr const char* other_quantity = "\"path\" is used instead and shows light, not what it computes";
+
+const std::map<std::string, IntegratorReplacement> integrators{
+    {"path", {}},
+    {"volpath", {}},
+    {"simplepath", {}},
+    {"randomwalk", {}},
+    {"bdpt", {}},
+    {"mlt", {}},
+    {"sppm", {}},
+    {"lightpath", {}},
+    {"simplevolpath", {IntegratorType::path, "\"path\" is used instead, without the media"}},
+    {"ambientocclusion", {IntegratorType::path, other_quantity}},
+    {"ao", {IntegratorType::path, other_quantity}},
+    {"function", {IntegratorType::path, other_quantity}},
+    {"branching", {IntegratorType::branching}},
+    {"recursive", {IntegratorType::recursive}},
+    {"iterative", {IntegratorType::iterative}}};
+
+const std::map<std::string, SamplerType> samplers{
+    {"independent", SamplerType::independent}, {"halton", SamplerType::sobol}, {"sobol", SamplerType::sobol},
+    {"paddedsobol", SamplerType::sobol},       {"zsobol", SamplerType::sobol}, {"pmj02bn", SamplerType::sobol},
+    {"stratified", SamplerType::sobol}};
+
+/// pbrt-v4's defaults of each filter.
+const std::map<std::string, Filter> filters{{"box", {FilterType::box, 0.5, 0.5}},
+                                            {"gaussian", {FilterType::gaussian, 1.5, 1.5}},
+                                            {"mitchell", {FilterType::mitchell, 2, 2}},
+                                            {"sinc", {FilterType::sinc, 4, 4}},
+                                            {"triangle", {FilterType::triangle, 2, 2}}};
+
+int32_t positive_integer(ParameterList& list, std::string_view name, int32_t fallback) {
+  const int32_t value = list.integer(name, fallback);
+  if (value < 1)
+    fail(list.place_of(name), "\"" + std::string(name) + "\" of " + list.directive() + " must be at least 1");
+  return value;
+}
+
+bool read_flag(const Lexer& lexer, const Token& token, const std::string& name) {
+  if (token.text == "true") return true;
+  if (token.text == "false") return false;
+  fail(lexer.place(token), "option \"" + name + "\": expected true or false, got " + described(token));
+}
+
+}  // namespace
+
+void set_filter(Build& build, const std::string& kind, ParameterList& list) {
+  Filter filter = known_kind(filters, "pixel filter", kind, list);
+  filter.x_radius = list.positive("xradius", filter.x_radius);
+  filter.y_radius = list.positive("yradius", filter.y_radius);
+  if (std::max(filter.x_radius, filter.y_radius) > 1000)
+    fail(list.place(), list.directive() + ": a radius of over 1000 pixels is not usable");
+  if (filter.type == FilterType::gaussian) filter.sigma = list.positive("sigma", filter.sigma);
+  if (filter.type == FilterType::mitchell) {
+    filter.b = list.number("B", filter.b);
+    filter.c = list.number("C", filter.c);
+  }
+  if (filter.type == FilterType::sinc) filter.tau = list.positive("tau", filter.tau);
+  list.reject_unknown();
+  build.scene.filter = filter;
+}
+
+void set_sampler(Build& build, const std::string& kind, ParameterList& list) {
+  build.scene.sampler = known_kind(samplers, "sampler", kind, list);
+  if (kind == "stratified") {
+    const int64_t x = positive_integer(list, "xsamples", 4), y = positive_integer(list, "ysamples", 4);
+    build.scene.samples_per_pixel = x * y;
+    if (build.scene.samples_per_pixel > 0x7fffffff)
+      fail(list.place(), list.directive() + ": xsamples * ysamples is over 2^31 samples a pixel");
+    list.ignore({"jitter"});
+  } else {
+    build.scene.samples_per_pixel = positive_integer(list, "pixelsamples", kind == "independent" ? 4 : 16);
+    list.ignore({"randomization"});
+  }
+  build.scene.seed = static_cast<uint32_t>(list.integer("seed", static_cast<int32_t>(build.scene.seed)));
+  list.reject_unknown();
+}
+
+void set_integrator(Build& build, const std::string& kind, ParameterList& list) {
+  const IntegratorReplacement& replacement = known_kind(integrators, "integrator", kind, list);
+  if (replacement.difference) build.warn_replaced(list, replacement.difference);
+  build.scene.integrator = replacement.type;
+  build.scene.max_depth = list.integer("maxdepth", 5);
+  if (build.scene.max_depth < 0) fail(list.place_of("maxdepth"), "\"maxdepth\" cannot be negative");
+  if (list.boolean("regularize", false))
+    build.warn(list.place_of("regularize"), "\"regularize\" is not supported; it is left out");
+  // How pbrt computes a picture has many settings; none of them changes the picture that is sought.
+  list.ignore({"lightsampler", "samplelights", "samplebsdf", "visualizestrategies", "visualizeweights",
+               "bootstrapsamples", "chains", "mutationsperpixel", "largestepprobability", "sigma",
+               "photonsperiteration", "radius", "seed", "cossample", "maxdistance", "function", "filename", "skipbad",
+               "imagefilename"});
+  list.reject_unknown();
+}
+
+void ignore_accelerator(Build&, const std::string&, ParameterList&) {}
+
+void set_option(Build& build, Lexer& lexer, const Place& place) {
+  static const std::set<std::string> without_effect{"disabletexturefiltering",
+                                                    "disablewavelengthjitter",
+                                                    "displacementedgescale",
+                                                    "msereferenceimage",
+                                                    "msereferenceout",
+                                                    "rendercoordsys",
+                                                    "pixelstats",
+                                                    "wavefront"};
+  static const std::set<std::string> flags_without_support{"disablepixeljitter", "forcediffuse"};
+  std::string name = expect_string(lexer, "the name of an option");
+  name = name.substr(name.find_last_of(" \t") + 1);
+  std::string plain;  // pbrt reads Pixel-Stats and pixelstats alike
+  for (const char c : name)
+    if (c != '-' && c != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const Token value = lexer.peek();
+  if (value.kind != TokenKind::word && value.kind != TokenKind::string)
+    fail(lexer.place(value), "expected a value for option \"" + name + "\", got " + described(value));
+  if (plain == "seed") {
+    build.scene.seed = static_cast<uint32_t>(integer_of(lexer, value));
+  } else if (flags_without_support.contains(plain)) {
+    if (read_flag(lexer, value, name)) build.warn(place, "option \"" + plain + "\" is not supported; it is left out");
+  } else if (!without_effect.contains(plain)) {
+    std::set<std::string> known = without_effect;
+    known.insert(flags_without_support.begin(), flags_without_support.end());
+    known.insert("seed");
+    fail(place, "unknown option \"" + name + "\"" + suggestion(plain, known));
+  }
+  lexer.next();
+}
+
+}  // namespace alhazen::pbrt

@@ -1,0 +1,13 @@
+#pragma once
+
+// Reads the parameter list after the name of a directive.
+
+#include "io/pbrt/lexer.h"
+#include "io/pbrt/parameters.h"
+
+namespace alhazen::pbrt {
+
+/// Adds every parameter up to the next directive to `list`.
+void parse_parameters(Lexer& lexer, ColourSpace colour_space, ParameterList& list);
+
+}  // namespace alhazen::pbrt

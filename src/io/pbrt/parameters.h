@@ -1,0 +1,118 @@
+#pragma once
+
+// The typed parameter lists of directives: `"float fov" [ 40 ]`. A parameter knows its place, a list knows which of its
+// parameters were asked for.
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/math/vec.h"
+#include "io/pbrt/colour_space.h"
+#include "io/pbrt/source.h"
+
+namespace alhazen::pbrt {
+
+enum class ParameterType {
+  boolean,
+  number,
+  integer,
+  point2,
+  vector2,
+  point3,
+  vector3,
+  normal,
+  string,
+  texture,
+  rgb,
+  xyz,
+  blackbody,
+  spectrum,  ///< wavelength and value pairs, or the name of a spectrum
+};
+
+/// The name of a type as the format writes it.
+std::string_view name_of(ParameterType type);
+
+using Booleans = std::vector<bool>;
+using Numbers = std::vector<double>;
+/// Integers as two's complement, so that the indices of a mesh move into it without a copy.
+using Integers = std::vector<uint32_t>;
+using Points2 = std::vector<Vec2f>;
+using Points3 = std::vector<Vec3d>;
+using Normals = std::vector<Vec3f>;
+using Strings = std::vector<std::string>;
+
+struct Parameter {
+  ParameterType type = ParameterType::number;
+  std::string name;
+  std::variant<Numbers, Booleans, Integers, Points2, Points3, Normals, Strings> values;
+  ColourSpace colour_space = ColourSpace::srgb;  ///< of `rgb`: the one in force where the parameter stands
+  Place place;
+
+  size_t count() const;
+};
+
+/// Defaults that `Attribute` sets for the directives that follow.
+using InheritedParameters = std::vector<std::shared_ptr<const Parameter>>;
+
+/// What follows the name of a directive. Each look-up throws InputError where the parameter has another type or count.
+class ParameterList {
+ public:
+  ParameterList() = default;
+  ParameterList(std::string directive, Place place) : directive_(std::move(directive)), place_(std::move(place)) {}
+
+  /// Throws where a parameter of that name is there already.
+  void add(Parameter parameter);
+  void inherit(const InheritedParameters& defaults) { inherited_ = defaults; }
+
+  /// The directive as messages name it: `Shape "sphere"`.
+  const std::string& directive() const { return directive_; }
+  const Place& place() const { return place_; }
+  /// The place of a parameter, or of the directive where it is not given.
+  const Place& place_of(std::string_view name) const;
+  const std::vector<Parameter>& own() const { return own_; }
+
+  /// Null where it is not given. Counts as asked for.
+  const Parameter* find(std::string_view name);
+  const Parameter* find(std::string_view name, std::initializer_list<ParameterType> types);
+  bool has(std::string_view name) { return find(name) != nullptr; }
+
+  bool boolean(std::string_view name, bool fallback);
+  double number(std::string_view name, double fallback);
+  double positive(std::string_view name, double fallback);
+  int32_t integer(std::string_view name, int32_t fallback);
+  Vec3d point(std::string_view name, const Vec3d& fallback);
+  std::string string(std::string_view name, const std::string& fallback);
+
+  // Whole arrays; empty where not given. They leave the list.
+  Numbers take_numbers(std::string_view name);
+  Integers take_integers(std::string_view name);
+  Points2 take_points2(std::string_view name);
+  Points3 take_points3(std::string_view name);
+  Normals take_normals(std::string_view name);
+  Strings take_strings(std::string_view name, ParameterType type = ParameterType::string);
+
+  /// Parameters that pbrt-v4 knows but that have no bearing here.
+  void ignore(std::initializer_list<std::string_view> names);
+  void ignore_all();
+  /// Throws for the first parameter that nobody asked for.
+  void reject_unknown() const;
+
+ private:
+  template <class Values>
+  Values take(std::string_view name, ParameterType type);
+
+  std::string directive_;
+  Place place_;
+  std::vector<Parameter> own_;
+  InheritedParameters inherited_;
+  std::set<std::string, std::less<>> asked_;
+  bool all_ignored_ = false;
+};
+
+}  // namespace alhazen::pbrt

@@ -1,0 +1,205 @@
+#include "io/pbrt/shapes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "io/pbrt/materials.h"
+#include "io/pbrt/meshes.h"
+#include "io/pbrt/nearest.h"
+#include "io/pbrt/tessellate.h"
+#include "io/pbrt/textures.h"
+
+namespace alhazen::pbrt {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// The part of a quadric that phimax and zmin, zmax leave.
+struct Extent {
+  double z_min = 0, z_max = 0, phi_max = 360;
+};
+
+bool is_similarity(const MovingTransform& transform) {
+  double scale = 0;
+  return transform.start.is_similarity(scale) && transform.end.is_similarity(scale);
+}
+
+double read_phi_max(ParameterList& list) {
+  const double phi_max = std::min(list.number("phimax", 360), 360.0);
+  if (!(phi_max > 0)) fail(list.place_of("phimax"), "\"phimax\" must be over 0 degrees");
+  return phi_max;
+}
+
+Extent read_extent(ParameterList& list, double z_min, double z_max) {
+  const double a = list.number("zmin", z_min), b = list.number("zmax", z_max);
+  const Extent extent{std::min(a, b), std::max(a, b), read_phi_max(list)};
+  if (!(extent.z_min < extent.z_max))
+    fail(list.place_of("zmax"), "\"zmin\" and \"zmax\" of " + list.directive() + " leave nothing between them");
+  return extent;
+}
+
+/// The mesh of a curved shape with these measures: made once for all shapes that are alike.
+template <class Make>
+uint32_t shared_mesh(Build& build, const ParameterList& list, const std::string& kind,
+                     const std::array<double, 4>& measures, Make make) {
+  std::string key = kind;
+  for (const double measure : measures) {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), " %.17g", measure);
+    key += text.data();
+  }
+  const auto found = build.meshes_by_key.find(key);
+  if (found != build.meshes_by_key.end()) return found->second;
+  const uint32_t mesh = add_mesh(build, list, make(measures[0], measures[1], measures[2], measures[3]));
+  build.meshes_by_key[key] = mesh;
+  return mesh;
+}
+
+void become_mesh(Shape& shape, uint32_t mesh) {
+  shape.type = ShapeType::mesh;
+  shape.mesh = mesh;
+}
+
+uint32_t sphere_mesh(Build& build, const ParameterList& list, double radius, const Extent& extent) {
+  return shared_mesh(build, list, "sphere", {radius, extent.z_min, extent.z_max, extent.phi_max}, tessellated_sphere);
+}
+
+void read_sphere(Build& build, ParameterList& list, Shape& shape) {
+  shape.radius = list.positive("radius", 1);
+  Extent extent = read_extent(list, -shape.radius, shape.radius);
+  extent.z_min = std::max(extent.z_min, -shape.radius);
+  extent.z_max = std::min(extent.z_max, shape.radius);
+  if (!(extent.z_min < extent.z_max)) fail(list.place_of("zmin"), "\"zmin\" and \"zmax\" leave nothing of the sphere");
+  const bool is_whole = extent.z_min == -shape.radius && extent.z_max == shape.radius && extent.phi_max == 360;
+  shape.type = ShapeType::sphere;
+  if (!is_whole || !is_similarity(shape.world_from_object))
+    become_mesh(shape, sphere_mesh(build, list, shape.radius, extent));
+}
+
+void read_cylinder(Build& build, ParameterList& list, Shape& shape) {
+  const double radius = list.positive("radius", 1);
+  const Extent extent = read_extent(list, -1, 1);
+  become_mesh(shape, shared_mesh(build, list, "cylinder", {radius, extent.z_min, extent.z_max, extent.phi_max},
+                                 tessellated_cylinder));
+}
+
+void read_disk(Build& build, ParameterList& list, Shape& shape) {
+  const double radius = list.positive("radius", 1), inner = list.number("innerradius", 0);
+  const double height = list.number("height", 0), phi_max = read_phi_max(list);
+  if (!(inner >= 0 && inner < radius))
+    fail(list.place_of("innerradius"), "\"innerradius\" must be at least 0 and under \"radius\"");
+  become_mesh(shape, shared_mesh(build, list, "disk", {radius, inner, height, phi_max}, tessellated_disk));
+}
+
+template <uint32_t (*read)(Build&, ParameterList&)>
+void read_as_mesh(Build& build, ParameterList& list, Shape& shape) {
+  become_mesh(shape, read(build, list));
+}
+
+/// Curves have no replacement: a mesh of index no_index is left out.
+void skip_curve(Build& build, ParameterList& list, Shape& shape) {
+  build.warn_replaced(list, "curves are left out");
+  list.ignore_all();
+  become_mesh(shape, no_index);
+}
+
+using ShapeReader = void (*)(Build&, ParameterList&, Shape&);
+const std::map<std::string, ShapeReader> readers{{"sphere", read_sphere},
+                                                 {"cylinder", read_cylinder},
+                                                 {"disk", read_disk},
+                                                 {"trianglemesh", read_as_mesh<read_triangle_mesh>},
+                                                 {"bilinearmesh", read_as_mesh<read_bilinear_mesh>},
+                                                 {"plymesh", read_as_mesh<read_ply_mesh>},
+                                                 {"loopsubdiv", read_as_mesh<read_loop_subdivision>},
+                                                 {"curve", skip_curve}};
+
+/// Area in world space, at the start of the shutter.
+double world_area(const Build& build, const Shape& shape) {
+  const Transform& world = shape.world_from_object.start;
+  if (shape.type == ShapeType::sphere) {
+    double scale = 1;
+    world.is_similarity(scale);
+    return 4 * pi * shape.radius * shape.radius * scale * scale;
+  }
+  const Mesh& mesh = build.scene.meshes[shape.mesh];
+  double area = 0;
+  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vec3d p = world.point(mesh.positions[mesh.indices[i]]);
+    area += length(cross(world.point(mesh.positions[mesh.indices[i + 1]]) - p,
+                         world.point(mesh.positions[mesh.indices[i + 2]]) - p)) /
+            2;
+  }
+  return area;
+}
+
+std::optional<Emission> emission_of(Build& build, const Shape& shape) {
+  if (!build.state.area_light) return {};
+  const AreaLight& light = *build.state.area_light;
+  if (build.open_object != 0) {
+    build.warn(light.place, "area lights of objects that are instanced are not supported; they do not shine");
+    return {};
+  }
+  Emission emission{light.radiance, light.two_sided};
+  if (light.power > 0) {
+    const double area = world_area(build, shape);
+    if (!(area > 0)) fail(light.place, "\"power\" cannot be shared out over a shape without area");
+    emission.radiance *= light.power / ((light.two_sided ? 2 : 1) * pi * area);
+    if (!is_finite(emission.radiance)) fail(light.place, "\"power\" is too large for the area of the shape");
+  }
+  return emission;
+}
+
+/// Whether `alpha` lets anything of the shape be seen.
+bool is_visible(Build& build, ParameterList& list) {
+  const uint32_t alpha = scalar_texture(build, list, "alpha");
+  if (alpha == no_index) return true;
+  const auto constant = constant_value(build, alpha);
+  if (constant && *constant >= 1) return true;
+  if (constant && *constant <= 0) return false;
+  build.warn(list.place_of("alpha"), "\"alpha\" of shapes is not supported; they are opaque");
+  return true;
+}
+
+}  // namespace
+
+void add_shape(Build& build, const std::string& kind, ParameterList& list) {
+  list.inherit(build.state.defaults.shape);
+  const auto reader = readers.find(kind);
+  if (reader == readers.end()) {
+    std::vector<std::string> kinds;
+    for (const auto& [known, function] : readers) kinds.push_back(known);
+    fail(list.place(), "unknown shape \"" + kind + "\"" + suggestion(kind, kinds));
+  }
+  Shape shape;
+  shape.where = list.place().location();
+  shape.world_from_object = build.state.ctm();
+  shape.reverse_orientation = build.state.reverse_orientation;
+  shape.material = current_material(build);
+  const bool visible = is_visible(build, list);
+  reader->second(build, list, shape);
+  list.reject_unknown();
+  const bool is_empty =
+      shape.type == ShapeType::mesh && (shape.mesh == no_index || build.scene.meshes[shape.mesh].indices.empty());
+  if (!visible || is_empty) return;
+  shape.emission = emission_of(build, shape);
+  build.shapes().push_back(std::move(shape));
+}
+
+void tessellate_spheres_of_skewed_instances(Build& build) {
+  for (const Instance& instance : build.scene.instances) {
+    if (is_similarity(instance.world_from_group)) continue;
+    for (Shape& shape : build.scene.groups[instance.group].shapes)
+      if (shape.type == ShapeType::sphere)
+        become_mesh(shape, sphere_mesh(build, {}, shape.radius, {-shape.radius, shape.radius, 360}));
+  }
+}
+
+}  // namespace alhazen::pbrt

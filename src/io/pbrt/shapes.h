@@ -1,0 +1,17 @@
+#pragma once
+
+// Shape, and the objects that group shapes.
+
+#include <string>
+
+#include "io/pbrt/build.h"
+
+namespace alhazen::pbrt {
+
+void add_shape(Build& build, const std::string& kind, ParameterList& list);
+
+/// Spheres are spheres only under rotation, translation and uniform scale. Where an instance skews its group, the
+/// spheres of that group become meshes.
+void tessellate_spheres_of_skewed_instances(Build& build);
+
+}  // namespace alhazen::pbrt

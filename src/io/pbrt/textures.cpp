@@ -1,0 +1,231 @@
+#include "io/pbrt/textures.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "io/pbrt/image_texture.h"
+#include "io/pbrt/nearest.h"
+
+namespace alhazen::pbrt {
+
+namespace {
+
+/// A texture node under way, and whether its values are scalars or colours.
+struct TextureRequest {
+  Build& build;
+  ParameterList& list;
+  bool is_float;
+
+  uint32_t input(std::string_view name, double fallback) const {
+    return is_float ? scalar_texture_or(build, list, name, fallback)
+                    : colour_texture_or(build, list, name, ColourUse::unbounded, fallback);
+  }
+};
+
+void read_uv_mapping(const TextureRequest& request, Texture& texture) {
+  ParameterList& list = request.list;
+  const std::string mapping = list.string("mapping", "uv");
+  if (mapping == "spherical" || mapping == "cylindrical" || mapping == "planar")
+    request.build.warn(list.place_of("mapping"),
+                       "the texture mapping \"" + mapping + "\" is not supported; uv is used");
+  else if (mapping != "uv")
+    fail(list.place_of("mapping"), "unknown texture mapping \"" + mapping + "\"; use uv");
+  list.ignore({"v1", "v2"});
+  texture.uv_scale = {list.number("uscale", 1), list.number("vscale", 1)};
+  texture.uv_offset = {list.number("udelta", 0), list.number("vdelta", 0)};
+}
+
+void read_world_mapping(const TextureRequest& request, Texture& texture) {
+  texture.texture_from_world = request.build.state.ctm_start.inverse();
+}
+
+void read_noise(const TextureRequest& request, Texture& texture) {
+  read_world_mapping(request, texture);
+  texture.octaves = request.list.integer("octaves", 8);
+  texture.roughness = request.list.number("roughness", 0.5);
+  if (texture.octaves < 1 || texture.octaves > 64)
+    fail(request.list.place_of("octaves"), "\"octaves\" must be from 1 to 64");
+}
+
+void read_constant(const TextureRequest& request, Texture& texture) {
+  texture.value = request.is_float ? splat(request.list.number("value", 1))
+                                   : colour(request.build, request.list, "value", ColourUse::unbounded, {1, 1, 1});
+}
+
+void read_scale(const TextureRequest& request, Texture& texture) {
+  texture.kind = TextureKind::scale;
+  texture.inputs[0] = request.input("tex", 1);
+  texture.inputs[1] = scalar_texture_or(request.build, request.list, "scale", 1);
+}
+
+void read_mix(const TextureRequest& request, Texture& texture) {
+  texture.kind = TextureKind::mix;
+  texture.inputs[0] = request.input("tex1", 0);
+  texture.inputs[1] = request.input("tex2", 1);
+  texture.inputs[2] = scalar_texture_or(request.build, request.list, "amount", 0.5);
+}
+
+void read_checkerboard(const TextureRequest& request, Texture& texture) {
+  texture.kind = TextureKind::checkerboard;
+  const int dimension = request.list.integer("dimension", 2);
+  if (dimension != 2 && dimension != 3)
+    fail(request.list.place_of("dimension"), "\"dimension\" of a checkerboard must be 2 or 3");
+  texture.solid_checks = dimension == 3;
+  if (texture.solid_checks)
+    read_world_mapping(request, texture);
+  else
+    read_uv_mapping(request, texture);
+  texture.inputs[0] = request.input("tex1", 1);
+  texture.inputs[1] = request.input("tex2", 0);
+}
+
+void read_fbm(const TextureRequest& request, Texture& texture) {
+  texture.kind = TextureKind::fbm;
+  read_noise(request, texture);
+}
+
+void read_wrinkled(const TextureRequest& request, Texture& texture) {
+  texture.kind = TextureKind::wrinkled;
+  read_noise(request, texture);
+}
+
+void read_marble(const TextureRequest& request, Texture& texture) {
+  texture.kind = TextureKind::marble;
+  read_noise(request, texture);
+  texture.noise_scale = request.list.number("scale", 1);
+  texture.variation = request.list.number("variation", 0.2);
+}
+
+void read_image(const TextureRequest& request, Texture& texture) {
+  read_uv_mapping(request, texture);
+  read_image_texture(request.build, request.list, request.is_float, texture);
+}
+
+/// For kinds that vary between their inputs: the mean of those. A textured input counts as 0.5.
+void replace_by_mean(const TextureRequest& request, Texture& texture,
+                     const std::vector<std::pair<std::string_view, double>>& inputs) {
+  const double weight = 1 / static_cast<double>(inputs.size());
+  texture.value = {};
+  for (const auto& [name, fallback] : inputs) {
+    const Parameter* parameter = request.list.find(name);
+    Vec3d value = splat(0.5);
+    const bool is_textured = parameter && parameter->type == ParameterType::texture;
+    if (!is_textured && request.is_float)
+      value = splat(request.list.number(name, fallback));
+    else if (!is_textured)
+      value = colour(request.build, request.list, name, ColourUse::unbounded, splat(fallback));
+    texture.value += value * weight;
+  }
+  request.list.ignore_all();
+  request.build.warn_replaced(request.list, "a constant of its mean is used instead");
+}
+
+void read_bilerp(const TextureRequest& request, Texture& texture) {
+  replace_by_mean(request, texture, {{"v00", 0}, {"v01", 1}, {"v10", 0}, {"v11", 1}});
+}
+void read_direction_mix(const TextureRequest& request, Texture& texture) {
+  replace_by_mean(request, texture, {{"tex1", 0}, {"tex2", 1}});
+}
+void read_dots(const TextureRequest& request, Texture& texture) {
+  replace_by_mean(request, texture, {{"inside", 1}, {"outside", 0}});
+}
+/// Neither has inputs to take a mean of.
+void read_unknown_values(const TextureRequest& request, Texture& texture) {
+  texture.value = splat(0.5);
+  request.list.ignore_all();
+  request.build.warn_replaced(request.list, "a constant 0.5 is used instead");
+}
+
+using TextureReader = void (*)(const TextureRequest&, Texture&);
+const std::map<std::string, TextureReader> readers{{"constant", read_constant},
+                                                   {"scale", read_scale},
+                                                   {"mix", read_mix},
+                                                   {"imagemap", read_image},
+                                                   {"checkerboard", read_checkerboard},
+                                                   {"fbm", read_fbm},
+                                                   {"wrinkled", read_wrinkled},
+                                                   {"marble", read_marble},
+                                                   {"bilerp", read_bilerp},
+                                                   {"dots", read_dots},
+                                                   {"directionmix", read_direction_mix},
+                                                   {"windy", read_unknown_values},
+                                                   {"ptex", read_unknown_values}};
+
+std::vector<std::string> names_of(const std::map<std::string, uint32_t>& textures) {
+  std::vector<std::string> names;
+  for (const auto& [name, index] : textures) names.push_back(name);
+  return names;
+}
+
+uint32_t find_texture(const Build& build, const Parameter& parameter, bool is_float) {
+  const auto& names = std::get<Strings>(parameter.values);
+  if (names.size() != 1) fail(parameter.place, "\"" + parameter.name + "\" takes one texture");
+  const auto& wanted = is_float ? build.float_textures : build.spectrum_textures;
+  const auto& others = is_float ? build.spectrum_textures : build.float_textures;
+  if (const auto found = wanted.find(names[0]); found != wanted.end()) return found->second;
+  if (others.contains(names[0]))
+    fail(parameter.place, "\"" + parameter.name + "\" takes a " + (is_float ? "float" : "spectrum") +
+                              " texture, but \"" + names[0] + "\" is a " + (is_float ? "spectrum" : "float") +
+                              " texture");
+  fail(parameter.place,
+       "texture \"" + names[0] + "\" is not defined before this" + suggestion(names[0], names_of(wanted)));
+}
+
+}  // namespace
+
+void add_texture(Build& build, const std::string& name, const std::string& value_type, const std::string& kind,
+                 ParameterList& list) {
+  if (value_type != "float" && value_type != "spectrum")
+    fail(list.place(), "texture \"" + name + "\": unknown type \"" + value_type + "\"; use float or spectrum");
+  const bool is_float = value_type == "float";
+  auto& textures = is_float ? build.float_textures : build.spectrum_textures;
+  if (textures.contains(name))
+    fail(list.place(), "the " + value_type + " texture \"" + name + "\" is defined twice; rename one");
+  const auto reader = readers.find(kind);
+  if (reader == readers.end()) {
+    std::vector<std::string> kinds;
+    for (const auto& [known, function] : readers) kinds.push_back(known);
+    fail(list.place(), "unknown texture \"" + kind + "\"" + suggestion(kind, kinds));
+  }
+  Texture texture;
+  texture.name = name;
+  reader->second({build, list, is_float}, texture);
+  list.reject_unknown();
+  textures[name] = static_cast<uint32_t>(build.scene.textures.size());
+  build.scene.textures.push_back(std::move(texture));
+}
+
+uint32_t colour_texture(Build& build, ParameterList& list, std::string_view name, ColourUse use) {
+  const Parameter* parameter = list.find(name, {ParameterType::rgb, ParameterType::spectrum, ParameterType::texture,
+                                                ParameterType::xyz, ParameterType::blackbody});
+  if (!parameter) return no_index;
+  if (parameter->type == ParameterType::texture) return find_texture(build, *parameter, false);
+  return build.constant_texture(colour_of(build, *parameter, use));
+}
+
+uint32_t colour_texture_or(Build& build, ParameterList& list, std::string_view name, ColourUse use, double fallback) {
+  const uint32_t texture = colour_texture(build, list, name, use);
+  return texture == no_index ? build.constant_texture(splat(fallback)) : texture;
+}
+
+uint32_t scalar_texture(Build& build, ParameterList& list, std::string_view name) {
+  const Parameter* parameter = list.find(name, {ParameterType::number, ParameterType::texture});
+  if (!parameter) return no_index;
+  if (parameter->type == ParameterType::texture) return find_texture(build, *parameter, true);
+  return build.constant_texture(splat(list.number(name, 0)));
+}
+
+uint32_t scalar_texture_or(Build& build, ParameterList& list, std::string_view name, double fallback) {
+  const uint32_t texture = scalar_texture(build, list, name);
+  return texture == no_index ? build.constant_texture(splat(fallback)) : texture;
+}
+
+std::optional<double> constant_value(const Build& build, uint32_t texture) {
+  const Texture& node = build.scene.textures[texture];
+  if (node.kind != TextureKind::constant) return {};
+  return node.value.x;
+}
+
+}  // namespace alhazen::pbrt
