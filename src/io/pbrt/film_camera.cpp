@@ -21,7 +21,7 @@ int64_t read_side(ParameterList& list, std::string_view name, int32_t fallback) 
   return side;
 }
 
-std::array<int64_t, 4> read_pixel_bounds(Build& build, ParameterList& list, const Film& film) {
+std::array<int64_t, 4> read_pixel_bounds(Build& build, ParameterList& list, const FilmSettings& film) {
   const Place place = list.place_of("pixelbounds");
   const Integers values = list.take_integers("pixelbounds");
   if (values.size() != 4) fail(place, "\"pixelbounds\" takes four values: x0 x1 y0 y1");
@@ -36,7 +36,7 @@ std::array<int64_t, 4> read_pixel_bounds(Build& build, ParameterList& list, cons
   return inside;
 }
 
-std::array<int64_t, 4> read_crop_window(ParameterList& list, const Film& film) {
+std::array<int64_t, 4> read_crop_window(ParameterList& list, const FilmSettings& film) {
   const Place place = list.place_of("cropwindow");
   const Numbers values = list.take_numbers("cropwindow");
   if (values.size() != 4) fail(place, "\"cropwindow\" takes four values: x0 x1 y0 y1, from 0 to 1");
@@ -73,7 +73,7 @@ void set_film(Build& build, const std::string& kind, ParameterList& list) {
     build.warn_replaced(list, "linear sRGB is written instead");
   else if (kind != "rgb" && kind != "gbuffer")
     fail(list.place(), "unknown film \"" + kind + "\"; use rgb");
-  Film film;
+  FilmSettings film;
   film.width = read_side(list, "xresolution", 1280);
   film.height = read_side(list, "yresolution", 720);
   if (film.width * film.height > max_pixels)
@@ -87,7 +87,7 @@ void set_film(Build& build, const std::string& kind, ParameterList& list) {
     film.pixel_bounds = read_crop_window(list, film);
   }
   read_sensor(build, list);
-  if (build.state.colour_space != ColourSpace::srgb)
+  if (build.state.rgb_space != "srgb")
     build.warn(list.place(), "the picture is written in linear sRGB, not in the colour space of the film");
   list.ignore({"diagonal", "savefp16", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"});
   list.reject_unknown();
