@@ -105,7 +105,7 @@ void decode_row(const BmpHeader& header, std::span<const uint8_t> palette, std::
 ImageTexels decode_bmp(const std::string& path, std::span<const uint8_t> bytes) {
   ByteReader in(path, bytes);
   const BmpHeader header = read_header(in);
-  check_declared_size(path, header.width, header.height, 3, bytes.size());
+  check_size(path, header.width, header.height);
   std::span<const uint8_t> palette;
   if (header.bits <= 8) {
     in.seek(header.palette_at);

@@ -4,19 +4,58 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
+#include <ImfTileDescription.h>
 
 #include <algorithm>
 #include <tuple>
 
+#include "io/images/byte_reader.h"
 #include "io/images/decoders.h"
 #include "io/images/input_file.h"
 
 namespace alhazen {
 
 namespace {
+
+class MemoryStream : public Imf::IStream {
+ public:
+  MemoryStream(const std::string& path, std::span<const uint8_t> bytes) : IStream(path.c_str()), in_(path, bytes) {}
+  bool read(char to[], int count) override {
+    const auto bytes = in_.take(static_cast<size_t>(count));
+    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<uint8_t*>(to));
+    return in_.remaining() > 0;
+  }
+  uint64_t tellg() override { return in_.position(); }
+  void seekg(uint64_t position) override { in_.seek(position); }
+
+ private:
+  ByteReader in_;
+};
+
+void skip_text(ByteReader& in) {
+  while (in.u8() != 0) {
+  }
+}
+
+/// Walks the attributes of all headers. The library makes room for the size that an attribute declares, up to 2 GiB,
+/// before it finds that the file ends; here such a file is refused.
+void check_attributes(const std::string& path, std::span<const uint8_t> bytes) {
+  ByteReader in(path, bytes);
+  in.skip(4);  // the signature
+  const bool many_parts = (in.u32() & 0x1000) != 0;
+  const auto at_end_of_list = [&] { return bytes[in.position()] == 0; };
+  do {
+    for (; in.remaining() > 0 && !at_end_of_list(); in.skip(in.u32())) {
+      skip_text(in);  // name
+      skip_text(in);  // type
+    }
+    in.skip(1);
+  } while (many_parts && in.remaining() > 0 && !at_end_of_list());
+}
 
 struct ExrChannel {
   std::string name;
@@ -51,15 +90,29 @@ void spread(std::vector<float>& plane, int width, int height, const ExrChannel& 
                 static_cast<size_t>(x / channel.x_sampling)];
 }
 
-Image read_part(const std::string& path, uint64_t file_size) {
-  Imf::MultiPartInputFile file(path.c_str());
-  const Imf::Header& header = file.header(0);
+/// Refuses a picture, or a tile of it, that the file cannot hold.
+void check_header(const std::string& path, const Imf::Header& header, size_t channels, uint64_t file_size) {
   if (header.hasType() && Imf::isDeepData(header.type())) throw_malformed(path, "holds deep data; flatten it first");
+  if (channels == 0) throw_malformed(path, "the EXR file has no channels");
   const Imath::Box2i window = header.dataWindow();
   const int64_t width = int64_t{window.max.x} - window.min.x + 1, height = int64_t{window.max.y} - window.min.y + 1;
+  check_size(path, width, height);
+  check_plausible(path, sizeof(float) * channels * static_cast<uint64_t>(width * height), file_size);
+  if (!header.hasTileDescription()) return;
+  const Imf::TileDescription& tile = header.tileDescription();
+  check_size(path, tile.xSize, tile.ySize);
+  check_plausible(path, sizeof(float) * channels * tile.xSize * uint64_t{tile.ySize}, file_size);
+}
+
+Image read_first_part(const std::string& path, std::span<const uint8_t> bytes) {
+  check_attributes(path, bytes);
+  MemoryStream stream(path, bytes);
+  Imf::MultiPartInputFile file(stream);
+  const Imf::Header& header = file.header(0);
   const std::vector<ExrChannel> channels = channels_of(header);
-  if (channels.empty()) throw_malformed(path, "the EXR file has no channels");
-  check_declared_size(path, width, height, static_cast<int64_t>(4 * channels.size()), file_size);
+  check_header(path, header, channels.size(), bytes.size());
+  const Imath::Box2i window = header.dataWindow();
+  const int64_t width = int64_t{window.max.x} - window.min.x + 1, height = int64_t{window.max.y} - window.min.y + 1;
 
   Image image{static_cast<int>(width), static_cast<int>(height), {}, {}};
   Imf::FrameBuffer frame;
@@ -82,9 +135,8 @@ Image read_part(const std::string& path, uint64_t file_size) {
 }  // namespace
 
 Image read_exr(const std::string& path) {
-  const uint64_t file_size = checked_file_size(path);
   try {
-    return read_part(path, file_size);
+    return read_first_part(path, read_bytes(path));
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {

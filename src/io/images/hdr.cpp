@@ -98,7 +98,8 @@ ImageTexels decode_hdr(const std::string& path, std::span<const uint8_t> bytes) 
   int64_t width = 0, height = 0;
   read_variables(in);
   read_size(in, width, height);
-  check_declared_size(path, width, height, 12, bytes.size());
+  check_size(path, width, height);
+  check_plausible(path, sizeof(Rgbe) * static_cast<uint64_t>(width * height), bytes.size());
 
   ImageTexels texels{static_cast<int>(width), static_cast<int>(height), {}, {}, false, path};
   texels.floats.resize(static_cast<size_t>(3 * width * height));

@@ -34,7 +34,9 @@ std::string extension_of(const std::string& path) {
 
 bool colour_channels(const Image& image, int (&rgb)[3]) {
   const int red = image.channel("R"), green = image.channel("G"), blue = image.channel("B");
-  const int grey = image.channels.size() == 1 ? 0 : image.channel("Y");
+  // Where chroma stands beside it, Y alone is not the picture.
+  const bool has_chroma = image.channel("RY") >= 0 || image.channel("BY") >= 0;
+  const int grey = image.channels.size() == 1 ? 0 : has_chroma ? -1 : image.channel("Y");
   const bool coloured = red >= 0 && green >= 0 && blue >= 0;
   rgb[0] = coloured ? red : grey;
   rgb[1] = coloured ? green : grey;

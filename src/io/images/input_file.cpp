@@ -35,18 +35,19 @@ std::vector<uint8_t> read_bytes(const std::string& path) {
   return bytes;
 }
 
-void check_declared_size(const std::string& path, int64_t width, int64_t height, int64_t bytes_per_texel,
-                         uint64_t file_size) {
+void check_size(const std::string& path, int64_t width, int64_t height) {
   const std::string size = std::to_string(width) + " x " + std::to_string(height);
   if (width <= 0 || height <= 0) throw_malformed(path, "the header gives a size of " + size);
   if (height > max_texels / width) throw_malformed(path, "a picture of " + size + " is over the limit of 2^30 texels");
-  // Deflate packs at most 1032 to 1; the other codecs stay below the factor here too, and small files have their
-  // pictures whatever the factor is.
-  constexpr uint64_t largest_ratio = 4096, always_allowed = uint64_t{64} << 20;
-  const uint64_t decoded = static_cast<uint64_t>(width * height) * static_cast<uint64_t>(bytes_per_texel);
-  if (decoded > std::max(always_allowed, file_size * largest_ratio))
-    throw_malformed(path, "the header declares " + size + " texels, but the file has only " +
-                              std::to_string(file_size) + " bytes; it is truncated or damaged");
+}
+
+void check_plausible(const std::string& path, uint64_t decoded_bytes, uint64_t file_size) {
+  // Deflate packs at most 1032 to 1, the other codecs stay below the factor too. A few megabytes are always fine.
+  constexpr uint64_t largest_ratio = 4096, always_allowed = uint64_t{16} << 20;
+  if (decoded_bytes > std::max(always_allowed, file_size * largest_ratio))
+    throw_malformed(path, "the header declares a picture of " + std::to_string(decoded_bytes) +
+                              " bytes, but the file has only " + std::to_string(file_size) +
+                              "; it is truncated or damaged");
 }
 
 }  // namespace alhazen

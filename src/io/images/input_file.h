@@ -19,10 +19,13 @@ std::vector<uint8_t> read_bytes(const std::string& path);
 /// Throws InputError where `path` is not a readable regular file; its size in bytes otherwise.
 uint64_t checked_file_size(const std::string& path);
 
-/// Throws InputError where a size that a header declares is empty, over `max_texels`, or beyond all that a file of
-/// `file_size` bytes could decode to. It is called before anything of that size is allocated.
-void check_declared_size(const std::string& path, int64_t width, int64_t height, int64_t bytes_per_texel,
-                         uint64_t file_size);
+// The next two are called with what a header declares, before anything of that size is allocated.
+
+/// Throws InputError where the size is empty or over `max_texels`.
+void check_size(const std::string& path, int64_t width, int64_t height);
+
+/// Throws InputError where `decoded_bytes` are beyond all that a file of `file_size` bytes could hold, compressed.
+void check_plausible(const std::string& path, uint64_t decoded_bytes, uint64_t file_size);
 
 [[noreturn]] void throw_malformed(const std::string& path, const std::string& message);
 

@@ -50,7 +50,7 @@ ImageTexels decode_pfm(const std::string& path, std::span<const uint8_t> bytes) 
   const int64_t columns = read_number<int64_t>(in, "width"), rows = read_number<int64_t>(in, "height");
   const double scale = read_number<double>(in, "scale");
   if (scale == 0 || !std::isfinite(scale)) in.fail("the scale of the PFM picture is not a finite number other than 0");
-  check_declared_size(path, columns, rows, 12, bytes.size());
+  check_size(path, columns, rows);
 
   const size_t width = static_cast<size_t>(columns), height = static_cast<size_t>(rows);
   const std::span<const uint8_t> values = in.take(width * height * channels * 4);

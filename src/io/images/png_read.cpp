@@ -36,6 +36,7 @@ class PngReader {
 
   int64_t width() const { return png_get_image_width(png_, info_); }
   int64_t height() const { return png_get_image_height(png_, info_); }
+  uint64_t packed_row_bytes() const { return png_get_rowbytes(png_, info_); }
   bool has_16_bits() const { return png_get_bit_depth(png_, info_) == 16; }
 
   /// Palettes and small depths widened, grey tripled, alpha dropped: three samples a texel, big-endian where 16 bits.
@@ -100,7 +101,8 @@ ImageTexels decode_png(const std::string& path, std::span<const uint8_t> bytes, 
   };
   require(reader.read_header());
   const int64_t width = reader.width(), height = reader.height();
-  check_declared_size(path, width, height, 1, bytes.size());
+  check_size(path, width, height);
+  check_plausible(path, reader.packed_row_bytes() * static_cast<uint64_t>(height), bytes.size());
   const size_t row_bytes = static_cast<size_t>(width) * (reader.has_16_bits() ? 6 : 3);
   std::vector<uint8_t> samples(row_bytes * static_cast<size_t>(height));
   std::vector<png_bytep> rows(static_cast<size_t>(height));

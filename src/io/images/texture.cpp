@@ -37,7 +37,7 @@ ImageTexels exr_texels(const std::string& path) {
   const Image image = read_exr(path);
   int rgb[3];
   if (!colour_channels(image, rgb))
-    throw_malformed(path, "has neither channels R, G, B nor a channel Y nor a single channel");
+    throw_malformed(path, "has neither channels R, G, B nor grey in Y or a single channel");
   ImageTexels texels{image.width, image.height, {}, {}, false, path};
   const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
   texels.floats.resize(3 * count);

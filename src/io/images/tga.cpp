@@ -103,7 +103,10 @@ ImageTexels decode_tga(const std::string& path, std::span<const uint8_t> bytes) 
   ByteReader in(path, bytes);
   const TgaHeader header = read_header(in);
   check_header(header, in);
-  check_declared_size(path, header.width, header.height, 4, bytes.size());
+  check_size(path, header.width, header.height);
+  check_plausible(path,
+                  header.texel_size() * static_cast<uint64_t>(header.width) * static_cast<uint64_t>(header.height),
+                  bytes.size());
   std::span<const uint8_t> palette;
   if (header.has_palette) palette = in.take(header.palette_count * header.palette_entry_size());
   const std::vector<uint8_t> values = read_texels(header, in);
