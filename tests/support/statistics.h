@@ -82,8 +82,9 @@ inline double welch_p_value(const Moments& a, const Moments& b, double rounding)
   if (distance <= 0) return 1;
   const double va = a.variance_of_mean(), vb = b.variance_of_mean();
   if (!(va + vb > 0)) return 0;
-  const double degrees_of_freedom = (va + vb) * (va + vb) / (va * va / static_cast<double>(a.count() - 1) +
-                                                             vb * vb / static_cast<double>(b.count() - 1));
+  const double degrees_of_freedom =
+      (va + vb) * (va + vb) /
+      (va * va / static_cast<double>(a.count() - 1) + vb * vb / static_cast<double>(b.count() - 1));
   return student_p_value(distance / std::sqrt(va + vb), degrees_of_freedom);
 }
 
