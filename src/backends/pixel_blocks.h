@@ -49,9 +49,10 @@ BlockSum<Real> take_block(const RenderPass<Real>& pass, int x, int y, uint32_t b
   return sum;
 }
 
-/// The pass at pixel (x, y).
+/// The pass at pixel (x, y); nothing where the render is to stop.
 template <class Real>
 void render_pixel(const RenderPass<Real>& pass, int x, int y, ThreadStatistics& statistics) {
+  if (pass.control.is_stopped()) return;
   for (uint32_t block = first_block(pass, x, y); block < block_count(pass); ++block)
     pass.film.add(x, y, take_block(pass, x, y, block, statistics));
 }

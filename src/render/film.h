@@ -26,6 +26,10 @@ struct BlockSum {
   void add(const SampleRecord<Real>& sample, Real filter_weight);
 };
 
+/// Bytes that a film of these pixels and layers takes.
+template <class Real>
+uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted);
+
 template <class Real>
 class Film {
  public:

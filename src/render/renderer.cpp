@@ -1,5 +1,7 @@
 #include "render/renderer.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
@@ -158,6 +160,14 @@ class PassLoop {
   double elapsed_ = 0;
 };
 
+/// A film that the machine cannot hold is refused before it is begun.
+void check_memory(uint64_t bytes) {
+  const uint64_t memory = static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+  if (bytes > memory / 10 * 9)
+    throw InputError("the picture with its layers takes " + std::to_string(bytes >> 30) + " GiB, and this machine has " +
+                     std::to_string(memory >> 30) + ": render parts of it with --crop, or with fewer layers");
+}
+
 template <class Real>
 Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, double load_seconds,
                               const RenderEvents& events, Diagnostics& diagnostics) {
@@ -171,7 +181,9 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   statistics.scene_sizes = flat.statistics;
   statistics.build_seconds = flat.statistics.build_seconds;
   statistics.load_seconds = load_seconds + seconds_since(start) - statistics.build_seconds;
-  auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
+  const bool weighted = flat.view.filter.has_negative != 0;
+  check_memory(film_bytes<Real>(settings.window, settings.aovs, weighted));
+  auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, weighted);
   if (events.started) events.started(statistics);
   PassLoop<Real>(flat, settings, *film).run(events, statistics);
   statistics.peak_rss_bytes = peak_rss_bytes();

@@ -99,8 +99,8 @@ void resolve_picture(const Settings& asked, const Scene& scene, RenderSettings& 
                                   : scene_window(scene.film, s.width, s.height);
   if (s.window.width() < 1 || s.window.height() < 1)
     throw InputError("the part of the picture to render holds no pixel: widen the crop window or pixel bounds");
-  if (s.window.pixels() > most_pixels)
-    throw InputError("a picture of over 10^9 pixels cannot be rendered at once: render parts of it with --crop");
+  if (s.window.pixels() >= most_pixels)
+    throw InputError("a picture of 10^9 pixels or more cannot be rendered at once: render parts of it with --crop");
 }
 
 }  // namespace
