@@ -87,7 +87,7 @@ void set_film(Build& build, const std::string& kind, ParameterList& list) {
     film.pixel_bounds = read_crop_window(list, film);
   }
   read_sensor(build, list);
-  if (build.state.colour_space != ColourSpace::srgb)
+  if (build.state.rgb_space != "srgb")
     build.warn(list.place(), "the picture is written in linear sRGB, not in the colour space of the film");
   list.ignore({"diagonal", "savefp16", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"});
   list.reject_unknown();
