@@ -73,8 +73,7 @@ Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, bool weighted) :
 
 template <class Real>
 void Film<Real>::add(int x, int y, const BlockSum<Real>& block) {
-  const size_t i = static_cast<size_t>(y - window_.y0) * static_cast<size_t>(window_.width()) +
-                   static_cast<size_t>(x - window_.x0);
+  const size_t i = index_of(x, y);
   if (aovs_.variance)
     merge_moments(luminance_mean_[i], luminance_m2_[i], samples_[i], block.luminance_mean, block.luminance_m2,
                   block.samples);
