@@ -1,0 +1,266 @@
+// Textures at points where their value is known.
+
+#include <gtest/gtest.h>
+
+#include "core/textures/texture.h"
+#include "scene/flatten_materials.h"
+#include "scene/scene_arrays.h"
+#include "support/random.h"
+#include "support/reals.h"
+
+namespace alhazen::test {
+namespace {
+
+/// Textures of a description, flattened: texture i of `textures` is the reflectance of material i.
+template <class Real>
+class Textures {
+ public:
+  explicit Textures(std::vector<Texture> textures, std::vector<ImageTexels> images = {}) {
+    Scene scene;
+    scene.images = std::move(images);
+    for (uint32_t i = 0; i < textures.size(); ++i) {
+      Material material;
+      material.reflectance = i;
+      scene.materials.push_back(material);
+    }
+    scene.textures = std::move(textures);
+    SceneArrays<Real> arrays;
+    flatten_materials(scene, arrays);
+    arrays.move_into(flat_);
+  }
+
+  Vec3d at(uint32_t texture, const Vec3d& position, const Vec2d& uv = {}) const {
+    return convert<double>(evaluate_texture(
+        flat_.view, flat_.view.materials[texture].reflectance,
+        TexturePoint<Real>{convert<Real>(position), {static_cast<Real>(uv.x), static_cast<Real>(uv.y)}}));
+  }
+  double at_uv(uint32_t texture, double u, double v) const { return at(texture, {}, {u, v}).x; }
+  const uint8_t* noise_permutation() const { return flat_.view.noise_permutation; }
+
+ private:
+  FlatScene<Real> flat_;
+};
+
+Texture constant(double value) {
+  Texture texture;
+  texture.value = splat(value);
+  return texture;
+}
+
+Texture over(TextureKind kind, const std::array<uint32_t, 3>& inputs) {
+  Texture texture;
+  texture.kind = kind;
+  texture.inputs = inputs;
+  return texture;
+}
+
+Texture of_kind(TextureKind kind) { return over(kind, {no_index, no_index, no_index}); }
+
+template <class Real>
+class TextureEvaluation : public ::testing::Test {};
+TYPED_TEST_SUITE(TextureEvaluation, Reals);
+
+TYPED_TEST(TextureEvaluation, CheckerboardOverUv) {
+  Texture checks = over(TextureKind::checkerboard, {0, 1, no_index});
+  Texture scaled = checks;
+  scaled.uv_scale = {4, 2};
+  scaled.uv_offset = {0.5, 0};
+  const Textures<TypeParam> t({constant(0.25), constant(0.75), checks, scaled});
+  EXPECT_EQ(t.at_uv(2, 0.5, 0.5), 0.25);
+  EXPECT_EQ(t.at_uv(2, 1.5, 0.5), 0.75);
+  EXPECT_EQ(t.at_uv(2, 1.5, 1.5), 0.25);
+  EXPECT_EQ(t.at_uv(2, -0.5, 0.5), 0.75);
+  EXPECT_EQ(t.at_uv(2, -0.5, -0.5), 0.25);
+  EXPECT_EQ(t.at_uv(2, -1.5, -0.5), 0.75);
+  EXPECT_EQ(t.at_uv(3, 0.1, 0.25), 0.25);  // (0.9, 0.5)
+  EXPECT_EQ(t.at_uv(3, 0.2, 0.25), 0.75);  // (1.3, 0.5)
+  EXPECT_EQ(t.at_uv(3, 0.2, 0.75), 0.25);  // (1.3, 1.5)
+}
+
+TYPED_TEST(TextureEvaluation, CheckerboardInSpace) {
+  Texture checks = over(TextureKind::checkerboard, {0, 1, no_index});
+  checks.solid_checks = true;
+  Texture moved = checks;
+  moved.texture_from_world = Transform::scale({2, 2, 2});
+  const Textures<TypeParam> t({constant(0.25), constant(0.75), checks, moved});
+  for (int x = -3; x < 3; ++x)
+    for (int y = -3; y < 3; ++y)
+      for (int z = -3; z < 3; ++z) {
+        const double expected = ((x + y + z) & 1) == 0 ? 0.25 : 0.75;
+        EXPECT_EQ(t.at(2, {x + 0.5, y + 0.25, z + 0.75}).x, expected) << x << y << z;
+        EXPECT_EQ(t.at(3, {(x + 0.5) / 2, (y + 0.25) / 2, (z + 0.75) / 2}).x, expected) << x << y << z;
+      }
+}
+
+/// Two by two: 0 and 1 above, 2 and 3 below, as bytes a of 255.
+ImageTexels two_by_two(bool srgb) {
+  ImageTexels image;
+  image.width = image.height = 2;
+  image.srgb = srgb;
+  for (const int value : {0, 51, 102, 204}) image.bytes.insert(image.bytes.end(), 3, static_cast<uint8_t>(value));
+  return image;
+}
+
+Texture image_texture(WrapMode wrap, bool nearest) {
+  Texture texture = of_kind(TextureKind::image);
+  texture.image = 0;
+  texture.wrap = wrap;
+  texture.nearest = nearest;
+  return texture;
+}
+
+template <class Real>
+constexpr double rounding = by_precision<Real>(1e-6, 1e-12);
+
+TYPED_TEST(TextureEvaluation, NearestTexelWithVUpwards) {
+  const Textures<TypeParam> t({image_texture(WrapMode::repeat, true), image_texture(WrapMode::black, true),
+                               image_texture(WrapMode::clamp, true)},
+                              {two_by_two(false)});
+  const double tolerance = rounding<TypeParam>;
+  for (uint32_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(t.at_uv(i, 0.2, 0.9), 0.0, tolerance);
+    EXPECT_NEAR(t.at_uv(i, 0.8, 0.9), 0.2, tolerance);
+    EXPECT_NEAR(t.at_uv(i, 0.2, 0.1), 0.4, tolerance);
+    EXPECT_NEAR(t.at_uv(i, 0.8, 0.1), 0.8, tolerance);
+  }
+  // Left of the picture, in its lower half.
+  EXPECT_NEAR(t.at_uv(0, -0.2, 0.1), 0.8, tolerance);
+  EXPECT_NEAR(t.at_uv(0, -7.2, 4.1), 0.8, tolerance);
+  EXPECT_EQ(t.at_uv(1, -0.2, 0.1), 0);
+  EXPECT_NEAR(t.at_uv(2, -0.2, 0.1), 0.4, tolerance);
+  // Above it.
+  EXPECT_NEAR(t.at_uv(0, 0.8, 1.1), 0.8, tolerance);
+  EXPECT_EQ(t.at_uv(1, 0.8, 1.1), 0);
+  EXPECT_NEAR(t.at_uv(2, 0.8, 1.1), 0.2, tolerance);
+}
+
+TYPED_TEST(TextureEvaluation, BilinearTexels) {
+  const Textures<TypeParam> t({image_texture(WrapMode::repeat, false), image_texture(WrapMode::black, false),
+                               image_texture(WrapMode::clamp, false)},
+                              {two_by_two(false)});
+  const double tolerance = rounding<TypeParam>;
+  for (uint32_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(t.at_uv(i, 0.25, 0.75), 0.0, tolerance);  // centres of texels
+    EXPECT_NEAR(t.at_uv(i, 0.75, 0.25), 0.8, tolerance);
+    EXPECT_NEAR(t.at_uv(i, 0.5, 0.75), 0.1, tolerance);
+    EXPECT_NEAR(t.at_uv(i, 0.25, 0.5), 0.2, tolerance);
+    EXPECT_NEAR(t.at_uv(i, 0.5, 0.5), 0.35, tolerance);
+  }
+  // Halfway to what lies beyond the right edge.
+  EXPECT_NEAR(t.at_uv(0, 1, 0.25), 0.6, tolerance);
+  EXPECT_NEAR(t.at_uv(1, 1, 0.25), 0.4, tolerance);
+  EXPECT_NEAR(t.at_uv(2, 1, 0.25), 0.8, tolerance);
+  // Far away and nowhere, something comes back.
+  EXPECT_TRUE(std::isfinite(t.at_uv(0, 1e30, 0)));
+  EXPECT_TRUE(std::isfinite(t.at_uv(0, std::numeric_limits<double>::quiet_NaN(), 0)));
+}
+
+TYPED_TEST(TextureEvaluation, SrgbFactorAndInversion) {
+  Texture inverted = image_texture(WrapMode::repeat, true);
+  inverted.invert = true;
+  inverted.image_scale = 3;
+  const Textures<TypeParam> t({image_texture(WrapMode::repeat, true), inverted}, {two_by_two(true)});
+  const double decoded = std::pow((0.8 + 0.055) / 1.055, 2.4);
+  EXPECT_NEAR(t.at_uv(0, 0.8, 0.1), decoded, rounding<TypeParam>);
+  EXPECT_NEAR(t.at_uv(1, 0.8, 0.1), 3 * (1 - decoded), 3 * rounding<TypeParam>);
+}
+
+TYPED_TEST(TextureEvaluation, FloatTexelsAreLinear) {
+  ImageTexels image;
+  image.width = 2;
+  image.height = 1;
+  image.floats = {0.5f, 1.5f, 7.25f, 100, 200, 300};
+  const Textures<TypeParam> t({image_texture(WrapMode::repeat, true)}, {image});
+  EXPECT_EQ(t.at(0, {}, {0.25, 0.5}), (Vec3d{0.5, 1.5, 7.25}));
+  EXPECT_EQ(t.at(0, {}, {0.75, 0.5}), (Vec3d{100, 200, 300}));
+}
+
+TYPED_TEST(TextureEvaluation, ScaleAndMixNest) {
+  const Textures<TypeParam> t({constant(0.5), constant(0.25), constant(0.75),
+                               over(TextureKind::scale, {0, 1, no_index}),    // 0.125
+                               over(TextureKind::mix, {1, 2, 0}),             // 0.5
+                               over(TextureKind::mix, {3, 4, 1}),             // 0.125 * 0.75 + 0.5 * 0.25
+                               over(TextureKind::scale, {5, 5, no_index}),    //
+                               over(TextureKind::mix, {6, 5, 4}),             //
+                               over(TextureKind::scale, {4, 7, no_index})});  //
+  const double mixed = 0.125 * 0.75 + 0.5 * 0.25;
+  EXPECT_NEAR(t.at(3, {}).x, 0.125, rounding<TypeParam>);
+  EXPECT_NEAR(t.at(4, {}).x, 0.5, rounding<TypeParam>);
+  EXPECT_NEAR(t.at(5, {}).x, mixed, rounding<TypeParam>);
+  EXPECT_NEAR(t.at(6, {}).x, mixed * mixed, rounding<TypeParam>);
+  EXPECT_NEAR(t.at(7, {}).x, 0.5 * (mixed * mixed + mixed), rounding<TypeParam>);
+  EXPECT_NEAR(t.at(8, {}).x, 0.25 * (mixed * mixed + mixed), rounding<TypeParam>);
+}
+
+TEST(TextureNesting, TooDeepIsAnError) {
+  std::vector<Texture> textures{constant(0.5)};
+  for (uint32_t i = 0; i < 20; ++i) textures.push_back(over(TextureKind::mix, {0, 0, i}));
+  EXPECT_THROW(Textures<float>{textures}, InputError);
+  EXPECT_THROW(Textures<float>({over(TextureKind::scale, {0, 0, no_index})}), InputError) << "a texture of itself";
+}
+
+TYPED_TEST(TextureEvaluation, NoiseIsZeroOnTheLattice) {
+  using Real = TypeParam;
+  const Textures<Real> t({of_kind(TextureKind::fbm)});
+  Random random(1);
+  double largest = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const Vec3d cell{random.below(2000) - 1000.0, random.below(2000) - 1000.0, random.below(2000) - 1000.0};
+    ASSERT_EQ(perlin_noise(t.noise_permutation(), convert<Real>(cell)), Real(0));
+    const double value =
+        static_cast<double>(perlin_noise(t.noise_permutation(), convert<Real>(random.in_box(-1000, 1000))));
+    largest = std::max(largest, std::abs(value));
+  }
+  EXPECT_LE(largest, 1.1);
+  EXPECT_GT(largest, 0.7);
+}
+
+TYPED_TEST(TextureEvaluation, NoiseIsContinuous) {
+  using Real = TypeParam;
+  const Textures<Real> t({of_kind(TextureKind::fbm)});
+  Random random(2);
+  // Steps across the planes of the lattice, also where it repeats.
+  for (int i = 0; i < 20'000; ++i) {
+    Vec3d p = random.in_box(-300, 300), q = p;
+    const int axis = static_cast<int>(random.below(3));
+    const double plane = i % 4 == 0 ? 256 : std::floor(p[axis]);
+    p[axis] = plane - 1e-3;
+    q[axis] = plane + 1e-3;
+    ASSERT_NEAR(static_cast<double>(perlin_noise(t.noise_permutation(), convert<Real>(p))),
+                static_cast<double>(perlin_noise(t.noise_permutation(), convert<Real>(q))), 0.01);
+  }
+}
+
+TYPED_TEST(TextureEvaluation, OctavesSum) {
+  Texture one = of_kind(TextureKind::fbm), two = one, wrinkled = of_kind(TextureKind::wrinkled);
+  one.octaves = 1;
+  two.octaves = 2;
+  two.roughness = wrinkled.roughness = 0.3;
+  wrinkled.octaves = 3;
+  const Textures<TypeParam> t({one, two, wrinkled});
+  const auto noise = [&](const Vec3d& p) { return perlin_noise(t.noise_permutation(), p); };
+  Random random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d p = random.in_box(-10, 10);
+    const double first = noise(p), second = noise(p * 1.99), third = noise(p * (1.99 * 1.99));
+    EXPECT_NEAR(t.at(0, p).x, first, 20 * rounding<TypeParam>);
+    EXPECT_NEAR(t.at(1, p).x, first + 0.3 * second, 40 * rounding<TypeParam>);
+    EXPECT_NEAR(t.at(2, p).x, std::abs(first) + 0.3 * std::abs(second) + 0.09 * std::abs(third),
+                60 * rounding<TypeParam>);
+  }
+}
+
+/// Between the darkest and the brightest of the colours of its spline, times 1.5.
+TYPED_TEST(TextureEvaluation, MarbleStaysWithinItsColours) {
+  const Textures<TypeParam> t({of_kind(TextureKind::marble)});
+  Random random(4);
+  for (int i = 0; i < 20'000; ++i) {
+    const Vec3d colour = t.at(0, random.in_box(-100, 100));
+    ASSERT_TRUE(colour.x >= 0.3 - 1e-6 && colour.x <= 0.9 + 1e-6 && colour.y >= 0.3 - 1e-6 &&
+                colour.y <= 0.885 + 1e-6 && colour.z >= 0.495 - 1e-6 && colour.z <= 0.9 + 1e-6)
+        << colour.x << " " << colour.y << " " << colour.z;
+  }
+}
+
+}  // namespace
+}  // namespace alhazen::test
