@@ -62,6 +62,12 @@ std::optional<SurfaceInteraction<Real>> meet(const SceneView<Real>& scene, const
   return surface_interaction(scene, ray, hit);
 }
 
+/// Below this size a shape at `position` is mostly rounding of coordinates.
+template <class Real>
+double least_resolved_size(const Vec3d& position) {
+  return 100 * length(position) * static_cast<double>(std::numeric_limits<Real>::epsilon());
+}
+
 template <class Real>
 class SelfIntersectionOf : public ::testing::Test {};
 TYPED_TEST_SUITE(SelfIntersectionOf, Reals);
@@ -129,8 +135,7 @@ TYPED_TEST(SelfIntersectionOf, SpheresFromInside) {
   while (left < effort(1'000'000)) {
     const Vec3d center = random.on_sphere() * random.magnitude_between(1e-3, 1e5);
     const double radius = random.magnitude_between(1e-3, 1e4);
-    const double resolved = length(center) * static_cast<double>(std::numeric_limits<Real>::epsilon());
-    if (radius < 100 * resolved) continue;
+    if (radius < least_resolved_size<Real>(center)) continue;
     scene.sphere.center = convert<Real>(center);
     scene.sphere.radius = static_cast<Real>(radius);
     const SceneView<Real> view = scene.view();
@@ -145,6 +150,45 @@ TYPED_TEST(SelfIntersectionOf, SpheresFromInside) {
     }
   }
   EXPECT_EQ(met_again, 0u) << "of " << left;
+}
+
+/// A sampled point of a light is seen from where nothing stands between: the light itself does not hide it.
+TYPED_TEST(SelfIntersectionOf, LightsAreSeen) {
+  using Real = TypeParam;
+  Random random(4);
+  size_t hidden = 0, tried = 0;
+  OnePrimitive<Real> scene;
+  while (tried < effort(1'000'000)) {
+    const bool round = random.below(2) == 0;
+    scene.primitive = PrimitiveId(round ? PrimitiveKind::sphere : PrimitiveKind::triangle, 0);
+    const Vec3d p = random.on_sphere() * random.magnitude_between(1e-3, 1e5);
+    const double size = random.magnitude_between(1e-2, 1e3);
+    if (size < least_resolved_size<Real>(p)) continue;
+    scene.sphere.center = convert<Real>(p);
+    scene.sphere.radius = static_cast<Real>(size);
+    for (Vec3<Real>& corner : scene.positions) corner = convert<Real>(p + random.on_sphere() * size);
+    SceneView<Real> view = scene.view();
+    if (!round && !(length(triangle_cross(view, scene.triangle)) > 0)) continue;
+    LightRecord<Real> light{};
+    light.kind = round ? LightKind::sphere : LightKind::triangle;
+    light.radiance = splat(Real(1));
+    light.two_sided = 1;
+    light.pmf = 1;
+    view.lights = &light;
+    view.lights_count = 1;
+    SurfaceInteraction<Real> from{};
+    const double distance = size * random.magnitude_between(1.1, 1000);
+    from.position = convert<Real>(p + random.on_sphere() * distance);
+    from.position_error = abs(from.position) * rounding_bound<Real>(7);
+    for (int i = 0; i < 16; ++i) {
+      const LightSample<Real> s = sample_light(view, from.position, Real(0), Real(0), random.uniform_2d<Real>());
+      if (!(s.pdf > 0)) continue;
+      from.normal = s.direction;
+      ++tried;
+      hidden += !is_visible(LinearIntersector<Real>(view), from, s);
+    }
+  }
+  EXPECT_EQ(hidden, 0u) << "of " << tried;
 }
 
 }  // namespace
