@@ -80,7 +80,7 @@ void register_precision(const std::string& precision) {
   for (const char* schedule : {"static", "guided"})
     add(std::string("openmp 2 rows ") + schedule, "openmp", "rows", schedule, 2, iterative);
   add("serial linear scan", "serial", "", "dynamic", 1,
-      SampleKernel<Real>(sample_block<IntegratorKind::iterative, SobolSampler, LinearIntersector<Real>, Real>));
+      SampleKernel<Real>(sample_block<IntegratorKind::iterative, SobolSampler, test::LinearIntersector<Real>, Real>));
 }
 
 }  // namespace
