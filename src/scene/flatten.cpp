@@ -32,7 +32,7 @@ class Flattener {
     FlatScene<Real> flat;
     flatten_camera(scene_, width_, height_, out_, flat.view, diagnostics_);
     for (const Material& material : scene_.materials) needs_uv_.push_back(material_needs_uv(scene_, material));
-    flatten_materials(scene_, out_, diagnostics_);
+    flatten_materials(scene_, out_);
     add_described_lights(scene_, out_, flat.view);
     light_areas_.assign(out_.lights.size(), 0);
     place_shapes();
