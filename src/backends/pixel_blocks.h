@@ -27,6 +27,13 @@ uint32_t block_count(const RenderPass<Real>& pass) {
   return (pass.sample_count + samples_per_block - 1) / samples_per_block;
 }
 
+/// The block to begin with at pixel (x, y): a pixel that the pass had reached when the render was stopped holds some.
+template <class Real>
+uint32_t first_block(const RenderPass<Real>& pass, int x, int y) {
+  const uint32_t held = pass.film.samples_at(x, y);
+  return held > pass.first_sample ? (held - pass.first_sample) / samples_per_block : 0;
+}
+
 /// Takes block `block` of the pass at pixel (x, y).
 template <class Real>
 BlockSum<Real> take_block(const RenderPass<Real>& pass, int x, int y, uint32_t block, ThreadStatistics& statistics) {
@@ -42,10 +49,11 @@ BlockSum<Real> take_block(const RenderPass<Real>& pass, int x, int y, uint32_t b
   return sum;
 }
 
-/// The whole pass at pixel (x, y).
+/// The pass at pixel (x, y); nothing where the render is to stop.
 template <class Real>
 void render_pixel(const RenderPass<Real>& pass, int x, int y, ThreadStatistics& statistics) {
-  for (uint32_t block = 0; block < block_count(pass); ++block)
+  if (pass.control.is_stopped()) return;
+  for (uint32_t block = first_block(pass, x, y); block < block_count(pass); ++block)
     pass.film.add(x, y, take_block(pass, x, y, block, statistics));
 }
 

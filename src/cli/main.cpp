@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 #include <new>
 
 #include "cli/subcommands.h"
@@ -17,10 +21,19 @@ int parse_and_run(CLI::App& app, int argc, char** argv, int& exit_code) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
+    const bool is_unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
     fmt::print(stderr, "alhazen: {}\nRun 'alhazen --help' or 'alhazen SUBCOMMAND --help' for what may be given.\n",
-               error.what());
+               is_unknown ? fmt::format("there is no subcommand '{}'", argv[1]) : error.what());
     return alhazen::exit_bad_input;
   }
+}
+
+/// A report that does not arrive, on a full disk for one, is a failure.
+int after_flushing(int exit_code) {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
+  fmt::print(stderr, "alhazen: cannot write to the standard output: {}\n", std::strerror(errno));
+  return exit_code == alhazen::exit_done ? alhazen::exit_failed : exit_code;
 }
 
 }  // namespace
@@ -37,7 +50,7 @@ int main(int argc, char** argv) {
   alhazen::register_devices(app);
   alhazen::register_info(app);
   try {
-    return parse_and_run(app, argc, argv, exit_code);
+    return after_flushing(parse_and_run(app, argc, argv, exit_code));
   } catch (const alhazen::InputError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return alhazen::exit_bad_input;

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <memory>
 
@@ -68,10 +69,12 @@ void parse_settings(RenderOptions& o) {
   if (!o.checkpoint.empty()) {
     const size_t comma = o.checkpoint.rfind(',');
     s.checkpoint = o.checkpoint.substr(0, comma);
+    if (s.checkpoint.empty()) throw InputError("--checkpoint '" + o.checkpoint + "' names no file");
     if (comma != std::string::npos)
       s.checkpoint_seconds =
           parse_numbers<double, 1>(o.checkpoint.substr(comma + 1), ',', "--checkpoint FILE,SECONDS")[0];
   }
+  if (!std::isfinite(o.output.png.exposure)) throw InputError("--exposure must be a finite number of stops");
   if (o.exr_type != "half" && o.exr_type != "float")
     throw InputError("unknown pixel type '" + o.exr_type + "': it may be half, float");
   o.output.exr_type = o.exr_type == "half" ? ExrPixelType::half : ExrPixelType::single;

@@ -14,7 +14,8 @@
 namespace alhazen {
 
 /// Samples [first_sample, first_sample + sample_count) of every pixel of the film. `first_sample` and, but for the last
-/// pass, `sample_count` are multiples of samples_per_block; sample_count is at most most_samples_per_pass.
+/// pass, `sample_count` are multiples of samples_per_block; sample_count is at most most_samples_per_pass. What a pixel
+/// holds of them already, by a pass that was stopped, is not taken again.
 template <class Real>
 struct RenderPass {
   const SceneView<Real>& scene;

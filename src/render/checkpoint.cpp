@@ -6,6 +6,7 @@
 
 #include "core/sampling/hash.h"
 #include "io/images/atomic_file.h"
+#include "render/sample_kernel.h"
 
 namespace alhazen {
 
@@ -59,6 +60,24 @@ uint64_t join_settings(const RenderSettings& s, uint64_t scene) {
   return h.value();
 }
 
+/// Records without padding, which all but those below are.
+template <class Record>
+void add_records(Hasher& h, const Record* records, uint32_t count) {
+  h.add_bytes(records, count * sizeof(Record));
+}
+
+template <class Real>
+void add_records(Hasher& h, const LightRecord<Real>* lights, uint32_t count) {
+  h.add(uint64_t{count});
+  for (const LightRecord<Real>* light = lights; light != lights + count; ++light) {
+    h.add(uint64_t{static_cast<uint32_t>(light->kind)});
+    h.add(uint64_t{light->primitive});
+    h.add(uint64_t{light->two_sided});
+    for (const Vec3<Real>& v : {light->radiance, light->position, light->direction}) h.add_bytes(&v, sizeof(v));
+    for (const Real value : {light->pmf, light->cos_outer, light->cos_inner}) h.add(static_cast<double>(value));
+  }
+}
+
 template <class Real>
 uint64_t plane_bytes(Film<Real>& film) {
   uint64_t bytes = 0;
@@ -72,25 +91,20 @@ template <class Real>
 uint64_t scene_fingerprint(const FlatScene<Real>& scene) {
   const SceneView<Real>& v = scene.view;
   Hasher h;
-  // Arrays whose records have no padding; lights, which have, by their values.
-  h.add_bytes(v.nodes, v.nodes_count * sizeof(*v.nodes));
-  h.add_bytes(v.triangles, v.triangles_count * sizeof(*v.triangles));
-  h.add_bytes(v.positions, v.positions_count * sizeof(*v.positions));
-  h.add_bytes(v.normals, v.normals_count * sizeof(*v.normals));
-  h.add_bytes(v.spheres, v.spheres_count * sizeof(*v.spheres));
-  h.add_bytes(v.surfaces, v.surfaces_count * sizeof(*v.surfaces));
-  h.add_bytes(v.textures, v.textures_count * sizeof(*v.textures));
-  h.add_bytes(v.texel_bytes, v.texel_bytes_count);
-  for (uint32_t i = 0; i < v.lights_count; ++i) h.add_bytes(&v.lights[i].radiance, sizeof(v.lights[i].radiance));
+#define ALHAZEN_ARRAY(type, name) add_records(h, v.name, v.name##_count);
+  ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
   h.add_bytes(&v.camera, sizeof(v.camera));
-  h.add_bytes(v.filter_cdf, v.filter_cdf_count * sizeof(Real));
-  h.add(static_cast<double>(v.filter.x_radius));
-  h.add(static_cast<double>(v.filter.y_radius));
+  h.add_bytes(&v.filter, sizeof(v.filter));
+  h.add_bytes(&v.background, sizeof(v.background));
+  h.add_bytes(&v.exposure, sizeof(v.exposure));
   return h.value();
 }
 
 CheckpointFile::CheckpointFile(const RenderSettings& settings, uint64_t scene_fingerprint)
-    : path_(settings.checkpoint), fingerprint_(join_settings(settings, scene_fingerprint)) {}
+    : path_(settings.checkpoint),
+      fingerprint_(join_settings(settings, scene_fingerprint)),
+      samples_per_pixel_(settings.samples_per_pixel) {}
 
 template <class Real>
 void CheckpointFile::save(Film<Real>& film, uint32_t samples_done) const {
@@ -114,7 +128,13 @@ uint32_t CheckpointFile::load(Film<Real>& film) const {
   film.visit_planes([&](void* data, size_t size) {
     in.read(static_cast<char*>(data), static_cast<std::streamsize>(size));
   });
-  if (!in || header.samples_done > (1u << 24)) throw InputError({path_}, "the checkpoint is damaged: it ends early");
+  const uint32_t held = film.most_samples();
+  if (!in || in.peek() != std::ifstream::traits_type::eof() || header.samples_done > held ||
+      header.samples_done % samples_per_block != 0)
+    throw InputError({path_}, "the checkpoint is damaged: start anew without --resume");
+  if (held > samples_per_pixel_)
+    throw InputError({path_}, "the checkpoint holds " + std::to_string(held) +
+                                  " samples per pixel already: ask for at least as many with --spp");
   return static_cast<uint32_t>(header.samples_done);
 }
 

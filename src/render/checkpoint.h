@@ -11,7 +11,7 @@
 
 namespace alhazen {
 
-/// A hash over the geometry and what else decides the picture; scenes that differ differ in it.
+/// A hash over everything that decides the picture; scenes that differ differ in it.
 template <class Real>
 uint64_t scene_fingerprint(const FlatScene<Real>& scene);
 
@@ -19,18 +19,20 @@ class CheckpointFile {
  public:
   CheckpointFile(const RenderSettings& settings, uint64_t scene_fingerprint);
 
-  /// Writes the film whole or not at all. Throws RenderError.
+  /// Writes the film whole or not at all. Every pixel of it holds whole blocks of samples, and samples_done of them or
+  /// more: more where a pass was stopped. Throws RenderError.
   template <class Real>
   void save(Film<Real>& film, uint32_t samples_done) const;
 
-  /// Reads the film and returns how many samples a pixel it holds. Throws InputError where the file is missing, damaged
-  /// or of another render.
+  /// Reads the film and returns how many samples every pixel of it holds. Throws InputError where the file is missing,
+  /// damaged, of another render, or holds more samples than the settings ask for.
   template <class Real>
   uint32_t load(Film<Real>& film) const;
 
  private:
   std::string path_;
   uint64_t fingerprint_;  ///< of scene and settings
+  uint32_t samples_per_pixel_;
 };
 
 }  // namespace alhazen

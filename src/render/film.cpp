@@ -45,6 +45,18 @@ void BlockSum<Real>::add(const SampleRecord<Real>& sample, Real filter_weight) {
 }
 
 template <class Real>
+uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted) {
+  size_t pixel = sizeof(Vec3<Real>) + sizeof(uint32_t);
+  if (weighted) pixel += sizeof(Real);
+  if (aovs.albedo) pixel += sizeof(Vec3<Real>);
+  if (aovs.normal) pixel += sizeof(Vec3<Real>);
+  if (aovs.depth) pixel += sizeof(Real) + sizeof(uint32_t);
+  if (aovs.bounces) pixel += sizeof(uint32_t);
+  if (aovs.variance) pixel += 2 * sizeof(Real);
+  return pixel * static_cast<uint64_t>(window.pixels());
+}
+
+template <class Real>
 Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, bool weighted) : window_(window), aovs_(aovs) {
   const size_t pixels = static_cast<size_t>(window.pixels());
   radiance_.resize(pixels);
@@ -61,8 +73,7 @@ Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, bool weighted) :
 
 template <class Real>
 void Film<Real>::add(int x, int y, const BlockSum<Real>& block) {
-  const size_t i = static_cast<size_t>(y - window_.y0) * static_cast<size_t>(window_.width()) +
-                   static_cast<size_t>(x - window_.x0);
+  const size_t i = index_of(x, y);
   if (aovs_.variance)
     merge_moments(luminance_mean_[i], luminance_m2_[i], samples_[i], block.luminance_mean, block.luminance_m2,
                   block.samples);
@@ -122,6 +133,8 @@ void Film<Real>::resolve_row(int y, std::span<float> row) const {
 
 template struct BlockSum<float>;
 template struct BlockSum<double>;
+template uint64_t film_bytes<float>(const PixelWindow&, const AovSet&, bool);
+template uint64_t film_bytes<double>(const PixelWindow&, const AovSet&, bool);
 template class Film<float>;
 template class Film<double>;
 

@@ -2,6 +2,7 @@
 
 // The film: running sums of every pixel, in planes, and what comes out of them.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -25,6 +26,10 @@ struct BlockSum {
   void add(const SampleRecord<Real>& sample, Real filter_weight);
 };
 
+/// Bytes that a film of these pixels and layers takes.
+template <class Real>
+uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted);
+
 template <class Real>
 class Film {
  public:
@@ -34,6 +39,10 @@ class Film {
   void add(int x, int y, const BlockSum<Real>& block);
 
   const PixelWindow& window() const { return window_; }
+  /// How many samples pixel (x, y) of the whole picture holds.
+  uint32_t samples_at(int x, int y) const { return samples_[index_of(x, y)]; }
+  /// The most that a pixel holds.
+  uint32_t most_samples() const { return *std::max_element(samples_.begin(), samples_.end()); }
   std::vector<std::string> channels() const;
   /// Row y (0 is the window's first) of all channels, one after the other: means over the samples taken so far.
   void resolve_row(int y, std::span<float> row) const;
@@ -53,6 +62,11 @@ class Film {
   }
 
  private:
+  size_t index_of(int x, int y) const {
+    return static_cast<size_t>(y - window_.y0) * static_cast<size_t>(window_.width()) +
+           static_cast<size_t>(x - window_.x0);
+  }
+
   PixelWindow window_;
   AovSet aovs_;
   std::vector<Vec3<Real>> radiance_;

@@ -1,9 +1,12 @@
 #include "render/renderer.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "render/backend.h"
@@ -64,7 +67,7 @@ class ProgressReporter {
 };
 
 /// How many samples the next pass takes: whole blocks, large enough for its end not to matter, and small enough for
-/// the picture to grow evenly and for a time limit to be met.
+/// the picture to grow evenly and for a time limit to be met; at last the rest that is no whole block.
 uint32_t pass_size(const RenderSettings& settings, uint32_t samples_done, double elapsed) {
   const uint32_t left = settings.samples_per_pixel - samples_done;
   uint32_t size = std::clamp(settings.samples_per_pixel / 16, 16u, most_samples_per_pass);
@@ -76,8 +79,9 @@ uint32_t pass_size(const RenderSettings& settings, uint32_t samples_done, double
                                               static_cast<double>(most_samples_per_pass)));
     }
   }
+  if (left < samples_per_block) return left;
   size = (size + samples_per_block - 1) / samples_per_block * samples_per_block;
-  return std::min(size, left);
+  return std::min(size, left / samples_per_block * samples_per_block);
 }
 
 template <class Real>
@@ -91,15 +95,15 @@ class PassLoop {
         backend_(make_backend(settings.backend)) {}
 
   void run(const RenderEvents& events, RenderStatistics& statistics) {
-    const CheckpointFile checkpoint(settings_, scene_fingerprint(scene_));
-    if (settings_.resume) samples_done_ = checkpoint.load(film_);
+    if (!settings_.checkpoint.empty()) checkpoint_.emplace(settings_, scene_fingerprint(scene_));
+    if (settings_.resume) samples_done_ = checkpoint_->load(film_);
     const uint64_t pixels = static_cast<uint64_t>(settings_.window.pixels());
     control_.add_samples(pixels * samples_done_);
     {
       const ProgressReporter reporter(events.progress, control_, pixels * settings_.samples_per_pixel);
-      take_passes(checkpoint);
+      take_passes();
     }
-    if (!settings_.checkpoint.empty() && !control_.is_stopped()) checkpoint.save(film_, samples_done_);
+    save_checkpoint();
     statistics.render_seconds = elapsed_;
     statistics.samples_per_pixel = samples_done_;
     statistics.complete = samples_done_ == settings_.samples_per_pixel;
@@ -113,7 +117,7 @@ class PassLoop {
   }
 
  private:
-  void take_passes(const CheckpointFile& checkpoint) {
+  void take_passes() {
     const SampleKernel<Real> kernel = select_sample_kernel<Real>(settings_.integrator, settings_.sampler);
     Clock::time_point saved = Clock::now();
     double last_pass_per_sample = 0;
@@ -121,6 +125,10 @@ class PassLoop {
       const uint32_t size = pass_size(settings_, samples_done_, elapsed_);
       if (settings_.time_limit > 0 && elapsed_ > 0 && elapsed_ + last_pass_per_sample * size > settings_.time_limit)
         return;
+      if (size % samples_per_block != 0) {
+        save_checkpoint();
+        in_whole_blocks_ = false;
+      }
       const Clock::time_point start = Clock::now();
       backend_->render_pass(
           RenderPass<Real>{scene_.view, kernel, settings_, film_, control_, samples_done_, size});
@@ -129,11 +137,16 @@ class PassLoop {
       if (control_.is_stopped()) return;
       last_pass_per_sample = seconds / size;
       samples_done_ += size;
-      if (!settings_.checkpoint.empty() && seconds_since(saved) >= settings_.checkpoint_seconds) {
-        checkpoint.save(film_, samples_done_);
+      if (seconds_since(saved) >= settings_.checkpoint_seconds) {
+        save_checkpoint();
         saved = Clock::now();
       }
     }
+  }
+
+  /// Not once there is a part of a block in the film: the sums of a longer render would be rounded elsewhere.
+  void save_checkpoint() {
+    if (checkpoint_ && in_whole_blocks_) checkpoint_->save(film_, samples_done_);
   }
 
   const FlatScene<Real>& scene_;
@@ -141,9 +154,19 @@ class PassLoop {
   Film<Real>& film_;
   RenderControl control_;
   std::unique_ptr<Backend> backend_;
-  uint32_t samples_done_ = 0;
+  std::optional<CheckpointFile> checkpoint_;
+  uint32_t samples_done_ = 0;  ///< of every pixel
+  bool in_whole_blocks_ = true;
   double elapsed_ = 0;
 };
+
+/// A film that the machine cannot hold is refused before it is begun.
+void check_memory(uint64_t bytes) {
+  const uint64_t memory = static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+  if (bytes > memory / 10 * 9)
+    throw InputError("the picture with its layers takes " + std::to_string(bytes >> 30) + " GiB, and this machine has " +
+                     std::to_string(memory >> 30) + ": render parts of it with --crop, or with fewer layers");
+}
 
 template <class Real>
 Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, double load_seconds,
@@ -158,7 +181,9 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   statistics.scene_sizes = flat.statistics;
   statistics.build_seconds = flat.statistics.build_seconds;
   statistics.load_seconds = load_seconds + seconds_since(start) - statistics.build_seconds;
-  auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
+  const bool weighted = flat.view.filter.has_negative != 0;
+  check_memory(film_bytes<Real>(settings.window, settings.aovs, weighted));
+  auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, weighted);
   if (events.started) events.started(statistics);
   PassLoop<Real>(flat, settings, *film).run(events, statistics);
   statistics.peak_rss_bytes = peak_rss_bytes();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <thread>
 
 #include "render/backend.h"
@@ -99,8 +100,17 @@ void resolve_picture(const Settings& asked, const Scene& scene, RenderSettings& 
                                   : scene_window(scene.film, s.width, s.height);
   if (s.window.width() < 1 || s.window.height() < 1)
     throw InputError("the part of the picture to render holds no pixel: widen the crop window or pixel bounds");
-  if (s.window.pixels() > most_pixels)
-    throw InputError("a picture of over 10^9 pixels cannot be rendered at once: render parts of it with --crop");
+  if (s.window.pixels() >= most_pixels)
+    throw InputError("a picture of 10^9 pixels or more cannot be rendered at once: render parts of it with --crop");
+}
+
+/// What cannot be saved in the end is refused before anything is rendered.
+void check_checkpoint(const std::string& path) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder))
+    throw InputError({path}, "the folder of the checkpoint does not exist: create it first");
+  if (fs::is_directory(path)) throw InputError({path}, "this is a folder: give the name of a file for the checkpoint");
 }
 
 }  // namespace
@@ -142,6 +152,7 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   s.checkpoint = asked.checkpoint;
   if (!(asked.checkpoint_seconds >= 0)) throw InputError("the time between checkpoints must not be negative");
   s.checkpoint_seconds = asked.checkpoint_seconds;
+  if (!s.checkpoint.empty()) check_checkpoint(s.checkpoint);
   s.resume = asked.resume;
   if (s.resume && s.checkpoint.empty()) throw InputError("to resume, name the file to go on from: --checkpoint FILE");
   s.schedule = parse_schedule(asked.schedule.empty() ? "dynamic" : asked.schedule);

@@ -198,8 +198,8 @@ class Builder {
     const bool parallel = count >= parallel_binning_size;
     const RangeBounds<Real> range = parallel ? parallel_bounds(begin, end) : bounds_of(begin, end);
     BvhNode<Real>& node = nodes_.get()[node_index];
-    node.low = range.boxes.low;
-    node.high = range.boxes.high;
+    node.corners[0] = range.boxes.low;
+    node.corners[1] = range.boxes.high;
     Split split;
     if (count > 1 && depth < halving_depth) {
       Bins<Real> bins;

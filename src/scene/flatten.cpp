@@ -32,10 +32,11 @@ class Flattener {
     FlatScene<Real> flat;
     flatten_camera(scene_, width_, height_, out_, flat.view, diagnostics_);
     for (const Material& material : scene_.materials) needs_uv_.push_back(material_needs_uv(scene_, material));
-    flatten_materials(scene_, out_);
+    flatten_materials(scene_, out_, diagnostics_);
     add_described_lights(scene_, out_, flat.view);
     light_areas_.assign(out_.lights.size(), 0);
     place_shapes();
+    warn_of_dropped_triangles();
     build_tree(flat);
     assign_light_probabilities(light_areas_, out_);
     flat.statistics.triangles = out_.triangles.size();
@@ -230,11 +231,15 @@ class Flattener {
       }
       out_.triangles.push_back(triangle);
     }
-    if (without_area > 0)
-      diagnostics_.warn(shape.where, (mesh.name.empty() ? std::string() : mesh.name + ": ") +
-                                         std::to_string(without_area) + " of " +
-                                         std::to_string(mesh.triangle_count()) +
-                                         " triangles have no area and are left out");
+    if (without_area > 0 && without_area_ == 0) without_area_place_ = shape.where;
+    without_area_ += without_area;
+  }
+
+  void warn_of_dropped_triangles() {
+    if (without_area_ == 0) return;
+    diagnostics_.warn(without_area_place_, std::to_string(without_area_) + " of " +
+                                               std::to_string(without_area_ + out_.triangles.size()) +
+                                               " triangles have no area and are left out (the first of them here)");
   }
 
   std::vector<Bounds3<Real>> primitive_boxes() const {
@@ -300,6 +305,8 @@ class Flattener {
   SceneArrays<Real> out_;
   std::vector<bool> needs_uv_;
   std::vector<double> light_areas_;
+  size_t without_area_ = 0;
+  SourceLocation without_area_place_;
 };
 
 }  // namespace

@@ -187,15 +187,19 @@ bool material_needs_uv(const Scene& scene, const Material& material) {
 }
 
 template <class Real>
-void flatten_materials(Scene& scene, SceneArrays<Real>& out) {
+void flatten_materials(Scene& scene, SceneArrays<Real>& out, Diagnostics& diagnostics) {
   add_srgb_table(out);
   out.noise_permutation.assign(perlin_permutation, perlin_permutation + 256);
   TextureBuilder<Real> textures(scene, out);
-  for (const Material& material : scene.materials) out.materials.push_back(material_record(material, textures));
+  for (const Material& material : scene.materials) {
+    out.materials.push_back(material_record(material, textures));
+    if (material.roughness_u != material.roughness_v && material.roughness_v != no_index)
+      diagnostics.warn({scene.name}, "anisotropic roughness is not supported; that along u is used both ways");
+  }
   out.materials.push_back(material_record(Material{}, textures));
 }
 
-template void flatten_materials(Scene&, SceneArrays<float>&);
-template void flatten_materials(Scene&, SceneArrays<double>&);
+template void flatten_materials(Scene&, SceneArrays<float>&, Diagnostics&);
+template void flatten_materials(Scene&, SceneArrays<double>&, Diagnostics&);
 
 }  // namespace alhazen

@@ -10,7 +10,7 @@ namespace alhazen {
 /// Fills images, texels, texture programs and materials of `out`; frees the texels of `scene`. A material is added at
 /// the end for shapes that name none; its index is scene.materials.size().
 template <class Real>
-void flatten_materials(Scene& scene, SceneArrays<Real>& out);
+void flatten_materials(Scene& scene, SceneArrays<Real>& out, Diagnostics& diagnostics);
 
 /// Whether any texture of the material looks at uv.
 bool material_needs_uv(const Scene& scene, const Material& material);

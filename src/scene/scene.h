@@ -50,7 +50,7 @@ struct Texture {
   WrapMode wrap = WrapMode::repeat;
   bool nearest = false;      ///< image: nearest texel instead of bilinear
   double image_scale = 1;    ///< image: factor on the value
-  bool invert = false;       ///< image: 1 - value, before the factor
+  bool invert = false;       ///< image: 1 - value, after the factor
   bool solid_checks = false; ///< checkerboard in three dimensions instead of over uv
   /// Solid textures (noise, solid checkerboard): from world space to the space of the texture.
   Transform texture_from_world;

@@ -27,8 +27,9 @@ Boxes<Real> random_boxes(size_t count, uint64_t seed) {
 
 template <class Real>
 bool is_within(const Vec3<Real>& low, const Vec3<Real>& high, const BvhNode<Real>& parent) {
-  return low.x >= parent.low.x && low.y >= parent.low.y && low.z >= parent.low.z && high.x <= parent.high.x &&
-         high.y <= parent.high.y && high.z <= parent.high.z;
+  const Vec3<Real>&outer_low = parent.low(), &outer_high = parent.high();
+  return low.x >= outer_low.x && low.y >= outer_low.y && low.z >= outer_low.z && high.x <= outer_high.x &&
+         high.y <= outer_high.y && high.z <= outer_high.z;
 }
 
 template <class Real>
@@ -61,7 +62,7 @@ void check_tree(const Boxes<Real>& boxes, const BvhTree<Real>& tree) {
     ASSERT_LT(node.axis, 3);
     for (const uint32_t child : {node.first, node.first + 1}) {
       ASSERT_LT(child, tree.nodes.size());
-      EXPECT_TRUE(is_within(tree.nodes[child].low, tree.nodes[child].high, node));
+      EXPECT_TRUE(is_within(tree.nodes[child].low(), tree.nodes[child].high(), node));
       stack.push_back({child, depth + 1});
     }
   }
@@ -154,7 +155,7 @@ TYPED_TEST(BvhBuilderOf, SameTreeForAnyThreads) {
     ASSERT_EQ(other.nodes.size(), one.nodes.size());
     for (size_t i = 0; i < one.nodes.size(); ++i) {
       const BvhNode<Real>&a = one.nodes[i], &b = other.nodes[i];
-      ASSERT_TRUE(a.low == b.low && a.high == b.high && a.first == b.first && a.count == b.count && a.axis == b.axis);
+      ASSERT_TRUE(a.low() == b.low() && a.high() == b.high() && a.first == b.first && a.count == b.count && a.axis == b.axis);
     }
   }
 }

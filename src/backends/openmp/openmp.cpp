@@ -17,7 +17,7 @@ constexpr int tile_size = 16;
 template <class Real>
 void reduce_pixel(const RenderPass<Real>& pass, int x, int y) {
   BlockSum<Real> blocks[most_samples_per_pass / samples_per_block];
-  const int count = static_cast<int>(block_count(pass));
+  const int first = static_cast<int>(first_block(pass, x, y)), count = static_cast<int>(block_count(pass));
 #pragma omp parallel num_threads(pass.settings.threads)
   {
     // Within another parallel region this is a team of one, and the thread of the outer team is the one that works.
@@ -25,10 +25,10 @@ void reduce_pixel(const RenderPass<Real>& pass, int x, int y) {
     ThreadStatistics& statistics = pass.control.thread(index);
     const BusyTimer timer(statistics);
 #pragma omp for schedule(static) nowait
-    for (int block = 0; block < count; ++block)
+    for (int block = first; block < count; ++block)
       blocks[block] = take_block(pass, x, y, static_cast<uint32_t>(block), statistics);
   }
-  for (int block = 0; block < count; ++block) pass.film.add(x, y, blocks[block]);
+  for (int block = first; block < count; ++block) pass.film.add(x, y, blocks[block]);
 }
 
 /// Algorithm 4: the outer loop in parallel.

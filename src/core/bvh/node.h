@@ -12,10 +12,13 @@ namespace alhazen {
 /// in SceneView::primitives. `axis` is the axis along which the children were parted.
 template <class Real>
 struct BvhNode {
-  Vec3<Real> low, high;
+  Vec3<Real> corners[2];  ///< low and high; an array, so that the slab test can pick by index
   uint32_t first;
   uint16_t count;
   uint16_t axis;
+
+  ALHAZEN_HD const Vec3<Real>& low() const { return corners[0]; }
+  ALHAZEN_HD const Vec3<Real>& high() const { return corners[1]; }
 };
 
 /// No tree is deeper: the builder ends in leaves before (scene/bvh_builder.h).

@@ -8,17 +8,32 @@
 
 namespace alhazen {
 
+/// A ray as the slab test wants it: reciprocals of its direction (infinite where a component is zero, which the test
+/// bears), and for each axis which of a node's planes it meets first.
+template <class Real>
+struct SlabRay {
+  Vec3<Real> origin;
+  Vec3<Real> inverse;
+  bool from_high[3];
+};
+
+template <class Real>
+ALHAZEN_HD SlabRay<Real> slab_ray(const Ray<Real>& ray) {
+  const Vec3<Real> inverse = Vec3<Real>{1, 1, 1} / ray.direction;
+  return {ray.origin, inverse, {inverse.x < 0, inverse.y < 0, inverse.z < 0}};
+}
+
 /// Distance at which the ray enters the box, or infinity where it misses it or enters beyond t_max. Conservative: the
 /// far distance is raised by its rounding (Ize 2013, "Robust BVH Ray Traversal"). A NaN (origin on a slab's plane,
 /// direction within it) counts as inside.
 template <class Real>
-ALHAZEN_HD Real enter_box(const BvhNode<Real>& node, const Ray<Real>& ray, const Vec3<Real>& inverse, Real t_max) {
+ALHAZEN_HD ALHAZEN_INLINE Real enter_box(const BvhNode<Real>& node, const SlabRay<Real>& ray, Real t_max) {
+  constexpr Real raise = 1 + 2 * rounding_bound<Real>(3);
   Real t_near = 0, t_far = t_max;
   for (int axis = 0; axis < 3; ++axis) {
-    const Real a = (node.low[axis] - ray.origin[axis]) * inverse[axis];
-    const Real b = (node.high[axis] - ray.origin[axis]) * inverse[axis];
-    const Real low = inverse[axis] < 0 ? b : a;
-    const Real high = (inverse[axis] < 0 ? a : b) * (1 + 2 * rounding_bound<Real>(3));
+    const bool from_high = ray.from_high[axis];
+    const Real low = (node.corners[from_high][axis] - ray.origin[axis]) * ray.inverse[axis];
+    const Real high = (node.corners[!from_high][axis] - ray.origin[axis]) * ray.inverse[axis] * raise;
     t_near = low > t_near ? low : t_near;
     t_far = high < t_far ? high : t_far;
   }
@@ -56,7 +71,7 @@ ALHAZEN_HD bool intersect_primitive(const SceneView<Real>& scene, PrimitiveId pr
 template <bool any_hit, class Real>
 ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray, Hit<Real>& hit) {
   if (scene.nodes_count == 0) return false;
-  const Vec3<Real> inverse = Vec3<Real>{1, 1, 1} / ray.direction;
+  const SlabRay<Real> slabs = slab_ray(ray);
   const ShearedRay<Real> sheared = shear_ray(ray);
   struct Entry {
     uint32_t node;
@@ -66,7 +81,7 @@ ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray,
   int height = 0;
   uint32_t current = 0;
   bool found = false;
-  if (enter_box(scene.nodes[0], ray, inverse, hit.t) == infinity<Real>) return false;
+  if (enter_box(scene.nodes[0], slabs, hit.t) == infinity<Real>) return false;
   for (;;) {
     const BvhNode<Real>& node = scene.nodes[current];
     if (node.count > 0) {
@@ -76,8 +91,8 @@ ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray,
         if (any_hit) return true;
       }
     } else {
-      const Real t_left = enter_box(scene.nodes[node.first], ray, inverse, hit.t);
-      const Real t_right = enter_box(scene.nodes[node.first + 1], ray, inverse, hit.t);
+      const Real t_left = enter_box(scene.nodes[node.first], slabs, hit.t);
+      const Real t_right = enter_box(scene.nodes[node.first + 1], slabs, hit.t);
       const bool left = t_left < infinity<Real>, right = t_right < infinity<Real>;
       if (left && right) {
         const bool left_first = t_left <= t_right;

@@ -116,8 +116,8 @@ ALHAZEN_HD Vec3<Real> evaluate_texture_node(const SceneView<Real>& scene, const 
     case TextureKind::checkerboard: return is_even_check(scene, node, at) ? inputs[0] : inputs[1];
     case TextureKind::image: {
       const Vec2<Real> st = map_uv(scene.texture_mappings[node.mapping], at.uv);
-      const Vec3<Real> value = lookup_image(scene, scene.images[node.image], st);
-      return (node.parameters.y != 0 ? max(splat(Real(1)) - value, Vec3<Real>{}) : value) * node.parameters.x;
+      const Vec3<Real> value = lookup_image(scene, scene.images[node.image], st) * node.parameters.x;
+      return max(node.parameters.y != 0 ? splat(Real(1)) - value : value, Vec3<Real>{});
     }
     case TextureKind::fbm:
     case TextureKind::wrinkled: {

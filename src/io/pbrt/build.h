@@ -37,7 +37,7 @@ struct GraphicsState {
   bool reverse_orientation = false;
   uint32_t material = no_index;  ///< absent: the default material
   std::optional<AreaLight> area_light;
-  ColourSpace colour_space = ColourSpace::srgb;
+  std::string rgb_space = "srgb";
   AttributeDefaults defaults;
 
   MovingTransform ctm() const { return {ctm_start, ctm_end}; }

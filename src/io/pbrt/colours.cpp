@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "io/colour/rgb_space.h"
+
 namespace alhazen::pbrt {
 
 namespace {
@@ -21,7 +23,7 @@ Vec3d rgb_of(const Parameter& parameter, ColourUse use) {
     fail(parameter.place, quoted(parameter.name) + ": a colour cannot be negative");
   if (use == ColourUse::albedo && max_component(rgb) > 1)
     fail(parameter.place, quoted(parameter.name) + ": a reflectance cannot be over 1");
-  return to_srgb(parameter.colour_space, rgb);
+  return to_srgb(parameter.rgb_space, rgb);
 }
 
 Spectrum listed_spectrum(const Parameter& parameter, const Numbers& values) {
@@ -66,7 +68,7 @@ std::optional<Spectrum> spectrum_of(const Build& build, const Parameter& paramet
 Vec3d colour_of(const Build& build, const Parameter& parameter, ColourUse use) {
   const auto projected = [&] {
     if (parameter.type == ParameterType::rgb) return rgb_of(parameter, use);
-    if (parameter.type == ParameterType::xyz) return srgb_from_xyz(three_numbers(parameter));
+    if (parameter.type == ParameterType::xyz) return xyz_to_srgb(three_numbers(parameter));
     const Spectrum spectrum = *spectrum_of(build, parameter);
     return use == ColourUse::illuminant ? illuminant_rgb(spectrum) : reflectance_rgb(spectrum);
   };

@@ -76,8 +76,8 @@ void set_film(Build& build, const std::string& kind, ParameterList& list) {
   FilmSettings film;
   film.width = read_side(list, "xresolution", 1280);
   film.height = read_side(list, "yresolution", 720);
-  if (film.width * film.height > max_pixels)
-    fail(list.place_of("yresolution"), "the picture has over 10^9 pixels; lower xresolution or yresolution");
+  if (film.width * film.height >= max_pixels)
+    fail(list.place_of("yresolution"), "the picture has 10^9 pixels or more; lower xresolution or yresolution");
   film.filename = list.string("filename", "");
   if (list.has("pixelbounds")) film.pixel_bounds = read_pixel_bounds(build, list, film);
   if (list.has("cropwindow")) {
@@ -87,7 +87,7 @@ void set_film(Build& build, const std::string& kind, ParameterList& list) {
     film.pixel_bounds = read_crop_window(list, film);
   }
   read_sensor(build, list);
-  if (build.state.colour_space != ColourSpace::srgb)
+  if (build.state.rgb_space != "srgb")
     build.warn(list.place(), "the picture is written in linear sRGB, not in the colour space of the film");
   list.ignore({"diagonal", "savefp16", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"});
   list.reject_unknown();

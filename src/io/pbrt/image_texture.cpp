@@ -108,10 +108,6 @@ void read_image_texture(Build& build, ParameterList& list, bool is_float, Textur
   texture.nearest = read_nearest(list);
   texture.image_scale = list.number("scale", 1);
   texture.invert = list.boolean("invert", false);
-  if (texture.invert && texture.image_scale != 1)
-    build.warn(list.place_of("invert"),
-               "\"invert\" together with \"scale\" is scale * (1 - value) here, where pbrt has "
-               "1 - scale * value");
   list.ignore({"maxanisotropy"});
   texture.image = image_index(build, list, read_encoding(build, list), is_float);
 }

@@ -34,6 +34,9 @@ void read_roughness(Build& build, ParameterList& list, const std::string& prefix
     material.roughness_u = build.constant_texture({});
   else if (material.roughness_v == no_index)
     material.roughness_v = build.constant_texture({});
+  if (material.roughness_u != material.roughness_v)
+    build.warn(list.place_of(prefix + (v != no_index ? "vroughness" : "uroughness")),
+               "roughness that differs along u and v is not supported; that along u is used for both");
 }
 
 const Spectrum& copper(const ParameterList& list, const std::string& name) {

@@ -129,7 +129,7 @@ uint32_t read_loop_subdivision(Build& build, ParameterList& list) {
   Mesh control = read_faces(list, 3);
   const int levels = list.integer("levels", 3);
   list.ignore({"scheme", "N", "uv", "S"});
-  if (levels < 0 || levels > 10) fail(list.place_of("levels"), "\"levels\" must be from 0 to 10");
+  if (levels < 0 || levels > 6) fail(list.place_of("levels"), "\"levels\" must be from 0 to 6");
   if (control.triangle_count() << (2 * levels) > max_subdivided_triangles)
     fail(list.place_of("levels"), "subdividing " + std::to_string(control.triangle_count()) + " triangles " +
                                       std::to_string(levels) + " times makes over four million; use fewer levels");

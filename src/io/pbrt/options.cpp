@@ -77,8 +77,8 @@ void set_filter(Build& build, const std::string& kind, ParameterList& list) {
   Filter filter = known_kind(filters, "pixel filter", kind, list);
   filter.x_radius = list.positive("xradius", filter.x_radius);
   filter.y_radius = list.positive("yradius", filter.y_radius);
-  if (std::max(filter.x_radius, filter.y_radius) > 1000)
-    fail(list.place(), list.directive() + ": a radius of over 1000 pixels is not usable");
+  if (std::max(filter.x_radius, filter.y_radius) > 64)
+    fail(list.place(), list.directive() + ": its radii can be 64 pixels at most");
   if (filter.type == FilterType::gaussian) filter.sigma = list.positive("sigma", filter.sigma);
   if (filter.type == FilterType::mitchell) {
     filter.b = list.number("B", filter.b);

@@ -240,11 +240,11 @@ void read_values(Lexer& lexer, Parameter& parameter) {
 
 }  // namespace
 
-void parse_parameters(Lexer& lexer, ColourSpace colour_space, ParameterList& list) {
+void parse_parameters(Lexer& lexer, const std::string& rgb_space, ParameterList& list) {
   while (lexer.peek().kind == TokenKind::string) {
     const Token declaration = lexer.next();
     Parameter parameter = declared(lexer, declaration, list.directive());
-    parameter.colour_space = colour_space;
+    parameter.rgb_space = rgb_space;
     read_values(lexer, parameter);
     if (parameter.count() == 0) fail(parameter.place, "\"" + parameter.name + "\" has no values");
     list.add(std::move(parameter));

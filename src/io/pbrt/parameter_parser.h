@@ -8,6 +8,6 @@
 namespace alhazen::pbrt {
 
 /// Adds every parameter up to the next directive to `list`.
-void parse_parameters(Lexer& lexer, ColourSpace colour_space, ParameterList& list);
+void parse_parameters(Lexer& lexer, const std::string& rgb_space, ParameterList& list);
 
 }  // namespace alhazen::pbrt

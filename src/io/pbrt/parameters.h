@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "core/math/vec.h"
-#include "io/pbrt/colour_space.h"
 #include "io/pbrt/source.h"
 
 namespace alhazen::pbrt {
@@ -51,7 +50,7 @@ struct Parameter {
   ParameterType type = ParameterType::number;
   std::string name;
   std::variant<Numbers, Booleans, Integers, Points2, Points3, Normals, Strings> values;
-  ColourSpace colour_space = ColourSpace::srgb;  ///< of `rgb`: the one in force where the parameter stands
+  std::string rgb_space = "srgb";  ///< of type rgb: the colour space in force where the parameter stands
   Place place;
 
   size_t count() const;

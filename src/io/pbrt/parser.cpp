@@ -1,10 +1,13 @@
 #include "io/pbrt/parser.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <system_error>
 #include <unordered_map>
 #include <utility>
 
+#include "io/colour/rgb_space.h"
 #include "io/pbrt/lights.h"
 #include "io/pbrt/materials.h"
 #include "io/pbrt/nearest.h"
@@ -124,7 +127,7 @@ void Parser::parse_directive() {
 
 ParameterList Parser::read_parameters(const std::string& kind, const Place& place) {
   ParameterList list(directive_ + " \"" + kind + "\"", place);
-  parse_parameters(*lexer_, build_.state.colour_space, list);
+  parse_parameters(*lexer_, build_.state.rgb_space, list);
   return list;
 }
 
@@ -209,10 +212,12 @@ void Parser::attribute(const Place& place) {
 }
 
 void Parser::colour_space(const Place& place) {
-  const std::string name = expect_string(*lexer_, "the name of a colour space");
-  const auto space = colour_space_named(name);
-  if (!space) fail(place, "unknown colour space \"" + name + "\"; use srgb, rec2020, dci-p3 or aces2065-1");
-  build_.state.colour_space = *space;
+  std::string name = expect_string(*lexer_, "the name of a colour space");
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (!is_rgb_space(name))
+    fail(place, "unknown colour space \"" + name + "\"; use srgb, rec2020, dci-p3 or aces2065-1");
+  build_.state.rgb_space = name;
 }
 
 void Parser::include(const Place& place) {

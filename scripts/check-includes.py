@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""Holds the rule of who may include whom. Prints file:line for each breach and fails.
+
+Layers are the folders of src/, and `alhazen` is the public header in include/. A file may include what its own layer
+may, given below, by a path that starts at src/ or include/.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+MAY_INCLUDE = {
+    "core": {"core"},
+    "scene": {"scene", "core"},
+    "io": {"io", "scene", "core"},
+    "render": {"render", "scene", "core", "alhazen"},
+    "backends": {"backends", "render", "scene", "core"},
+    "study": {"study", "backends", "render", "io", "scene", "core", "alhazen"},
+    "api": {"api", "study", "backends", "render", "io", "scene", "core", "alhazen"},
+    "cli": {"cli", "study", "backends", "render", "io", "scene", "alhazen"},
+    "alhazen": set(),
+}
+
+# Exceptions: (layer, path that it may include all the same, why).
+EXCEPTIONS = [
+    ("render", "io/images/image.h", "the film hands out rows as pictures do"),
+    ("render", "io/images/atomic_file.h", "checkpoints are written whole or not at all, as pictures are"),
+]
+
+# The core runs on devices too: of the standard library it may use only what needs no run time support there.
+CORE_STANDARD_HEADERS = {"cfloat", "cmath", "concepts", "cstddef", "cstdint", "limits", "type_traits"}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]*)"|<([^>]*)>)')
+
+
+def breaches(path, layer):
+    allowed_paths = {included for by, included, _ in EXCEPTIONS if by == layer}
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        match = INCLUDE.match(line)
+        if not match:
+            continue
+        own, system = match.groups()
+        if own is not None:
+            target = own.split("/")[0]
+            if target not in MAY_INCLUDE:
+                yield number, f'"{own}" must be a path from src/ or include/'
+            elif target not in MAY_INCLUDE[layer] and own not in allowed_paths:
+                may = ", ".join(sorted(MAY_INCLUDE[layer])) or "nothing of the project"
+                yield number, f'{layer} may not include "{own}", only {may}'
+        elif system.split("/")[0] in MAY_INCLUDE:
+            yield number, f'<{system}> is a file of the project: include it as "{system}"'
+        elif layer == "core" and system not in CORE_STANDARD_HEADERS:
+            yield number, f"core may not include <{system}>, only {', '.join(sorted(CORE_STANDARD_HEADERS))}"
+
+
+def main():
+    root = Path(__file__).resolve().parent.parent
+    files = [path for folder in ("src", "include") for path in sorted((root / folder).rglob("*"))
+             if path.suffix in {".h", ".cpp", ".cu", ".cuh"}]
+    failures = 0
+    for path in files:
+        name = path.relative_to(root)
+        layer = name.parts[1]
+        if layer not in MAY_INCLUDE:
+            print(f"{name}:1: '{layer}' is no layer that {Path(__file__).name} knows: add it to its table")
+            failures += 1
+            continue
+        for number, message in breaches(path, layer):
+            print(f"{name}:{number}: {message}")
+            failures += 1
+    print(f"{len(files)} files, {failures} includes against the rule")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,182 @@
+// The public header: a scene file into memory, with progress, cancel, layers and warnings.
+
+#include <alhazen/alhazen.h>
+
+#include <cmath>
+
+#include "io/images/image.h"
+#include "support/whole_scenes.h"
+#include "support/temporary_folder.h"
+
+namespace alhazen::testing {
+
+namespace {
+
+class Api : public ::testing::Test {
+ protected:
+  Api() : scene_(folder_.write_text("scene.pbrt", cornell_box(12))) {}
+
+  static Settings quick() {
+    Settings settings;
+    settings.samples_per_pixel = 4;
+    return settings;
+  }
+
+  std::string error_of(const Settings& settings) const {
+    try {
+      render(scene_, settings);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  TemporaryFolder folder_;
+  std::string scene_;
+};
+
+TEST_F(Api, RendersIntoMemory) {
+  const Picture picture = render(scene_, quick());
+  EXPECT_EQ(picture.width, 12);
+  EXPECT_EQ(picture.height, 12);
+  EXPECT_TRUE(picture.complete);
+  EXPECT_TRUE(picture.warnings.empty());
+  EXPECT_EQ(picture.channels, (std::vector<std::string>{"R", "G", "B"}));
+  ASSERT_EQ(picture.planes.size(), 3u);
+  double sum = 0;
+  for (size_t i = 0; i < 144; ++i) {
+    EXPECT_TRUE(std::isfinite(picture.plane("R")[i]));
+    sum += static_cast<double>(picture.plane("R")[i]);
+  }
+  EXPECT_GT(sum / 144, 0.05);
+  EXPECT_EQ(picture.plane("depth.Z"), nullptr);
+  EXPECT_EQ(std::filesystem::exists("cornell.exr"), false) << "nothing is written";
+}
+
+TEST_F(Api, SettingsAreFollowed) {
+  Settings settings = quick();
+  settings.width = 10;
+  settings.height = 8;
+  settings.aovs = {"albedo", "normal", "depth", "bounces", "samples", "variance"};
+  settings.pixel_bounds = {{2, 9, 1, 7}};
+  settings.precision = "double";
+  settings.backend = "openmp";
+  settings.strategy = "rows+reduction";
+  settings.threads = 2;
+  const Picture picture = render(scene_, settings);
+  EXPECT_EQ(picture.width, 7);
+  EXPECT_EQ(picture.height, 6);
+  for (const char* channel : {"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z",
+                              "depth.Z", "bounces.Y", "samples.Y", "variance.Y"})
+    EXPECT_NE(picture.plane(channel), nullptr) << channel;
+  for (size_t i = 0; i < 42; ++i) EXPECT_EQ(picture.plane("samples.Y")[i], 4.0f);
+  settings.precision = "float";
+  settings.backend = "serial";
+  settings.strategy = "auto";
+  const Picture serial = render(scene_, settings);
+  settings.backend = "openmp";
+  settings.threads = 3;
+  EXPECT_EQ(serial.planes, render(scene_, settings).planes);
+}
+
+TEST_F(Api, RowsRunFromTheTopDown) {
+  Settings settings = quick();
+  settings.samples_per_pixel = 16;
+  const Picture picture = render(scene_, settings);
+  // The light is in the ceiling.
+  const float* green = picture.plane("G");
+  const auto brightest = std::max_element(green, green + 144) - green;
+  EXPECT_LT(brightest / 12, 4);
+}
+
+TEST_F(Api, ProgressIsTold) {
+  uint64_t calls = 0;
+  Progress last;
+  const Picture picture = render(scene_, quick(), [&](const Progress& progress) {
+    EXPECT_GE(progress.fraction, last.fraction);
+    EXPECT_LE(progress.samples_done, progress.samples_total);
+    last = progress;
+    ++calls;
+    return true;
+  });
+  EXPECT_TRUE(picture.complete);
+  EXPECT_GE(calls, 1u);
+  EXPECT_EQ(last.fraction, 1.0);
+  EXPECT_EQ(last.samples_done, 12u * 12 * 4);
+  EXPECT_EQ(last.samples_total, 12u * 12 * 4);
+}
+
+TEST_F(Api, ProgressCanCancel) {
+  Settings settings;
+  settings.samples_per_pixel = 1 << 24;
+  settings.aovs = {"samples"};
+  for (const char* backend : {"serial", "openmp"}) {
+    settings.backend = backend;
+    const Picture picture =
+        render(scene_, settings, [](const Progress& progress) { return progress.samples_done == 0; });
+    EXPECT_FALSE(picture.complete);
+    EXPECT_EQ(picture.width, 12);
+    EXPECT_GT(*std::max_element(picture.plane("samples.Y"), picture.plane("samples.Y") + 144), 0.0f);
+  }
+}
+
+TEST_F(Api, TimeLimitEndsEarly) {
+  Settings settings;
+  settings.samples_per_pixel = 1 << 24;
+  settings.time_limit = 0.3;
+  EXPECT_FALSE(render(scene_, settings).complete);
+}
+
+TEST_F(Api, WarningsComeWithThePicture) {
+  const std::string scene = folder_.write_text(
+      "warned.pbrt", cornell_box(8) + "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  0 0 0  0 0 0 ]\n");
+  const Picture picture = render(scene, quick());
+  ASSERT_EQ(picture.warnings.size(), 1u);
+  EXPECT_NE(picture.warnings[0].find("warned.pbrt:"), std::string::npos);
+  EXPECT_NE(picture.warnings[0].find("no area"), std::string::npos);
+}
+
+TEST_F(Api, ErrorsAreOneMessage) {
+  Settings settings = quick();
+  settings.backend = "abacus";
+  EXPECT_NE(error_of(settings).find("abacus"), std::string::npos);
+  settings = quick();
+  settings.width = -5;
+  EXPECT_NE(error_of(settings).find("width"), std::string::npos);
+  settings = quick();
+  settings.time_limit = -1;
+  EXPECT_NE(error_of(settings).find("time"), std::string::npos);
+  settings = quick();
+  settings.aovs = {"colour"};
+  EXPECT_NE(error_of(settings).find("colour"), std::string::npos);
+  settings = quick();
+  settings.samples_per_pixel = -1;
+  EXPECT_NE(error_of(settings).find("samples"), std::string::npos);
+  settings = quick();
+  settings.checkpoint = folder_.file("no-such-folder/state");
+  EXPECT_NE(error_of(settings).find("no-such-folder"), std::string::npos);
+  EXPECT_THROW(render(folder_.file("missing.pbrt")), std::runtime_error);
+}
+
+TEST_F(Api, RendersSideBySide) {
+  // Two at once in one process, as a program that embeds it may do.
+  const Picture expected = render(scene_, quick());
+  Picture inside;
+  Settings settings = quick();
+  settings.backend = "openmp";
+  settings.threads = 2;
+  bool rendered = false;
+  const Picture outside = render(scene_, settings, [&](const Progress&) {
+    if (!rendered) inside = render(scene_, settings);
+    rendered = true;
+    return true;
+  });
+  EXPECT_EQ(expected.planes, outside.planes);
+  EXPECT_EQ(expected.planes, inside.planes);
+}
+
+TEST_F(Api, KnowsItsVersion) { EXPECT_STRNE(version(), ""); }
+
+}  // namespace
+
+}  // namespace alhazen::testing

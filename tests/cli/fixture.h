@@ -1,0 +1,56 @@
+#pragma once
+
+// A folder with a small scene in it, and the program run there.
+
+#include <nlohmann/json.hpp>
+
+#include "io/images/image.h"
+#include "support/run_command.h"
+#include "support/whole_scenes.h"
+#include "support/temporary_folder.h"
+
+namespace alhazen::testing {
+
+class Command : public ::testing::Test {
+ protected:
+  Command() { folder_.write_text("scene.pbrt", cornell_box(24)); }
+
+  CommandResult run(const std::vector<std::string>& arguments, CommandOptions options = {}) const {
+    options.folder = folder_.path();
+    return run_alhazen(arguments, options);
+  }
+
+  /// `alhazen render scene.pbrt`, quickly and quietly, with `arguments` after it.
+  CommandResult render(const std::vector<std::string>& arguments, const CommandOptions& options = {}) const {
+    std::vector<std::string> all{"render", "scene.pbrt"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return run(all, options);
+  }
+
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder_.file(name)); }
+  Image image(const std::string& name) const { return read_image(folder_.file(name)); }
+
+  TemporaryFolder folder_;
+};
+
+/// The only line of `text`, parsed; fails where there is another one.
+inline nlohmann::json only_json(const std::string& text) {
+  EXPECT_FALSE(text.empty());
+  EXPECT_EQ(text.find('\n'), text.size() - 1) << text;
+  nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  EXPECT_FALSE(json.is_discarded()) << text;
+  return json;
+}
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  size_t begin = 0;
+  while (begin < text.size()) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+}  // namespace alhazen::testing

@@ -1,0 +1,286 @@
+// Every option of `alhazen render`, by what it does to the picture and to the report.
+
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfStringAttribute.h>
+
+#include <cmath>
+#include <set>
+
+#include "cli/fixture.h"
+
+namespace alhazen::testing {
+
+namespace {
+
+class RenderOptions : public Command {
+ protected:
+  /// Renders with --stats=json, expects success, and returns the object.
+  nlohmann::json statistics(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"--stats=json", "--progress", "none"});
+    if (std::find(arguments.begin(), arguments.end(), "--spp") == arguments.end())
+      arguments.insert(arguments.end(), {"--spp", "2"});
+    const CommandResult result = render(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.everything();
+    return only_json(result.out);
+  }
+};
+
+double mean_of(const Image& image, const std::string& channel) {
+  const int index = image.channel(channel);
+  EXPECT_GE(index, 0) << channel;
+  double sum = 0;
+  for (const float value : image.planes.at(static_cast<size_t>(index))) sum += static_cast<double>(value);
+  return sum / static_cast<double>(image.width * image.height);
+}
+
+bool is_same(const Image& a, const Image& b) {
+  return a.width == b.width && a.height == b.height && a.channels == b.channels && a.planes == b.planes;
+}
+
+TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
+  const std::set<std::string> tested{"--help",     "--output",   "--outfile",    "--aov",         "--exr-type",
+                                     "--exposure", "--tone-map", "--spp",        "--max-depth",   "--maxdepth",
+                                     "--size",     "--crop",     "--cropwindow", "--pixelbounds", "--integrator",
+                                     "--sampler",  "--seed",     "--backend",    "--strategy",    "--schedule",
+                                     "--threads",  "--nthreads", "--precision",  "--progress",    "--quiet",
+                                     "--verbose",  "--stats",    "--time-limit", "--checkpoint",  "--resume"};
+  const CommandResult help = run({"render", "--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  std::set<std::string> named;
+  for (size_t at = help.out.find("--"); at != std::string::npos; at = help.out.find("--", at + 2)) {
+    const size_t end = help.out.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", at);
+    named.insert(help.out.substr(at, end - at));
+  }
+  EXPECT_EQ(named, tested);
+  for (const char* group : {"Output:", "Picture:", "Engine:", "While it runs:", "SCENE"})
+    EXPECT_NE(help.out.find(group), std::string::npos) << group;
+}
+
+TEST_F(RenderOptions, StatisticsAreOneObjectWithEveryKey) {
+  const nlohmann::json j = statistics({"-o", "a.exr", "--seed", "5", "--max-depth", "3", "-t", "2"});
+  for (const char* key : {"backend",
+                          "strategy",
+                          "precision",
+                          "schedule",
+                          "threads",
+                          "integrator",
+                          "sampler",
+                          "seed",
+                          "width",
+                          "height",
+                          "spp",
+                          "max_depth",
+                          "triangles",
+                          "spheres",
+                          "nodes",
+                          "scene_bytes",
+                          "load_seconds",
+                          "build_seconds",
+                          "render_seconds",
+                          "camera_samples",
+                          "rays",
+                          "shadow_rays",
+                          "msamples_per_s",
+                          "mrays_per_s",
+                          "mean_segments",
+                          "peak_rss_bytes",
+                          "thread_statistics"})
+    EXPECT_TRUE(j.contains(key)) << key;
+  EXPECT_EQ(j["backend"], "openmp");
+  EXPECT_EQ(j["precision"], "float");
+  EXPECT_EQ(j["threads"], 2);
+  EXPECT_EQ(j["seed"], 5);
+  EXPECT_EQ(j["width"], 24);
+  EXPECT_EQ(j["height"], 24);
+  EXPECT_EQ(j["spp"], 2);
+  EXPECT_EQ(j["max_depth"], 3);
+  EXPECT_EQ(j["triangles"], 36);
+  EXPECT_EQ(j["spheres"], 0);
+  EXPECT_EQ(j["camera_samples"], 24 * 24 * 2);
+  EXPECT_TRUE(j["complete"]);
+  EXPECT_GT(j["rays"], 24 * 24 * 2);
+  EXPECT_GT(j["shadow_rays"], 0);
+  EXPECT_GT(j["render_seconds"], 0.0);
+  EXPECT_GT(j["scene_bytes"], 0);
+  EXPECT_GT(j["peak_rss_bytes"], 1'000'000);
+  EXPECT_GT(j["mean_segments"], 1.0);
+  EXPECT_LE(j["mean_segments"], 4.0);
+  ASSERT_EQ(j["thread_statistics"].size(), 2u);
+  int samples = 0;
+  for (const auto& thread : j["thread_statistics"]) {
+    EXPECT_GE(thread["busy_seconds"], 0.0);
+    samples += thread["samples"].get<int>();
+  }
+  EXPECT_EQ(samples, 24 * 24 * 2);
+}
+
+TEST_F(RenderOptions, TextStatisticsGoToStdout) {
+  const CommandResult result = render({"--spp", "1", "-q", "--stats", "-o", "a.png"});
+  EXPECT_EQ(result.exit_code, 0) << result.everything();
+  EXPECT_NE(result.out.find("samples 576"), std::string::npos) << result.out;
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(RenderOptions, OutputsAreAllWritten) {
+  EXPECT_EQ(render({"-o", "a.exr", "-o", "b.png", "--output", "c.EXR", "--outfile", "d.exr", "--spp", "2"}).exit_code,
+            0);
+  const Image a = image("a.exr");
+  EXPECT_EQ(a.width, 24);
+  EXPECT_EQ(a.height, 24);
+  EXPECT_TRUE(is_same(a, image("c.EXR")));
+  EXPECT_TRUE(is_same(a, image("d.exr")));
+  EXPECT_NEAR(mean_of(a, "R"), mean_of(image("b.png"), "R"), 0.2);
+  EXPECT_EQ(folder_.count(), 5u) << "nothing else may be left behind";
+}
+
+TEST_F(RenderOptions, TheNameIsTheScenesOwnWhereNoneIsGiven) {
+  EXPECT_EQ(render({"--spp", "1"}).exit_code, 0);
+  EXPECT_TRUE(exists("cornell.exr"));
+  std::string nameless = cornell_box(8);
+  nameless.erase(nameless.find("\"string filename\""), std::string("\"string filename\" \"cornell.exr\"").size());
+  folder_.write_text("nameless.pbrt", nameless);
+  EXPECT_EQ(run({"render", "nameless.pbrt", "--spp", "1"}).exit_code, 0);
+  EXPECT_TRUE(exists("nameless.exr"));
+}
+
+TEST_F(RenderOptions, ExrHoldsLayersMetadataAndWindows) {
+  ASSERT_EQ(render({"-o", "a.exr", "--spp", "3", "--seed", "9", "--aov", "albedo,normal", "--aov",
+                    "depth,bounces,samples,variance", "--crop", "0.25,0.75,0.5,1"})
+                .exit_code,
+            0);
+  const Image a = image("a.exr");
+  EXPECT_EQ(a.width, 12);
+  EXPECT_EQ(a.height, 12);
+  for (const char* channel : {"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z",
+                              "depth.Z", "bounces.Y", "samples.Y", "variance.Y"})
+    EXPECT_GE(a.channel(channel), 0) << channel;
+  EXPECT_EQ(a.channels.size(), 13u);
+  EXPECT_EQ(mean_of(a, "samples.Y"), 3);
+  EXPECT_GT(mean_of(a, "depth.Z"), 4);
+  EXPECT_LT(mean_of(a, "depth.Z"), 9);
+  EXPECT_GE(mean_of(a, "bounces.Y"), 1);
+  EXPECT_GT(mean_of(a, "albedo.R"), 0.05);
+
+  const Imf::InputFile file(folder_.file("a.exr").c_str());
+  const Imf::Header& header = file.header();
+  const auto text = [&](const char* name) {
+    const auto* attribute = header.findTypedAttribute<Imf::StringAttribute>(name);
+    EXPECT_NE(attribute, nullptr) << name;
+    return attribute ? attribute->value() : std::string();
+  };
+  EXPECT_EQ(text("scene"), "scene.pbrt");
+  EXPECT_EQ(text("seed"), "9");
+  EXPECT_EQ(text("samples"), "3");
+  EXPECT_NE(text("settings").find("--integrator path"), std::string::npos);
+  EXPECT_NE(text("software").find("Alhazen"), std::string::npos);
+  EXPECT_GE(std::stod(text("seconds")), 0);
+  EXPECT_EQ(header.dataWindow().min.x, 6);
+  EXPECT_EQ(header.dataWindow().max.x, 17);
+  EXPECT_EQ(header.dataWindow().min.y, 12);
+  EXPECT_EQ(header.dataWindow().max.y, 23);
+  EXPECT_EQ(header.displayWindow().max.x, 23);
+  EXPECT_EQ(header.displayWindow().max.y, 23);
+}
+
+TEST_F(RenderOptions, ExrTypeIsHalfOrFloat) {
+  ASSERT_EQ(render({"-o", "half.exr", "--spp", "2"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", "float.exr", "--spp", "2", "--exr-type", "float"}).exit_code, 0);
+  const Image half = image("half.exr"), single = image("float.exr");
+  EXPECT_FALSE(is_same(half, single));
+  for (size_t i = 0; i < half.planes[0].size(); ++i)
+    EXPECT_NEAR(half.planes[0][i], single.planes[0][i], 1e-3f * std::max(1.0f, single.planes[0][i]));
+}
+
+TEST_F(RenderOptions, ExposureAndToneMapChangeThePng) {
+  ASSERT_EQ(render({"-o", "plain.png", "--spp", "4"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", "bright.png", "--spp", "4", "--exposure", "1"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", "dark.png", "--spp", "4", "--exposure", "-1.5"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", "none.png", "--spp", "4", "--tone-map", "none"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", "reinhard.png", "--spp", "4", "--tone-map", "reinhard"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", "filmic.png", "--spp", "4", "--tone-map", "filmic"}).exit_code, 0);
+  EXPECT_GT(mean_of(image("bright.png"), "R"), mean_of(image("plain.png"), "R"));
+  EXPECT_LT(mean_of(image("dark.png"), "R"), mean_of(image("plain.png"), "R"));
+  EXPECT_TRUE(is_same(image("none.png"), image("plain.png")));
+  EXPECT_LT(mean_of(image("reinhard.png"), "R"), mean_of(image("plain.png"), "R"));
+  EXPECT_FALSE(is_same(image("filmic.png"), image("reinhard.png")));
+}
+
+TEST_F(RenderOptions, SizeAndParts) {
+  ASSERT_EQ(render({"-o", "whole.exr", "--spp", "2", "--size", "20x10"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", "crop.exr", "--spp", "2", "--size", "20x10", "--cropwindow", "0.5,1,0,0.5"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", "bounds.exr", "--spp", "2", "--size", "20x10", "--pixelbounds", "10,20,0,5"}).exit_code, 0);
+  const Image whole = image("whole.exr"), crop = image("crop.exr");
+  EXPECT_EQ(whole.width, 20);
+  EXPECT_EQ(whole.height, 10);
+  ASSERT_EQ(crop.width, 10);
+  ASSERT_EQ(crop.height, 5);
+  EXPECT_TRUE(is_same(crop, image("bounds.exr")));
+  for (size_t y = 0; y < 5; ++y)
+    for (size_t x = 0; x < 10; ++x) EXPECT_EQ(crop.planes[0][y * 10 + x], whole.planes[0][y * 20 + x + 10]);
+}
+
+TEST_F(RenderOptions, PictureOptionsReachTheRenderer) {
+  EXPECT_EQ(statistics({"-o", "a.exr", "--spp", "5"})["spp"], 5);
+  EXPECT_EQ(statistics({"-o", "a.exr"})["spp"], 2);
+  EXPECT_EQ(statistics({"-o", "a.exr", "--max-depth", "0"})["mean_segments"], 1.0);
+  EXPECT_EQ(statistics({"-o", "a.exr", "--maxdepth", "2"})["max_depth"], 2);
+  for (const char* integrator : {"path", "iterative", "recursive", "branching"})
+    EXPECT_EQ(statistics({"-o", "a.exr", "--integrator", integrator})["integrator"], integrator);
+  for (const char* sampler : {"sobol", "independent"})
+    EXPECT_EQ(statistics({"-o", "a.exr", "--sampler", sampler})["sampler"], sampler);
+  EXPECT_EQ(statistics({"-o", "a.exr", "--seed", "4294967295"})["seed"], 4294967295u);
+}
+
+TEST_F(RenderOptions, SeedsChangeTheNoise) {
+  ASSERT_EQ(render({"-o", "a.exr", "--spp", "2"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", "b.exr", "--spp", "2", "--seed", "1"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", "c.exr", "--spp", "2", "--seed", "0"}).exit_code, 0);
+  EXPECT_FALSE(is_same(image("a.exr"), image("b.exr")));
+  EXPECT_TRUE(is_same(image("a.exr"), image("c.exr")));
+}
+
+TEST_F(RenderOptions, EngineOptionsReachTheBackendAndLeaveThePicture) {
+  ASSERT_EQ(render({"-o", "serial.exr", "--spp", "2", "--backend", "serial"}).exit_code, 0);
+  const Image serial = image("serial.exr");
+  for (const char* strategy : {"tiles", "rows", "collapse", "rows+reduction", "reduction"}) {
+    const nlohmann::json j = statistics(
+        {"-o", "a.exr", "--backend", "openmp", "--strategy", strategy, "--schedule", "guided,2", "--nthreads", "3"});
+    EXPECT_EQ(j["backend"], "openmp");
+    EXPECT_EQ(j["strategy"], strategy);
+    EXPECT_EQ(j["schedule"], "guided,2");
+    EXPECT_EQ(j["threads"], 3);
+    EXPECT_TRUE(is_same(serial, image("a.exr"))) << strategy;
+  }
+  for (const char* schedule : {"static", "dynamic,4", "guided"})
+    EXPECT_EQ(statistics({"-o", "a.exr", "--schedule", schedule, "--threads", "2"})["schedule"], schedule);
+  EXPECT_EQ(statistics({"-o", "a.exr", "-t", "1"})["backend"], "serial");
+  EXPECT_EQ(statistics({"-o", "a.exr", "--backend", "auto", "--strategy", "auto", "-t", "2"})["backend"], "openmp");
+  EXPECT_GE(statistics({"-o", "a.exr", "-t", "0"})["threads"], 1);
+  EXPECT_EQ(statistics({"-o", "d.exr", "--precision", "double"})["precision"], "double");
+  EXPECT_EQ(statistics({"-o", "f.exr", "--precision", "float"})["precision"], "float");
+  EXPECT_NEAR(mean_of(image("d.exr"), "G"), mean_of(image("f.exr"), "G"), 0.02);
+}
+
+TEST_F(RenderOptions, QuietSaysNothingAndVerboseSaysHow) {
+  const CommandResult quiet = render({"-o", "a.exr", "--spp", "1", "--quiet"});
+  EXPECT_EQ(quiet.out + quiet.err, "");
+  const CommandResult verbose = render({"-o", "a.exr", "--spp", "1", "--verbose", "-t", "2"});
+  for (const char* word : {"36 triangles", "24 x 24 pixels", "1 samples each", "path in float",
+                           "openmp tiles on 2 threads", "wrote a.exr"})
+    EXPECT_NE(verbose.err.find(word), std::string::npos) << word << " in\n" << verbose.err;
+  EXPECT_EQ(verbose.out, "");
+}
+
+TEST_F(RenderOptions, MeshesAloneAndCompressedScenesRender) {
+  folder_.write_text("mesh.ply",
+                     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                     "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+                     "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  EXPECT_EQ(run({"render", "mesh.ply", "--spp", "1", "--size", "16x16", "-o", "mesh.png"}).exit_code, 0);
+  EXPECT_GT(mean_of(image("mesh.png"), "R"), 0.05);
+}
+
+}  // namespace
+
+}  // namespace alhazen::testing

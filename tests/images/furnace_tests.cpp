@@ -1,0 +1,100 @@
+// A furnace: under a sky of radiance 1, things that lose no light cannot be seen.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/bits.h"
+
+namespace alhazen::testing {
+
+namespace {
+
+/// A mirror, rough and smooth glass and white clay, seen by a camera in the sky.
+const std::string furnace = R"(LookAt 0 0 6  0 0 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 48 "integer yresolution" 48
+PixelFilter "box"
+Integrator "path" "integer maxdepth" 200
+WorldBegin
+LightSource "infinite" "rgb L" [ 1 1 1 ]
+AttributeBegin
+  Material "conductor" "rgb reflectance" [ 1 1 1 ] "float roughness" 0
+  Translate -0.8 0.7 0
+  Shape "sphere" "float radius" 0.7
+AttributeEnd
+AttributeBegin
+  Material "dielectric" "float eta" 1.5
+  Translate 0.8 0.7 0
+  Shape "sphere" "float radius" 0.7
+AttributeEnd
+AttributeBegin
+  Material "diffuse" "rgb reflectance" [ 1 1 1 ]
+  Translate 0 -0.7 0
+  Shape "sphere" "float radius" 0.7
+AttributeEnd
+)";
+
+struct Moments {
+  double mean = 0, error = 0, smallest = 1e30, largest = -1e30;  ///< error: standard error of the mean
+};
+
+Moments moments_of(const Outcome& outcome) {
+  Moments m;
+  double squares = 0;
+  const double count = static_cast<double>(outcome.rows.size());
+  for (const float value : outcome.rows) {
+    const double v = static_cast<double>(value);
+    m.mean += v / count;
+    squares += v * v / count;
+    m.smallest = std::min(m.smallest, v);
+    m.largest = std::max(m.largest, v);
+  }
+  m.error = std::sqrt(std::max(0.0, squares - m.mean * m.mean) / count);
+  return m;
+}
+
+TEST(Furnace, NothingCanBeSeen) {
+  const Scene scene = scene_of(furnace);
+  for (const char* precision : {"float", "double"})
+    for (const char* integrator : {"path", "iterative", "recursive"}) {
+      SCOPED_TRACE(std::string(precision) + " " + integrator);
+      Settings settings;
+      settings.precision = precision;
+      settings.integrator = integrator;
+      settings.samples_per_pixel = 64;
+      const Moments m = moments_of(render_bits(scene, settings));
+      // Three channels of a pixel are the same number, so the error of the mean is sqrt(3) times as large.
+      EXPECT_NEAR(m.mean, 1, 4 * std::sqrt(3.0) * m.error + 1e-4);
+      EXPECT_NEAR(m.mean, 1, 2e-3);
+      if (std::string(integrator) == "path") continue;
+      // What is met by chance has no noise here: every path ends in the sky.
+      EXPECT_GT(m.smallest, 1 - 2e-3);
+      EXPECT_LT(m.largest, 1 + 1e-4);
+    }
+}
+
+TEST(Furnace, GreyClayIsAsBrightAsItsAlbedo) {
+  // A ball alone: what it sends out was reflected once.
+  const Scene scene = scene_of(R"(LookAt 0 0 6  0 0 0  0 1 0
+Camera "perspective" "float fov" 10
+Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+PixelFilter "box"
+WorldBegin
+LightSource "infinite" "rgb L" [ 2 2 2 ]
+Material "diffuse" "rgb reflectance" [ 0.25 0.25 0.25 ]
+Shape "sphere" "float radius" 2
+)");
+  for (const char* integrator : {"path", "iterative", "recursive", "branching"}) {
+    Settings settings;
+    settings.integrator = integrator;
+    settings.samples_per_pixel = 64;
+    const Moments m = moments_of(render_bits(scene, settings));
+    EXPECT_NEAR(m.mean, 0.5, 4 * std::sqrt(3.0) * m.error + 1e-5) << integrator;
+    EXPECT_NEAR(m.mean, 0.5, 2e-3) << integrator;
+  }
+}
+
+}  // namespace
+
+}  // namespace alhazen::testing
