@@ -75,7 +75,7 @@ class BvhBuilderOf : public ::testing::Test {};
 TYPED_TEST_SUITE(BvhBuilderOf, Reals);
 
 TYPED_TEST(BvhBuilderOf, RandomBoxes) {
-  for (const size_t count : {1, 2, 3, 8, 9, 100, 10'000}) {
+  for (const size_t count : std::initializer_list<size_t>{1, 2, 3, 8, 9, 100, 10'000}) {
     const Boxes<TypeParam> boxes = random_boxes<TypeParam>(count, count);
     check_tree(boxes, build_bvh<TypeParam>(boxes, 1));
   }
