@@ -71,7 +71,9 @@ ALHAZEN_HD bool is_visible(const Intersector& intersector, const SurfaceInteract
                            const LightSample<Real>& light) {
   Ray<Real> ray = spawn_ray(si, light.direction);
   if (!light.is_finite) return !intersector.occluded(ray, infinity<Real>);
-  const Vec3<Real> target = offset_origin(light.point, light.point_error, light.normal, -light.direction);
+  // The rounded direction misses its aim by so much, which on a light seen from the edge is a way behind the surface.
+  const Vec3<Real> drift = splat(length(light.point - ray.origin) * rounding_bound<Real>(3));
+  const Vec3<Real> target = offset_origin(light.point, light.point_error + drift, light.normal, -light.direction);
   const Vec3<Real> way = target - ray.origin;
   const Real distance = length(way);
   if (!(distance > 0)) return true;

@@ -87,8 +87,9 @@ ALHAZEN_HD BsdfValue<Real> evaluate_dielectric(const DielectricBsdf<Real>& bsdf,
   if (m.z < 0) m = -m;
   const Real cos_o = dot(o, m), cos_i = dot(i, m);
   if (!(cos_o > 0) || (reflect ? !(cos_i > 0) : !(cos_i < 0))) return {};
+  // Where both directions are known both cosines are: near the critical angle Snell's law would lose one of them.
   Real cos_t;
-  const Real rate = fresnel_dielectric(cos_o, eta, cos_t);
+  const Real rate = reflect ? fresnel_dielectric(cos_o, eta, cos_t) : fresnel_of_cosines(cos_o, -cos_i, eta);
   const Real d = ggx_d(m, bsdf.alpha), g2 = ggx_g2(o, i, bsdf.alpha);
   const Real density = ggx_g1(o, bsdf.alpha) * d * cos_o / o.z;
   if (reflect) return {splat(rate * d * g2 / (4 * o.z)), rate * density / (4 * cos_o)};

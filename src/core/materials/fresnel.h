@@ -7,6 +7,14 @@
 
 namespace alhazen {
 
+/// Dielectric interface by the cosines of incidence and refraction, both >= 0 and not both 0.
+template <class Real>
+ALHAZEN_HD constexpr Real fresnel_of_cosines(Real cos_i, Real cos_t, Real eta) {
+  const Real parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+  const Real perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+  return Real(0.5) * (parallel * parallel + perpendicular * perpendicular);
+}
+
 /// Dielectric interface: `cos_i` >= 0 on the side of incidence, `eta` the index of the other side relative to this one.
 /// `cos_t` receives the cosine of refraction, 0 on total internal reflection.
 template <class Real>
@@ -17,9 +25,7 @@ ALHAZEN_HD Real fresnel_dielectric(Real cos_i, Real eta, Real& cos_t) {
     return 1;
   }
   cos_t = safe_sqrt(1 - sin2_t);
-  const Real parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-  const Real perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-  return Real(0.5) * (parallel * parallel + perpendicular * perpendicular);
+  return fresnel_of_cosines(cos_i, cos_t, eta);
 }
 
 /// Conductor with index `eta` and absorption `k` relative to the outside (PBR 4th ed., 9.3.6, in real arithmetic).
@@ -32,6 +38,7 @@ ALHAZEN_HD Real fresnel_conductor(Real cos_i, Real eta, Real k) {
   const Real t1 = a2_plus_b2 + cos2;
   const Real a = safe_sqrt(Real(0.5) * (a2_plus_b2 + t0));
   const Real t2 = 2 * a * cos_i;
+  if (!(t1 + t2 > 0)) return 1;  // along the surface of what does not refract
   const Real perpendicular = (t1 - t2) / (t1 + t2);
   const Real t3 = cos2 * a2_plus_b2 + sin2 * sin2;
   const Real t4 = t2 * sin2;

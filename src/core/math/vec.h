@@ -122,7 +122,7 @@ ALHAZEN_HD bool is_finite(const Vec3<Real>& v) {
 /// Relative luminance Y of a linear sRGB colour (IEC 61966-2-1 primaries, D65).
 template <class Real>
 ALHAZEN_HD constexpr Real luminance(const Vec3<Real>& rgb) {
-  return Real(0.2126390059) * rgb.x + Real(0.7151686788) * rgb.y + Real(0.0721923154) * rgb.z;
+  return Real(0.2126390058715103) * rgb.x + Real(0.7151686787677559) * rgb.y + Real(0.0721923153607337) * rgb.z;
 }
 
 template <class Real>

@@ -61,18 +61,19 @@ ALHAZEN_HD Vec3<Real> sample_sphere(const Vec3<Real>& center, Real radius, const
     pdf = cos_light > 0 ? distance_squared / (cos_light * 4 * pi<Real> * radius * radius) : 0;
     return direction;
   }
-  const Vec3<Real> axis = normalize(center - point);
+  const Frame<Real> frame = frame_about(normalize(center - point));
   const Real one_minus_cos = u.x * one_minus_cos_max;
   const Real cos_theta = 1 - one_minus_cos;
   const Real sin_theta = safe_sqrt(one_minus_cos * (1 + cos_theta));
-  const Frame<Real> frame = frame_about(axis);
-  const Vec3<Real> direction =
-      frame.to_world({sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta});
-  const Real distance = length(center - point);
-  const Real along = distance * cos_theta - safe_sqrt(radius * radius - sqr(distance * sin_theta));
-  normal_at = normalize(point + direction * along - center);
+  const Real cos_phi = std::cos(phi), sin_phi = std::sin(phi);
+  // The normal from the angles alone (PBR 4th ed., 6.2.4): positions far out do not resolve a small sphere.
+  const Real sin2_max = one_minus_cos_max * (1 + cos_max);
+  const Real share = sin_theta * sin_theta / sin2_max;
+  const Real cos_alpha = std::sqrt(sin2_max) * share + cos_theta * safe_sqrt(1 - share);
+  const Real sin_alpha = safe_sqrt(1 - cos_alpha * cos_alpha);
+  normal_at = frame.to_world({sin_alpha * cos_phi, sin_alpha * sin_phi, -cos_alpha});
   pdf = Real(0.5) * inv_pi<Real> / one_minus_cos_max;
-  return direction;
+  return frame.to_world({sin_theta * cos_phi, sin_theta * sin_phi, cos_theta});
 }
 
 /// Density of `sample_sphere` over solid angle for a direction that meets the sphere at distance t with the outward

@@ -1,0 +1,31 @@
+// Renders a scene into memory, shows progress, and stops early where a second argument gives the seconds it may take.
+
+#include <alhazen/alhazen.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <limits>
+
+int main(int argc, char** argv) try {
+  if (argc < 2) return std::fprintf(stderr, "usage: render_to_memory SCENE.pbrt [SECONDS]\n"), 2;
+  const double seconds = argc > 2 ? std::atof(argv[2]) : std::numeric_limits<double>::infinity();
+
+  alhazen::Settings settings;
+  settings.width = settings.height = 100;
+  settings.samples_per_pixel = 16;
+  settings.aovs = {"depth"};
+
+  const alhazen::Picture picture = alhazen::render(argv[1], settings, [&](const alhazen::Progress& progress) {
+    std::printf("%3.0f%%\n", 100 * progress.fraction);
+    return progress.seconds < seconds;  // false cancels
+  });
+  for (const std::string& warning : picture.warnings) std::printf("warning: %s\n", warning.c_str());
+
+  const float *red = picture.plane("R"), *depth = picture.plane("depth.Z");
+  const int centre = picture.height / 2 * picture.width + picture.width / 2;
+  std::printf("%d x %d pixels, %s; in the centre red is %.3f and the depth %.3f\n", picture.width, picture.height,
+              picture.complete ? "complete" : "cancelled", double{red[centre]}, double{depth[centre]});
+} catch (const std::exception& error) {
+  return std::fprintf(stderr, "%s\n", error.what()), 2;
+}

@@ -1,0 +1,69 @@
+// What sample_bsdf returns against the density that evaluate_bsdf states: a chi-squared test over bins of the sphere.
+
+#include <gtest/gtest.h>
+
+#include "support/bsdfs.h"
+#include "support/direction_histogram.h"
+#include "support/effort.h"
+#include "support/random.h"
+#include "support/reals.h"
+
+namespace alhazen::test {
+namespace {
+
+constexpr double diffuse_alphas[] = {0};
+constexpr double metal_alphas[] = {0.05, 0.3, 0.8};
+constexpr double glass_alphas[] = {0.1, 0.3, 0.6};
+constexpr size_t cases =
+    2 * std::size(cosines) * (std::size(diffuse_alphas) + std::size(metal_alphas) + 2 * std::size(glass_alphas));
+
+template <class Real>
+void check_sampling(const NamedBsdf<Real>& named, double cosine, uint64_t seed) {
+  const Bsdf<Real>& bsdf = named.bsdf;
+  const Vec3<Real> wo = direction_at(bsdf.frame, cosine, 0.7);
+  DirectionHistogram histogram(
+      {convert<double>(bsdf.frame.tangent), convert<double>(bsdf.frame.bitangent), convert<double>(bsdf.frame.normal)},
+      pi<double>);
+  Random random(seed);
+  for (size_t i = 0; i < effort(1'000'000); ++i) {
+    const Real u_lobe = random.uniform<Real>();
+    const BsdfSample<Real> s = sample_bsdf(bsdf, wo, u_lobe, random.uniform_2d<Real>());
+    if (s.pdf > 0)
+      histogram.add(convert<double>(s.direction));
+    else
+      histogram.add_nothing();
+  }
+  double integral = 0;
+  const ChiSquared test =
+      histogram.test([&](const Vec3d& wi) { return evaluate_bsdf(bsdf, wo, convert<Real>(wi)).pdf; }, integral);
+  EXPECT_LE(integral, 1 + 1e-3) << named.name << ", cosine " << cosine;
+  EXPECT_GT(test.p_value, sidak(0.01, cases))
+      << named.name << ", cosine " << cosine << ": " << test.statistic << " for " << test.degrees_of_freedom
+      << " degrees of freedom, integral of the pdf " << integral;
+}
+
+template <class Real>
+class BsdfSampling : public ::testing::Test {};
+TYPED_TEST_SUITE(BsdfSampling, Reals);
+
+TYPED_TEST(BsdfSampling, Diffuse) {
+  for (const double cosine : cosines) check_sampling(diffuse_bsdf<TypeParam>(0.7), cosine, 1);
+}
+
+TYPED_TEST(BsdfSampling, Metal) {
+  for (const double alpha : metal_alphas)
+    for (const double cosine : cosines) check_sampling(metal_bsdf<TypeParam>(alpha), cosine, 2);
+}
+
+TYPED_TEST(BsdfSampling, GlassFromOutside) {
+  for (const double alpha : glass_alphas)
+    for (const double cosine : cosines) check_sampling(glass_bsdf<TypeParam>(alpha), cosine, 3);
+}
+
+TYPED_TEST(BsdfSampling, GlassFromInside) {
+  for (const double alpha : glass_alphas)
+    for (const double cosine : cosines) check_sampling(glass_bsdf<TypeParam>(alpha), -cosine, 4);
+}
+
+}  // namespace
+}  // namespace alhazen::test

@@ -1,0 +1,67 @@
+#pragma once
+
+// Scattering functions for the tests, and directions to see them from.
+
+#include <string>
+#include <vector>
+
+#include "core/materials/bsdf.h"
+
+namespace alhazen::test {
+
+/// A normal along no axis, so that the shading frame has to do its part.
+template <class Real>
+Frame<Real> tilted_frame() {
+  return frame_about(normalize(Vec3<Real>{Real(0.36), Real(-0.48), Real(0.8)}));
+}
+
+template <class Real>
+struct NamedBsdf {
+  std::string name;
+  Bsdf<Real> bsdf;
+};
+
+template <class Real>
+NamedBsdf<Real> diffuse_bsdf(double albedo) {
+  return {"diffuse", {MaterialKind::diffuse, tilted_frame<Real>(), splat(static_cast<Real>(albedo)), {}, 0, 1}};
+}
+
+/// Gold's index and absorption in the three channels.
+template <class Real>
+NamedBsdf<Real> metal_bsdf(double alpha) {
+  return {"metal, alpha " + std::to_string(alpha),
+          {MaterialKind::conductor,
+           tilted_frame<Real>(),
+           {Real(0.143), Real(0.375), Real(1.442)},
+           {Real(3.983), Real(2.386), Real(1.603)},
+           static_cast<Real>(alpha),
+           1}};
+}
+
+/// A conductor that reflects (nearly) everything, whatever the angle.
+template <class Real>
+NamedBsdf<Real> white_metal_bsdf(double alpha) {
+  NamedBsdf<Real> white = metal_bsdf<Real>(alpha);
+  white.name = "white " + white.name;
+  white.bsdf.a = splat(Real(1));
+  white.bsdf.b = splat(Real(1e6));
+  return white;
+}
+
+template <class Real>
+NamedBsdf<Real> glass_bsdf(double alpha, double ior = 1.5) {
+  return {"glass, alpha " + std::to_string(alpha),
+          {MaterialKind::dielectric, tilted_frame<Real>(), {}, {}, static_cast<Real>(alpha), static_cast<Real>(ior)}};
+}
+
+/// The direction in the frame's space with that cosine to the normal; in world space.
+template <class Real>
+Vec3<Real> direction_at(const Frame<Real>& frame, double cosine, double azimuth) {
+  const double sine = safe_sqrt(1 - cosine * cosine);
+  return normalize(frame.to_world(convert<Real>(Vec3d{sine * std::cos(azimuth), sine * std::sin(azimuth), cosine})));
+}
+
+/// From straight down to grazing.
+inline constexpr double cosines[] = {1, 0.8, 0.5, 0.2, 0.05, 0.01};
+
+}  // namespace alhazen::test

@@ -1,0 +1,82 @@
+#pragma once
+
+// Pearson's chi-squared test of counts against what was expected, with small bins pooled.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include "support/statistics.h"
+
+namespace alhazen::test {
+
+/// The regularised upper incomplete gamma function Q(a, x): by its series below a + 1, by Lentz's continued fraction
+/// above (Press et al., Numerical Recipes 3rd ed., 6.2).
+inline double incomplete_gamma_q(double a, double x) {
+  if (x <= 0) return 1;
+  const double front = std::exp(-x + a * std::log(x) - std::lgamma(a));
+  if (x < a + 1) {
+    double term = 1 / a, sum = term;
+    for (double n = a + 1; term > sum * 1e-16; ++n) sum += term *= x / n;
+    return 1 - front * sum;
+  }
+  double b = x + 1 - a, c = 1e300, d = 1 / b, fraction = d;
+  for (int i = 1; i < 100000; ++i) {
+    const double k = -i * (i - a);
+    b += 2;
+    d = 1 / (k * d + b);
+    c = b + k / c;
+    const double step = d * c;
+    fraction *= step;
+    if (std::abs(step - 1) < 1e-15) break;
+  }
+  return front * fraction;
+}
+
+/// Probability of a statistic at least as large, for that many degrees of freedom.
+inline double chi_squared_p_value(double statistic, double degrees_of_freedom) {
+  return incomplete_gamma_q(degrees_of_freedom / 2, statistic / 2);
+}
+
+struct ChiSquared {
+  double statistic = 0;
+  double degrees_of_freedom = 0;
+  double p_value = 1;
+  size_t pooled = 0;  ///< bins that went into the pool
+};
+
+inline constexpr double least_expected = 5;
+
+/// Bins of fewer than `least_expected` are put together, the smallest first, into pools of at least that many. What is
+/// left over in the end joins the last pool; a pool that expects nothing must hold nothing. The counts must sum to the
+/// same number, so that one degree of freedom is lost.
+inline ChiSquared chi_squared_test(const std::vector<double>& observed, const std::vector<double>& expected) {
+  std::vector<size_t> order(expected.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return expected[a] < expected[b]; });
+  ChiSquared test;
+  double bins = 0, pool_observed = 0, pool_expected = 0;
+  const auto close_pool = [&] {
+    test.statistic += (pool_observed - pool_expected) * (pool_observed - pool_expected) / pool_expected;
+    pool_observed = pool_expected = 0;
+    ++bins;
+  };
+  for (const size_t i : order) {
+    if (expected[i] < least_expected) ++test.pooled;
+    pool_observed += observed[i];
+    pool_expected += std::max(expected[i], 0.0);
+    if (pool_expected >= least_expected) close_pool();
+  }
+  // The largest bin closes a pool unless all of them together are too few.
+  if (pool_observed > 0) {
+    test.p_value = 0;
+    return test;
+  }
+  test.degrees_of_freedom = bins - 1;
+  if (bins > 1) test.p_value = chi_squared_p_value(test.statistic, test.degrees_of_freedom);
+  return test;
+}
+
+}  // namespace alhazen::test

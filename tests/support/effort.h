@@ -1,0 +1,20 @@
+#pragma once
+
+// How much work a test does: all of it in plain builds, a part of it under sanitizers, which make it slow.
+
+#include <cstddef>
+
+namespace alhazen::test {
+
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool is_sanitized = true;
+#elif defined(__has_feature)
+inline constexpr bool is_sanitized = __has_feature(address_sanitizer);
+#else
+inline constexpr bool is_sanitized = false;
+#endif
+
+/// `full`, or a sixteenth of it under sanitizers.
+constexpr size_t effort(size_t full) { return is_sanitized ? full / 16 : full; }
+
+}  // namespace alhazen::test

@@ -1,0 +1,40 @@
+#pragma once
+
+// The ray queries answered by looking at every primitive in turn, as the report's Algorithm 5 does: the reference that
+// the BVH is measured against, in results and in time.
+
+#include "core/bvh/traversal.h"
+
+namespace alhazen::test {
+
+template <class Real>
+class LinearIntersector {
+ public:
+  explicit LinearIntersector(const SceneView<Real>& scene) : scene_(&scene) {}
+
+  /// The nearest hit before t_max; among hits at the same distance the first in the order of the primitives.
+  bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
+    hit.t = t_max;
+    hit.b1 = hit.b2 = 0;
+    const ShearedRay<Real> sheared = shear_ray(ray);
+    bool found = false;
+    for (uint32_t i = 0; i < scene_->primitives_count; ++i)
+      found = intersect_primitive(*scene_, scene_->primitives[i], ray, sheared, hit) || found;
+    return found;
+  }
+
+  /// Whether anything stands before t_max.
+  bool occluded(const Ray<Real>& ray, Real t_max) const {
+    Hit<Real> hit;
+    hit.t = t_max;
+    const ShearedRay<Real> sheared = shear_ray(ray);
+    for (uint32_t i = 0; i < scene_->primitives_count; ++i)
+      if (intersect_primitive(*scene_, scene_->primitives[i], ray, sheared, hit)) return true;
+    return false;
+  }
+
+ private:
+  const SceneView<Real>* scene_;
+};
+
+}  // namespace alhazen::test

@@ -1,0 +1,17 @@
+#pragma once
+
+// Both precisions, for typed tests.
+
+#include <gtest/gtest.h>
+
+namespace alhazen::test {
+
+using Reals = ::testing::Types<float, double>;
+
+/// `for_float` or `for_double`, whichever Real is.
+template <class Real>
+constexpr double by_precision(double for_float, double for_double) {
+  return sizeof(Real) == sizeof(float) ? for_float : for_double;
+}
+
+}  // namespace alhazen::test

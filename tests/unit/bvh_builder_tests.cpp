@@ -1,0 +1,163 @@
+// The tree that the builder makes: whole, nested, not too deep, and the same for any number of threads.
+
+#include <gtest/gtest.h>
+
+#include "scene/bvh_builder.h"
+#include "support/effort.h"
+#include "support/random.h"
+#include "support/reals.h"
+
+namespace alhazen::test {
+namespace {
+
+template <class Real>
+using Boxes = std::vector<Bounds3<Real>>;
+
+template <class Real>
+Boxes<Real> random_boxes(size_t count, uint64_t seed) {
+  Random random(seed);
+  Boxes<Real> boxes(count);
+  for (Bounds3<Real>& box : boxes) {
+    const Vec3d p = random.in_box(-100, 100);
+    box.extend(convert<Real>(p));
+    box.extend(convert<Real>(p + random.in_box(0, random.magnitude_between(0.01, 10))));
+  }
+  return boxes;
+}
+
+template <class Real>
+bool is_within(const Vec3<Real>& low, const Vec3<Real>& high, const BvhNode<Real>& parent) {
+  return low.x >= parent.low.x && low.y >= parent.low.y && low.z >= parent.low.z && high.x <= parent.high.x &&
+         high.y <= parent.high.y && high.z <= parent.high.z;
+}
+
+template <class Real>
+void check_tree(const Boxes<Real>& boxes, const BvhTree<Real>& tree) {
+  ASSERT_EQ(tree.order.size(), boxes.size());
+  std::vector<int> in_leaves(boxes.size());
+  std::vector<int> visits(tree.nodes.size());
+  struct Visit {
+    uint32_t node;
+    int depth;
+  };
+  std::vector<Visit> stack{{0, 0}};
+  while (!stack.empty()) {
+    const auto [index, depth] = stack.back();
+    stack.pop_back();
+    ASSERT_LT(index, tree.nodes.size());
+    ASSERT_LT(depth, max_bvh_depth);
+    ++visits[index];
+    const BvhNode<Real>& node = tree.nodes[index];
+    if (node.count > 0) {
+      for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+        ASSERT_LT(i, tree.order.size());
+        const uint32_t box = tree.order[i];
+        ASSERT_LT(box, boxes.size());
+        ++in_leaves[box];
+        EXPECT_TRUE(is_within(boxes[box].low, boxes[box].high, node));
+      }
+      continue;
+    }
+    ASSERT_LT(node.axis, 3);
+    for (const uint32_t child : {node.first, node.first + 1}) {
+      ASSERT_LT(child, tree.nodes.size());
+      EXPECT_TRUE(is_within(tree.nodes[child].low, tree.nodes[child].high, node));
+      stack.push_back({child, depth + 1});
+    }
+  }
+  for (const int times : in_leaves) ASSERT_EQ(times, 1);
+  for (const int times : visits) ASSERT_EQ(times, 1);
+}
+
+template <class Real>
+class BvhBuilderOf : public ::testing::Test {};
+TYPED_TEST_SUITE(BvhBuilderOf, Reals);
+
+TYPED_TEST(BvhBuilderOf, RandomBoxes) {
+  for (const size_t count : {1, 2, 3, 8, 9, 100, 10'000}) {
+    const Boxes<TypeParam> boxes = random_boxes<TypeParam>(count, count);
+    check_tree(boxes, build_bvh<TypeParam>(boxes, 1));
+  }
+}
+
+TYPED_TEST(BvhBuilderOf, NoBoxes) {
+  const BvhTree<TypeParam> tree = build_bvh<TypeParam>(Boxes<TypeParam>{}, 1);
+  EXPECT_TRUE(tree.nodes.empty());
+  EXPECT_TRUE(tree.order.empty());
+}
+
+TYPED_TEST(BvhBuilderOf, IdenticalBoxes) {
+  using Real = TypeParam;
+  Bounds3<Real> box;
+  box.extend(Vec3<Real>{1, 2, 3});
+  box.extend(Vec3<Real>{2, 3, 4});
+  const Boxes<Real> boxes(100'000, box);
+  check_tree(boxes, build_bvh<Real>(boxes, 1));
+}
+
+TYPED_TEST(BvhBuilderOf, Points) {
+  using Real = TypeParam;
+  Bounds3<Real> box;
+  box.extend(Vec3<Real>{});
+  const Boxes<Real> boxes(5000, box);
+  check_tree(boxes, build_bvh<Real>(boxes, 1));
+}
+
+TYPED_TEST(BvhBuilderOf, FlatGrid) {
+  using Real = TypeParam;
+  Boxes<Real> boxes;
+  for (int x = 0; x < 100; ++x)
+    for (int y = 0; y < 100; ++y) {
+      boxes.emplace_back();
+      boxes.back().extend(Vec3<Real>{static_cast<Real>(x), static_cast<Real>(y), 0});
+      boxes.back().extend(Vec3<Real>{static_cast<Real>(x + 1), static_cast<Real>(y + 1), 0});
+    }
+  check_tree(boxes, build_bvh<Real>(boxes, 1));
+}
+
+/// Each box twice as large and twice as far as the one before: every split takes one away. The deepest tree there is.
+TYPED_TEST(BvhBuilderOf, GeometricRow) {
+  using Real = TypeParam;
+  Boxes<Real> boxes;
+  for (int exponent = -120; exponent <= 120; ++exponent)
+    for (int copy = 0; copy < 100; ++copy) {
+      const Real x = std::ldexp(Real(1), exponent);
+      boxes.emplace_back();
+      boxes.back().extend(Vec3<Real>{x, x, x});
+      boxes.back().extend(Vec3<Real>{x, x, x} * Real(1.5));
+    }
+  check_tree(boxes, build_bvh<Real>(boxes, 1));
+}
+
+/// As large as numbers go: areas overflow.
+TYPED_TEST(BvhBuilderOf, LargestNumbers) {
+  using Real = TypeParam;
+  Random random(3);
+  Boxes<Real> boxes(2000);
+  for (Bounds3<Real>& box : boxes) {
+    const Vec3<Real> p = convert<Real>(random.in_box(-1, 1)) * (std::numeric_limits<Real>::max() / 4);
+    box.extend(p);
+    box.extend(p + convert<Real>(random.in_box(0, 1)) * (std::numeric_limits<Real>::max() / 4));
+  }
+  check_tree(boxes, build_bvh<Real>(boxes, 1));
+}
+
+/// Large enough for the parts that are done by all threads.
+TYPED_TEST(BvhBuilderOf, SameTreeForAnyThreads) {
+  using Real = TypeParam;
+  const Boxes<Real> boxes = random_boxes<Real>(200'000, 5);
+  const BvhTree<Real> one = build_bvh<Real>(boxes, 1);
+  check_tree(boxes, one);
+  for (const int threads : {2, 3, 8}) {
+    const BvhTree<Real> other = build_bvh<Real>(boxes, threads);
+    EXPECT_EQ(other.order, one.order);
+    ASSERT_EQ(other.nodes.size(), one.nodes.size());
+    for (size_t i = 0; i < one.nodes.size(); ++i) {
+      const BvhNode<Real>&a = one.nodes[i], &b = other.nodes[i];
+      ASSERT_TRUE(a.low == b.low && a.high == b.high && a.first == b.first && a.count == b.count && a.axis == b.axis);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace alhazen::test

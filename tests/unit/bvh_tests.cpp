@@ -1,0 +1,189 @@
+// The BVH finds what looking at every primitive finds, whatever the scene and the ray.
+
+#include <gtest/gtest.h>
+
+#include "support/effort.h"
+#include "support/linear_intersector.h"
+#include "support/primitive_scenes.h"
+#include "support/reals.h"
+#include "support/ulps.h"
+
+namespace alhazen::test {
+namespace {
+
+template <class Real>
+class BvhOf : public ::testing::Test {};
+TYPED_TEST_SUITE(BvhOf, Reals);
+
+template <class Real>
+Ray<Real> ray_from(const Vec3d& origin, const Vec3d& direction, double time = 0) {
+  return {convert<Real>(origin), normalize(convert<Real>(direction)), static_cast<Real>(time)};
+}
+
+/// Both intersectors say the same of the ray. Returns whether it met anything.
+template <class Real>
+bool expect_same(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max = infinity<Real>) {
+  const BvhIntersector<Real> bvh(scene);
+  const LinearIntersector<Real> linear(scene);
+  Hit<Real> hit, expected;
+  const bool met = bvh.closest_hit(ray, t_max, hit), expect_met = linear.closest_hit(ray, t_max, expected);
+  EXPECT_EQ(met, expect_met);
+  EXPECT_EQ(bvh.occluded(ray, t_max), expect_met);
+  EXPECT_EQ(linear.occluded(ray, t_max), expect_met);
+  if (met && expect_met && !(hit.primitive == expected.primitive)) {
+    EXPECT_LE(ulps_between(hit.t, expected.t), 16u) << hit.t << " instead of " << expected.t;
+  }
+  if (met && expect_met && hit.primitive == expected.primitive) {
+    EXPECT_EQ(hit.t, expected.t);
+  }
+  return expect_met;
+}
+
+/// Rays from a box about the origin, half of them at something in the inner part of it.
+template <class Real>
+Ray<Real> random_ray(Random& random, double size) {
+  const Vec3d origin = random.in_box(-size, size);
+  const Vec3d direction =
+      random.uniform<double>() < 0.5 ? random.on_sphere() : normalize(random.in_box(-0.5, 0.5) * size - origin);
+  return ray_from<Real>(origin, direction, random.uniform<double>());
+}
+
+TYPED_TEST(BvhOf, MixedPrimitives) {
+  using Real = TypeParam;
+  const FlatScene<Real> scene = mixed_primitives(7, 200).flat<Real>();
+  Random random(8);
+  size_t met = 0;
+  for (size_t i = 0; i < effort(100'000); ++i) {
+    met += expect_same(scene.view, random_ray<Real>(random, 15));
+    if (this->HasFailure()) break;
+  }
+  EXPECT_GT(met, effort(20'000));
+}
+
+TYPED_TEST(BvhOf, LimitedDistance) {
+  using Real = TypeParam;
+  const FlatScene<Real> scene = mixed_primitives(9, 200).flat<Real>();
+  Random random(10);
+  for (size_t i = 0; i < effort(20'000); ++i)
+    expect_same(scene.view, random_ray<Real>(random, 15), static_cast<Real>(random.magnitude_between(0.1, 30)));
+}
+
+/// A hit just at t_max is none, one just before it is.
+TYPED_TEST(BvhOf, DistanceIsExclusive) {
+  using Real = TypeParam;
+  PrimitiveScene primitives;
+  primitives.add_triangle({-1, -1, 5}, {1, -1, 5}, {0, 1, 5});
+  const FlatScene<Real> scene = primitives.flat<Real>();
+  const BvhIntersector<Real> bvh(scene.view);
+  const Ray<Real> ray = ray_from<Real>({}, {0, 0, 1});
+  Hit<Real> hit;
+  ASSERT_TRUE(bvh.closest_hit(ray, infinity<Real>, hit));
+  EXPECT_EQ(hit.t, Real(5));
+  EXPECT_FALSE(bvh.closest_hit(ray, Real(5), hit));
+  EXPECT_FALSE(bvh.occluded(ray, Real(5)));
+  EXPECT_TRUE(bvh.occluded(ray, std::nextafter(Real(5), Real(6))));
+}
+
+/// Directions along axes and within planes make zeros, whose reciprocals are infinite.
+TYPED_TEST(BvhOf, RaysAlongAxes) {
+  using Real = TypeParam;
+  PrimitiveScene primitives;
+  for (int x = -4; x < 4; ++x)
+    for (int y = -4; y < 4; ++y) {
+      primitives.add_triangle({x + 0.0, y + 0.0, 0}, {x + 1.0, y + 0.0, 0}, {x + 0.0, y + 1.0, 0});
+      primitives.add_triangle({0, x + 0.0, y + 0.0}, {0, x + 1.0, y + 0.0}, {0, x + 0.0, y + 1.0});
+    }
+  primitives.add_sphere({2, 2, 2}, 1);
+  const FlatScene<Real> scene = primitives.flat<Real>();
+  Random random(11);
+  for (size_t i = 0; i < effort(20'000); ++i) {
+    Vec3d origin{}, direction{};
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis] = random.below(13) * 0.5 - 3;  // often in a plane of the grid, on its lines and corners
+      direction[axis] = random.below(3) - 1.0;
+      if (direction[axis] == 0 && random.below(2)) direction[axis] = -0.0;
+    }
+    if (!is_zero(direction)) expect_same(scene.view, ray_from<Real>(origin, direction));
+  }
+}
+
+TYPED_TEST(BvhOf, EmptyScene) {
+  using Real = TypeParam;
+  const FlatScene<Real> scene = PrimitiveScene().flat<Real>();
+  EXPECT_EQ(scene.view.nodes_count, 0u);
+  EXPECT_FALSE(expect_same(scene.view, ray_from<Real>({}, {1, 2, 3})));
+}
+
+TYPED_TEST(BvhOf, OnePrimitive) {
+  using Real = TypeParam;
+  PrimitiveScene primitives;
+  primitives.add_sphere({0, 0, 3}, 1);
+  const FlatScene<Real> scene = primitives.flat<Real>();
+  EXPECT_TRUE(expect_same(scene.view, ray_from<Real>({}, {0, 0, 1})));
+  EXPECT_FALSE(expect_same(scene.view, ray_from<Real>({}, {0, 1, 0})));
+}
+
+TYPED_TEST(BvhOf, AllAtOnePoint) {
+  using Real = TypeParam;
+  PrimitiveScene primitives;
+  Random random(12);
+  for (int i = 0; i < 300; ++i) primitives.add_sphere({1, 2, 3}, random.magnitude_between(0.1, 2));
+  const FlatScene<Real> scene = primitives.flat<Real>();
+  for (int i = 0; i < 2000; ++i) expect_same(scene.view, random_ray<Real>(random, 5));
+}
+
+TYPED_TEST(BvhOf, IdenticalBoxes) {
+  using Real = TypeParam;
+  PrimitiveScene primitives;
+  constexpr int count = 100'000;
+  for (int i = 0; i < count; ++i) primitives.add_triangle({-1, -1, 2}, {1, -1, 2}, {0, 1, 2});
+  const FlatScene<Real> scene = primitives.flat<Real>();
+  EXPECT_TRUE(expect_same(scene.view, ray_from<Real>({}, {0, 0, 1})));
+  EXPECT_TRUE(expect_same(scene.view, ray_from<Real>({}, {0.01, 0.02, 1})));
+  EXPECT_FALSE(expect_same(scene.view, ray_from<Real>({}, {0, 0, -1})));
+}
+
+/// From 1e-8 to 1e12 in one scene. (Triangles below 1e-11 have no area in float and are left out.)
+TYPED_TEST(BvhOf, HugeRangeOfSizes) {
+  using Real = TypeParam;
+  PrimitiveScene primitives;
+  Random random(13);
+  for (int i = 0; i < 300; ++i) {
+    const double size = random.magnitude_between(1e-8, 1e12);
+    const Vec3d p = random.on_sphere() * size;
+    primitives.add_triangle(p, p + random.on_sphere() * size, p + random.on_sphere() * size);
+    primitives.add_sphere(random.on_sphere() * size, 0.3 * size);
+  }
+  const FlatScene<Real> scene = primitives.flat<Real>();
+  for (size_t i = 0; i < effort(20'000); ++i) {
+    const Vec3d origin = random.on_sphere() * random.magnitude_between(1e-8, 1e12);
+    expect_same(scene.view, ray_from<Real>(origin, random.on_sphere()));
+  }
+}
+
+/// Not numbers and infinities in every component: an answer comes, whatever it is.
+TYPED_TEST(BvhOf, RaysThatAreNoRays) {
+  using Real = TypeParam;
+  const FlatScene<Real> scene = mixed_primitives(14, 50).flat<Real>();
+  const BvhIntersector<Real> bvh(scene.view);
+  Random random(15);
+  const Real strange[] = {
+      std::numeric_limits<Real>::quiet_NaN(), infinity<Real>, -infinity<Real>,
+      std::numeric_limits<Real>::max(),       Real(0),        std::numeric_limits<Real>::denorm_min()};
+  for (size_t i = 0; i < effort(20'000); ++i) {
+    Ray<Real> ray = random_ray<Real>(random, 15);
+    Real* components[] = {&ray.origin.x,    &ray.origin.y,    &ray.origin.z, &ray.direction.x,
+                          &ray.direction.y, &ray.direction.z, &ray.time};
+    for (uint32_t changes = 1 + random.below(3); changes > 0; --changes)
+      *components[random.below(7)] = strange[random.below(6)];
+    Hit<Real> hit;
+    if (bvh.closest_hit(ray, infinity<Real>, hit)) {
+      EXPECT_GT(hit.t, Real(0));
+      EXPECT_FALSE(hit.primitive.is_none());
+    }
+    bvh.occluded(ray, random.below(2) ? infinity<Real> : std::numeric_limits<Real>::quiet_NaN());
+  }
+}
+
+}  // namespace
+}  // namespace alhazen::test

@@ -1,0 +1,140 @@
+// Samplers: pure functions of their arguments, in [0, 1); Sobol' points that are nets; numbers that are not used twice.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/sampling/dimensions.h"
+#include "core/sampling/independent.h"
+#include "core/sampling/sobol.h"
+
+namespace alhazen::test {
+namespace {
+
+template <class Sampler>
+class SamplerOf : public ::testing::Test {};
+using Samplers = ::testing::Types<IndependentSampler, SobolSampler>;
+TYPED_TEST_SUITE(SamplerOf, Samplers);
+
+TYPED_TEST(SamplerOf, SameNumbersForTheSameArguments) {
+  const TypeParam a(1, 2, 3, 4), b(1, 2, 3, 4);
+  EXPECT_EQ(a.template get_1d<double>(9), b.template get_1d<double>(9));
+  // The order of draws does not matter, and a float is the double cut short.
+  const Vec2d first = a.template get_2d<double>(5);
+  b.template get_2d<double>(6);
+  EXPECT_EQ(first, b.template get_2d<double>(5));
+  EXPECT_NEAR(static_cast<double>(a.template get_2d<float>(5).x), first.x, 0x1p-24);
+  EXPECT_LE(static_cast<double>(a.template get_2d<float>(5).x), first.x);
+}
+
+TYPED_TEST(SamplerOf, BelowOne) {
+  for (uint32_t i = 0; i < 100'000; ++i) {
+    const Vec2f u = TypeParam(i, 7, 11, i).template get_2d<float>(i % 50);
+    ASSERT_TRUE(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1);
+  }
+  EXPECT_LT(unit_interval<float>(0xffffffffu), 1.0f);
+  EXPECT_LT(unit_interval<double>(0xffffffffu), 1.0);
+}
+
+/// Every argument counts, and none may stand for another: pixels, samples, seeds and branches that share their numbers
+/// would share their errors.
+TYPED_TEST(SamplerOf, NoTwoShareTheirNumbers) {
+  std::vector<std::array<uint32_t, 4>> numbers;
+  const auto draw = [&](const TypeParam& sampler) {
+    std::array<uint32_t, 4> bits;
+    for (uint32_t d = 0; d < 4; ++d) bits[d] = static_cast<uint32_t>(sampler.template get_1d<double>(d) * 0x1p32);
+    numbers.push_back(bits);
+  };
+  for (uint32_t seed = 0; seed < 6; ++seed)
+    for (uint32_t x = 0; x < 12; ++x)
+      for (uint32_t y = 0; y < 12; ++y)
+        for (uint32_t sample = 0; sample < 12; ++sample) {
+          const TypeParam sampler(seed, x, y, sample);
+          draw(sampler);
+          for (uint32_t branch = 0; branch < 2; ++branch) {
+            draw(sampler.fork(branch));
+            for (uint32_t next = 0; next < 2; ++next) draw(sampler.fork(branch).fork(next));
+          }
+        }
+  std::sort(numbers.begin(), numbers.end());
+  EXPECT_EQ(std::adjacent_find(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// Every elementary interval of area 2^-k holds exactly one of the first 2^k points: of any 2^k in a row that start at
+/// a multiple of 2^k, in every pair of numbers.
+TEST(Sobol, PointsAreNets) {
+  for (const uint32_t dimension : {0u, 1u, 4u, 5u, 29u})
+    for (uint32_t k = 1; k <= 12; ++k)
+      for (const uint32_t first : {0u, 3u << k})
+        for (uint32_t columns = 0; columns <= k; ++columns) {
+          std::vector<int> cells(size_t{1} << k);
+          for (uint32_t i = 0; i < 1u << k; ++i) {
+            const Vec2d u = SobolSampler(1, 20, 30, first + i).get_2d<double>(dimension);
+            const uint32_t column = static_cast<uint32_t>(u.x * (1u << columns));
+            const uint32_t row = static_cast<uint32_t>(u.y * (1u << (k - columns)));
+            ++cells[(row << columns) + column];
+          }
+          ASSERT_EQ(std::count(cells.begin(), cells.end(), 1), static_cast<std::ptrdiff_t>(cells.size()))
+              << "dimension " << dimension << ", k " << k << ", columns 2^" << columns;
+        }
+}
+
+TEST(Sobol, SingleNumbersAreStratified) {
+  for (const uint32_t dimension : {2u, 3u, 7u, 40u})
+    for (uint32_t k = 1; k <= 14; ++k) {
+      std::vector<int> cells(size_t{1} << k);
+      for (uint32_t i = 0; i < 1u << k; ++i)
+        ++cells[static_cast<size_t>(SobolSampler(2, 3, 4, i).get_1d<double>(dimension) * (1u << k))];
+      ASSERT_EQ(std::count(cells.begin(), cells.end(), 1), static_cast<std::ptrdiff_t>(cells.size()));
+    }
+}
+
+/// The second dimension by its definition: the primitive polynomial x + 1 gives the direction numbers
+/// v[i] = v[i - 1] ^ (v[i - 1] >> 1), v[0] the highest bit; the point is their sum over the bits of the index.
+uint32_t sobol_second_by_definition(uint32_t index) {
+  uint32_t direction = 0x80000000u, point = 0;
+  for (; index != 0; index >>= 1) {
+    if (index & 1) point ^= direction;
+    direction ^= direction >> 1;
+  }
+  return point;
+}
+
+TEST(Sobol, SecondDimensionByItsDefinition) {
+  for (uint32_t i = 0; i < 100'000; ++i) {
+    const uint32_t index = i < 50'000 ? i : mix32(i);
+    ASSERT_EQ(reverse_bits(sobol_second_reversed(index)), sobol_second_by_definition(index)) << index;
+  }
+}
+
+/// An Owen scrambling changes each bit by those above it alone: numbers that agree in their first k bits still do. Here
+/// the bits are reversed.
+TEST(Sobol, ScramblingIsNested) {
+  for (uint32_t i = 0; i < 10'000; ++i) {
+    const uint32_t x = mix32(i), seed = mix32(i + 77'777), k = i % 32;
+    const uint32_t low = (1u << k) - 1, other = (x & low) | (mix32(x + 1) & ~low);
+    ASSERT_EQ(laine_karras(x, seed) & low, laine_karras(other, seed) & low);
+  }
+}
+
+TEST(Hash, ReverseBits) {
+  EXPECT_EQ(reverse_bits(1), 0x80000000u);
+  EXPECT_EQ(reverse_bits(0x0000ffffu), 0xffff0000u);
+  EXPECT_EQ(reverse_bits(0x12345678u), 0x1e6a2c48u);
+}
+
+/// The draws of a path do not overlap: neither within a vertex, nor between vertices, nor with the camera's.
+TEST(Dimensions, AreDistinct) {
+  std::vector<uint32_t> used{CameraDimensions::film, CameraDimensions::lens, CameraDimensions::time};
+  for (uint32_t vertex = 0; vertex < 20; ++vertex) {
+    const VertexDimensions d(vertex);
+    used.insert(used.end(), {d.bsdf_lobe(), d.bsdf_direction(), d.light_choice(), d.light_point(), d.roulette()});
+  }
+  std::sort(used.begin(), used.end());
+  EXPECT_EQ(std::adjacent_find(used.begin(), used.end()), used.end());
+}
+
+}  // namespace
+}  // namespace alhazen::test
