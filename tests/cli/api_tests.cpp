@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "io/images/image.h"
-#include "support/whole_scenes.h"
+#include "support/scene_files.h"
 #include "support/temporary_folder.h"
 
 namespace alhazen::testing {

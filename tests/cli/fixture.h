@@ -6,7 +6,7 @@
 
 #include "io/images/image.h"
 #include "support/run_command.h"
-#include "support/whole_scenes.h"
+#include "support/scene_files.h"
 #include "support/temporary_folder.h"
 
 namespace alhazen::testing {

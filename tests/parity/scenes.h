@@ -4,7 +4,7 @@
 
 #include "io/images/image.h"
 #include "support/bits.h"
-#include "support/whole_scenes.h"
+#include "support/scene_files.h"
 #include "support/temporary_folder.h"
 
 namespace alhazen::testing {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Small scenes as texts, which between them use most of what can be rendered.
+// Whole scene files as texts, which between them use most of what can be rendered.
 
 #include <string>
 
