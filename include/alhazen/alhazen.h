@@ -35,8 +35,8 @@ struct Settings {
   std::optional<std::array<int64_t, 4>> pixel_bounds;
   /// Further layers: albedo, normal, depth, bounces, samples, variance.
   std::vector<std::string> aovs;
-  double time_limit = 0;      ///< seconds of rendering; stops after the last whole pass within it; 0: none
-  std::string checkpoint;     ///< file to save the state in, and to go on from with `resume`
+  double time_limit = 0;   ///< seconds of rendering; stops after the last whole pass within it; 0: none
+  std::string checkpoint;  ///< file to save the state in, and to go on from with `resume`
   double checkpoint_seconds = 60;
   bool resume = false;
 };

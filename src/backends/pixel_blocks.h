@@ -40,8 +40,8 @@ BlockSum<Real> take_block(const RenderPass<Real>& pass, int x, int y, uint32_t b
   const uint32_t offset = block * samples_per_block;
   const uint32_t left = pass.sample_count - offset;
   const BlockSum<Real> sum = pass.kernel(pass.scene, pass.settings.seed, pass.settings.max_segments,
-                                         static_cast<uint32_t>(x), static_cast<uint32_t>(y),
-                                         pass.first_sample + offset, left < samples_per_block ? left : samples_per_block);
+                                         static_cast<uint32_t>(x), static_cast<uint32_t>(y), pass.first_sample + offset,
+                                         left < samples_per_block ? left : samples_per_block);
   statistics.samples += sum.samples;
   statistics.rays += sum.segments;
   statistics.shadow_rays += sum.shadow_rays;

@@ -24,7 +24,8 @@ void print_json() {
   auto list = nlohmann::ordered_json::array();
   for (const auto& backend : all_backends()) {
     const BackendDescription d = backend->describe();
-    list.push_back({{"name", d.name}, {"available", d.available}, {"details", d.details}, {"strategies", d.strategies}});
+    list.push_back(
+        {{"name", d.name}, {"available", d.available}, {"details", d.details}, {"strategies", d.strategies}});
   }
   fmt::print("{}\n", list.dump());
 }

@@ -21,11 +21,16 @@ struct InfoOptions {
 
 const char* name_of(FilterType type) {
   switch (type) {
-    case FilterType::box: return "box";
-    case FilterType::triangle: return "triangle";
-    case FilterType::gaussian: return "gaussian";
-    case FilterType::mitchell: return "mitchell";
-    case FilterType::sinc: return "sinc";
+    case FilterType::box:
+      return "box";
+    case FilterType::triangle:
+      return "triangle";
+    case FilterType::gaussian:
+      return "gaussian";
+    case FilterType::mitchell:
+      return "mitchell";
+    case FilterType::sinc:
+      return "sinc";
   }
   return "";
 }

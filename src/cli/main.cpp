@@ -42,8 +42,9 @@ int main(int argc, char** argv) {
   CLI::App app("A path tracer whose light transport is written once and run by many engines.", "alhazen");
   app.set_version_flag("--version", "alhazen " ALHAZEN_VERSION);
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 1 failed while rendering, 2 bad usage or bad input, 130 interrupted (the picture so "
-             "far is written).");
+  app.footer(
+      "Exit codes: 0 done, 1 failed while rendering, 2 bad usage or bad input, 130 interrupted (the picture so "
+      "far is written).");
   int exit_code = alhazen::exit_done;
   alhazen::register_render(app, exit_code);
   alhazen::register_compare(app);

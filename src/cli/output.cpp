@@ -29,10 +29,11 @@ std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
           {"samples", std::to_string(s.samples_per_pixel)},
           {"seed", std::to_string(settings.seed)},
           {"seconds", fmt::format("{:.3f}", s.render_seconds)},
-          {"settings", fmt::format("--backend {}{}{} --precision {} --integrator {} --sampler {} --max-depth {} --threads {}",
-                                   settings.backend, settings.strategy.empty() ? "" : " --strategy ",
-                                   settings.strategy, to_string(settings.precision), to_string(settings.integrator),
-                                   to_string(settings.sampler), settings.max_segments - 1, settings.threads)}};
+          {"settings",
+           fmt::format("--backend {}{}{} --precision {} --integrator {} --sampler {} --max-depth {} --threads {}",
+                       settings.backend, settings.strategy.empty() ? "" : " --strategy ", settings.strategy,
+                       to_string(settings.precision), to_string(settings.integrator), to_string(settings.sampler),
+                       settings.max_segments - 1, settings.threads)}};
 }
 
 }  // namespace

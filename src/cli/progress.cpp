@@ -16,9 +16,7 @@ double samples_per_second(const Progress& p) {
   return p.seconds > 0 ? static_cast<double>(p.samples_done) / p.seconds : 0;
 }
 
-double seconds_left(const Progress& p) {
-  return p.fraction > 0 ? p.seconds / p.fraction * (1 - p.fraction) : 0;
-}
+double seconds_left(const Progress& p) { return p.fraction > 0 ? p.seconds / p.fraction * (1 - p.fraction) : 0; }
 
 /// The bar must not wrap, so that it can be drawn over itself.
 constexpr int bar_width = 30;
@@ -42,10 +40,14 @@ std::string format_seconds(double seconds) {
 
 void ProgressPrinter::show(const Progress& progress) {
   switch (style_) {
-    case ProgressStyle::bar: return show_bar(progress);
-    case ProgressStyle::lines: return show_line(progress);
-    case ProgressStyle::json: return show_json(progress);
-    case ProgressStyle::none: return;
+    case ProgressStyle::bar:
+      return show_bar(progress);
+    case ProgressStyle::lines:
+      return show_line(progress);
+    case ProgressStyle::json:
+      return show_json(progress);
+    case ProgressStyle::none:
+      return;
   }
 }
 
@@ -56,9 +58,9 @@ void ProgressPrinter::finish() {
 
 void ProgressPrinter::show_bar(const Progress& p) {
   const int filled = std::clamp(static_cast<int>(p.fraction * bar_width), 0, bar_width);
-  fmt::print(stderr, "\r[{}{}] {:3.0f}%  {:.2f} Msamples/s  {} left\x1b[K", std::string(static_cast<size_t>(filled), '#'),
-             std::string(static_cast<size_t>(bar_width - filled), '.'), p.fraction * 100, samples_per_second(p) * 1e-6,
-             format_seconds(seconds_left(p)));
+  fmt::print(stderr, "\r[{}{}] {:3.0f}%  {:.2f} Msamples/s  {} left\x1b[K",
+             std::string(static_cast<size_t>(filled), '#'), std::string(static_cast<size_t>(bar_width - filled), '.'),
+             p.fraction * 100, samples_per_second(p) * 1e-6, format_seconds(seconds_left(p)));
   bar_open_ = true;
 }
 
@@ -74,12 +76,9 @@ void ProgressPrinter::show_line(const Progress& p) {
 
 void ProgressPrinter::show_json(const Progress& p) {
   if (p.seconds < last_shown_ + 0.5 && p.fraction < 1) return;
-  const nlohmann::ordered_json j{{"fraction", p.fraction},
-                                 {"seconds", p.seconds},
-                                 {"seconds_left", seconds_left(p)},
-                                 {"samples_done", p.samples_done},
-                                 {"samples_total", p.samples_total},
-                                 {"samples_per_second", samples_per_second(p)}};
+  const nlohmann::ordered_json j{{"fraction", p.fraction},           {"seconds", p.seconds},
+                                 {"seconds_left", seconds_left(p)},  {"samples_done", p.samples_done},
+                                 {"samples_total", p.samples_total}, {"samples_per_second", samples_per_second(p)}};
   fmt::print(stderr, "{}\n", j.dump());
   last_shown_ = p.seconds;
 }

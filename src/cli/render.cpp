@@ -65,7 +65,8 @@ void parse_settings(RenderOptions& o) {
     s.crop_window = parse_numbers<double, 4>(o.crop, ',', "--crop x0,x1,y0,y1, fractions of the picture from 0 to 1");
   if (!o.pixel_bounds.empty())
     s.pixel_bounds = parse_numbers<int64_t, 4>(o.pixel_bounds, ',', "--pixelbounds x0,x1,y0,y1, in pixels");
-  if (!o.seed.empty()) s.seed = parse_numbers<uint32_t, 1>(o.seed, ',', "--seed N, a whole number from 0 to 4294967295")[0];
+  if (!o.seed.empty())
+    s.seed = parse_numbers<uint32_t, 1>(o.seed, ',', "--seed N, a whole number from 0 to 4294967295")[0];
   if (!o.checkpoint.empty()) {
     const size_t comma = o.checkpoint.rfind(',');
     s.checkpoint = o.checkpoint.substr(0, comma);
@@ -170,8 +171,9 @@ void add_picture_options(CLI::App& command, RenderOptions& o) {
   command.add_option("--crop,--cropwindow", o.crop, "x0,x1,y0,y1: render this part only, fractions from 0 to 1")
       ->group(group);
   command.add_option("--pixelbounds", o.pixel_bounds, "x0,x1,y0,y1: render these pixels only")->group(group);
-  command.add_option("--integrator", o.settings.integrator,
-                     "path (next-event estimation), or emission by chance: iterative, recursive, branching")
+  command
+      .add_option("--integrator", o.settings.integrator,
+                  "path (next-event estimation), or emission by chance: iterative, recursive, branching")
       ->group(group);
   command.add_option("--sampler", o.settings.sampler, "sobol or independent")->group(group);
   command.add_option("--seed", o.seed, "Another number, other noise")->group(group);
@@ -181,8 +183,8 @@ void add_engine_options(CLI::App& command, RenderOptions& o) {
   const char* group = "Engine";
   command.add_option("--backend", o.settings.backend, "auto, serial or openmp; 'alhazen devices' lists them")
       ->group(group);
-  command.add_option("--strategy", o.settings.strategy,
-                     "openmp: auto, tiles, rows, collapse, rows+reduction or reduction")
+  command
+      .add_option("--strategy", o.settings.strategy, "openmp: auto, tiles, rows, collapse, rows+reduction or reduction")
       ->group(group);
   command.add_option("--schedule", o.settings.schedule, "openmp: static, dynamic or guided, and a chunk: dynamic,4")
       ->group(group);
@@ -194,13 +196,15 @@ void add_engine_options(CLI::App& command, RenderOptions& o) {
 
 void add_output_options(CLI::App& command, RenderOptions& o) {
   const char* group = "Output";
-  command.add_option("-o,--output,--outfile", o.output.paths,
-                     "Picture to write, .exr or .png; may be given more than once. Default: as the scene says")
+  command
+      .add_option("-o,--output,--outfile", o.output.paths,
+                  "Picture to write, .exr or .png; may be given more than once. Default: as the scene says")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group(group);
-  command.add_option("--aov", o.settings.aovs,
-                     "Layers to add to the EXR, with commas: albedo, normal, depth, bounces, samples, variance")
+  command
+      .add_option("--aov", o.settings.aovs,
+                  "Layers to add to the EXR, with commas: albedo, normal, depth, bounces, samples, variance")
       ->delimiter(',')
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

@@ -17,27 +17,27 @@ namespace alhazen {
 
 /// Every array of the scene, once: ARRAY(element type, name). Storage, device pointers, memory report and checksum
 /// expand from this list.
-#define ALHAZEN_SCENE_ARRAYS(ARRAY)             \
-  ARRAY(BvhNode<Real>, nodes)                   \
-  ARRAY(PrimitiveId, primitives)                \
-  ARRAY(TriangleRecord, triangles)              \
-  ARRAY(Vec3<Real>, positions)                  \
-  ARRAY(Vec3<Real>, normals)                    \
-  ARRAY(Vec2<Real>, uvs)                        \
-  ARRAY(SphereRecord<Real>, spheres)            \
+#define ALHAZEN_SCENE_ARRAYS(ARRAY)               \
+  ARRAY(BvhNode<Real>, nodes)                     \
+  ARRAY(PrimitiveId, primitives)                  \
+  ARRAY(TriangleRecord, triangles)                \
+  ARRAY(Vec3<Real>, positions)                    \
+  ARRAY(Vec3<Real>, normals)                      \
+  ARRAY(Vec2<Real>, uvs)                          \
+  ARRAY(SphereRecord<Real>, spheres)              \
   ARRAY(MovingSphereRecord<Real>, moving_spheres) \
-  ARRAY(SphereFrame<Real>, sphere_frames)       \
-  ARRAY(SurfaceRecord, surfaces)                \
-  ARRAY(MaterialRecord<Real>, materials)        \
-  ARRAY(TextureRecord<Real>, textures)          \
-  ARRAY(TextureMapping<Real>, texture_mappings) \
-  ARRAY(ImageRecord, images)                    \
-  ARRAY(uint8_t, texel_bytes)                   \
-  ARRAY(float, texel_floats)                    \
-  ARRAY(Real, srgb_decode_table)                \
-  ARRAY(uint8_t, noise_permutation)             \
-  ARRAY(LightRecord<Real>, lights)              \
-  ARRAY(Real, light_cdf)                        \
+  ARRAY(SphereFrame<Real>, sphere_frames)         \
+  ARRAY(SurfaceRecord, surfaces)                  \
+  ARRAY(MaterialRecord<Real>, materials)          \
+  ARRAY(TextureRecord<Real>, textures)            \
+  ARRAY(TextureMapping<Real>, texture_mappings)   \
+  ARRAY(ImageRecord, images)                      \
+  ARRAY(uint8_t, texel_bytes)                     \
+  ARRAY(float, texel_floats)                      \
+  ARRAY(Real, srgb_decode_table)                  \
+  ARRAY(uint8_t, noise_permutation)               \
+  ARRAY(LightRecord<Real>, lights)                \
+  ARRAY(Real, light_cdf)                          \
   ARRAY(Real, filter_cdf)
 
 template <class Real>
@@ -50,9 +50,9 @@ struct SceneView {
 
   CameraRecord<Real> camera;
   FilterRecord<Real> filter;
-  Vec3<Real> background{};             ///< radiance of the constant infinite light
+  Vec3<Real> background{};               ///< radiance of the constant infinite light
   uint32_t background_light = no_light;  ///< its index in `lights`
-  Real exposure = 1;                   ///< factor on recorded radiance
+  Real exposure = 1;                     ///< factor on recorded radiance
 };
 
 }  // namespace alhazen

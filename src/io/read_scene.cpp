@@ -42,7 +42,8 @@ Scene read_scene(const std::string& path, Diagnostics& diagnostics) {
   if (extension == "gz") extension = extension_of(std::filesystem::path(path).stem().string());
   if (extension == "pbrt") return read_pbrt(path, diagnostics);
   if (extension == "ply") return scene_around(read_ply(path, diagnostics), path);
-  throw InputError({path}, "the format is not known by this name: give a .pbrt scene or a .ply mesh (or either as .gz)");
+  throw InputError({path},
+                   "the format is not known by this name: give a .pbrt scene or a .ply mesh (or either as .gz)");
 }
 
 }  // namespace alhazen

@@ -16,7 +16,8 @@ std::unique_ptr<Backend> make_backend(const std::string& name) {
   for (std::unique_ptr<Backend>& backend : all_backends()) {
     const BackendDescription description = backend->describe();
     if (description.name == name) {
-      if (!description.available) throw InputError("the backend '" + name + "' is not available: " + description.details);
+      if (!description.available)
+        throw InputError("the backend '" + name + "' is not available: " + description.details);
       return std::move(backend);
     }
     names += ", " + description.name;
@@ -35,8 +36,8 @@ void choose_backend(const Settings& asked, RenderSettings& settings) {
   if (std::find(backend.strategies.begin(), backend.strategies.end(), asked.strategy) == backend.strategies.end()) {
     std::string choices;
     for (const std::string& strategy : backend.strategies) choices += ", " + strategy;
-    throw InputError("the backend '" + settings.backend + "' has no strategy '" + asked.strategy + "': " +
-                     (choices.empty() ? "it takes none" : "it may be auto" + choices));
+    throw InputError("the backend '" + settings.backend + "' has no strategy '" + asked.strategy +
+                     "': " + (choices.empty() ? "it takes none" : "it may be auto" + choices));
   }
   settings.strategy = asked.strategy;
 }

@@ -123,11 +123,11 @@ uint32_t CheckpointFile::load(Film<Real>& film) const {
   in.read(reinterpret_cast<char*>(&header), sizeof(header));
   if (!in || header.magic != file_magic) throw InputError({path_}, "this is not a checkpoint of Alhazen");
   if (header.fingerprint != fingerprint_ || header.bytes != plane_bytes(film))
-    throw InputError({path_}, "the checkpoint is of another scene or of other settings: give those that it was made "
-                              "with, or start anew without --resume");
-  film.visit_planes([&](void* data, size_t size) {
-    in.read(static_cast<char*>(data), static_cast<std::streamsize>(size));
-  });
+    throw InputError({path_},
+                     "the checkpoint is of another scene or of other settings: give those that it was made "
+                     "with, or start anew without --resume");
+  film.visit_planes(
+      [&](void* data, size_t size) { in.read(static_cast<char*>(data), static_cast<std::streamsize>(size)); });
   const uint32_t held = film.most_samples();
   if (!in || in.peek() != std::ifstream::traits_type::eof() || header.samples_done > held ||
       header.samples_done % samples_per_block != 0)

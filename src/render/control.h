@@ -11,7 +11,7 @@ namespace alhazen {
 /// What one thread did. Each on cache lines of its own.
 struct alignas(128) ThreadStatistics {
   uint64_t samples = 0;
-  uint64_t rays = 0;         ///< closest-hit rays
+  uint64_t rays = 0;  ///< closest-hit rays
   uint64_t shadow_rays = 0;
   uint64_t nonfinite_samples = 0;  ///< samples that came out NaN or infinite and were counted as black
   double busy_seconds = 0;

@@ -130,8 +130,7 @@ class PassLoop {
         in_whole_blocks_ = false;
       }
       const Clock::time_point start = Clock::now();
-      backend_->render_pass(
-          RenderPass<Real>{scene_.view, kernel, settings_, film_, control_, samples_done_, size});
+      backend_->render_pass(RenderPass<Real>{scene_.view, kernel, settings_, film_, control_, samples_done_, size});
       const double seconds = seconds_since(start);
       elapsed_ += seconds;
       if (control_.is_stopped()) return;
@@ -164,8 +163,9 @@ class PassLoop {
 void check_memory(uint64_t bytes) {
   const uint64_t memory = static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
   if (bytes > memory / 10 * 9)
-    throw InputError("the picture with its layers takes " + std::to_string(bytes >> 30) + " GiB, and this machine has " +
-                     std::to_string(memory >> 30) + ": render parts of it with --crop, or with fewer layers");
+    throw InputError("the picture with its layers takes " + std::to_string(bytes >> 30) +
+                     " GiB, and this machine has " + std::to_string(memory >> 30) +
+                     ": render parts of it with --crop, or with fewer layers");
 }
 
 template <class Real>
@@ -176,8 +176,8 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   statistics.settings = settings;
   statistics.scene = scene.name;
   const Clock::time_point start = Clock::now();
-  const FlatScene<Real> flat = flatten<Real>(
-      std::move(scene), FlattenOptions{settings.width, settings.height, settings.threads}, diagnostics);
+  const FlatScene<Real> flat =
+      flatten<Real>(std::move(scene), FlattenOptions{settings.width, settings.height, settings.threads}, diagnostics);
   statistics.scene_sizes = flat.statistics;
   statistics.build_seconds = flat.statistics.build_seconds;
   statistics.load_seconds = load_seconds + seconds_since(start) - statistics.build_seconds;

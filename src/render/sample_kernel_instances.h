@@ -26,10 +26,14 @@ BlockSum<Real> sample_block(const SceneView<Real>& scene, uint32_t seed, uint32_
 template <class Sampler, class Intersector, class Real>
 SampleKernel<Real> select_by_integrator(IntegratorKind integrator) {
   switch (integrator) {
-    case IntegratorKind::branching: return sample_block<IntegratorKind::branching, Sampler, Intersector, Real>;
-    case IntegratorKind::recursive: return sample_block<IntegratorKind::recursive, Sampler, Intersector, Real>;
-    case IntegratorKind::iterative: return sample_block<IntegratorKind::iterative, Sampler, Intersector, Real>;
-    case IntegratorKind::path: break;
+    case IntegratorKind::branching:
+      return sample_block<IntegratorKind::branching, Sampler, Intersector, Real>;
+    case IntegratorKind::recursive:
+      return sample_block<IntegratorKind::recursive, Sampler, Intersector, Real>;
+    case IntegratorKind::iterative:
+      return sample_block<IntegratorKind::iterative, Sampler, Intersector, Real>;
+    case IntegratorKind::path:
+      break;
   }
   return sample_block<IntegratorKind::path, Sampler, Intersector, Real>;
 }

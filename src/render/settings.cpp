@@ -49,10 +49,14 @@ std::string name_of(const Named<Value> (&table)[count], Value value) {
 
 IntegratorKind kind_of(IntegratorType type) {
   switch (type) {
-    case IntegratorType::branching: return IntegratorKind::branching;
-    case IntegratorType::recursive: return IntegratorKind::recursive;
-    case IntegratorType::iterative: return IntegratorKind::iterative;
-    case IntegratorType::path: return IntegratorKind::path;
+    case IntegratorType::branching:
+      return IntegratorKind::branching;
+    case IntegratorType::recursive:
+      return IntegratorKind::recursive;
+    case IntegratorType::iterative:
+      return IntegratorKind::iterative;
+    case IntegratorType::path:
+      return IntegratorKind::path;
   }
   return IntegratorKind::path;
 }
@@ -82,7 +86,9 @@ PixelWindow window_from(const std::array<int64_t, 4>& bounds, int width, int hei
 PixelWindow scene_window(const FilmSettings& film, int width, int height) {
   if (!film.pixel_bounds) return {0, width, 0, height};
   const auto& b = *film.pixel_bounds;
-  const auto fraction = [](int64_t pixel, int64_t size) { return static_cast<double>(pixel) / static_cast<double>(size); };
+  const auto fraction = [](int64_t pixel, int64_t size) {
+    return static_cast<double>(pixel) / static_cast<double>(size);
+  };
   if (width == film.width && height == film.height) return window_from(b, width, height);
   return window_from(std::array<double, 4>{fraction(b[0], film.width), fraction(b[1], film.width),
                                            fraction(b[2], film.height), fraction(b[3], film.height)},
@@ -131,21 +137,22 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   RenderSettings s;
   resolve_picture(asked, scene, s);
   s.precision = by_name(precisions, asked.precision, "precision");
-  s.integrator = asked.integrator.empty() ? kind_of(scene.integrator)
-                                          : by_name(integrators, asked.integrator, "integrator");
+  s.integrator =
+      asked.integrator.empty() ? kind_of(scene.integrator) : by_name(integrators, asked.integrator, "integrator");
   s.sampler = asked.sampler.empty() ? scene.sampler : by_name(samplers, asked.sampler, "sampler");
-  s.samples_per_pixel = static_cast<uint32_t>(
-      in_range(asked.samples_per_pixel ? asked.samples_per_pixel : scene.samples_per_pixel, 1, 1 << 24,
-               "the number of samples per pixel"));
+  s.samples_per_pixel =
+      static_cast<uint32_t>(in_range(asked.samples_per_pixel ? asked.samples_per_pixel : scene.samples_per_pixel, 1,
+                                     1 << 24, "the number of samples per pixel"));
   const int64_t depth = in_range(asked.max_depth >= 0 ? asked.max_depth : scene.max_depth, 0, 1'000'000, "the depth");
   s.max_segments = static_cast<uint32_t>(depth + 1);
   if ((s.integrator == IntegratorKind::recursive || s.integrator == IntegratorKind::branching) && depth > 1000)
-    throw InputError("the integrators 'recursive' and 'branching' call themselves for each bounce: give a depth of at "
-                     "most 1000, or use 'iterative'");
+    throw InputError(
+        "the integrators 'recursive' and 'branching' call themselves for each bounce: give a depth of at "
+        "most 1000, or use 'iterative'");
   s.seed = asked.seed.value_or(scene.seed);
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  s.threads = asked.threads == 0 ? processors
-                                 : static_cast<int>(in_range(asked.threads, 1, 4096, "the number of threads"));
+  s.threads =
+      asked.threads == 0 ? processors : static_cast<int>(in_range(asked.threads, 1, 4096, "the number of threads"));
   for (const std::string& layer : asked.aovs) s.aovs.*by_name(layers, layer, "layer") = true;
   if (asked.time_limit < 0 || !std::isfinite(asked.time_limit)) throw InputError("the time limit must not be negative");
   s.time_limit = asked.time_limit;

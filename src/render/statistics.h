@@ -16,9 +16,9 @@ struct RenderStatistics {
   RenderSettings settings;
   std::string scene;
   SceneStatistics scene_sizes;
-  double load_seconds = 0;    ///< reading and flattening, without the BVH
-  double build_seconds = 0;   ///< the BVH
-  double render_seconds = 0;  ///< taking samples, nothing else
+  double load_seconds = 0;         ///< reading and flattening, without the BVH
+  double build_seconds = 0;        ///< the BVH
+  double render_seconds = 0;       ///< taking samples, nothing else
   uint32_t samples_per_pixel = 0;  ///< whole passes that were done
   bool complete = false;
   uint64_t camera_samples = 0, rays = 0, shadow_rays = 0, nonfinite_samples = 0;

@@ -206,8 +206,8 @@ class Flattener {
     const uint32_t uv_offset = mesh.uvs.empty() ? no_offset : offset_to(out_.uvs.size());
     for (const Vec2f& uv : mesh.uvs) out_.uvs.push_back({static_cast<Real>(uv.x), static_cast<Real>(uv.y)});
     // With shading normals the front is theirs; without, that of the winding in object space.
-    const bool flip = mesh.normals.empty() ? p.reverse_orientation != transform.swaps_handedness()
-                                           : p.reverse_orientation;
+    const bool flip =
+        mesh.normals.empty() ? p.reverse_orientation != transform.swaps_handedness() : p.reverse_orientation;
     add_triangles(shape, mesh, base, normal_offset, uv_offset, flip);
   }
 
@@ -252,8 +252,7 @@ class Flattener {
     }
     const auto sphere_box = [](const Vec3<Real>& center, Real radius) {
       // Wider by what rounding of centre +- radius can lose.
-      const Vec3<Real> r =
-          splat(radius) + (abs(center) + splat(radius)) * (2 * std::numeric_limits<Real>::epsilon());
+      const Vec3<Real> r = splat(radius) + (abs(center) + splat(radius)) * (2 * std::numeric_limits<Real>::epsilon());
       return Bounds3<Real>{center - r, center + r};
     };
     for (const SphereRecord<Real>& s : out_.spheres) boxes.push_back(sphere_box(s.center, s.radius));

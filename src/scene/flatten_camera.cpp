@@ -67,11 +67,16 @@ FilterRecord<Real> filter_record(const Filter& filter, std::vector<Real>& table)
 
 double filter_value(const Filter& filter, double x, double radius) {
   switch (filter.type) {
-    case FilterType::box: return 1;
-    case FilterType::triangle: return std::max(0.0, radius - std::abs(x));
-    case FilterType::gaussian: return std::max(0.0, gaussian(x, filter.sigma) - gaussian(radius, filter.sigma));
-    case FilterType::mitchell: return mitchell(2 * x / radius, filter.b, filter.c);
-    case FilterType::sinc: return std::abs(x) < radius ? sinc(x) * sinc(x / filter.tau) : 0;
+    case FilterType::box:
+      return 1;
+    case FilterType::triangle:
+      return std::max(0.0, radius - std::abs(x));
+    case FilterType::gaussian:
+      return std::max(0.0, gaussian(x, filter.sigma) - gaussian(radius, filter.sigma));
+    case FilterType::mitchell:
+      return mitchell(2 * x / radius, filter.b, filter.c);
+    case FilterType::sinc:
+      return std::abs(x) < radius ? sinc(x) * sinc(x / filter.tau) : 0;
   }
   return 0;
 }

@@ -16,12 +16,16 @@ double light_weight(const LightRecord<Real>& light, double area) {
   const double strongest = static_cast<double>(max_component(light.radiance));
   const double amount = std::max(value, 1e-3 * strongest);
   switch (light.kind) {
-    case LightKind::point: return amount * 4 * std::numbers::pi;
+    case LightKind::point:
+      return amount * 4 * std::numbers::pi;
     case LightKind::spot:
       return amount * 2 * std::numbers::pi * (1 - 0.5 * static_cast<double>(light.cos_outer + light.cos_inner));
-    case LightKind::distant: return amount;
-    case LightKind::constant_infinite: return amount * std::numbers::pi;
-    default: return amount * std::numbers::pi * area * (light.two_sided ? 2 : 1);
+    case LightKind::distant:
+      return amount;
+    case LightKind::constant_infinite:
+      return amount * std::numbers::pi;
+    default:
+      return amount * std::numbers::pi * area * (light.two_sided ? 2 : 1);
   }
 }
 
@@ -40,9 +44,15 @@ void add_described_lights(const Scene& scene, SceneArrays<Real>& out, SceneView<
     record.position = convert<Real>(light.position);
     record.direction = convert<Real>(light.direction);
     switch (light.type) {
-      case LightType::constant_infinite: background += light.radiance; continue;
-      case LightType::point: record.kind = LightKind::point; break;
-      case LightType::distant: record.kind = LightKind::distant; break;
+      case LightType::constant_infinite:
+        background += light.radiance;
+        continue;
+      case LightType::point:
+        record.kind = LightKind::point;
+        break;
+      case LightType::distant:
+        record.kind = LightKind::distant;
+        break;
       case LightType::spot:
         record.kind = LightKind::spot;
         record.cos_outer = static_cast<Real>(cos_degrees(light.cone_angle));

@@ -55,8 +55,7 @@ class TextureBuilder {
   }
 
   TextureRange constant(double value) {
-    out_.textures.push_back(
-        {TextureKind::constant, 0, 0, 0, splat(static_cast<Real>(value))});
+    out_.textures.push_back({TextureKind::constant, 0, 0, 0, splat(static_cast<Real>(value))});
     return {static_cast<uint32_t>(out_.textures.size() - 1), 1};
   }
 
@@ -87,8 +86,11 @@ class TextureBuilder {
   }
 
   uint32_t add_mapping(const Texture& texture) {
-    TextureMapping<Real> mapping{static_cast<Real>(texture.uv_scale.x), static_cast<Real>(texture.uv_scale.y),
-                                 static_cast<Real>(texture.uv_offset.x), static_cast<Real>(texture.uv_offset.y), {}};
+    TextureMapping<Real> mapping{static_cast<Real>(texture.uv_scale.x),
+                                 static_cast<Real>(texture.uv_scale.y),
+                                 static_cast<Real>(texture.uv_offset.x),
+                                 static_cast<Real>(texture.uv_offset.y),
+                                 {}};
     for (size_t i = 0; i < 3; ++i)
       for (size_t j = 0; j < 4; ++j)
         mapping.texture_from_world[i][j] = static_cast<Real>(texture.texture_from_world.matrix()[i][j]);
@@ -106,7 +108,9 @@ class TextureBuilder {
     for (uint32_t i = 0; i < inputs; ++i) append(texture.inputs[i], waiting + i, nesting + 1);
     TextureRecord<Real> node{texture.kind, 0, 0, static_cast<uint32_t>(std::clamp(texture.octaves, 1, 64)), {}};
     switch (texture.kind) {
-      case TextureKind::constant: node.parameters = convert<Real>(texture.value); break;
+      case TextureKind::constant:
+        node.parameters = convert<Real>(texture.value);
+        break;
       case TextureKind::checkerboard:
         node.mapping = add_mapping(texture);
         node.octaves = texture.solid_checks ? 1 : 0;
@@ -124,7 +128,8 @@ class TextureBuilder {
                            static_cast<Real>(texture.variation)};
         break;
       case TextureKind::scale:
-      case TextureKind::mix: break;
+      case TextureKind::mix:
+        break;
     }
     out_.textures.push_back(node);
   }

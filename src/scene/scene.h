@@ -48,16 +48,16 @@ struct Texture {
   Vec2d uv_scale{1, 1}, uv_offset{0, 0};
   uint32_t image = no_index;  ///< image: index into Scene::images
   WrapMode wrap = WrapMode::repeat;
-  bool nearest = false;      ///< image: nearest texel instead of bilinear
-  double image_scale = 1;    ///< image: factor on the value
-  bool invert = false;       ///< image: 1 - value, after the factor
-  bool solid_checks = false; ///< checkerboard in three dimensions instead of over uv
+  bool nearest = false;       ///< image: nearest texel instead of bilinear
+  double image_scale = 1;     ///< image: factor on the value
+  bool invert = false;        ///< image: 1 - value, after the factor
+  bool solid_checks = false;  ///< checkerboard in three dimensions instead of over uv
   /// Solid textures (noise, solid checkerboard): from world space to the space of the texture.
   Transform texture_from_world;
-  int octaves = 8;           ///< fbm, wrinkled, marble
-  double roughness = 0.5;    ///< fbm, wrinkled, marble: factor on the amplitude for each octave
-  double noise_scale = 1;    ///< marble: factor on the point
-  double variation = 0.2;    ///< marble: how far the noise displaces the veins
+  int octaves = 8;         ///< fbm, wrinkled, marble
+  double roughness = 0.5;  ///< fbm, wrinkled, marble: factor on the amplitude for each octave
+  double noise_scale = 1;  ///< marble: factor on the point
+  double variation = 0.2;  ///< marble: how far the noise displaces the veins
 };
 
 enum class MaterialType {
@@ -75,7 +75,7 @@ struct Material {
   double ior = 1.5;                 ///< dielectric: index inside relative to outside
   uint32_t roughness_u = no_index;  ///< scalar textures, absent = smooth
   uint32_t roughness_v = no_index;
-  bool remap_roughness = true;      ///< alpha = sqrt(roughness) as pbrt-v4 has it, instead of alpha = roughness
+  bool remap_roughness = true;  ///< alpha = sqrt(roughness) as pbrt-v4 has it, instead of alpha = roughness
 };
 
 /// A triangle mesh in object space. Indices come in threes. Normals and uvs are per vertex or absent (empty).
@@ -156,8 +156,8 @@ struct FilmSettings {
   int64_t width = 1280, height = 720;
   /// Pixels x0, x1, y0, y1 to render, half open; absent: all.
   std::optional<std::array<int64_t, 4>> pixel_bounds;
-  std::string filename;   ///< as the file says, may be empty
-  double exposure = 1;    ///< factor on the radiance that is recorded
+  std::string filename;  ///< as the file says, may be empty
+  double exposure = 1;   ///< factor on the radiance that is recorded
 };
 
 enum class FilterType { box, triangle, gaussian, mitchell, sinc };

@@ -155,7 +155,8 @@ TYPED_TEST(BvhBuilderOf, SameTreeForAnyThreads) {
     ASSERT_EQ(other.nodes.size(), one.nodes.size());
     for (size_t i = 0; i < one.nodes.size(); ++i) {
       const BvhNode<Real>&a = one.nodes[i], &b = other.nodes[i];
-      ASSERT_TRUE(a.low() == b.low() && a.high() == b.high() && a.first == b.first && a.count == b.count && a.axis == b.axis);
+      ASSERT_TRUE(a.low() == b.low() && a.high() == b.high() && a.first == b.first && a.count == b.count &&
+                  a.axis == b.axis);
     }
   }
 }

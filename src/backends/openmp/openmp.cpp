@@ -114,9 +114,12 @@ void render_tiles(const RenderPass<Real>& pass) {
 
 omp_sched_t openmp_schedule(ScheduleKind kind) {
   switch (kind) {
-    case ScheduleKind::static_: return omp_sched_static;
-    case ScheduleKind::guided: return omp_sched_guided;
-    case ScheduleKind::dynamic: break;
+    case ScheduleKind::static_:
+      return omp_sched_static;
+    case ScheduleKind::guided:
+      return omp_sched_guided;
+    case ScheduleKind::dynamic:
+      break;
   }
   return omp_sched_dynamic;
 }

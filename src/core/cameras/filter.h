@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "core/sampling/discrete.h"
 #include "core/math/vec.h"
+#include "core/sampling/discrete.h"
 
 namespace alhazen {
 

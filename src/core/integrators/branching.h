@@ -22,17 +22,17 @@ ALHAZEN_HD Vec3<Real> cast_ray_branching(const SceneView<Real>& scene, const Int
 
   const auto follow = [&](const BsdfSample<Real>& s, const Sampler& numbers, Real rate) {
     if (!(s.pdf > 0 && rate > 0) || is_zero(s.weight) || !is_on_one_side(point, s.direction)) return;
-    radiance += s.weight * rate * cast_ray_branching(scene, intersector, numbers, spawn_ray(point.si, s.direction),
-                                                     segments_left - 1, segment + 1, record);
+    radiance += s.weight * rate *
+                cast_ray_branching(scene, intersector, numbers, spawn_ray(point.si, s.direction), segments_left - 1,
+                                   segment + 1, record);
   };
   if (point.bsdf.kind != MaterialKind::dielectric) {
     follow(scatter(point, sampler, dimensions), sampler, Real(1));
     return radiance;
   }
   const Frame<Real>& frame = point.bsdf.frame;
-  DielectricBranches<Real> branches =
-      dielectric_branches(point.bsdf.dielectric(), frame.to_local(point.wo),
-                          sampler.template get_2d<Real>(dimensions.bsdf_direction()));
+  DielectricBranches<Real> branches = dielectric_branches(point.bsdf.dielectric(), frame.to_local(point.wo),
+                                                          sampler.template get_2d<Real>(dimensions.bsdf_direction()));
   branches.reflected.direction = frame.to_world(branches.reflected.direction);
   branches.refracted.direction = frame.to_world(branches.refracted.direction);
   follow(branches.reflected, sampler.fork(0), branches.reflected_rate);

@@ -8,9 +8,8 @@
 namespace alhazen {
 
 template <class Real, class Intersector, class Sampler>
-ALHAZEN_HD void iterative_radiance(const SceneView<Real>& scene, const Intersector& intersector,
-                                   const Sampler& sampler, Ray<Real> ray, uint32_t max_segments,
-                                   SampleRecord<Real>& record) {
+ALHAZEN_HD void iterative_radiance(const SceneView<Real>& scene, const Intersector& intersector, const Sampler& sampler,
+                                   Ray<Real> ray, uint32_t max_segments, SampleRecord<Real>& record) {
   Vec3<Real> attenuation = splat(Real(1));
   for (uint32_t segment = 0; segment < max_segments; ++segment) {
     ++record.segments;

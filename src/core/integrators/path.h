@@ -12,10 +12,10 @@ template <class Real>
 struct PathState {
   Ray<Real> ray;
   Vec3<Real> throughput = splat(Real(1));
-  Real bsdf_pdf = 0;          ///< of the ray's direction
-  Real eta_scale = 1;         ///< product of eta^2 over refractions, undone for roulette
-  uint32_t vertex = 0;        ///< how many surfaces it met so far
-  bool is_specular = true;    ///< lights could not have been sampled for this ray
+  Real bsdf_pdf = 0;        ///< of the ray's direction
+  Real eta_scale = 1;       ///< product of eta^2 over refractions, undone for roulette
+  uint32_t vertex = 0;      ///< how many surfaces it met so far
+  bool is_specular = true;  ///< lights could not have been sampled for this ray
 };
 
 /// Weight of light that the ray found by chance, against sampling it with density `light_pdf`.

@@ -26,7 +26,7 @@ template <class Real>
 struct ShadingPoint {
   SurfaceInteraction<Real> si;
   Bsdf<Real> bsdf;
-  Vec3<Real> wo;  ///< unit, back along the ray
+  Vec3<Real> wo;   ///< unit, back along the ray
   uint32_t light;  ///< the light that this surface is, or no_light
 };
 
@@ -37,8 +37,7 @@ ALHAZEN_HD ShadingPoint<Real> shading_point(const SceneView<Real>& scene, const 
   point.wo = -ray.direction;
   const SurfaceRecord& surface = scene.surfaces[point.si.surface];
   point.light = surface.light;
-  point.bsdf = make_bsdf(scene, scene.materials[surface.material],
-                         TexturePoint<Real>{point.si.position, point.si.uv},
+  point.bsdf = make_bsdf(scene, scene.materials[surface.material], TexturePoint<Real>{point.si.position, point.si.uv},
                          consistent_shading_normal(point.si, point.wo));
   return point;
 }
@@ -83,13 +82,13 @@ ALHAZEN_HD bool is_visible(const Intersector& intersector, const SurfaceInteract
 
 /// Light from one sampled light by way of this point, weighted against finding it by chance.
 template <class Real, class Intersector, class Sampler>
-ALHAZEN_HD Vec3<Real> direct_light(const SceneView<Real>& scene, const Intersector& intersector,
-                                   const Sampler& sampler, const VertexDimensions& dimensions,
-                                   const ShadingPoint<Real>& point, SampleRecord<Real>& record) {
+ALHAZEN_HD Vec3<Real> direct_light(const SceneView<Real>& scene, const Intersector& intersector, const Sampler& sampler,
+                                   const VertexDimensions& dimensions, const ShadingPoint<Real>& point,
+                                   SampleRecord<Real>& record) {
   if (scene.lights_count == 0 || point.bsdf.is_specular()) return {};
-  const LightSample<Real> light = sample_light(
-      scene, point.si.position, point.si.time, sampler.template get_1d<Real>(dimensions.light_choice()),
-      sampler.template get_2d<Real>(dimensions.light_point()));
+  const LightSample<Real> light =
+      sample_light(scene, point.si.position, point.si.time, sampler.template get_1d<Real>(dimensions.light_choice()),
+                   sampler.template get_2d<Real>(dimensions.light_point()));
   if (!(light.pdf > 0) || is_zero(light.radiance) || !is_on_one_side(point, light.direction)) return {};
   const BsdfValue<Real> f = evaluate_bsdf(point.bsdf, point.wo, light.direction);
   if (is_zero(f.value)) return {};

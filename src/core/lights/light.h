@@ -81,7 +81,8 @@ ALHAZEN_HD LightSample<Real> sample_point_light(const LightRecord<Real>& light, 
   const Real distance_squared = length_squared(to_light);
   if (!(distance_squared > 0)) return s;
   s.direction = to_light * (1 / std::sqrt(distance_squared));
-  const Real falloff = light.kind == LightKind::spot ? spot_falloff(light, -dot(s.direction, light.direction)) : Real(1);
+  const Real falloff =
+      light.kind == LightKind::spot ? spot_falloff(light, -dot(s.direction, light.direction)) : Real(1);
   s.radiance = light.radiance * (falloff / distance_squared);
   s.pdf = 1;
   s.is_delta = true;
@@ -99,7 +100,9 @@ ALHAZEN_HD LightSample<Real> sample_light(const SceneView<Real>& scene, const Ve
   const LightRecord<Real>& light =
       scene.lights[scene.lights_count == 1 ? 0 : sample_cdf(scene.light_cdf, scene.lights_count, u_choice)];
   switch (light.kind) {
-    case LightKind::triangle: s = sample_triangle_light(scene, light, reference, u); break;
+    case LightKind::triangle:
+      s = sample_triangle_light(scene, light, reference, u);
+      break;
     case LightKind::sphere: {
       const SphereRecord<Real>& sphere = scene.spheres[light.primitive];
       s = sample_sphere_light(scene, light, sphere.center, sphere.radius, sphere.surface, reference, u);
@@ -112,7 +115,9 @@ ALHAZEN_HD LightSample<Real> sample_light(const SceneView<Real>& scene, const Ve
       break;
     }
     case LightKind::point:
-    case LightKind::spot: s = sample_point_light(light, reference); break;
+    case LightKind::spot:
+      s = sample_point_light(light, reference);
+      break;
     case LightKind::distant:
       s.direction = -light.direction;
       s.radiance = light.radiance;
@@ -149,7 +154,8 @@ ALHAZEN_HD Real pdf_light(const SceneView<Real>& scene, const LightRecord<Real>&
       return light.pmf *
              pdf_sphere(s.center + s.motion * ray.time, s.radius, ray.origin, ray.direction, hit.t, si.normal);
     }
-    default: return 0;
+    default:
+      return 0;
   }
 }
 

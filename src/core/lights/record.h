@@ -19,7 +19,7 @@ struct LightRecord {
   uint32_t two_sided;   ///< shapes: emits on both sides
   Real pmf;             ///< probability that this light is chosen
   Vec3<Real> position;
-  Vec3<Real> direction;  ///< the way the light travels, unit length
+  Vec3<Real> direction;       ///< the way the light travels, unit length
   Real cos_outer, cos_inner;  ///< spot: cosines where the light ends and where the falloff begins
 };
 

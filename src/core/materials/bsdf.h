@@ -26,8 +26,9 @@ struct Bsdf {
 
   /// True where light is only sent in single directions, so that sampling lights is of no use.
   ALHAZEN_HD bool is_specular() const {
-    return kind == MaterialKind::conductor ? alpha < smooth_alpha<Real>
-                                           : kind == MaterialKind::dielectric && (alpha < smooth_alpha<Real> || ior == 1);
+    return kind == MaterialKind::conductor
+               ? alpha < smooth_alpha<Real>
+               : kind == MaterialKind::dielectric && (alpha < smooth_alpha<Real> || ior == 1);
   }
 };
 
@@ -58,7 +59,9 @@ ALHAZEN_HD Bsdf<Real> make_bsdf(const SceneView<Real>& scene, const MaterialReco
         bsdf.b = evaluate_texture(scene, material.k, at);
       }
       break;
-    case MaterialKind::dielectric: bsdf.alpha = evaluate_alpha(scene, material, at); break;
+    case MaterialKind::dielectric:
+      bsdf.alpha = evaluate_alpha(scene, material, at);
+      break;
   }
   return bsdf;
 }
@@ -70,9 +73,15 @@ ALHAZEN_HD BsdfSample<Real> sample_bsdf(const Bsdf<Real>& bsdf, const Vec3<Real>
   const Vec3<Real> local = bsdf.frame.to_local(wo);
   BsdfSample<Real> s;
   switch (bsdf.kind) {
-    case MaterialKind::diffuse: s = sample_diffuse(bsdf.diffuse(), local, u); break;
-    case MaterialKind::conductor: s = sample_conductor(bsdf.conductor(), local, u); break;
-    case MaterialKind::dielectric: s = sample_dielectric(bsdf.dielectric(), local, u_lobe, u); break;
+    case MaterialKind::diffuse:
+      s = sample_diffuse(bsdf.diffuse(), local, u);
+      break;
+    case MaterialKind::conductor:
+      s = sample_conductor(bsdf.conductor(), local, u);
+      break;
+    case MaterialKind::dielectric:
+      s = sample_dielectric(bsdf.dielectric(), local, u_lobe, u);
+      break;
   }
   s.direction = bsdf.frame.to_world(s.direction);
   return s;
@@ -83,9 +92,12 @@ template <class Real>
 ALHAZEN_HD BsdfValue<Real> evaluate_bsdf(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, const Vec3<Real>& wi) {
   const Vec3<Real> o = bsdf.frame.to_local(wo), i = bsdf.frame.to_local(wi);
   switch (bsdf.kind) {
-    case MaterialKind::diffuse: return evaluate_diffuse(bsdf.diffuse(), o, i);
-    case MaterialKind::conductor: return evaluate_conductor(bsdf.conductor(), o, i);
-    case MaterialKind::dielectric: return evaluate_dielectric(bsdf.dielectric(), o, i);
+    case MaterialKind::diffuse:
+      return evaluate_diffuse(bsdf.diffuse(), o, i);
+    case MaterialKind::conductor:
+      return evaluate_conductor(bsdf.conductor(), o, i);
+    case MaterialKind::dielectric:
+      return evaluate_dielectric(bsdf.dielectric(), o, i);
   }
   return {};
 }
@@ -94,9 +106,12 @@ ALHAZEN_HD BsdfValue<Real> evaluate_bsdf(const Bsdf<Real>& bsdf, const Vec3<Real
 template <class Real>
 ALHAZEN_HD Vec3<Real> bsdf_albedo(const Bsdf<Real>& bsdf) {
   switch (bsdf.kind) {
-    case MaterialKind::diffuse: return bsdf.a;
-    case MaterialKind::conductor: return fresnel_conductor(Real(1), bsdf.a, bsdf.b);
-    case MaterialKind::dielectric: return splat(Real(1));
+    case MaterialKind::diffuse:
+      return bsdf.a;
+    case MaterialKind::conductor:
+      return fresnel_conductor(Real(1), bsdf.a, bsdf.b);
+    case MaterialKind::dielectric:
+      return splat(Real(1));
   }
   return {};
 }

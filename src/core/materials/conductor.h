@@ -51,8 +51,7 @@ ALHAZEN_HD BsdfValue<Real> evaluate_conductor(const ConductorBsdf<Real>& bsdf, c
   if (!(cos_om > 0)) return {};
   const Real d = ggx_d(m, bsdf.alpha);
   const Vec3<Real> f = fresnel_conductor(cos_om, bsdf.eta, bsdf.k);
-  return {f * (d * ggx_g2(o, i, bsdf.alpha) / (4 * o.z)),
-          ggx_g1(o, bsdf.alpha) * d / (4 * o.z)};
+  return {f * (d * ggx_g2(o, i, bsdf.alpha) / (4 * o.z)), ggx_g1(o, bsdf.alpha) * d / (4 * o.z)};
 }
 
 }  // namespace alhazen

@@ -23,8 +23,7 @@ ALHAZEN_HD BsdfSample<Real> sample_diffuse(const DiffuseBsdf<Real>& bsdf, const 
 }
 
 template <class Real>
-ALHAZEN_HD BsdfValue<Real> evaluate_diffuse(const DiffuseBsdf<Real>& bsdf, const Vec3<Real>& wo,
-                                            const Vec3<Real>& wi) {
+ALHAZEN_HD BsdfValue<Real> evaluate_diffuse(const DiffuseBsdf<Real>& bsdf, const Vec3<Real>& wo, const Vec3<Real>& wi) {
   if (!(wo.z * wi.z > 0)) return {};
   const Real pdf = pdf_cosine_hemisphere(std::abs(wi.z));
   return {bsdf.reflectance * pdf, pdf};

@@ -51,8 +51,8 @@ template <class Real>
 ALHAZEN_HD Vec3<Real> sample_visible_normal(const Vec3<Real>& w, Real alpha, const Vec2<Real>& u) {
   const Vec3<Real> stretched = normalize(Vec3<Real>{alpha * w.x, alpha * w.y, w.z});
   const Real sin2 = stretched.x * stretched.x + stretched.y * stretched.y;
-  const Vec3<Real> t1 = sin2 > Real(1e-12) ? Vec3<Real>{-stretched.y, stretched.x, 0} * (1 / std::sqrt(sin2))
-                                           : Vec3<Real>{1, 0, 0};
+  const Vec3<Real> t1 =
+      sin2 > Real(1e-12) ? Vec3<Real>{-stretched.y, stretched.x, 0} * (1 / std::sqrt(sin2)) : Vec3<Real>{1, 0, 0};
   const Vec3<Real> t2 = cross(stretched, t1);
   Vec2<Real> p = sample_disk_polar(u);
   const Real h = safe_sqrt(1 - p.x * p.x), s = Real(0.5) * (1 + stretched.z);

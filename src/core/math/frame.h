@@ -11,7 +11,9 @@ template <class Real>
 struct Frame {
   Vec3<Real> tangent, bitangent, normal;
 
-  ALHAZEN_HD Vec3<Real> to_local(const Vec3<Real>& v) const { return {dot(v, tangent), dot(v, bitangent), dot(v, normal)}; }
+  ALHAZEN_HD Vec3<Real> to_local(const Vec3<Real>& v) const {
+    return {dot(v, tangent), dot(v, bitangent), dot(v, normal)};
+  }
   ALHAZEN_HD Vec3<Real> to_world(const Vec3<Real>& v) const { return tangent * v.x + bitangent * v.y + normal * v.z; }
 };
 

@@ -8,7 +8,8 @@
 
 namespace alhazen {
 
-/// A bijection of 64 bits in which every input bit reaches every output bit (Stafford 2011, "Better Bit Mixing", mix 13).
+/// A bijection of 64 bits in which every input bit reaches every output bit (Stafford 2011, "Better Bit Mixing", mix
+/// 13).
 ALHAZEN_HD constexpr uint64_t mix64(uint64_t x) {
   x ^= x >> 30;
   x *= 0xbf58476d1ce4e5b9u;

@@ -11,7 +11,8 @@ class IndependentSampler {
  public:
   ALHAZEN_HD IndependentSampler(uint32_t seed, uint32_t x, uint32_t y, uint32_t sample)
       // Complemented, or pixel (a, seed) at sample b would draw the numbers of pixel (b, seed) at sample a.
-      : key_(mix64(mix64((static_cast<uint64_t>(y) << 32) | x) + mix64(~((static_cast<uint64_t>(seed) << 32) | sample)))) {}
+      : key_(mix64(mix64((static_cast<uint64_t>(y) << 32) | x) +
+                   mix64(~((static_cast<uint64_t>(seed) << 32) | sample)))) {}
 
   template <class Real>
   ALHAZEN_HD Real get_1d(uint32_t dimension) const {

@@ -125,7 +125,9 @@ ALHAZEN_HD SurfaceInteraction<Real> surface_interaction(const SceneView<Real>& s
       si = sphere_interaction(scene, ray, hit.t, s.center + s.motion * ray.time, s.radius, s.surface, s.frame);
       break;
     }
-    default: si = triangle_interaction(scene, hit); break;
+    default:
+      si = triangle_interaction(scene, hit);
+      break;
   }
   si.time = ray.time;
   return si;

@@ -61,10 +61,10 @@ inline constexpr uint32_t no_sphere_frame = 0xffffffffu;
 /// What the primitives of a mesh, or a sphere, have in common. An emissive triangle has a surface of its own.
 struct SurfaceRecord {
   uint32_t material;
-  uint32_t light;         ///< index into lights, or no_light
+  uint32_t light;          ///< index into lights, or no_light
   uint32_t normal_offset;  ///< added to the vertex index modulo 2^32; no_offset: no shading normals
   uint32_t uv_offset;      ///< the same for uvs
-  uint32_t flip_normal;   ///< 1: the normal is against the winding (triangles) or inward (spheres)
+  uint32_t flip_normal;    ///< 1: the normal is against the winding (triangles) or inward (spheres)
 };
 
 /// Where a ray met a primitive. b1 and b2 are the barycentric weights of vertices 1 and 2; spheres leave them 0.

@@ -47,8 +47,8 @@ ALHAZEN_HD bool subtended_cone(const Vec3<Real>& center, Real radius, const Vec3
 /// a point uniform over its area. `normal_at` receives the outward unit normal where the direction meets it, `pdf` the
 /// density over solid angle.
 template <class Real>
-ALHAZEN_HD Vec3<Real> sample_sphere(const Vec3<Real>& center, Real radius, const Vec3<Real>& point,
-                                    const Vec2<Real>& u, Vec3<Real>& normal_at, Real& pdf) {
+ALHAZEN_HD Vec3<Real> sample_sphere(const Vec3<Real>& center, Real radius, const Vec3<Real>& point, const Vec2<Real>& u,
+                                    Vec3<Real>& normal_at, Real& pdf) {
   const Real phi = 2 * pi<Real> * u.y;
   Real cos_max, one_minus_cos_max;
   if (!subtended_cone(center, radius, point, cos_max, one_minus_cos_max)) {
@@ -79,8 +79,8 @@ ALHAZEN_HD Vec3<Real> sample_sphere(const Vec3<Real>& center, Real radius, const
 /// Density of `sample_sphere` over solid angle for a direction that meets the sphere at distance t with the outward
 /// unit normal `normal_at`.
 template <class Real>
-ALHAZEN_HD Real pdf_sphere(const Vec3<Real>& center, Real radius, const Vec3<Real>& point,
-                           const Vec3<Real>& direction, Real t, const Vec3<Real>& normal_at) {
+ALHAZEN_HD Real pdf_sphere(const Vec3<Real>& center, Real radius, const Vec3<Real>& point, const Vec3<Real>& direction,
+                           Real t, const Vec3<Real>& normal_at) {
   Real cos_max, one_minus_cos_max;
   if (subtended_cone(center, radius, point, cos_max, one_minus_cos_max))
     return Real(0.5) * inv_pi<Real> / one_minus_cos_max;

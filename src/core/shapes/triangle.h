@@ -33,9 +33,7 @@ ALHAZEN_HD ShearedRay<Real> shear_ray(const Ray<Real>& ray) {
 /// (PBR 4th ed., 6.8.7). `p` are the sheared vertices, `inverse_det` the reciprocal of the sum of edge functions `e`.
 template <class Real>
 ALHAZEN_HD Real triangle_t_error(const Vec3<Real> p[3], const Vec3<Real>& e, Real inverse_det) {
-  const auto largest = [](Real a, Real b, Real c) {
-    return larger(std::abs(a), larger(std::abs(b), std::abs(c)));
-  };
+  const auto largest = [](Real a, Real b, Real c) { return larger(std::abs(a), larger(std::abs(b), std::abs(c))); };
   const Real max_x = largest(p[0].x, p[1].x, p[2].x);
   const Real max_y = largest(p[0].y, p[1].y, p[2].y);
   const Real max_z = largest(p[0].z, p[1].z, p[2].z);
@@ -43,8 +41,7 @@ ALHAZEN_HD Real triangle_t_error(const Vec3<Real> p[3], const Vec3<Real>& e, Rea
   const Real error_x = rounding_bound<Real>(5) * (max_x + max_z);
   const Real error_y = rounding_bound<Real>(5) * (max_y + max_z);
   const Real error_z = rounding_bound<Real>(3) * max_z;
-  const Real error_e =
-      2 * (rounding_bound<Real>(2) * max_x * max_y + error_y * max_x + error_x * max_y);
+  const Real error_e = 2 * (rounding_bound<Real>(2) * max_x * max_y + error_y * max_x + error_x * max_y);
   return 3 * (rounding_bound<Real>(3) * max_e * max_z + error_e * max_z + error_z * max_e) * std::abs(inverse_det);
 }
 

@@ -33,7 +33,8 @@ ALHAZEN_HD Vec3<Real> fetch_texel(const SceneView<Real>& scene, const ImageRecor
   const int width = static_cast<int>(image.width), height = static_cast<int>(image.height);
   if (x < 0 || y < 0 || x >= width || y >= height) {
     switch (static_cast<WrapMode>(image.wrap)) {
-      case WrapMode::black: return {};
+      case WrapMode::black:
+        return {};
       case WrapMode::clamp:
         x = x < 0 ? 0 : x >= width ? width - 1 : x;
         y = y < 0 ? 0 : y >= height ? height - 1 : y;
@@ -92,10 +93,14 @@ ALHAZEN_HD Vec3<Real> marble(const uint8_t* permutation, const TextureRecord<Rea
   const Real t = Real(0.5) + Real(0.5) * std::sin(p.y + node.parameters.z * noise);
   const auto colour = [](int i) -> Vec3<Real> {
     switch (i) {
-      case 3: return {Real(0.5), Real(0.5), Real(0.5)};
-      case 4: return {Real(0.6), Real(0.59), Real(0.58)};
-      case 7: return {Real(0.2), Real(0.2), Real(0.33)};
-      default: return {Real(0.58), Real(0.58), Real(0.6)};
+      case 3:
+        return {Real(0.5), Real(0.5), Real(0.5)};
+      case 4:
+        return {Real(0.6), Real(0.59), Real(0.58)};
+      case 7:
+        return {Real(0.2), Real(0.2), Real(0.33)};
+      default:
+        return {Real(0.58), Real(0.58), Real(0.6)};
     }
   };
   int first = static_cast<int>(t * 6);
@@ -112,8 +117,10 @@ template <class Real>
 ALHAZEN_HD Vec3<Real> evaluate_texture_node(const SceneView<Real>& scene, const TextureRecord<Real>& node,
                                             const TexturePoint<Real>& at, const Vec3<Real>* inputs) {
   switch (node.kind) {
-    case TextureKind::constant: return node.parameters;
-    case TextureKind::checkerboard: return is_even_check(scene, node, at) ? inputs[0] : inputs[1];
+    case TextureKind::constant:
+      return node.parameters;
+    case TextureKind::checkerboard:
+      return is_even_check(scene, node, at) ? inputs[0] : inputs[1];
     case TextureKind::image: {
       const Vec2<Real> st = map_uv(scene.texture_mappings[node.mapping], at.uv);
       const Vec3<Real> value = lookup_image(scene, scene.images[node.image], st) * node.parameters.x;
@@ -127,8 +134,10 @@ ALHAZEN_HD Vec3<Real> evaluate_texture_node(const SceneView<Real>& scene, const 
     }
     case TextureKind::marble:
       return marble(scene.noise_permutation, node, map_solid(scene.texture_mappings[node.mapping], at.position));
-    case TextureKind::scale: return inputs[0] * inputs[1];
-    case TextureKind::mix: return inputs[0] * (splat(Real(1)) - inputs[2]) + inputs[1] * inputs[2];
+    case TextureKind::scale:
+      return inputs[0] * inputs[1];
+    case TextureKind::mix:
+      return inputs[0] * (splat(Real(1)) - inputs[2]) + inputs[1] * inputs[2];
   }
   return {};
 }
@@ -138,8 +147,7 @@ ALHAZEN_HD constexpr uint32_t texture_input_count(TextureKind kind) {
 }
 
 template <class Real>
-ALHAZEN_HD Vec3<Real> evaluate_texture(const SceneView<Real>& scene, TextureRange range,
-                                       const TexturePoint<Real>& at) {
+ALHAZEN_HD Vec3<Real> evaluate_texture(const SceneView<Real>& scene, TextureRange range, const TexturePoint<Real>& at) {
   const TextureRecord<Real>* nodes = scene.textures + range.first;
   if (range.count == 1) return evaluate_texture_node(scene, nodes[0], at, static_cast<const Vec3<Real>*>(nullptr));
   Vec3<Real> stack[max_texture_stack];
