@@ -33,7 +33,8 @@ void expect_irradiance(const FlatScene<Real>& scene, IntegratorKind integrator, 
     const double radiance = expected / pi<double>;
     EXPECT_GT(mean_p_value(pixels, radiance, radiance * relative_rounding), sidak(0.01, cases))
         << take.name() << ": " << pixels.mean() << " +- " << pixels.standard_error() << " instead of " << radiance;
-    EXPECT_LT(pixels.standard_error(), 0.02 * radiance) << take.name() << ": the test is blunt";
+    // A sixteenth of the samples leaves four times the error.
+    EXPECT_LT(pixels.standard_error(), (is_sanitized ? 0.08 : 0.02) * radiance) << take.name() << ": the test is blunt";
   }
 }
 
