@@ -44,7 +44,7 @@ def main():
             json.dump(report, file, indent=1)
     times = times_by_name(report)
     print(f"{'render of scenes/spheres.pbrt':<34} {'median ms':>10} {'min':>9} {'max':>9} {'speed-up':>9}")
-    for name, values in times.items():
+    for name, values in sorted(times.items()):
         base = times.get(name.split("/")[0] + "/serial")
         median = statistics.median(values)
         speedup = f"{statistics.median(base) / median:9.2f}" if base else ""

@@ -78,10 +78,13 @@ void run_compare(const CompareOptions& options) {
 CLI::App* register_compare(CLI::App& app) {
   CLI::App* command = app.add_subcommand("compare", "How far two pictures are apart");
   const auto options = std::make_shared<CompareOptions>();
-  command->add_option("A", options->a, "the picture in question: EXR, PNG, JPEG, TGA, BMP, HDR or PFM")->required();
-  command->add_option("B", options->b, "the reference, of the same size")->required();
+  command->add_option("A", options->a, "the picture in question: EXR, PNG, JPEG, TGA, BMP, HDR or PFM")
+      ->required()
+      ->type_name("");
+  command->add_option("B", options->b, "the reference, of the same size")->required()->type_name("");
   command->add_flag("--json", options->json, "print one JSON object");
-  command->add_option("--diff", options->diff, "write a picture of where they differ (FLIP), .png or .exr");
+  command->add_option("--diff", options->diff, "write a picture of where they differ (FLIP), .png or .exr")
+      ->type_name("FILE");
   command->callback([options] { run_compare(*options); });
   return command;
 }

@@ -78,7 +78,7 @@ void show(const InfoOptions& options) {
 CLI::App* register_info(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "Read a scene and say what it holds");
   auto options = std::make_shared<InfoOptions>();
-  command->add_option("SCENE", options->scene, "Scene (.pbrt) or mesh (.ply), also as .gz")->required();
+  command->add_option("SCENE", options->scene, "Scene (.pbrt) or mesh (.ply), also as .gz")->required()->type_name("");
   command->add_flag("--json", options->json, "One JSON object instead of the list");
   command->callback([options] { show(*options); });
   return command;

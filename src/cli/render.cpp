@@ -159,39 +159,55 @@ int run(RenderOptions& options) {
   return exit_interrupted;
 }
 
+/// A check whose limits are told when they are broken, not in the help.
+template <class Number>
+CLI::Validator within(Number low, Number high) {
+  return CLI::Range(low, high).description("");
+}
+
 void add_picture_options(CLI::App& command, RenderOptions& o) {
   const char* group = "Picture";
   command.add_option("--spp", o.settings.samples_per_pixel, "Samples per pixel")
-      ->check(CLI::Range(int64_t{1}, int64_t{1} << 24))
+      ->check(within(int64_t{1}, int64_t{1} << 24))
+      ->type_name("N")
       ->group(group);
   command.add_option("--max-depth,--maxdepth", o.settings.max_depth, "Bounces: a path has at most N + 1 segments")
-      ->check(CLI::Range(int64_t{0}, int64_t{1'000'000}))
+      ->check(within(int64_t{0}, int64_t{1'000'000}))
+      ->type_name("N")
       ->group(group);
-  command.add_option("--size", o.size, "WxH: pixels of the whole picture")->group(group);
-  command.add_option("--crop,--cropwindow", o.crop, "x0,x1,y0,y1: render this part only, fractions from 0 to 1")
+  command.add_option("--size", o.size, "Pixels of the whole picture")->type_name("WxH")->group(group);
+  command.add_option("--crop,--cropwindow", o.crop, "Render this part only, fractions from 0 to 1")
+      ->type_name("X0,X1,Y0,Y1")
       ->group(group);
-  command.add_option("--pixelbounds", o.pixel_bounds, "x0,x1,y0,y1: render these pixels only")->group(group);
+  command.add_option("--pixelbounds", o.pixel_bounds, "Render these pixels only")
+      ->type_name("X0,X1,Y0,Y1")
+      ->group(group);
   command
       .add_option("--integrator", o.settings.integrator,
                   "path (next-event estimation), or emission by chance: iterative, recursive, branching")
+      ->type_name("NAME")
       ->group(group);
-  command.add_option("--sampler", o.settings.sampler, "sobol or independent")->group(group);
-  command.add_option("--seed", o.seed, "Another number, other noise")->group(group);
+  command.add_option("--sampler", o.settings.sampler, "sobol or independent")->type_name("NAME")->group(group);
+  command.add_option("--seed", o.seed, "Another number, other noise")->type_name("N")->group(group);
 }
 
 void add_engine_options(CLI::App& command, RenderOptions& o) {
   const char* group = "Engine";
   command.add_option("--backend", o.settings.backend, "auto, serial or openmp; 'alhazen devices' lists them")
+      ->type_name("NAME")
       ->group(group);
   command
       .add_option("--strategy", o.settings.strategy, "openmp: auto, tiles, rows, collapse, rows+reduction or reduction")
+      ->type_name("NAME")
       ->group(group);
   command.add_option("--schedule", o.settings.schedule, "openmp: static, dynamic or guided, and a chunk: dynamic,4")
+      ->type_name("KIND[,CHUNK]")
       ->group(group);
   command.add_option("-t,--threads,--nthreads", o.settings.threads, "Threads; 0 for all")
-      ->check(CLI::Range(0, 4096))
+      ->check(within(0, 4096))
+      ->type_name("N")
       ->group(group);
-  command.add_option("--precision", o.settings.precision, "float or double")->group(group);
+  command.add_option("--precision", o.settings.precision, "float or double")->type_name("NAME")->group(group);
 }
 
 void add_output_options(CLI::App& command, RenderOptions& o) {
@@ -201,6 +217,7 @@ void add_output_options(CLI::App& command, RenderOptions& o) {
                   "Picture to write, .exr or .png; may be given more than once. Default: as the scene says")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("FILE")
       ->group(group);
   command
       .add_option("--aov", o.settings.aovs,
@@ -208,22 +225,29 @@ void add_output_options(CLI::App& command, RenderOptions& o) {
       ->delimiter(',')
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("NAMES")
       ->group(group);
-  command.add_option("--exr-type", o.exr_type, "half or float")->group(group);
-  command.add_option("--exposure", o.output.png.exposure, "PNG: stops; each doubles the brightness")->group(group);
-  command.add_option("--tone-map", o.tone_map, "PNG: none, reinhard or filmic")->group(group);
+  command.add_option("--exr-type", o.exr_type, "half or float")->type_name("NAME")->group(group);
+  command.add_option("--exposure", o.output.png.exposure, "PNG: brightness; a stop doubles it")
+      ->type_name("STOPS")
+      ->group(group);
+  command.add_option("--tone-map", o.tone_map, "PNG: none, reinhard or filmic")->type_name("NAME")->group(group);
 }
 
 void add_running_options(CLI::App& command, RenderOptions& o) {
   const char* group = "While it runs";
-  command.add_option("--progress", o.progress, "auto (a bar on a terminal), plain, json or none")->group(group);
+  command.add_option("--progress", o.progress, "auto (a bar on a terminal), plain, json or none")
+      ->type_name("NAME")
+      ->group(group);
   command.add_flag("-q,--quiet", o.quiet, "Say nothing but warnings and errors")->group(group);
   command.add_flag("-v,--verbose", o.verbose, "Say what is rendered and how")->group(group);
   command.add_flag("--stats{text}", o.stats, "Print what it cost to stdout; --stats=json as one object")->group(group);
-  command.add_option("--time-limit", o.settings.time_limit, "Seconds; stops after the last whole pass within them")
-      ->check(CLI::Range(0.0, 1e9))
+  command.add_option("--time-limit", o.settings.time_limit, "Stop after the last whole pass within them")
+      ->check(within(0.0, 1e9))
+      ->type_name("SECONDS")
       ->group(group);
-  command.add_option("--checkpoint", o.checkpoint, "FILE[,SECONDS]: save the state every so many seconds (60)")
+  command.add_option("--checkpoint", o.checkpoint, "Save the state every so many seconds (60)")
+      ->type_name("FILE[,SECONDS]")
       ->group(group);
   command.add_flag("--resume", o.settings.resume, "Go on from the checkpoint file")->group(group);
 }
@@ -233,7 +257,7 @@ void add_running_options(CLI::App& command, RenderOptions& o) {
 CLI::App* register_render(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("render", "Render a scene to pictures");
   auto options = std::make_shared<RenderOptions>();
-  command->add_option("SCENE", options->scene, "Scene (.pbrt) or mesh (.ply), also as .gz")->required();
+  command->add_option("SCENE", options->scene, "Scene (.pbrt) or mesh (.ply), also as .gz")->required()->type_name("");
   add_output_options(*command, *options);
   add_picture_options(*command, *options);
   add_engine_options(*command, *options);

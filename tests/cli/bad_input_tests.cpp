@@ -8,14 +8,7 @@
 #include <regex>
 
 #include "cli/fixture.h"
-
-#if defined(__SANITIZE_ADDRESS__)
-#define ALHAZEN_TESTED_WITH_ASAN 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define ALHAZEN_TESTED_WITH_ASAN 1
-#endif
-#endif
+#include "support/effort.h"
 
 namespace alhazen::testing {
 
@@ -242,9 +235,7 @@ TEST_F(BadInput, Sizes) {
 }
 
 TEST_F(BadInput, MoreMemoryThanThereIs) {
-#ifdef ALHAZEN_TESTED_WITH_ASAN
-  GTEST_SKIP() << "the address sanitizer needs more address space than the test allows";
-#endif
+  if (test::is_sanitized) GTEST_SKIP() << "the address sanitizer needs more address space than the test allows";
   folder_.write_text("target.exr", target);
   CommandOptions options;
   options.address_space = size_t{3} << 30;
