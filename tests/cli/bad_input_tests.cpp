@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "cli/fixture.h"
 #include "support/effort.h"
@@ -23,8 +22,24 @@ std::vector<std::string> errors_of(const std::string& err) {
   return errors;
 }
 
-/// Anything from a file name to the message, at a line and a column where a file has them.
+/// What stands before the message.
 enum class Place { none, file, line_and_column };
+
+/// Whether `error` is `file: ...`, or `file:line:column: ...`.
+bool names_place(const std::string& error, Place place) {
+  if (place == Place::none) return true;
+  const size_t message = error.find(": ");
+  if (message == 0 || message == std::string::npos) return false;
+  if (place == Place::file) return true;
+  size_t end = message;
+  for (int number = 0; number < 2; ++number) {
+    const size_t last_other = error.find_last_not_of("0123456789", end - 1);
+    if (last_other == std::string::npos || last_other == 0 || error[last_other] != ':' || last_other + 1 == end)
+      return false;
+    end = last_other;
+  }
+  return true;
+}
 
 class BadInput : public Command {
  protected:
@@ -43,8 +58,7 @@ class BadInput : public Command {
     const std::vector<std::string> errors = errors_of(result.err);
     ASSERT_EQ(errors.size(), 1u);
     for (const std::string& word : words) EXPECT_NE(result.err.find(word), std::string::npos) << word;
-    const char* forms[] = {"^.+", "^[^:]+: .+", "^[^:]+:[0-9]+:[0-9]+: .+"};
-    EXPECT_TRUE(std::regex_search(errors[0], std::regex(forms[static_cast<int>(place)]))) << errors[0];
+    EXPECT_TRUE(names_place(errors[0], place)) << errors[0];
     expect_untouched();
   }
 

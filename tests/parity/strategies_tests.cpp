@@ -99,7 +99,7 @@ TEST(Parity, TheSceneShowsEverythingThatItIsMadeFor) {
   // Pictures that are black would be the same bits as well.
   for (const std::string scene : {"cornell", "spheres"}) {
     const Outcome outcome = render_bits(parity_scene(scene), serial_settings("float"));
-    const size_t width = static_cast<size_t>(outcome.width);
+    const size_t width = static_cast<size_t>(outcome.width), row = width * outcome.channels.size();
     for (size_t c = 0; c < outcome.channels.size(); ++c) {
       if (outcome.channels[c] == "samples.Y") continue;
       float low = infinity<float>, high = -infinity<float>;
