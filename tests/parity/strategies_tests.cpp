@@ -103,7 +103,7 @@ TEST(Parity, TheSceneShowsEverythingThatItIsMadeFor) {
     for (size_t c = 0; c < outcome.channels.size(); ++c) {
       if (outcome.channels[c] == "samples.Y") continue;
       float low = infinity<float>, high = -infinity<float>;
-      for (size_t first = c * width; first < outcome.rows.size(); first += width * outcome.channels.size()) {
+      for (size_t first = c * width; first < outcome.rows.size(); first += row) {
         const auto [least, most] = std::minmax_element(&outcome.rows[first], &outcome.rows[first] + width);
         low = std::min(low, *least);
         high = std::max(high, *most);
