@@ -2,6 +2,7 @@
 
 // Closest-hit and any-hit queries over the binary BVH: nearer child first, a short stack of node indices.
 
+#include "core/bvh/stack.h"
 #include "core/scene_view.h"
 #include "core/shapes/sphere.h"
 #include "core/shapes/triangle.h"
@@ -67,18 +68,20 @@ ALHAZEN_HD bool intersect_primitive(const SceneView<Real>& scene, PrimitiveId pr
   return met;
 }
 
+/// A node that is yet to be visited, and where the ray enters it.
+template <class Real>
+struct BvhEntry {
+  uint32_t node;
+  Real t;
+};
+
 /// Walks the tree. With `any_hit` it ends at the first primitive met before `hit.t`.
-template <bool any_hit, class Real>
-ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray, Hit<Real>& hit) {
+template <bool any_hit, class Real, class Stacks>
+ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray, const Stacks& stacks, Hit<Real>& hit) {
   if (scene.nodes_count == 0) return false;
   const SlabRay<Real> slabs = slab_ray(ray);
   const ShearedRay<Real> sheared = shear_ray(ray);
-  struct Entry {
-    uint32_t node;
-    Real t;
-  };
-  Entry stack[max_bvh_depth];
-  int height = 0;
+  auto stack = stacks.template make<BvhEntry<Real>, max_bvh_depth>();
   uint32_t current = 0;
   bool found = false;
   if (enter_box(scene.nodes[0], slabs, hit.t) == infinity<Real>) return false;
@@ -96,7 +99,7 @@ ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray,
       const bool left = t_left < infinity<Real>, right = t_right < infinity<Real>;
       if (left && right) {
         const bool left_first = t_left <= t_right;
-        stack[height++] = {left_first ? node.first + 1 : node.first, left_first ? t_right : t_left};
+        stack.push({left_first ? node.first + 1 : node.first, left_first ? t_right : t_left});
         current = left_first ? node.first : node.first + 1;
         continue;
       }
@@ -105,36 +108,39 @@ ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray,
         continue;
       }
     }
+    BvhEntry<Real> next;
     do {
-      if (height == 0) return found;
-      --height;
-    } while (!(stack[height].t <= hit.t));
-    current = stack[height].node;
+      if (stack.is_empty()) return found;
+      next = stack.pop();
+    } while (!(next.t <= hit.t));
+    current = next.node;
   }
 }
 
 /// The ray queries that integrators ask, answered by the BVH. Embree or OptiX stand in its place.
-template <class Real>
+template <class Real, class Stacks = LocalStacks>
 class BvhIntersector {
  public:
-  ALHAZEN_HD explicit BvhIntersector(const SceneView<Real>& scene) : scene_(&scene) {}
+  ALHAZEN_HD explicit BvhIntersector(const SceneView<Real>& scene, const Stacks& stacks = {})
+      : scene_(&scene), stacks_(stacks) {}
 
   /// The nearest hit before t_max; among hits at the same distance the first that the walk meets.
   ALHAZEN_HD bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
     hit.t = t_max;
     hit.b1 = hit.b2 = 0;
-    return traverse_bvh<false>(*scene_, ray, hit);
+    return traverse_bvh<false>(*scene_, ray, stacks_, hit);
   }
 
   /// Whether anything stands before t_max.
   ALHAZEN_HD bool occluded(const Ray<Real>& ray, Real t_max) const {
     Hit<Real> hit;
     hit.t = t_max;
-    return traverse_bvh<true>(*scene_, ray, hit);
+    return traverse_bvh<true>(*scene_, ray, stacks_, hit);
   }
 
  private:
   const SceneView<Real>* scene_;
+  Stacks stacks_;
 };
 
 }  // namespace alhazen
