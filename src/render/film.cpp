@@ -4,45 +4,12 @@ namespace alhazen {
 
 namespace {
 
-/// Running mean and sum of squared deviations over two sets of samples (Chan, Golub, LeVeque 1983).
-template <class Real>
-void merge_moments(Real& mean, Real& m2, uint32_t count, Real other_mean, Real other_m2, uint32_t other_count) {
-  const Real n = static_cast<Real>(count), m = static_cast<Real>(other_count);
-  const Real delta = other_mean - mean;
-  mean += delta * m / (n + m);
-  m2 += other_m2 + delta * delta * n * m / (n + m);
-}
-
 template <class Vector>
 void allocate_if(bool wanted, Vector& plane, size_t size) {
   if (wanted) plane.resize(size);
 }
 
 }  // namespace
-
-template <class Real>
-void BlockSum<Real>::add(const SampleRecord<Real>& sample, Real filter_weight) {
-  segments += sample.segments;
-  shadow_rays += sample.shadow_rays;
-  ++samples;
-  weight += filter_weight;
-  if (sample.has_hit) {
-    ++hits;
-    albedo += sample.albedo;
-    normal += sample.normal;
-    depth += sample.depth;
-  }
-  Vec3<Real> value = sample.radiance;
-  if (!is_finite(value)) {
-    ++nonfinite;
-    value = {};
-  }
-  radiance += value * filter_weight;
-  const Real y = luminance(value);
-  const Real delta = y - luminance_mean;
-  luminance_mean += delta / static_cast<Real>(samples);
-  luminance_m2 += delta * (y - luminance_mean);
-}
 
 template <class Real>
 uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted) {
@@ -69,24 +36,10 @@ Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, bool weighted) :
   allocate_if(aovs.bounces, segments_, pixels);
   allocate_if(aovs.variance, luminance_m2_, pixels);
   allocate_if(aovs.variance, luminance_mean_, pixels);
-}
-
-template <class Real>
-void Film<Real>::add(int x, int y, const BlockSum<Real>& block) {
-  const size_t i = index_of(x, y);
-  if (aovs_.variance)
-    merge_moments(luminance_mean_[i], luminance_m2_[i], samples_[i], block.luminance_mean, block.luminance_m2,
-                  block.samples);
-  radiance_[i] += block.radiance;
-  samples_[i] += block.samples;
-  if (!weights_.empty()) weights_[i] += block.weight;
-  if (aovs_.albedo) albedo_[i] += block.albedo;
-  if (aovs_.normal) normal_[i] += block.normal;
-  if (aovs_.depth) {
-    depth_[i] += block.depth;
-    hits_[i] += block.hits;
-  }
-  if (aovs_.bounces) segments_[i] += block.segments;
+  const auto pointer = [](auto& plane) { return plane.empty() ? nullptr : plane.data(); };
+#define ALHAZEN_PLANE(type, name) view_.name = pointer(name##_);
+  ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
+#undef ALHAZEN_PLANE
 }
 
 template <class Real>
@@ -131,8 +84,6 @@ void Film<Real>::resolve_row(int y, std::span<float> row) const {
   }
 }
 
-template struct BlockSum<float>;
-template struct BlockSum<double>;
 template uint64_t film_bytes<float>(const PixelWindow&, const AovSet&, bool);
 template uint64_t film_bytes<double>(const PixelWindow&, const AovSet&, bool);
 template class Film<float>;

@@ -8,23 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "core/integrators/stages.h"
+#include "core/film/film_view.h"
 #include "io/images/image.h"
 #include "render/settings.h"
 
 namespace alhazen {
-
-/// Sums over a few samples of one pixel.
-template <class Real>
-struct BlockSum {
-  Vec3<Real> radiance{}, albedo{}, normal{};
-  Real weight = 0;  ///< of the pixel filter
-  Real depth = 0;
-  Real luminance_mean = 0, luminance_m2 = 0;  ///< Welford's running mean and sum of squared deviations
-  uint32_t samples = 0, hits = 0, segments = 0, shadow_rays = 0, nonfinite = 0;
-
-  void add(const SampleRecord<Real>& sample, Real filter_weight);
-};
 
 /// Bytes that a film of these pixels and layers takes.
 template <class Real>
@@ -34,9 +22,11 @@ template <class Real>
 class Film {
  public:
   Film(const PixelWindow& window, const AovSet& aovs, bool weighted);
+  Film(const Film&) = delete;
+  Film& operator=(const Film&) = delete;
 
   /// Adds a block to pixel (x, y) of the whole picture. Blocks of a pixel come in the order of their samples.
-  void add(int x, int y, const BlockSum<Real>& block);
+  void add(int x, int y, const BlockSum<Real>& block) { view_.add(index_of(x, y), block); }
 
   const PixelWindow& window() const { return window_; }
   /// How many samples pixel (x, y) of the whole picture holds.
@@ -46,19 +36,15 @@ class Film {
   std::vector<std::string> channels() const;
   /// Row y (0 is the window's first) of all channels, one after the other: means over the samples taken so far.
   void resolve_row(int y, std::span<float> row) const;
-  /// The planes as bytes, for checkpoints: each of them once, always in the same order.
+  /// The planes where they lie, for a backend that keeps copies of them elsewhere.
+  FilmView<Real> view() const { return view_; }
+  /// The planes as bytes, for checkpoints and copies: each of them once, always in the same order, those that nobody
+  /// asked for with no bytes.
   template <class Visit>
   void visit_planes(const Visit& visit) {
-    visit(radiance_.data(), radiance_.size() * sizeof(radiance_[0]));
-    visit(samples_.data(), samples_.size() * sizeof(samples_[0]));
-    visit(weights_.data(), weights_.size() * sizeof(Real));
-    visit(albedo_.data(), albedo_.size() * sizeof(Vec3<Real>));
-    visit(normal_.data(), normal_.size() * sizeof(Vec3<Real>));
-    visit(depth_.data(), depth_.size() * sizeof(Real));
-    visit(hits_.data(), hits_.size() * sizeof(uint32_t));
-    visit(segments_.data(), segments_.size() * sizeof(uint32_t));
-    visit(luminance_m2_.data(), luminance_m2_.size() * sizeof(Real));
-    visit(luminance_mean_.data(), luminance_mean_.size() * sizeof(Real));
+#define ALHAZEN_PLANE(type, name) visit(name##_.data(), name##_.size() * sizeof(type));
+    ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
+#undef ALHAZEN_PLANE
   }
 
  private:
@@ -69,14 +55,10 @@ class Film {
 
   PixelWindow window_;
   AovSet aovs_;
-  std::vector<Vec3<Real>> radiance_;
-  std::vector<uint32_t> samples_;
-  std::vector<Real> weights_;  ///< only where the filter has negative weights; else they are the samples
-  std::vector<Vec3<Real>> albedo_, normal_;
-  std::vector<Real> depth_;
-  std::vector<uint32_t> hits_;
-  std::vector<uint32_t> segments_;
-  std::vector<Real> luminance_m2_, luminance_mean_;
+#define ALHAZEN_PLANE(type, name) std::vector<type> name##_;
+  ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
+#undef ALHAZEN_PLANE
+  FilmView<Real> view_;
 };
 
 }  // namespace alhazen

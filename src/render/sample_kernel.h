@@ -12,9 +12,6 @@
 
 namespace alhazen {
 
-/// Samples are summed in blocks of this many, and blocks are added to the film in order.
-inline constexpr uint32_t samples_per_block = 4;
-
 /// Takes samples [first, first + count), count <= samples_per_block, of pixel (x, y) of the whole picture.
 template <class Real>
 using SampleKernel = BlockSum<Real> (*)(const SceneView<Real>& scene, uint32_t seed, uint32_t max_segments, uint32_t x,

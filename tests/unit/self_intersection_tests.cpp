@@ -185,7 +185,7 @@ TYPED_TEST(SelfIntersectionOf, LightsAreSeen) {
       if (!(s.pdf > 0)) continue;
       from.normal = s.direction;
       ++tried;
-      hidden += !is_visible(LinearIntersector<Real>(view), from, s);
+      hidden += !is_free(LinearIntersector<Real>(view), shadow_ray(from, s));
     }
   }
   EXPECT_EQ(hidden, 0u) << "of " << tried;

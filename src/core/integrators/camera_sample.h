@@ -2,6 +2,8 @@
 
 // One sample of one pixel: camera ray, then the integrator that was asked for.
 
+#include <type_traits>
+
 #include "core/integrators/branching.h"
 #include "core/integrators/iterative.h"
 #include "core/integrators/path.h"
@@ -30,19 +32,41 @@ ALHAZEN_HD CameraSample<Real> sample_camera(const SceneView<Real>& scene, const 
   return {camera_ray(scene.camera, film, lens, time), filter.weight};
 }
 
+/// The state between two segments of an integrator that goes by segments.
+template <IntegratorKind kind, class Real>
+using StateOf = std::conditional_t<kind == IntegratorKind::path, PathState<Real>, IterativeState<Real>>;
+
+/// One segment of a path: trace, gather, light, scatter. False when the path has ended.
+template <class Real, class Intersector, class Sampler, class State, class Record>
+ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& intersector, const Sampler& sampler,
+                             uint32_t max_segments, State& path, Record& record) {
+  ++record.segments;
+  Hit<Real> hit;
+  if (!intersector.closest_hit(path.ray, infinity<Real>, hit)) {
+    leave_scene(scene, path, record);
+    return false;
+  }
+  return shade(scene, sampler, max_segments, hit, path, record,
+               [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
+                 if (is_free(intersector, shadow)) record.radiance += radiance;
+               });
+}
+
 /// Radiance along `ray` by the integrator `kind`, from at most `max_segments` >= 1 segments.
 template <IntegratorKind kind, class Real, class Intersector, class Sampler>
 ALHAZEN_HD SampleRecord<Real> integrate(const SceneView<Real>& scene, const Intersector& intersector,
                                         const Sampler& sampler, const Ray<Real>& ray, uint32_t max_segments) {
   SampleRecord<Real> record;
-  if constexpr (kind == IntegratorKind::path)
-    path_radiance(scene, intersector, sampler, ray, max_segments, record);
-  else if constexpr (kind == IntegratorKind::iterative)
-    iterative_radiance(scene, intersector, sampler, ray, max_segments, record);
-  else if constexpr (kind == IntegratorKind::recursive)
+  if constexpr (kind == IntegratorKind::path || kind == IntegratorKind::iterative) {
+    StateOf<kind, Real> path;
+    path.ray = ray;
+    while (take_segment(scene, intersector, sampler, max_segments, path, record)) {
+    }
+  } else if constexpr (kind == IntegratorKind::recursive) {
     record.radiance = cast_ray_recursive(scene, intersector, sampler, ray, max_segments, 0, record);
-  else
+  } else {
     record.radiance = cast_ray_branching(scene, intersector, sampler, ray, max_segments, 0, record);
+  }
   record.radiance *= scene.exposure;
   return record;
 }

@@ -7,25 +7,33 @@
 
 namespace alhazen {
 
-template <class Real, class Intersector, class Sampler>
-ALHAZEN_HD void iterative_radiance(const SceneView<Real>& scene, const Intersector& intersector, const Sampler& sampler,
-                                   Ray<Real> ray, uint32_t max_segments, SampleRecord<Real>& record) {
-  Vec3<Real> attenuation = splat(Real(1));
-  for (uint32_t segment = 0; segment < max_segments; ++segment) {
-    ++record.segments;
-    Hit<Real> hit;
-    if (!intersector.closest_hit(ray, infinity<Real>, hit)) {
-      record.radiance += attenuation * scene.background;
-      return;
-    }
-    const ShadingPoint<Real> point = shading_point(scene, ray, hit);
-    if (segment == 0) record_first_hit(point, hit, record);
-    record.radiance += attenuation * surface_emission(scene, point);
-    const BsdfSample<Real> s = scatter(point, sampler, VertexDimensions(segment));
-    if (!(s.pdf > 0) || is_zero(s.weight)) return;
-    attenuation *= s.weight;
-    ray = spawn_ray(point.si, s.direction);
-  }
+/// A path under way, between two segments.
+template <class Real>
+struct IterativeState {
+  Ray<Real> ray;
+  Vec3<Real> throughput = splat(Real(1));
+  uint32_t vertex = 0;  ///< how many surfaces it met so far
+};
+
+template <class Real, class Record>
+ALHAZEN_HD void leave_scene(const SceneView<Real>& scene, const IterativeState<Real>& path, Record& record) {
+  record.radiance += path.throughput * scene.background;
+}
+
+/// Gathers and scatters where the path met a surface. False when it ends there. `light` is not asked for any.
+template <class Real, class Sampler, class Record, class Light>
+ALHAZEN_HD bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments, const Hit<Real>& hit,
+                      IterativeState<Real>& path, Record& record, const Light&) {
+  const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
+  if (path.vertex == 0) record_first_hit(point, hit, record);
+  record.radiance += path.throughput * surface_emission(scene, point);
+  if (path.vertex + 1 >= max_segments) return false;
+  const BsdfSample<Real> s = scatter(point, sampler, VertexDimensions(path.vertex));
+  if (!(s.pdf > 0) || is_zero(s.weight)) return false;
+  path.throughput *= s.weight;
+  path.ray = spawn_ray(point.si, s.direction);
+  ++path.vertex;
+  return true;
 }
 
 }  // namespace alhazen

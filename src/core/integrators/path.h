@@ -24,16 +24,15 @@ ALHAZEN_HD Real chance_weight(const PathState<Real>& path, Real light_pdf) {
   return path.is_specular ? Real(1) : power_heuristic(path.bsdf_pdf, light_pdf);
 }
 
-template <class Real>
-ALHAZEN_HD void gather_background(const SceneView<Real>& scene, const PathState<Real>& path,
-                                  SampleRecord<Real>& record) {
+template <class Real, class Record>
+ALHAZEN_HD void leave_scene(const SceneView<Real>& scene, const PathState<Real>& path, Record& record) {
   if (is_zero(scene.background)) return;
   record.radiance += path.throughput * scene.background * chance_weight(path, pdf_background(scene));
 }
 
-template <class Real>
+template <class Real, class Record>
 ALHAZEN_HD void gather_emission(const SceneView<Real>& scene, const PathState<Real>& path, const Hit<Real>& hit,
-                                const ShadingPoint<Real>& point, SampleRecord<Real>& record) {
+                                const ShadingPoint<Real>& point, Record& record) {
   const Vec3<Real> emission = surface_emission(scene, point);
   if (is_zero(emission)) return;
   const Real light_pdf =
@@ -60,32 +59,21 @@ ALHAZEN_HD bool continue_path(const Sampler& sampler, const ShadingPoint<Real>& 
   return true;
 }
 
-/// One segment: trace, gather, light, scatter. False when the path has ended.
-template <class Real, class Intersector, class Sampler>
-ALHAZEN_HD bool path_segment(const SceneView<Real>& scene, const Intersector& intersector, const Sampler& sampler,
-                             uint32_t max_segments, PathState<Real>& path, SampleRecord<Real>& record) {
-  ++record.segments;
-  Hit<Real> hit;
-  if (!intersector.closest_hit(path.ray, infinity<Real>, hit)) {
-    gather_background(scene, path, record);
-    return false;
-  }
+/// Gathers, lights and scatters where the path met a surface. False when it ends there. `light` is handed the way to a
+/// sampled light and what the path gains if it is free, and may look at once or later.
+template <class Real, class Sampler, class Record, class Light>
+ALHAZEN_HD bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments, const Hit<Real>& hit,
+                      PathState<Real>& path, Record& record, const Light& light) {
   const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
   if (path.vertex == 0) record_first_hit(point, hit, record);
   gather_emission(scene, path, hit, point, record);
-  if (record.segments >= max_segments) return false;
-  record.radiance +=
-      path.throughput * direct_light(scene, intersector, sampler, VertexDimensions(path.vertex), point, record);
-  return continue_path(sampler, point, path);
-}
-
-template <class Real, class Intersector, class Sampler>
-ALHAZEN_HD void path_radiance(const SceneView<Real>& scene, const Intersector& intersector, const Sampler& sampler,
-                              const Ray<Real>& camera_ray, uint32_t max_segments, SampleRecord<Real>& record) {
-  PathState<Real> path;
-  path.ray = camera_ray;
-  while (path_segment(scene, intersector, sampler, max_segments, path, record)) {
+  if (path.vertex + 1 >= max_segments) return false;
+  const DirectLight<Real> direct = direct_light(scene, sampler, VertexDimensions(path.vertex), point);
+  if (direct.is_lit) {
+    ++record.shadow_rays;
+    light(direct.shadow, path.throughput * direct.radiance);
   }
+  return continue_path(sampler, point, path);
 }
 
 }  // namespace alhazen

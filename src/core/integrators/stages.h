@@ -1,25 +1,15 @@
 #pragma once
 
 // The stages that every integrator is made of: meet the surface, gather emission, light it directly, scatter.
-// A megakernel runs them in a row, queues one kernel each.
+// A megakernel runs them in a row, queues one kernel each. A `Record` is a PathRecord that is told of the first hit.
 
+#include "core/integrators/record.h"
 #include "core/lights/light.h"
 #include "core/materials/bsdf.h"
 #include "core/math/ray.h"
 #include "core/sampling/dimensions.h"
 
 namespace alhazen {
-
-/// What one camera sample brings back: its radiance, what the camera ray met first, and what it cost.
-template <class Real>
-struct SampleRecord {
-  Vec3<Real> radiance{};
-  Vec3<Real> albedo{}, normal{};  ///< of the first surface; the normal is the shading normal, in world space
-  Real depth = 0;                 ///< distance to it from the lens, scene units
-  uint32_t has_hit = 0;           ///< 1 where there was one
-  uint32_t segments = 0;          ///< closest-hit rays, the report's bounces
-  uint32_t shadow_rays = 0;
-};
 
 /// A point on a surface, ready to be shaded.
 template <class Real>
@@ -64,38 +54,58 @@ ALHAZEN_HD Ray<Real> spawn_ray(const SurfaceInteraction<Real>& si, const Vec3<Re
   return {offset_origin(si.position, si.position_error, si.normal, direction), direction, si.time};
 }
 
-/// Whether the way from the surface to a sampled light is free.
-template <class Real, class Intersector>
-ALHAZEN_HD bool is_visible(const Intersector& intersector, const SurfaceInteraction<Real>& si,
-                           const LightSample<Real>& light) {
-  Ray<Real> ray = spawn_ray(si, light.direction);
-  if (!light.is_finite) return !intersector.occluded(ray, infinity<Real>);
+/// A ray that is asked whether anything stands before `t_max`.
+template <class Real>
+struct ShadowRay {
+  Ray<Real> ray;
+  Real t_max;  ///< not above 0: nothing can stand in between
+};
+
+/// The way from the surface to a sampled light.
+template <class Real>
+ALHAZEN_HD ShadowRay<Real> shadow_ray(const SurfaceInteraction<Real>& si, const LightSample<Real>& light) {
+  ShadowRay<Real> shadow{spawn_ray(si, light.direction), infinity<Real>};
+  if (!light.is_finite) return shadow;
   // The rounded direction misses its aim by so much, which on a light seen from the edge is a way behind the surface.
-  const Vec3<Real> drift = splat(length(light.point - ray.origin) * rounding_bound<Real>(3));
+  const Vec3<Real> drift = splat(length(light.point - shadow.ray.origin) * rounding_bound<Real>(3));
   const Vec3<Real> target = offset_origin(light.point, light.point_error + drift, light.normal, -light.direction);
-  const Vec3<Real> way = target - ray.origin;
+  const Vec3<Real> way = target - shadow.ray.origin;
   const Real distance = length(way);
-  if (!(distance > 0)) return true;
-  ray.direction = way * (1 / distance);
-  return !intersector.occluded(ray, distance * (1 - 4 * rounding_bound<Real>(3)));
+  if (distance > 0) shadow.ray.direction = way * (1 / distance);
+  shadow.t_max = distance > 0 ? distance * (1 - 4 * rounding_bound<Real>(3)) : Real(0);
+  return shadow;
 }
 
-/// Light from one sampled light by way of this point, weighted against finding it by chance.
-template <class Real, class Intersector, class Sampler>
-ALHAZEN_HD Vec3<Real> direct_light(const SceneView<Real>& scene, const Intersector& intersector, const Sampler& sampler,
-                                   const VertexDimensions& dimensions, const ShadingPoint<Real>& point,
-                                   SampleRecord<Real>& record) {
-  if (scene.lights_count == 0 || point.bsdf.is_specular()) return {};
+template <class Real, class Intersector>
+ALHAZEN_HD bool is_free(const Intersector& intersector, const ShadowRay<Real>& shadow) {
+  return !(shadow.t_max > 0) || !intersector.occluded(shadow.ray, shadow.t_max);
+}
+
+/// Light that arrives from one sampled light and leaves along `wo`, unless something stands in between, weighted
+/// against finding it by chance.
+template <class Real>
+struct DirectLight {
+  Vec3<Real> radiance{};
+  ShadowRay<Real> shadow;
+  bool is_lit = false;
+};
+
+template <class Real, class Sampler>
+ALHAZEN_HD DirectLight<Real> direct_light(const SceneView<Real>& scene, const Sampler& sampler,
+                                          const VertexDimensions& dimensions, const ShadingPoint<Real>& point) {
+  DirectLight<Real> direct;
+  if (scene.lights_count == 0 || point.bsdf.is_specular()) return direct;
   const LightSample<Real> light =
       sample_light(scene, point.si.position, point.si.time, sampler.template get_1d<Real>(dimensions.light_choice()),
                    sampler.template get_2d<Real>(dimensions.light_point()));
-  if (!(light.pdf > 0) || is_zero(light.radiance) || !is_on_one_side(point, light.direction)) return {};
+  if (!(light.pdf > 0) || is_zero(light.radiance) || !is_on_one_side(point, light.direction)) return direct;
   const BsdfValue<Real> f = evaluate_bsdf(point.bsdf, point.wo, light.direction);
-  if (is_zero(f.value)) return {};
-  ++record.shadow_rays;
-  if (!is_visible(intersector, point.si, light)) return {};
+  if (is_zero(f.value)) return direct;
   const Real weight = light.is_delta ? Real(1) : power_heuristic(light.pdf, f.pdf);
-  return f.value * light.radiance * (weight / light.pdf);
+  direct.radiance = f.value * light.radiance * (weight / light.pdf);
+  direct.shadow = shadow_ray(point.si, light);
+  direct.is_lit = true;
+  return direct;
 }
 
 template <class Real, class Sampler>
@@ -107,12 +117,10 @@ ALHAZEN_HD BsdfSample<Real> scatter(const ShadingPoint<Real>& point, const Sampl
   return s;
 }
 
-template <class Real>
-ALHAZEN_HD void record_first_hit(const ShadingPoint<Real>& point, const Hit<Real>& hit, SampleRecord<Real>& record) {
-  record.has_hit = 1;
-  record.albedo = bsdf_albedo(point.bsdf);
-  record.normal = point.si.shading_normal;
-  record.depth = hit.t;
+template <class Real, class Record>
+ALHAZEN_HD void record_first_hit(const ShadingPoint<Real>& point, const Hit<Real>& hit, Record& record) {
+  if (record.wants_first_hit())
+    record.keep_first_hit(FirstHit<Real>{bsdf_albedo(point.bsdf), point.si.shading_normal, hit.t});
 }
 
 }  // namespace alhazen

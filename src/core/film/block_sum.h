@@ -1,0 +1,52 @@
+#pragma once
+
+// Sums over a few samples of one pixel: the unit in which every backend adds to the film.
+
+#include "core/integrators/record.h"
+#include "core/math/scalar.h"
+
+namespace alhazen {
+
+/// Samples are summed in blocks of this many, and blocks are added to the film in order.
+inline constexpr uint32_t samples_per_block = 4;
+
+template <class Real>
+struct BlockSum {
+  Vec3<Real> radiance{}, albedo{}, normal{};
+  Real weight = 0;  ///< of the pixel filter
+  Real depth = 0;
+  Real luminance_mean = 0, luminance_m2 = 0;  ///< Welford's running mean and sum of squared deviations
+  uint32_t samples = 0, hits = 0, segments = 0, shadow_rays = 0, nonfinite = 0;
+
+  ALHAZEN_HD void add_first_hit(const FirstHit<Real>& first) {
+    ++hits;
+    albedo += first.albedo;
+    normal += first.normal;
+    depth += first.depth;
+  }
+
+  /// `filter_weight` is the sample's own; radiance that is infinite or not a number counts as black.
+  ALHAZEN_HD void add_path(const PathRecord<Real>& path, Real filter_weight) {
+    segments += path.segments;
+    shadow_rays += path.shadow_rays;
+    ++samples;
+    weight += filter_weight;
+    Vec3<Real> value = path.radiance;
+    if (!is_finite(value)) {
+      ++nonfinite;
+      value = {};
+    }
+    radiance += value * filter_weight;
+    const Real y = luminance(value);
+    const Real delta = y - luminance_mean;
+    luminance_mean += delta / static_cast<Real>(samples);
+    luminance_m2 += delta * (y - luminance_mean);
+  }
+
+  ALHAZEN_HD void add(const SampleRecord<Real>& sample, Real filter_weight) {
+    if (sample.has_hit) add_first_hit(sample.first);
+    add_path(sample, filter_weight);
+  }
+};
+
+}  // namespace alhazen

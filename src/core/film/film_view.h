@@ -1,0 +1,61 @@
+#pragma once
+
+// The planes of a film wherever they lie, and how a block is added to them.
+
+#include "core/film/block_sum.h"
+
+namespace alhazen {
+
+/// Every plane of the film, once: PLANE(element type, name). All but the first two are there only where they are asked
+/// for: `weights` where the filter has negative weights, the others for their layers.
+#define ALHAZEN_FILM_PLANES(PLANE) \
+  PLANE(Vec3<Real>, radiance)      \
+  PLANE(uint32_t, samples)         \
+  PLANE(Real, weights)             \
+  PLANE(Vec3<Real>, albedo)        \
+  PLANE(Vec3<Real>, normal)        \
+  PLANE(Real, depth)               \
+  PLANE(uint32_t, hits)            \
+  PLANE(uint32_t, segments)        \
+  PLANE(Real, luminance_m2)        \
+  PLANE(Real, luminance_mean)
+
+/// Merges the moments of two sets of samples (Chan, Golub, LeVeque 1983).
+template <class Real>
+ALHAZEN_HD void merge_moments(Real& mean, Real& m2, uint32_t count, Real other_mean, Real other_m2,
+                              uint32_t other_count) {
+  const Real n = static_cast<Real>(count), m = static_cast<Real>(other_count);
+  const Real delta = other_mean - mean;
+  mean += delta * m / (n + m);
+  m2 += other_m2 + delta * delta * n * m / (n + m);
+}
+
+/// A null plane is one that nobody asked for. Elements are pixels of the window, row after row.
+template <class Real>
+struct FilmView {
+#define ALHAZEN_PLANE(type, name) type* name = nullptr;
+  ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
+#undef ALHAZEN_PLANE
+
+  /// Whether anything but radiance is kept of what camera rays meet first.
+  ALHAZEN_HD bool wants_first_hit() const { return albedo || normal || depth; }
+
+  /// Adds a block to pixel `i`. Blocks of a pixel come in the order of their samples.
+  ALHAZEN_HD void add(size_t i, const BlockSum<Real>& block) const {
+    if (luminance_m2)
+      merge_moments(luminance_mean[i], luminance_m2[i], samples[i], block.luminance_mean, block.luminance_m2,
+                    block.samples);
+    radiance[i] += block.radiance;
+    samples[i] += block.samples;
+    if (weights) weights[i] += block.weight;
+    if (albedo) albedo[i] += block.albedo;
+    if (normal) normal[i] += block.normal;
+    if (depth) {
+      depth[i] += block.depth;
+      hits[i] += block.hits;
+    }
+    if (segments) segments[i] += block.segments;
+  }
+};
+
+}  // namespace alhazen
