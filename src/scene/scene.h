@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/math/vec.h"
+#include "core/sampling/any_sampler.h"
 #include "core/textures/kinds.h"
 #include "scene/diagnostics.h"
 #include "scene/transform.h"

@@ -19,6 +19,19 @@ struct SurfaceInteraction {
   Real time;
 };
 
+/// Index into scene.surfaces.
+template <class Real>
+ALHAZEN_HD uint32_t surface_of(const SceneView<Real>& scene, PrimitiveId primitive) {
+  switch (primitive.kind()) {
+    case PrimitiveKind::sphere:
+      return scene.spheres[primitive.index()].surface;
+    case PrimitiveKind::moving_sphere:
+      return scene.moving_spheres[primitive.index()].surface;
+    default:
+      return scene.triangles[primitive.index()].surface;
+  }
+}
+
 /// Geometric normal of a triangle by its winding, not of unit length.
 template <class Real>
 ALHAZEN_HD Vec3<Real> triangle_cross(const SceneView<Real>& scene, const TriangleRecord& triangle) {

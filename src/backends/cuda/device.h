@@ -1,0 +1,44 @@
+#pragma once
+
+// Devices as the backend sees them: what there is, and an engine that renders on one of them.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "backends/cuda/kernels/launch.h"
+#include "render/backend.h"
+
+namespace alhazen::cuda {
+
+/// Renders its share of the rows of every pass on one device.
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  virtual void render_pass(const RenderPass<float>& pass, ThreadStatistics& statistics) = 0;
+  virtual void render_pass(const RenderPass<double>& pass, ThreadStatistics& statistics) = 0;
+};
+
+/// The kernels on the host.
+std::unique_ptr<Engine> make_host_engine(const RowShare& share);
+
+struct DeviceInfo {
+  std::string name;
+  int major = 0, minor = 0;  ///< compute capability
+  uint64_t memory = 0;       ///< bytes
+  int multiprocessors = 0;
+};
+
+struct DeviceList {
+  std::vector<DeviceInfo> devices;
+  std::string problem;  ///< where there are none: why, and what to do
+};
+
+/// The GPUs of this machine. Without CUDA in this binary: none, and how to build it in.
+const DeviceList& list_devices();
+
+/// The kernels on GPU `device`.
+std::unique_ptr<Engine> make_gpu_engine(int device, const RowShare& share);
+
+}  // namespace alhazen::cuda

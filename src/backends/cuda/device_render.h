@@ -1,0 +1,286 @@
+#pragma once
+
+// A pass on one device: the scene goes over once, the film stays there, slices of the pass are launched by one of four
+// schedules, and the film comes back at the end. The same for a GPU and for the host in its place.
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "backends/cuda/executor.h"
+#include "backends/cuda/kernels/persistent.h"
+#include "backends/cuda/kernels/pixel.h"
+#include "backends/cuda/kernels/wavefront.h"
+#include "backends/cuda/slices.h"
+#include "render/backend.h"
+
+namespace alhazen::cuda {
+
+/// Ray queries by the binary BVH.
+struct FlatTracing {
+  template <class Real, class Stacks>
+  ALHAZEN_HD static BvhIntersector<Real, Stacks> intersector(const SceneView<Real>& scene, const Stacks& stacks) {
+    return BvhIntersector<Real, Stacks>(scene, stacks);
+  }
+};
+
+template <class Executor, class Tracing, class Real>
+class DeviceRender {
+ public:
+  DeviceRender(Executor& executor, const RowShare& share)
+      : executor_(executor),
+        share_(share),
+        arena_(executor),
+        film_(executor),
+        totals_(executor),
+        sums_(executor),
+        slots_memory_(executor),
+        counter_(executor) {}
+
+  void render_pass(const RenderPass<Real>& pass, ThreadStatistics& statistics) {
+    const typename Executor::Range range("pass");
+    upload(pass);
+    executor_.clear(totals_.data(), sizeof(Totals));
+    Launch<Real> launch = launch_of(pass);
+    const uint32_t rows = share_.rows_of(static_cast<uint32_t>(pass.film.window().height()));
+    SlicePlan plan(launch.width, rows, pass.first_sample, pass.sample_count, items_, most_items(pass));
+    while (!plan.is_done() && !pass.control.is_stopped()) {
+      launch.slice = plan.next();
+      const Clock::time_point start = Clock::now();
+      const bool finished = run_slice(pass, launch);
+      executor_.wait();
+      if (!finished) break;
+      plan.advance(launch.slice, std::chrono::duration<double>(Clock::now() - start).count());
+      pass.control.add_samples(static_cast<uint64_t>(launch.width) * launch.slice.rows * launch.slice.count);
+    }
+    items_ = plan.items();
+    download(pass);
+    add_totals(statistics);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // ---- what is on the device -------------------------------------------------------------------------------------
+
+  void upload(const RenderPass<Real>& pass) {
+    if (scene_ != &pass.scene) {
+      const typename Executor::Range range("upload the scene");
+      const size_t bytes = pass.scene.statistics.bytes;
+      arena_.reset();
+      arena_.reserve(bytes);
+      executor_.upload(arena_.data(), pass.scene.arena.get(), bytes);
+      totals_.reserve(1);
+      counter_.reserve(1);
+      scene_ = &pass.scene;
+    }
+    if (host_film_ != &pass.film) {
+      host_film_ = &pass.film;
+      upload_film(pass.film);
+    }
+  }
+
+  /// The view of the scene with its pointers shifted from the host's arena to the device's.
+  SceneView<Real> device_scene(const FlatScene<Real>& scene) const {
+    SceneView<Real> view = scene.view;
+    const auto shift = [&](auto& pointer) {
+      using Pointer = std::remove_reference_t<decltype(pointer)>;
+      const std::byte* host = reinterpret_cast<const std::byte*>(pointer);
+      if (pointer) pointer = reinterpret_cast<Pointer>(arena_.data() + (host - scene.arena.get()));
+    };
+#define ALHAZEN_ARRAY(type, name) shift(view.name);
+    ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+    return view;
+  }
+
+  /// The planes of the film one after the other, as visit_planes has them.
+  void upload_film(Film<Real>& film) {
+    size_t bytes = 0;
+    film.visit_planes([&](const void*, size_t size) { bytes += padded(size); });
+    film_.reset();
+    film_.reserve(bytes);
+    std::byte* next = film_.data();
+    film.visit_planes([&](const void* plane, size_t size) {
+      if (size > 0) executor_.upload(next, plane, size);
+      next += padded(size);
+    });
+    next = film_.data();
+    const FilmView<Real> host = film.view();
+    const size_t pixels = static_cast<size_t>(film.window().pixels());
+    film_view_ = {};
+#define ALHAZEN_PLANE(type, name)                      \
+  if (host.name) {                                     \
+    film_view_.name = reinterpret_cast<type*>(next);   \
+    next += padded(pixels * sizeof(type));             \
+  }
+    ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
+#undef ALHAZEN_PLANE
+  }
+
+  /// Brings back the rows of this device, or, where it has all of them, whole planes.
+  void download(const RenderPass<Real>& pass) {
+    const typename Executor::Range range("download the film");
+    const FilmView<Real> host = pass.film.view();
+    const size_t width = static_cast<size_t>(pass.film.window().width());
+    const uint32_t height = static_cast<uint32_t>(pass.film.window().height());
+    const uint32_t rows = share_.rows_of(height);
+    const auto copy = [&](auto* to, const auto* from) {
+      if (!to) return;
+      if (share_.devices == 1) return executor_.download(to, from, width * height * sizeof(*to));
+      for (uint32_t row = 0; row < rows; row += RowShare::band) {
+        const size_t first = share_.window_row(row) * width;
+        executor_.download(to + first, from + first, std::min(RowShare::band, rows - row) * width * sizeof(*to));
+      }
+    };
+#define ALHAZEN_PLANE(type, name) copy(host.name, film_view_.name);
+    ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
+#undef ALHAZEN_PLANE
+  }
+
+  void add_totals(ThreadStatistics& statistics) {
+    Totals totals;
+    executor_.download(&totals, totals_.data(), sizeof(Totals));
+    statistics.samples += totals.samples;
+    statistics.rays += totals.rays;
+    statistics.shadow_rays += totals.shadow_rays;
+    statistics.nonfinite_samples += totals.nonfinite;
+  }
+
+  static size_t padded(size_t bytes) { return (bytes + 255) / 256 * 256; }
+
+  // ---- launches --------------------------------------------------------------------------------------------------
+
+  Launch<Real> launch_of(const RenderPass<Real>& pass) const {
+    const PixelWindow& window = pass.film.window();
+    return {device_scene(pass.scene),
+            film_view_,
+            totals_.data(),
+            static_cast<uint32_t>(window.x0),
+            static_cast<uint32_t>(window.y0),
+            static_cast<uint32_t>(window.width()),
+            share_,
+            {},
+            pass.settings.sampler,
+            pass.settings.seed,
+            pass.settings.max_segments};
+  }
+
+  /// As many items as a third of the free memory holds sums of, but not so many that 32 bits could not count them.
+  uint64_t most_items(const RenderPass<Real>& pass) const {
+    if (pass.settings.strategy == "pixel" || pass.settings.strategy == "chunk") return uint64_t{1} << 40;
+    const uint64_t memory = executor_.free_bytes() + sums_.size() * sizeof(BlockSum<Real>);
+    return std::clamp<uint64_t>(memory / 3 / sizeof(BlockSum<Real>), 1, uint64_t{1} << 30);
+  }
+
+  bool run_slice(const RenderPass<Real>& pass, const Launch<Real>& launch) {
+    return pass.settings.integrator == IntegratorKind::path ? run_slice<IntegratorKind::path>(pass, launch)
+                                                            : run_slice<IntegratorKind::iterative>(pass, launch);
+  }
+
+  /// False where the render was stopped within the slice, of which nothing is in the film then.
+  template <IntegratorKind kind>
+  bool run_slice(const RenderPass<Real>& pass, const Launch<Real>& launch) {
+    const std::string& strategy = pass.settings.strategy;
+    if (strategy == "pixel" || strategy == "chunk") {
+      run_pixels<kind>(pass.settings, launch);
+      return true;
+    }
+    const ItemGrid grid{launch.width, launch.slice.rows, launch.slice.blocks()};
+    sums_.reserve(grid.count());
+    if (strategy == "wavefront") {
+      if (!run_wavefront<kind>(pass.control, launch, grid)) return false;
+    } else {
+      run_persistent<kind>(launch, grid);
+    }
+    executor_.launch(FoldKernel<Real>{launch, grid, sums_.data()}, {grid.width * grid.rows}, {usual_block});
+    return true;
+  }
+
+  template <IntegratorKind kind>
+  void run_pixels(const RenderSettings& settings, const Launch<Real>& launch) {
+    const bool chunks = settings.strategy == "chunk";
+    PixelKernel<Tracing, kind, Real> kernel{launch, chunks ? settings.chunk.x : 1, chunks ? settings.chunk.y : 1,
+                                            nullptr};
+    const Extent threads{kernel.chunk_width(), kernel.chunk_height()};
+    sums_.reserve(static_cast<size_t>(threads.width) * threads.height);
+    kernel.sums = sums_.data();
+    executor_.launch(kernel, threads, {settings.block.x, settings.block.y});
+  }
+
+  template <IntegratorKind kind>
+  void run_persistent(const Launch<Real>& launch, const ItemGrid& grid) {
+    using Kernel = PersistentKernel<Tracing, kind, Real>;
+    executor_.clear(counter_.data(), sizeof(uint32_t));
+    const uint32_t threads = std::min(executor_.template resident_threads<Kernel>(usual_block), grid.count());
+    executor_.launch(Kernel{launch, grid, counter_.data(), sums_.data()}, {threads}, {usual_block});
+  }
+
+  template <IntegratorKind kind>
+  bool run_wavefront(const RenderControl& control, const Launch<Real>& launch, const ItemGrid& grid) {
+    WavefrontStage<Real> stage{launch, grid, make_slots(grid.count()), sums_.data(), 0};
+    const Extent threads{stage.slots.count}, block{usual_block};
+    const Extent padded_threads{stage.slots.count + material_kinds * warp_lanes};
+    executor_.launch(StartKernel<Real>{stage}, threads, block);
+    for (;;) {
+      for (int round = 0; round < rounds_between_looks; ++round) {
+        executor_.launch(GenerateKernel<kind, Real>{stage}, threads, block);
+        executor_.launch(ResetKernel<Real>{stage}, {1}, {1});
+        executor_.launch(IntersectKernel<Tracing, kind, Real>{stage}, threads, block);
+        executor_.launch(ShadeKernel<kind, Real>{stage}, padded_threads, block);
+        if (kind == IntegratorKind::path) executor_.launch(ShadowKernel<Tracing, Real>{stage}, threads, block);
+        stage.parity = 1 - stage.parity;
+      }
+      QueueCounts counts;
+      executor_.download(&counts, stage.slots.counts, sizeof(counts));
+      if (counts.rays[stage.parity] == 0 && counts.ended == 0) return true;
+      if (control.is_stopped()) return false;
+    }
+  }
+
+  /// Slots for as many paths as a third of the free memory holds, but no more than keep a large device busy or than
+  /// there are items.
+  Slots<Real> make_slots(uint32_t items) {
+    size_t slot_bytes = 0;
+#define ALHAZEN_ARRAY(type, name) slot_bytes += sizeof(type);
+    ALHAZEN_SLOT_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+    constexpr uint64_t most_slots = uint64_t{1} << 21;
+    const uint64_t memory = executor_.free_bytes() + slots_memory_.size();
+    const uint64_t fit = std::max<uint64_t>(warp_lanes, memory / 3 / slot_bytes);
+    Slots<Real> slots;
+    slots.count = static_cast<uint32_t>(std::min<uint64_t>({items, fit, most_slots}));
+    size_t bytes = padded(sizeof(QueueCounts));
+#define ALHAZEN_ARRAY(type, name) bytes += padded(slots.count * sizeof(type));
+    ALHAZEN_SLOT_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+    slots_memory_.reserve(bytes);
+    std::byte* next = slots_memory_.data();
+    const auto place = [&](auto*& pointer, size_t count) {
+      pointer = reinterpret_cast<std::remove_reference_t<decltype(pointer)>>(next);
+      next += padded(count * sizeof(*pointer));
+    };
+    place(slots.counts, 1);
+#define ALHAZEN_ARRAY(type, name) place(slots.name, slots.count);
+    ALHAZEN_SLOT_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+    return slots;
+  }
+
+  /// The queues are looked at from the host, which waits for them, only so often.
+  static constexpr int rounds_between_looks = 8;
+
+  Executor& executor_;
+  RowShare share_;
+  const FlatScene<Real>* scene_ = nullptr;
+  const Film<Real>* host_film_ = nullptr;
+  FilmView<Real> film_view_;
+  Buffer<Executor, std::byte> arena_, film_;
+  Buffer<Executor, Totals> totals_;
+  Buffer<Executor, BlockSum<Real>> sums_;
+  Buffer<Executor, std::byte> slots_memory_;
+  Buffer<Executor, uint32_t> counter_;
+  uint64_t items_ = Executor::first_items;
+};
+
+}  // namespace alhazen::cuda

@@ -1,0 +1,33 @@
+// The kernels of the GPU as loops on the host: `--backend cuda --device host`.
+
+#include "backends/cuda/device.h"
+#include "backends/cuda/device_render.h"
+#include "backends/cuda/host_executor.h"
+#include "core/bvh/traversal.h"
+
+namespace alhazen::cuda {
+
+namespace {
+
+class HostEngine final : public Engine {
+ public:
+  explicit HostEngine(const RowShare& share) : single_(executor_, share), double_(executor_, share) {}
+
+  void render_pass(const RenderPass<float>& pass, ThreadStatistics& statistics) override {
+    single_.render_pass(pass, statistics);
+  }
+  void render_pass(const RenderPass<double>& pass, ThreadStatistics& statistics) override {
+    double_.render_pass(pass, statistics);
+  }
+
+ private:
+  HostExecutor executor_;
+  DeviceRender<HostExecutor, FlatTracing, float> single_;
+  DeviceRender<HostExecutor, FlatTracing, double> double_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_host_engine(const RowShare& share) { return std::make_unique<HostEngine>(share); }
+
+}  // namespace alhazen::cuda

@@ -1,0 +1,99 @@
+#pragma once
+
+// What kernels are given: the scene, the film, and which pixels and samples. A kernel is an object whose operator()
+// runs once a thread. A `Thread` says who it is and does what threads do together:
+//   x(), y(), index()      its place in the launch
+//   stacks()               makes its traversal stack (core/bvh/stack.h)
+//   increment(counter)     adds 1 to a counter that all threads share; returns what it was before
+//   add(total, value)      adds to a sum that all threads share
+// A GPU thread is one (device_thread.cuh), an iteration of a loop on the host another (host_executor.h).
+
+#include "core/film/film_view.h"
+#include "core/integrators/camera_sample.h"
+#include "core/sampling/any_sampler.h"
+
+namespace alhazen::cuda {
+
+/// The rows of a window that one device renders: bands of rows dealt to the devices in turn, counted without gaps.
+struct RowShare {
+  static constexpr uint32_t band = 8;  ///< rows
+  uint32_t device = 0, devices = 1;
+
+  /// The row of the window that is this device's row `row`.
+  ALHAZEN_HD uint32_t window_row(uint32_t row) const { return (row / band * devices + device) * band + row % band; }
+  /// How many rows of a window of `height` rows are this device's.
+  ALHAZEN_HD uint32_t rows_of(uint32_t height) const {
+    const uint32_t whole = height / (band * devices), rest = height % (band * devices);
+    const uint32_t before = device * band;
+    return whole * band + (rest <= before ? 0 : rest - before < band ? rest - before : band);
+  }
+};
+
+/// Samples [first, first + count) of the rows [row, row + rows) of a device's share: the work of one launch. `first` is
+/// a multiple of samples_per_block.
+struct Slice {
+  uint32_t row, rows;
+  uint32_t first, count;
+
+  ALHAZEN_HD uint32_t blocks() const { return (count + samples_per_block - 1) / samples_per_block; }
+};
+
+/// Sums over everything that a device did.
+struct Totals {
+  unsigned long long samples, rays, shadow_rays, nonfinite;
+};
+
+template <class Real>
+struct Launch {
+  SceneView<Real> scene;
+  FilmView<Real> film;
+  Totals* totals;
+  uint32_t x0, y0;  ///< of the film's window in the picture
+  uint32_t width;   ///< of the window
+  RowShare share;
+  Slice slice;
+  SamplerType sampler;
+  uint32_t seed;
+  uint32_t max_segments;
+
+  /// Index into the film of column `x` of the slice's row `row`.
+  ALHAZEN_HD size_t film_index(uint32_t x, uint32_t row) const {
+    return static_cast<size_t>(share.window_row(slice.row + row)) * width + x;
+  }
+  ALHAZEN_HD uint32_t picture_x(uint32_t x) const { return x0 + x; }
+  ALHAZEN_HD uint32_t picture_y(uint32_t row) const { return y0 + share.window_row(slice.row + row); }
+  /// Whether the film holds block `block` of the slice at that pixel: an earlier pass may have been stopped.
+  ALHAZEN_HD bool holds_block(size_t film_pixel, uint32_t block) const {
+    return film.samples[film_pixel] > slice.first + block * samples_per_block;
+  }
+  /// Samples of a block of the slice: samples_per_block, or fewer in the last.
+  ALHAZEN_HD uint32_t samples_in_block(uint32_t block) const {
+    const uint32_t left = slice.count - block * samples_per_block;
+    return left < samples_per_block ? left : samples_per_block;
+  }
+};
+
+/// Adds a finished block to the film and to the totals.
+template <class Thread, class Real>
+ALHAZEN_HD void finish_block(const Thread& thread, const Launch<Real>& launch, size_t film_pixel,
+                             const BlockSum<Real>& sum) {
+  launch.film.add(film_pixel, sum);
+  thread.add(&launch.totals->samples, sum.samples);
+  thread.add(&launch.totals->rays, sum.segments);
+  thread.add(&launch.totals->shadow_rays, sum.shadow_rays);
+  if (sum.nonfinite > 0) thread.add(&launch.totals->nonfinite, sum.nonfinite);
+}
+
+/// A record that hands the first hit on to the block at once instead of carrying it along the path.
+template <class Real>
+struct SumRecord : PathRecord<Real> {
+  BlockSum<Real>* sum;
+  bool wanted;
+
+  ALHAZEN_HD SumRecord(BlockSum<Real>* block, const FilmView<Real>& film)
+      : sum(block), wanted(film.wants_first_hit()) {}
+  ALHAZEN_HD bool wants_first_hit() const { return wanted; }
+  ALHAZEN_HD void keep_first_hit(const FirstHit<Real>& hit) { sum->add_first_hit(hit); }
+};
+
+}  // namespace alhazen::cuda

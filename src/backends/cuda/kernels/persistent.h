@@ -1,0 +1,56 @@
+#pragma once
+
+// Threads that stay until the queue is empty (Aila and Laine 2009, "Understanding the Efficiency of Ray Traversal on
+// GPUs"). A lane whose path has ended takes the next sample at once, while the others of its warp go on: between two
+// segments all of them meet again.
+
+#include "backends/cuda/kernels/items.h"
+
+namespace alhazen::cuda {
+
+template <class Tracing, IntegratorKind kind, class Real>
+struct PersistentKernel {
+  Launch<Real> launch;
+  ItemGrid grid;
+  uint32_t* next_item;   ///< 0 at the start
+  BlockSum<Real>* sums;  ///< one an item
+
+  template <class Thread>
+  ALHAZEN_HD void operator()(const Thread& thread) const {
+    const auto intersector = Tracing::intersector(launch.scene, thread.stacks());
+    AnySampler sampler(launch.sampler, 0, 0, 0, 0);
+    SumRecord<Real> record(nullptr, launch.film);
+    StateOf<kind, Real> path;
+    Real filter_weight = 0;
+    Item item{};
+    uint32_t taken = 0, to_take = 0;  // samples of the item
+    bool is_under_way = false;
+    for (;;) {
+      if (!is_under_way) {
+        if (taken == to_take) {
+          uint32_t index;
+          if (!claim_item(thread, launch, grid, next_item, index, item)) return;
+          sums[index] = {};
+          record.sum = &sums[index];
+          taken = 0;
+          to_take = launch.samples_in_block(item.block);
+        }
+        const uint32_t px = launch.picture_x(item.x), py = launch.picture_y(item.row);
+        sampler = AnySampler(launch.sampler, launch.seed, px, py,
+                             launch.slice.first + item.block * samples_per_block + taken);
+        const CameraSample<Real> camera = sample_camera(launch.scene, sampler, px, py);
+        filter_weight = camera.filter_weight;
+        path = {};
+        path.ray = camera.ray;
+        static_cast<PathRecord<Real>&>(record) = {};
+      }
+      is_under_way = take_segment(launch.scene, intersector, sampler, launch.max_segments, path, record);
+      if (is_under_way) continue;
+      record.radiance *= launch.scene.exposure;
+      record.sum->add_path(record, filter_weight);
+      ++taken;
+    }
+  }
+};
+
+}  // namespace alhazen::cuda
