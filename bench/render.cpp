@@ -54,7 +54,7 @@ void render(benchmark::State& state, const std::string& backend_name, const std:
   for (auto _ : state) {
     Film<Real> film(settings.window, settings.aovs, false);
     RenderControl control(threads);
-    backend->render_pass(RenderPass<Real>{scene.flat.view, kernel, settings, film, control, 0, samples});
+    backend->render_pass(RenderPass<Real>{scene.flat, kernel, settings, film, control, 0, samples});
     for (const ThreadStatistics& thread : control.threads()) rays += thread.rays + thread.shadow_rays;
   }
   state.counters["rays"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);

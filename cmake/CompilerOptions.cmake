@@ -2,7 +2,7 @@
 
 add_library(alhazen_options INTERFACE)
 target_compile_options(alhazen_options INTERFACE
-  -Wall -Wextra -Wshadow -Wconversion -Werror -Wdouble-promotion -fno-math-errno -fno-trapping-math)
+  -Wall -Wextra -Wshadow -Wconversion -Werror -Wdouble-promotion -fno-math-errno -fno-trapping-math -ffp-contract=off)
 
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # False alarms on string concatenation (GCC bug 105651).

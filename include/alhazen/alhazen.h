@@ -19,13 +19,17 @@ namespace alhazen {
 
 /// How to render. What is left empty, zero or negative is taken from the scene file, or chosen.
 struct Settings {
-  std::string backend = "auto";     ///< auto, serial, openmp
-  std::string strategy = "auto";    ///< openmp: rows, collapse, rows+reduction, reduction, tiles
+  std::string backend = "auto";  ///< auto, serial, openmp, cuda
+  /// openmp: rows, collapse, rows+reduction, reduction, tiles; cuda: pixel, chunk, persistent, wavefront
+  std::string strategy = "auto";
   std::string schedule;             ///< openmp: static, dynamic or guided, with an optional ",CHUNK"
   std::string precision = "float";  ///< float, double
   std::string integrator;           ///< path, iterative, recursive, branching
   std::string sampler;              ///< sobol, independent
   int threads = 0;                  ///< 0: all
+  std::string device;               ///< cuda: number of the GPU, all, or host: the same kernels as loops on the CPU
+  std::string block;                ///< cuda, pixel and chunk: threads of a block, WxH
+  std::string chunk;                ///< cuda, chunk: chunks in each direction, WxH
   int64_t samples_per_pixel = 0;
   int64_t max_depth = -1;         ///< bounces: a path has at most max_depth + 1 segments
   int64_t width = 0, height = 0;  ///< pixels

@@ -39,7 +39,7 @@ template <class Real>
 BlockSum<Real> take_block(const RenderPass<Real>& pass, int x, int y, uint32_t block, ThreadStatistics& statistics) {
   const uint32_t offset = block * samples_per_block;
   const uint32_t left = pass.sample_count - offset;
-  const BlockSum<Real> sum = pass.kernel(pass.scene, pass.settings.seed, pass.settings.max_segments,
+  const BlockSum<Real> sum = pass.kernel(pass.scene.view, pass.settings.seed, pass.settings.max_segments,
                                          static_cast<uint32_t>(x), static_cast<uint32_t>(y), pass.first_sample + offset,
                                          left < samples_per_block ? left : samples_per_block);
   statistics.samples += sum.samples;

@@ -16,6 +16,7 @@ void print_table() {
   for (const auto& backend : all_backends()) {
     const BackendDescription d = backend->describe();
     fmt::print("{:<8} {:<14} {}\n", d.name, d.available ? "available" : "not available", d.details);
+    for (size_t i = 0; i < d.devices.size(); ++i) fmt::print("{:<8} device {:<7} {}\n", "", i, d.devices[i]);
     if (!d.strategies.empty()) fmt::print("{:<8} {:<14} {}\n", "", "strategies", fmt::join(d.strategies, ", "));
   }
 }
@@ -24,8 +25,11 @@ void print_json() {
   auto list = nlohmann::ordered_json::array();
   for (const auto& backend : all_backends()) {
     const BackendDescription d = backend->describe();
-    list.push_back(
-        {{"name", d.name}, {"available", d.available}, {"details", d.details}, {"strategies", d.strategies}});
+    list.push_back({{"name", d.name},
+                    {"available", d.available},
+                    {"details", d.details},
+                    {"devices", d.devices},
+                    {"strategies", d.strategies}});
   }
   fmt::print("{}\n", list.dump());
 }

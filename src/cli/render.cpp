@@ -93,15 +93,20 @@ void print_warnings(const Diagnostics& diagnostics, size_t first) {
     fmt::print(stderr, "warning: {}\n", diagnostics.warnings()[i].to_string());
 }
 
+std::string engine_of(const RenderSettings& r) {
+  if (r.backend != "cuda") return fmt::format("{} thread{}", r.threads, r.threads == 1 ? "" : "s");
+  if (r.device == host_device) return "the host";
+  return r.device == all_devices ? fmt::format("{} GPUs", r.threads) : fmt::format("GPU {}", r.device);
+}
+
 void print_start(const RenderStatistics& s) {
   const RenderSettings& r = s.settings;
   fmt::print(stderr, "{}: {} triangles, {} spheres, {} lights; read in {:.2f} s, BVH of {} nodes in {:.2f} s\n",
              s.scene, s.scene_sizes.triangles, s.scene_sizes.spheres, s.scene_sizes.lights, s.load_seconds,
              s.scene_sizes.nodes, s.build_seconds);
-  fmt::print(stderr, "{} x {} pixels, {} samples each, {} in {}, depth {}; {}{}{} on {} thread{}\n", r.window.width(),
+  fmt::print(stderr, "{} x {} pixels, {} samples each, {} in {}, depth {}; {}{}{} on {}\n", r.window.width(),
              r.window.height(), r.samples_per_pixel, to_string(r.integrator), to_string(r.precision),
-             r.max_segments - 1, r.backend, r.strategy.empty() ? "" : " ", r.strategy, r.threads,
-             r.threads == 1 ? "" : "s");
+             r.max_segments - 1, r.backend, r.strategy.empty() ? "" : " ", r.strategy, engine_of(r));
 }
 
 std::string text_statistics(const RenderStatistics& s) {
@@ -193,15 +198,26 @@ void add_picture_options(CLI::App& command, RenderOptions& o) {
 
 void add_engine_options(CLI::App& command, RenderOptions& o) {
   const char* group = "Engine";
-  command.add_option("--backend", o.settings.backend, "auto, serial or openmp; 'alhazen devices' lists them")
+  command.add_option("--backend", o.settings.backend, "auto, serial, openmp or cuda; 'alhazen devices' lists them")
       ->type_name("NAME")
       ->group(group);
   command
-      .add_option("--strategy", o.settings.strategy, "openmp: auto, tiles, rows, collapse, rows+reduction or reduction")
+      .add_option("--strategy", o.settings.strategy,
+                  "auto; openmp: tiles, rows, collapse, rows+reduction or reduction; cuda: persistent, pixel, chunk or "
+                  "wavefront")
       ->type_name("NAME")
       ->group(group);
   command.add_option("--schedule", o.settings.schedule, "openmp: static, dynamic or guided, and a chunk: dynamic,4")
       ->type_name("KIND[,CHUNK]")
+      ->group(group);
+  command.add_option("--device", o.settings.device, "cuda: number of the GPU, all, or host: the kernels on the CPU")
+      ->type_name("N")
+      ->group(group);
+  command.add_option("--block", o.settings.block, "cuda, pixel and chunk: threads of a block (16x16)")
+      ->type_name("WxH")
+      ->group(group);
+  command.add_option("--chunk", o.settings.chunk, "cuda, chunk: chunks in each direction (4x4)")
+      ->type_name("WxH")
       ->group(group);
   command.add_option("-t,--threads,--nthreads", o.settings.threads, "Threads; 0 for all")
       ->check(within(0, 4096))

@@ -10,15 +10,16 @@
 #include "render/film.h"
 #include "render/sample_kernel.h"
 #include "render/settings.h"
+#include "scene/flat_scene.h"
 
 namespace alhazen {
 
 /// Samples [first_sample, first_sample + sample_count) of every pixel of the film. `first_sample` and, but for the last
-/// pass, `sample_count` are multiples of samples_per_block; sample_count is at most most_samples_per_pass. What a pixel
-/// holds of them already, by a pass that was stopped, is not taken again.
+/// pass, `sample_count` are multiples of samples_per_block; sample_count is at most what the backend asks for. What a
+/// pixel holds of them already, by a pass that was stopped, is not taken again.
 template <class Real>
 struct RenderPass {
-  const SceneView<Real>& scene;
+  const FlatScene<Real>& scene;
   SampleKernel<Real> kernel;
   const RenderSettings& settings;
   Film<Real>& film;
@@ -27,31 +28,36 @@ struct RenderPass {
   uint32_t sample_count;
 };
 
-inline constexpr uint32_t most_samples_per_pass = 64;
+inline constexpr uint32_t usual_samples_per_pass = 64;
 
 struct BackendDescription {
   std::string name;
   std::vector<std::string> strategies;  ///< the first is the default
   bool available = true;
-  std::string details;  ///< what it runs on; or why it cannot, and what to do
+  std::string details;               ///< what it runs on; or why it cannot, and what to do
+  std::vector<std::string> devices;  ///< where there may be several: each in a line
 };
 
 class Backend {
  public:
   virtual ~Backend() = default;
   virtual BackendDescription describe() const = 0;
+  /// Passes are no larger than this.
+  virtual uint32_t most_samples_per_pass() const { return usual_samples_per_pass; }
   virtual void render_pass(const RenderPass<float>& pass) = 0;
   virtual void render_pass(const RenderPass<double>& pass) = 0;
 };
 
 std::unique_ptr<Backend> make_serial_backend();
 std::unique_ptr<Backend> make_openmp_backend();
+std::unique_ptr<Backend> make_cuda_backend();
 
 /// Every backend that this binary knows, available or not.
 std::vector<std::unique_ptr<Backend>> all_backends();
+/// The one called `name`. Throws InputError where there is none.
 std::unique_ptr<Backend> make_backend(const std::string& name);
 
-/// Sets backend, strategy and thread count of `settings`; `auto` becomes what measures fastest.
+/// Sets backend, strategy, device and thread count of `settings`; `auto` becomes what measures fastest.
 void choose_backend(const Settings& asked, RenderSettings& settings);
 
 }  // namespace alhazen

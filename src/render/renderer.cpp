@@ -68,15 +68,15 @@ class ProgressReporter {
 
 /// How many samples the next pass takes: whole blocks, large enough for its end not to matter, and small enough for
 /// the picture to grow evenly and for a time limit to be met; at last the rest that is no whole block.
-uint32_t pass_size(const RenderSettings& settings, uint32_t samples_done, double elapsed) {
+uint32_t pass_size(const RenderSettings& settings, uint32_t most, uint32_t samples_done, double elapsed) {
   const uint32_t left = settings.samples_per_pixel - samples_done;
-  uint32_t size = std::clamp(settings.samples_per_pixel / 16, 16u, most_samples_per_pass);
+  uint32_t size = std::clamp(settings.samples_per_pixel / 16, most / 4, most);
   if (settings.time_limit > 0) {
     size = samples_per_block;
     if (samples_done > 0) {
       const double per_sample = elapsed / samples_done;
-      size = static_cast<uint32_t>(std::clamp((settings.time_limit - elapsed) / 8 / std::max(per_sample, 1e-9), 1.0,
-                                              static_cast<double>(most_samples_per_pass)));
+      size = static_cast<uint32_t>(
+          std::clamp((settings.time_limit - elapsed) / 8 / std::max(per_sample, 1e-9), 1.0, static_cast<double>(most)));
     }
   }
   if (left < samples_per_block) return left;
@@ -122,7 +122,7 @@ class PassLoop {
     Clock::time_point saved = Clock::now();
     double last_pass_per_sample = 0;
     while (samples_done_ < settings_.samples_per_pixel && !control_.is_stopped()) {
-      const uint32_t size = pass_size(settings_, samples_done_, elapsed_);
+      const uint32_t size = pass_size(settings_, backend_->most_samples_per_pass(), samples_done_, elapsed_);
       if (settings_.time_limit > 0 && elapsed_ > 0 && elapsed_ + last_pass_per_sample * size > settings_.time_limit)
         return;
       if (size % samples_per_block != 0) {
@@ -130,7 +130,7 @@ class PassLoop {
         in_whole_blocks_ = false;
       }
       const Clock::time_point start = Clock::now();
-      backend_->render_pass(RenderPass<Real>{scene_.view, kernel, settings_, film_, control_, samples_done_, size});
+      backend_->render_pass(RenderPass<Real>{scene_, kernel, settings_, film_, control_, samples_done_, size});
       const double seconds = seconds_since(start);
       elapsed_ += seconds;
       if (control_.is_stopped()) return;

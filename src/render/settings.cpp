@@ -119,6 +119,28 @@ void check_checkpoint(const std::string& path) {
   if (fs::is_directory(path)) throw InputError({path}, "this is a folder: give the name of a file for the checkpoint");
 }
 
+BlockSize parse_size(const std::string& text, const std::string& what, uint32_t most) {
+  BlockSize size;
+  const char* const end = text.data() + text.size();
+  const auto [after_x, x_error] = std::from_chars(text.data(), end, size.x);
+  if (x_error == std::errc() && after_x != end && *after_x == 'x') {
+    const auto [after_y, y_error] = std::from_chars(after_x + 1, end, size.y);
+    if (y_error == std::errc() && after_y == end && size.x >= 1 && size.y >= 1 && size.x <= most && size.y <= most)
+      return size;
+  }
+  throw InputError(what + " must be WIDTHxHEIGHT, each between 1 and " + std::to_string(most) +
+                   ", for example 16x16, not '" + text + "'");
+}
+
+BlockSize parse_block(const std::string& text) {
+  constexpr uint32_t most_threads = 1024;
+  const BlockSize block = parse_size(text, "the block", most_threads);
+  if (block.x * block.y > most_threads)
+    throw InputError("a block of " + text + " is " + std::to_string(block.x * block.y) +
+                     " threads; a GPU runs at most 1024 in one: give fewer, for example 16x16");
+  return block;
+}
+
 }  // namespace
 
 Schedule parse_schedule(const std::string& text) {
@@ -164,12 +186,15 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   if (s.resume && s.checkpoint.empty()) throw InputError("to resume, name the file to go on from: --checkpoint FILE");
   s.schedule = parse_schedule(asked.schedule.empty() ? "dynamic" : asked.schedule);
   choose_backend(asked, s);
+  if (!asked.block.empty()) s.block = parse_block(asked.block);
+  if (!asked.chunk.empty()) s.chunk = parse_size(asked.chunk, "the number of chunks", 4096);
   return s;
 }
 
 std::string to_string(Precision precision) { return name_of(precisions, precision); }
 std::string to_string(IntegratorKind integrator) { return name_of(integrators, integrator); }
 std::string to_string(SamplerType sampler) { return name_of(samplers, sampler); }
+std::string to_string(const BlockSize& size) { return std::to_string(size.x) + "x" + std::to_string(size.y); }
 std::string to_string(const Schedule& schedule) {
   return name_of(schedules, schedule.kind) + (schedule.chunk > 0 ? "," + std::to_string(schedule.chunk) : "");
 }

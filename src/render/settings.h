@@ -34,9 +34,19 @@ struct PixelWindow {
   int64_t pixels() const { return static_cast<int64_t>(width()) * height(); }
 };
 
+struct BlockSize {
+  uint32_t x = 1, y = 1;
+};
+
+/// RenderSettings::device beside the numbers of GPUs.
+inline constexpr int all_devices = -1, host_device = -2;
+
 struct RenderSettings {
   std::string backend;
   std::string strategy;
+  int device = 0;              ///< cuda: a GPU's number, all_devices or host_device
+  BlockSize block = {16, 16};  ///< cuda, pixel and chunk: threads of a block
+  BlockSize chunk = {4, 4};    ///< cuda, chunk: chunks in each direction
   Schedule schedule;
   Precision precision = Precision::single;
   IntegratorKind integrator = IntegratorKind::path;
@@ -61,6 +71,7 @@ std::string to_string(Precision precision);
 std::string to_string(IntegratorKind integrator);
 std::string to_string(SamplerType sampler);
 std::string to_string(const Schedule& schedule);
+std::string to_string(const BlockSize& size);
 
 /// Parses `static`, `dynamic,4`, ... Throws InputError.
 Schedule parse_schedule(const std::string& text);

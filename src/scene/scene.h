@@ -171,7 +171,6 @@ struct Filter {
   double tau = 3;                         ///< sinc
 };
 
-enum class SamplerType { sobol, independent };
 enum class IntegratorType { branching, recursive, iterative, path };
 
 /// The whole description. A reader fills it; `flatten` (scene/flatten.h) turns it into what integrators see.

@@ -53,7 +53,7 @@ Outcome render_in_passes(Scene scene, const Settings& asked, const std::vector<u
   const std::unique_ptr<Backend> backend = make_backend(settings.backend);
   uint32_t first = 0;
   for (const uint32_t size : sizes) {
-    backend->render_pass(RenderPass<Real>{flat.view, select_sample_kernel<Real>(settings.integrator, settings.sampler),
+    backend->render_pass(RenderPass<Real>{flat, select_sample_kernel<Real>(settings.integrator, settings.sampler),
                                           settings, *film, control, first, size});
     first += size;
   }

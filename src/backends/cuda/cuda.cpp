@@ -24,8 +24,8 @@ class CudaBackend final : public Backend {
  public:
   BackendDescription describe() const override {
     const DeviceList& list = list_devices();
-    BackendDescription description{"cuda", {"persistent", "pixel", "chunk", "wavefront"}, !list.devices.empty(),
-                                   list.problem, {}};
+    BackendDescription description{
+        "cuda", {"persistent", "pixel", "chunk", "wavefront"}, !list.devices.empty(), list.problem, {}};
     for (const DeviceInfo& device : list.devices) description.devices.push_back(describe_device(device));
     if (description.available)
       description.details =

@@ -12,6 +12,7 @@
 #include "backends/cuda/kernels/pixel.h"
 #include "backends/cuda/kernels/wavefront.h"
 #include "backends/cuda/slices.h"
+#include "core/bvh/traversal.h"
 #include "render/backend.h"
 
 namespace alhazen::cuda {
@@ -109,10 +110,10 @@ class DeviceRender {
     const FilmView<Real> host = film.view();
     const size_t pixels = static_cast<size_t>(film.window().pixels());
     film_view_ = {};
-#define ALHAZEN_PLANE(type, name)                      \
-  if (host.name) {                                     \
-    film_view_.name = reinterpret_cast<type*>(next);   \
-    next += padded(pixels * sizeof(type));             \
+#define ALHAZEN_PLANE(type, name)                    \
+  if (host.name) {                                   \
+    film_view_.name = reinterpret_cast<type*>(next); \
+    next += padded(pixels * sizeof(type));           \
   }
     ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
 #undef ALHAZEN_PLANE

@@ -3,7 +3,6 @@
 #include "backends/cuda/device.h"
 #include "backends/cuda/device_render.h"
 #include "backends/cuda/host_executor.h"
-#include "core/bvh/traversal.h"
 
 namespace alhazen::cuda {
 

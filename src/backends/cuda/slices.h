@@ -1,7 +1,7 @@
 #pragma once
 
-// A pass cut into launches that each take about a quarter of a second, so that progress, Ctrl-C and time limits work and
-// no launch holds a desktop GPU for long.
+// A pass cut into launches that each take about a quarter of a second, so that progress, Ctrl-C and time limits work
+// and no launch holds a desktop GPU for long.
 
 #include <algorithm>
 
@@ -11,8 +11,8 @@ namespace alhazen::cuda {
 
 class SlicePlan {
  public:
-  /// Samples [first, first + count) of `rows` rows of `width` pixels. `items`, blocks of samples of a pixel, is how many
-  /// the first slice takes about, `most_items` the most that a slice may take, but for one band of rows.
+  /// Samples [first, first + count) of `rows` rows of `width` pixels. `items`, blocks of samples of a pixel, is how
+  /// many the first slice takes about, `most_items` the most that a slice may take, but for one band of rows.
   SlicePlan(uint32_t width, uint32_t rows, uint32_t first, uint32_t count, uint64_t items, uint64_t most_items)
       : width_(width), rows_(rows), first_(first), end_(first + count), items_(items), most_items_(most_items) {}
 

@@ -16,7 +16,7 @@ constexpr int tile_size = 16;
 /// Sums the blocks of one pixel by all threads of a team; the sum is then taken in their order.
 template <class Real>
 void reduce_pixel(const RenderPass<Real>& pass, int x, int y) {
-  BlockSum<Real> blocks[most_samples_per_pass / samples_per_block];
+  BlockSum<Real> blocks[usual_samples_per_pass / samples_per_block];
   const int first = static_cast<int>(first_block(pass, x, y)), count = static_cast<int>(block_count(pass));
 #pragma omp parallel num_threads(pass.settings.threads)
   {
@@ -130,7 +130,8 @@ class OpenMpBackend final : public Backend {
     return {"openmp",
             {"tiles", "rows", "collapse", "rows+reduction", "reduction"},
             true,
-            std::to_string(omp_get_num_procs()) + " processors"};
+            std::to_string(omp_get_num_procs()) + " processors",
+            {}};
   }
   void render_pass(const RenderPass<float>& pass) override { render(pass); }
   void render_pass(const RenderPass<double>& pass) override { render(pass); }

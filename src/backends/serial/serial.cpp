@@ -8,7 +8,7 @@ namespace {
 /// The report's Algorithm 1: one thread, pixel after pixel.
 class SerialBackend final : public Backend {
  public:
-  BackendDescription describe() const override { return {"serial", {}, true, "one core"}; }
+  BackendDescription describe() const override { return {"serial", {}, true, "one core", {}}; }
   void render_pass(const RenderPass<float>& pass) override { render(pass); }
   void render_pass(const RenderPass<double>& pass) override { render(pass); }
 

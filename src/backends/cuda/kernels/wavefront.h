@@ -1,7 +1,7 @@
 #pragma once
 
-// Paths in queues, a kernel a stage (Laine, Karras, Aila 2013, "Megakernels Considered Harmful"). A slot is the place of
-// one path; it takes an item after another, and the samples of an item one after another. Queues hold slots, and are
+// Paths in queues, a kernel a stage (Laine, Karras, Aila 2013, "Megakernels Considered Harmful"). A slot is the place
+// of one path; it takes an item after another, and the samples of an item one after another. Queues hold slots, and are
 // filled without gaps. One round is: generate, reset, intersect, shade (sorted by kind of material), shadow.
 
 #include "backends/cuda/kernels/items.h"
@@ -12,21 +12,21 @@ inline constexpr uint32_t material_kinds = 3;
 inline constexpr uint32_t warp_lanes = 32;
 
 /// Every array of the slots, once: ARRAY(element type, name). Structure of arrays, one element a slot.
-#define ALHAZEN_SLOT_ARRAYS(ARRAY)                                                              \
-  ARRAY(Real, origin_x) ARRAY(Real, origin_y) ARRAY(Real, origin_z)                             \
-  ARRAY(Real, direction_x) ARRAY(Real, direction_y) ARRAY(Real, direction_z) ARRAY(Real, time)  \
-  ARRAY(Real, throughput_x) ARRAY(Real, throughput_y) ARRAY(Real, throughput_z)                 \
-  ARRAY(Real, bsdf_pdf) ARRAY(Real, eta_scale) ARRAY(uint32_t, vertex)                          \
-  ARRAY(Real, radiance_x) ARRAY(Real, radiance_y) ARRAY(Real, radiance_z)                       \
-  ARRAY(uint32_t, segments) ARRAY(uint32_t, shadow_rays) ARRAY(Real, filter_weight)             \
-  ARRAY(uint32_t, item) ARRAY(uint32_t, taken)                                                  \
-  ARRAY(Real, hit_t) ARRAY(Real, hit_b1) ARRAY(Real, hit_b2) ARRAY(PrimitiveId, hit_primitive)  \
-  ARRAY(Real, shadow_origin_x) ARRAY(Real, shadow_origin_y) ARRAY(Real, shadow_origin_z)        \
-  ARRAY(Real, shadow_direction_x) ARRAY(Real, shadow_direction_y) ARRAY(Real, shadow_direction_z) \
-  ARRAY(Real, shadow_t_max) ARRAY(Real, light_x) ARRAY(Real, light_y) ARRAY(Real, light_z)      \
-  ARRAY(uint32_t, ray_queue_0) ARRAY(uint32_t, ray_queue_1) ARRAY(uint32_t, ended_queue)        \
-  ARRAY(uint32_t, shadow_queue)                                                                 \
-  ARRAY(uint32_t, material_queue_0) ARRAY(uint32_t, material_queue_1) ARRAY(uint32_t, material_queue_2)
+#define ALHAZEN_SLOT_ARRAYS(ARRAY)                                                                                     \
+  ARRAY(Real, origin_x)                                                                                                \
+  ARRAY(Real, origin_y) ARRAY(Real, origin_z) ARRAY(Real, direction_x) ARRAY(Real, direction_y)                        \
+      ARRAY(Real, direction_z) ARRAY(Real, time) ARRAY(Real, throughput_x) ARRAY(Real, throughput_y)                   \
+          ARRAY(Real, throughput_z) ARRAY(Real, bsdf_pdf) ARRAY(Real, eta_scale) ARRAY(uint32_t, vertex)               \
+              ARRAY(Real, radiance_x) ARRAY(Real, radiance_y) ARRAY(Real, radiance_z) ARRAY(uint32_t, segments)        \
+                  ARRAY(uint32_t, shadow_rays) ARRAY(Real, filter_weight) ARRAY(uint32_t, item) ARRAY(uint32_t, taken) \
+                      ARRAY(Real, hit_t) ARRAY(Real, hit_b1) ARRAY(Real, hit_b2) ARRAY(PrimitiveId, hit_primitive)     \
+                          ARRAY(Real, shadow_origin_x) ARRAY(Real, shadow_origin_y) ARRAY(Real, shadow_origin_z)       \
+                              ARRAY(Real, shadow_direction_x) ARRAY(Real, shadow_direction_y)                          \
+                                  ARRAY(Real, shadow_direction_z) ARRAY(Real, shadow_t_max) ARRAY(Real, light_x)       \
+                                      ARRAY(Real, light_y) ARRAY(Real, light_z) ARRAY(uint32_t, ray_queue_0)           \
+                                          ARRAY(uint32_t, ray_queue_1) ARRAY(uint32_t, ended_queue)                    \
+                                              ARRAY(uint32_t, shadow_queue) ARRAY(uint32_t, material_queue_0)          \
+                                                  ARRAY(uint32_t, material_queue_1) ARRAY(uint32_t, material_queue_2)
 
 /// How long the queues are.
 struct QueueCounts {
@@ -159,8 +159,8 @@ struct GenerateKernel {
       taken = 0;
     }
     slots.taken[slot] = taken;
-    const CameraSample<Real> camera = sample_camera(launch.scene, stage.sampler_of(slot), launch.picture_x(item.x),
-                                                    launch.picture_y(item.row));
+    const CameraSample<Real> camera =
+        sample_camera(launch.scene, stage.sampler_of(slot), launch.picture_x(item.x), launch.picture_y(item.row));
     StateOf<kind, Real> path;
     path.ray = camera.ray;
     slots.store(slot, path);
