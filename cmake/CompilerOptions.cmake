@@ -1,24 +1,29 @@
 # One interface target carries the warnings and the code generation flags that every target of the project uses.
 
 add_library(alhazen_options INTERFACE)
-target_compile_options(alhazen_options INTERFACE
+
+function(alhazen_cxx_options)
+  foreach(option IN LISTS ARGN)
+    target_compile_options(alhazen_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:${option}>)
+  endforeach()
+endfunction()
+
+# No contraction of a*b+c into fused operations: the same code then gives the same bits wherever it is inlined, and the
+# places where fused operations matter ask for them (core/math/scalar.h).
+alhazen_cxx_options(
   -Wall -Wextra -Wshadow -Wconversion -Werror -Wdouble-promotion -fno-math-errno -fno-trapping-math -ffp-contract=off)
 
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # False alarms on string concatenation (GCC bug 105651).
-  target_compile_options(alhazen_options INTERFACE -Wno-restrict)
+  alhazen_cxx_options(-Wno-restrict)
 endif()
 if(NOT ALHAZEN_ARCH STREQUAL "")
-  target_compile_options(alhazen_options INTERFACE -march=${ALHAZEN_ARCH})
-endif()
-if(ALHAZEN_STRICT)
-  target_compile_options(alhazen_options INTERFACE -ffp-contract=off)
+  alhazen_cxx_options(-march=${ALHAZEN_ARCH})
 endif()
 if(ALHAZEN_SANITIZE OR ALHAZEN_FUZZ)
-  target_compile_options(alhazen_options INTERFACE
-    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  alhazen_cxx_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(alhazen_options INTERFACE -fsanitize=address,undefined)
 endif()
 if(ALHAZEN_FUZZ)
-  target_compile_options(alhazen_options INTERFACE -fsanitize=fuzzer-no-link)
+  alhazen_cxx_options(-fsanitize=fuzzer-no-link)
 endif()

@@ -53,6 +53,25 @@ ALHAZEN_HD constexpr Real larger(Real a, Real b) {
   return a > b ? a : b;
 }
 
+template <class Real>
+struct SineCosine {
+  Real sine, cosine;
+};
+
+/// Of an angle in radians. In float a GPU takes them of angle / pi, which needs neither tables nor double for its
+/// range.
+template <class Real>
+ALHAZEN_HD inline SineCosine<Real> sine_cosine(Real angle) {
+#if defined(__CUDA_ARCH__)
+  if constexpr (sizeof(Real) == sizeof(float)) {
+    SineCosine<Real> both;
+    sincospif(angle * inv_pi<float>, &both.sine, &both.cosine);
+    return both;
+  }
+#endif
+  return {std::sin(angle), std::cos(angle)};
+}
+
 /// a * b + c with one rounding where the processor has that operation, with two otherwise.
 template <class Real>
 ALHAZEN_HD inline Real multiply_add(Real a, Real b, Real c) {

@@ -11,7 +11,8 @@ namespace alhazen {
 template <class Real>
 ALHAZEN_HD Vec2<Real> sample_disk_polar(const Vec2<Real>& u) {
   const Real r = std::sqrt(u.x), phi = 2 * pi<Real> * u.y;
-  return {r * std::cos(phi), r * std::sin(phi)};
+  const auto [sine, cosine] = sine_cosine(phi);
+  return {r * cosine, r * sine};
 }
 
 /// Uniform over the unit disk, keeping neighbours together (Shirley and Chiu 1997).
@@ -22,7 +23,8 @@ ALHAZEN_HD Vec2<Real> sample_disk(const Vec2<Real>& u) {
   const bool by_x = std::abs(x) > std::abs(y);
   const Real r = by_x ? x : y;
   const Real phi = by_x ? pi<Real> / 4 * (y / x) : pi<Real> / 2 - pi<Real> / 4 * (x / y);
-  return {r * std::cos(phi), r * std::sin(phi)};
+  const auto [sine, cosine] = sine_cosine(phi);
+  return {r * cosine, r * sine};
 }
 
 /// Hemisphere about +z with density cos / pi over solid angle (Malley's method).
@@ -41,7 +43,8 @@ ALHAZEN_HD constexpr Real pdf_cosine_hemisphere(Real cos_theta) {
 template <class Real>
 ALHAZEN_HD Vec3<Real> sample_uniform_sphere(const Vec2<Real>& u) {
   const Real z = 1 - 2 * u.x, r = safe_sqrt(1 - z * z), phi = 2 * pi<Real> * u.y;
-  return {r * std::cos(phi), r * std::sin(phi), z};
+  const auto [sine, cosine] = sine_cosine(phi);
+  return {r * cosine, r * sine, z};
 }
 
 template <class Real>

@@ -53,7 +53,8 @@ ALHAZEN_HD Vec3<Real> sample_sphere(const Vec3<Real>& center, Real radius, const
   Real cos_max, one_minus_cos_max;
   if (!subtended_cone(center, radius, point, cos_max, one_minus_cos_max)) {
     const Real z = 1 - 2 * u.x, r = safe_sqrt(1 - z * z);
-    normal_at = {r * std::cos(phi), r * std::sin(phi), z};
+    const auto [sine, cosine] = sine_cosine(phi);
+    normal_at = {r * cosine, r * sine, z};
     const Vec3<Real> to_light = center + normal_at * radius - point;
     const Real distance_squared = length_squared(to_light);
     const Vec3<Real> direction = to_light * (1 / std::sqrt(distance_squared));
@@ -65,7 +66,7 @@ ALHAZEN_HD Vec3<Real> sample_sphere(const Vec3<Real>& center, Real radius, const
   const Real one_minus_cos = u.x * one_minus_cos_max;
   const Real cos_theta = 1 - one_minus_cos;
   const Real sin_theta = safe_sqrt(one_minus_cos * (1 + cos_theta));
-  const Real cos_phi = std::cos(phi), sin_phi = std::sin(phi);
+  const auto [sin_phi, cos_phi] = sine_cosine(phi);
   // The normal from the angles alone (PBR 4th ed., 6.2.4): positions far out do not resolve a small sphere.
   const Real sin2_max = one_minus_cos_max * (1 + cos_max);
   const Real share = sin_theta * sin_theta / sin2_max;

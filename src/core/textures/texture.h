@@ -90,7 +90,7 @@ template <class Real>
 ALHAZEN_HD Vec3<Real> marble(const uint8_t* permutation, const TextureRecord<Real>& node, Vec3<Real> p) {
   p *= node.parameters.y;
   const Real noise = octave_noise(permutation, p, node.parameters.x, node.octaves, false);
-  const Real t = Real(0.5) + Real(0.5) * std::sin(p.y + node.parameters.z * noise);
+  const Real t = Real(0.5) + Real(0.5) * sine_cosine(p.y + node.parameters.z * noise).sine;
   const auto colour = [](int i) -> Vec3<Real> {
     switch (i) {
       case 3:

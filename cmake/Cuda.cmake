@@ -1,0 +1,50 @@
+# The CUDA backend, where nvcc is. Sets ALHAZEN_WITH_CUDA and enables the language; without nvcc says so and goes on.
+
+option(ALHAZEN_CUDA "Build the CUDA backend where nvcc is" ON)
+set(ALHAZEN_CUDA_ARCHITECTURES "" CACHE STRING
+    "Compute capabilities to build for (90 or 75;80;86;89;90). Empty: that of this machine's GPU, or a range and PTX")
+
+set(ALHAZEN_WITH_CUDA OFF)
+if(NOT ALHAZEN_CUDA)
+  message(STATUS "CUDA is off: ALHAZEN_CUDA is OFF")
+  return()
+endif()
+include(CheckLanguage)
+if(NOT CMAKE_CUDA_COMPILER AND NOT DEFINED ENV{CUDACXX})
+  # Where the toolkit puts it without adding it to PATH.
+  find_program(ALHAZEN_NVCC nvcc PATHS /usr/local/cuda/bin /opt/cuda/bin)
+  mark_as_advanced(ALHAZEN_NVCC)
+  if(ALHAZEN_NVCC)
+    set(CMAKE_CUDA_COMPILER ${ALHAZEN_NVCC})
+  endif()
+endif()
+check_language(CUDA)
+if(NOT CMAKE_CUDA_COMPILER)
+  message(STATUS "CUDA is off: no nvcc was found. Install the CUDA toolkit 12 or later and configure again to have it")
+  return()
+endif()
+
+if(NOT ALHAZEN_CUDA_ARCHITECTURES STREQUAL "")
+  set(CMAKE_CUDA_ARCHITECTURES ${ALHAZEN_CUDA_ARCHITECTURES})
+else()
+  execute_process(COMMAND nvidia-smi --query-gpu=compute_cap --format=csv,noheader
+                  OUTPUT_VARIABLE capabilities RESULT_VARIABLE no_gpu OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  if(no_gpu EQUAL 0 AND capabilities MATCHES "^[0-9]+\\.[0-9]")
+    string(REPLACE "." "" capabilities "${capabilities}")
+    string(REGEX REPLACE "[ \n]+" ";" capabilities "${capabilities}")
+    list(REMOVE_DUPLICATES capabilities)
+    set(CMAKE_CUDA_ARCHITECTURES ${capabilities})
+  else()
+    # `90` alone embeds PTX too, which newer GPUs compile when the program starts.
+    set(CMAKE_CUDA_ARCHITECTURES 75-real 80-real 86-real 89-real 90)
+  endif()
+endif()
+enable_language(CUDA)
+if(NOT CMAKE_CUDA20_STANDARD_COMPILE_OPTION)
+  # CMake 3.25 does not know how nvcc is asked for C++20.
+  set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION "-std=c++20")
+  set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION "-std=c++20")
+endif()
+find_package(CUDAToolkit REQUIRED)
+set(ALHAZEN_WITH_CUDA ON)
+message(STATUS "CUDA is on: nvcc ${CMAKE_CUDA_COMPILER_VERSION}, architectures ${CMAKE_CUDA_ARCHITECTURES}")

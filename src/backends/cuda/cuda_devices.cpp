@@ -1,0 +1,88 @@
+// What the CUDA runtime says of this machine, in sentences.
+
+#ifdef ALHAZEN_WITH_CUDA
+
+#include "backends/cuda/cuda_error.h"
+#include "backends/cuda/device.h"
+
+namespace alhazen::cuda {
+
+namespace {
+
+std::string version_text(int version) {
+  return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10);
+}
+
+DeviceList query_devices() {
+  DeviceList list;
+  int count = 0;
+  const cudaError_t error = cudaGetDeviceCount(&count);
+  if (error != cudaSuccess || count == 0) {
+    list.problem = explain_no_device(error == cudaSuccess ? cudaErrorNoDevice : error);
+    return list;
+  }
+  for (int i = 0; i < count; ++i) {
+    cudaDeviceProp properties{};
+    check(cudaGetDeviceProperties(&properties, i), "asking what it is");
+    list.devices.push_back({properties.name, properties.major, properties.minor, properties.totalGlobalMem,
+                            properties.multiProcessorCount});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string explain_no_device(cudaError_t error) {
+  int driver = 0;
+  if (cudaDriverGetVersion(&driver) != cudaSuccess || driver == 0)
+    return "there is no NVIDIA driver here: install one, or use another backend";
+  switch (error) {
+    case cudaErrorNoDevice:
+      return "the NVIDIA driver finds no GPU: look at nvidia-smi and at CUDA_VISIBLE_DEVICES, or use another backend";
+    case cudaErrorInsufficientDriver: {
+      int runtime = 0;
+      cudaRuntimeGetVersion(&runtime);
+      return "the NVIDIA driver is too old: it knows CUDA " + version_text(driver) + ", and this binary needs " +
+             version_text(runtime) + ": update the driver, or build with an older CUDA toolkit";
+    }
+    default:
+      return std::string("the GPU cannot be used: ") + cudaGetErrorString(error) +
+             ": look at nvidia-smi, or use another backend";
+  }
+}
+
+void check(cudaError_t result, const char* doing) {
+  if (result == cudaSuccess) return;
+  cudaGetLastError();  // so that it is not found again by a later call
+  const std::string where = std::string("while ") + doing;
+  switch (result) {
+    case cudaErrorMemoryAllocation:
+      throw RenderError("the GPU is out of memory " + where +
+                        ": render fewer pixels or layers at once (--size, --crop), in float, or by a CPU backend");
+    case cudaErrorNoKernelImageForDevice:
+    case cudaErrorInvalidDeviceFunction:
+    case cudaErrorUnsupportedPtxVersion:
+      throw InputError(
+          "this binary holds no code for this GPU: build it with ALHAZEN_CUDA_ARCHITECTURES set to the "
+          "GPU's compute capability, which 'alhazen devices' tells, or update the driver");
+    case cudaErrorNoDevice:
+    case cudaErrorInsufficientDriver:
+    case cudaErrorSystemDriverMismatch:
+      throw InputError(explain_no_device(result));
+    case cudaErrorLaunchTimeout:
+      throw RenderError("the GPU was stopped " + where +
+                        " because it took too long: it drives a display; use another GPU, or the strategy wavefront, "
+                        "whose launches are short");
+    default:
+      throw RenderError("the GPU failed " + where + ": " + cudaGetErrorString(result));
+  }
+}
+
+const DeviceList& list_devices() {
+  static const DeviceList list = query_devices();
+  return list;
+}
+
+}  // namespace alhazen::cuda
+
+#endif

@@ -1,0 +1,26 @@
+#pragma once
+
+// The body of the two files that hold the compiled kernels.
+
+#include "backends/cuda/cuda_executor.cuh"
+#include "backends/cuda/device_render.h"
+#include "backends/cuda/gpu_render.h"
+
+namespace alhazen::cuda {
+
+template <class Tracing, class Real>
+class CudaRender final : public GpuRender<Real> {
+ public:
+  CudaRender(int device, const RowShare& share) : executor_(device), render_(executor_, share) {}
+
+  void render_pass(const RenderPass<Real>& pass, ThreadStatistics& statistics) override {
+    executor_.use_device();
+    render_.render_pass(pass, statistics);
+  }
+
+ private:
+  CudaExecutor executor_;
+  DeviceRender<CudaExecutor, Tracing, Real> render_;
+};
+
+}  // namespace alhazen::cuda

@@ -1,0 +1,25 @@
+#pragma once
+
+// Rendering on a GPU in one precision. Two files, one a precision, hold the compiled kernels.
+
+#include <memory>
+
+#include "backends/cuda/device.h"
+
+namespace alhazen::cuda {
+
+template <class Real>
+class GpuRender {
+ public:
+  virtual ~GpuRender() = default;
+  virtual void render_pass(const RenderPass<Real>& pass, ThreadStatistics& statistics) = 0;
+};
+
+template <class Real>
+std::unique_ptr<GpuRender<Real>> make_gpu_render(int device, const RowShare& share);
+template <>
+std::unique_ptr<GpuRender<float>> make_gpu_render(int device, const RowShare& share);
+template <>
+std::unique_ptr<GpuRender<double>> make_gpu_render(int device, const RowShare& share);
+
+}  // namespace alhazen::cuda

@@ -1,0 +1,10 @@
+#include "backends/cuda/gpu_render.cuh"
+
+namespace alhazen::cuda {
+
+template <>
+std::unique_ptr<GpuRender<double>> make_gpu_render(int device, const RowShare& share) {
+  return std::make_unique<CudaRender<FlatTracing, double>>(device, share);
+}
+
+}  // namespace alhazen::cuda
