@@ -10,6 +10,10 @@ namespace {
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
+std::string device_name(int device) {
+  return device == host_device ? "host" : device == all_devices ? "all" : std::to_string(device);
+}
+
 }  // namespace
 
 uint64_t peak_rss_bytes() {
@@ -37,6 +41,11 @@ std::string RenderStatistics::to_json() const {
   j["strategy"] = settings.strategy;
   j["precision"] = to_string(settings.precision);
   j["schedule"] = settings.backend == "serial" ? "" : to_string(settings.schedule);
+  if (settings.backend == "cuda") {
+    j["device"] = device_name(settings.device);
+    j["block"] = to_string(settings.block);
+    j["chunk"] = to_string(settings.chunk);
+  }
   j["threads"] = settings.threads;
   j["integrator"] = to_string(settings.integrator);
   j["sampler"] = to_string(settings.sampler);

@@ -1,0 +1,122 @@
+// The kernels of the CUDA backend as loops on the host: all schedules give the serial bits, whatever the size of the
+// picture, the block, the chunks and the depth.
+
+#include "parity/scenes.h"
+
+namespace alhazen::testing {
+namespace {
+
+const std::vector<std::string> schedules{"pixel", "chunk", "persistent", "wavefront"};
+
+Settings host_settings(const Settings& serial, const std::string& strategy) {
+  Settings settings = serial;
+  settings.backend = "cuda";
+  settings.device = "host";
+  settings.strategy = strategy;
+  return settings;
+}
+
+Settings serial_settings(const std::string& precision) {
+  Settings settings;
+  settings.backend = "serial";
+  settings.precision = precision;
+  settings.samples_per_pixel = 18;  // ends within a block
+  settings.aovs = all_aovs;
+  return settings;
+}
+
+void expect_serial_bits(const Scene& scene, const Settings& serial) {
+  const Outcome expected = render_bits(scene, serial);
+  for (const std::string& strategy : schedules) {
+    SCOPED_TRACE(strategy);
+    const Outcome outcome = render_bits(scene, host_settings(serial, strategy));
+    EXPECT_TRUE(same_bits(expected, outcome));
+    EXPECT_EQ(outcome.statistics.camera_samples, expected.statistics.camera_samples);
+    EXPECT_EQ(outcome.statistics.rays, expected.statistics.rays);
+    EXPECT_EQ(outcome.statistics.shadow_rays, expected.statistics.shadow_rays);
+    EXPECT_EQ(outcome.statistics.nonfinite_samples, expected.statistics.nonfinite_samples);
+  }
+}
+
+/// Scene, precision, integrator, sampler.
+using Kernel = std::tuple<std::string, std::string, std::string, std::string>;
+class CudaOnHost : public ::testing::TestWithParam<Kernel> {};
+
+TEST_P(CudaOnHost, GivesTheSerialBits) {
+  const auto& [name, precision, integrator, sampler] = GetParam();
+  Settings serial = serial_settings(precision);
+  serial.integrator = integrator;
+  serial.sampler = sampler;
+  expect_serial_bits(parity_scene(name), serial);
+}
+
+INSTANTIATE_TEST_SUITE_P(Parity, CudaOnHost,
+                         ::testing::Combine(::testing::Values("cornell", "spheres"),
+                                            ::testing::Values("float", "double"),
+                                            ::testing::Values("path", "iterative"),
+                                            ::testing::Values("sobol", "independent")));
+
+TEST(CudaOnHostSizes, OnePixel) {
+  Settings serial = serial_settings("float");
+  serial.width = serial.height = 1;
+  for (const int64_t samples : {1, 3, 4, 5, 1500}) {
+    serial.samples_per_pixel = samples;
+    expect_serial_bits(parity_scene("spheres"), serial);
+  }
+}
+
+TEST(CudaOnHostSizes, ThatNothingDivides) {
+  Settings serial = serial_settings("float");
+  serial.samples_per_pixel = 6;
+  for (const auto& [width, height] : {std::pair<int64_t, int64_t>{1, 23}, {31, 1}, {33, 9}, {8, 4}, {67, 41}}) {
+    serial.width = width;
+    serial.height = height;
+    expect_serial_bits(parity_scene("cornell"), serial);
+  }
+}
+
+TEST(CudaOnHostSizes, APartOfThePicture) {
+  Settings serial = serial_settings("double");
+  serial.pixel_bounds = {{3, 18, 5, 14}};
+  expect_serial_bits(parity_scene("spheres"), serial);
+}
+
+TEST(CudaOnHostDepths, OneAndFifty) {
+  for (const std::string integrator : {"path", "iterative"})
+    for (const int64_t depth : {0, 50}) {
+      Settings serial = serial_settings("float");
+      serial.integrator = integrator;
+      serial.max_depth = depth;
+      expect_serial_bits(parity_scene("spheres"), serial);
+    }
+}
+
+TEST(CudaOnHostChunks, OfEverySize) {
+  const Settings serial = serial_settings("float");
+  const Outcome expected = render_bits(parity_scene("cornell"), serial);
+  for (const char* chunk : {"1x1", "2x3", "3x3", "4x4", "5x5", "7x1", "1x6", "20x17", "33x40", "4096x4096"}) {
+    Settings settings = host_settings(serial, "chunk");
+    settings.chunk = chunk;
+    EXPECT_TRUE(same_bits(expected, render_bits(parity_scene("cornell"), settings))) << chunk;
+  }
+}
+
+/// Nothing to meet: every path ends at once, and queues of surfaces stay empty.
+TEST(CudaOnHostQueues, ThatStayEmpty) {
+  const Scene empty = scene_of(
+      "Film \"rgb\" \"integer xresolution\" 9 \"integer yresolution\" 7\n"
+      "WorldBegin\nLightSource \"infinite\" \"rgb L\" [1 2 3]\n");
+  Settings serial = serial_settings("float");
+  expect_serial_bits(empty, serial);
+  serial.integrator = "iterative";
+  expect_serial_bits(empty, serial);
+}
+
+TEST(CudaOnHostLayers, NoneAreAskedFor) {
+  Settings serial = serial_settings("float");
+  serial.aovs.clear();
+  expect_serial_bits(parity_scene("spheres"), serial);
+}
+
+}  // namespace
+}  // namespace alhazen::testing
