@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/bvh/node.h"
+#include "core/bvh/wide_node.h"
 #include "core/cameras/camera.h"
 #include "core/cameras/filter.h"
 #include "core/lights/record.h"
@@ -19,6 +20,8 @@ namespace alhazen {
 /// expand from this list.
 #define ALHAZEN_SCENE_ARRAYS(ARRAY)               \
   ARRAY(BvhNode<Real>, nodes)                     \
+  ARRAY(WideNode, wide_nodes)                     \
+  ARRAY(WidePrimitive, wide_primitives)           \
   ARRAY(PrimitiveId, primitives)                  \
   ARRAY(TriangleRecord, triangles)                \
   ARRAY(Vec3<Real>, positions)                    \

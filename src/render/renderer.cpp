@@ -176,8 +176,9 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   statistics.settings = settings;
   statistics.scene = scene.name;
   const Clock::time_point start = Clock::now();
-  const FlatScene<Real> flat =
-      flatten<Real>(std::move(scene), FlattenOptions{settings.width, settings.height, settings.threads}, diagnostics);
+  const bool wide_bvh = settings.backend == "cuda" && settings.device != host_device;
+  const FlatScene<Real> flat = flatten<Real>(
+      std::move(scene), FlattenOptions{settings.width, settings.height, settings.threads, wide_bvh}, diagnostics);
   statistics.scene_sizes = flat.statistics;
   statistics.build_seconds = flat.statistics.build_seconds;
   statistics.load_seconds = load_seconds + seconds_since(start) - statistics.build_seconds;

@@ -9,6 +9,7 @@
 #include "scene/flatten_camera.h"
 #include "scene/flatten_lights.h"
 #include "scene/flatten_materials.h"
+#include "scene/wide_bvh_builder.h"
 
 namespace alhazen {
 
@@ -265,14 +266,53 @@ class Flattener {
 
   void build_tree(FlatScene<Real>& flat) {
     const auto start = std::chrono::steady_clock::now();
-    BvhTree<Real> tree;
-    {
-      const std::vector<Bounds3<Real>> boxes = primitive_boxes();
-      tree = build_bvh<Real>(boxes, options_.threads);
-    }
+    std::vector<Bounds3<Real>> boxes = primitive_boxes();
+    BvhTree<Real> tree = build_bvh<Real>(boxes, options_.threads);
     order_primitives(tree.order);
     out_.nodes = std::move(tree.nodes);
+    if constexpr (sizeof(Real) == sizeof(float))
+      if (options_.wide_bvh) {
+        std::vector<Bounds3<float>> ordered;
+        ordered.reserve(tree.order.size());
+        for (const uint32_t i : tree.order) ordered.push_back(boxes[i]);
+        add_wide_bvh(ordered);
+      }
     flat.statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  void add_wide_bvh(const std::vector<Bounds3<float>>& boxes) {
+    WideBvh wide = build_wide_bvh(out_.nodes, boxes);
+    out_.wide_nodes = std::move(wide.nodes);
+    out_.wide_primitives.reserve(wide.primitives.size());
+    for (const uint32_t place : wide.primitives) out_.wide_primitives.push_back(wide_primitive(out_.primitives[place]));
+  }
+
+  WidePrimitive wide_primitive(PrimitiveId id) const {
+    WidePrimitive primitive{};
+    primitive.id = id;
+    switch (id.kind()) {
+      case PrimitiveKind::triangle: {
+        const uint32_t* v = out_.triangles[id.index()].vertex;
+        primitive.a = convert<float>(out_.positions[v[0]]);
+        primitive.b = convert<float>(out_.positions[v[1]]);
+        primitive.c = convert<float>(out_.positions[v[2]]);
+        break;
+      }
+      case PrimitiveKind::sphere: {
+        const SphereRecord<Real>& s = out_.spheres[id.index()];
+        primitive.a = convert<float>(s.center);
+        primitive.b.x = static_cast<float>(s.radius);
+        break;
+      }
+      case PrimitiveKind::moving_sphere: {
+        const MovingSphereRecord<Real>& s = out_.moving_spheres[id.index()];
+        primitive.a = convert<float>(s.center);
+        primitive.b.x = static_cast<float>(s.radius);
+        primitive.c = convert<float>(s.motion);
+        break;
+      }
+    }
+    return primitive;
   }
 
   /// Lays triangles down in the order of the leaves, so that a leaf's triangles are neighbours in memory.

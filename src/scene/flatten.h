@@ -11,6 +11,7 @@ namespace alhazen {
 struct FlattenOptions {
   int64_t width = 0, height = 0;  ///< 0: as the scene says
   int threads = 0;                ///< for the BVH; 0: as OpenMP has it
+  bool wide_bvh = false;          ///< in float: the compressed wide BVH as well, for GPUs
 };
 
 /// Takes the description apart as it goes, so that meshes are not held twice.

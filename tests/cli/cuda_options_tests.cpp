@@ -9,17 +9,15 @@ namespace {
 using CudaOptions = Command;
 
 TEST_F(CudaOptions, TheHostStandsInForAGpu) {
-  ASSERT_EQ(render({"-q", "--spp", "5", "--backend", "serial", "-o", "serial.exr"}).code, 0);
-  const std::vector<std::vector<std::string>> ways{{"pixel", "--block", "8x8"},
-                                                   {"chunk", "--chunk", "3x2", "--block", "16x32"},
-                                                   {"persistent"},
-                                                   {"wavefront"}};
+  ASSERT_EQ(render({"-q", "--spp", "5", "--backend", "serial", "-o", "serial.exr"}).exit_code, 0);
+  const std::vector<std::vector<std::string>> ways{
+      {"pixel", "--block", "8x8"}, {"chunk", "--chunk", "3x2", "--block", "16x32"}, {"persistent"}, {"wavefront"}};
   for (const std::vector<std::string>& way : ways) {
-    std::vector<std::string> arguments{"-q", "--spp", "5", "--backend", "cuda", "--device", "host", "-o", "host.exr",
-                                       "--strategy"};
+    std::vector<std::string> arguments{"-q",       "--spp", "5",  "--backend", "cuda",
+                                       "--device", "host",  "-o", "host.exr",  "--strategy"};
     arguments.insert(arguments.end(), way.begin(), way.end());
     const CommandResult result = render(arguments);
-    ASSERT_EQ(result.code, 0) << result.err;
+    ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(image("serial.exr").planes, image("host.exr").planes) << way[0];
   }
 }
@@ -27,7 +25,7 @@ TEST_F(CudaOptions, TheHostStandsInForAGpu) {
 TEST_F(CudaOptions, StatisticsNameTheDevice) {
   const CommandResult result =
       render({"-q", "--spp", "4", "--backend", "cuda", "--device", "host", "--stats=json", "-o", "a.png"});
-  ASSERT_EQ(result.code, 0) << result.err;
+  ASSERT_EQ(result.exit_code, 0) << result.err;
   const nlohmann::json statistics = only_json(result.out);
   EXPECT_EQ(statistics["backend"], "cuda");
   EXPECT_EQ(statistics["device"], "host");
@@ -50,7 +48,7 @@ TEST_F(CudaOptions, WhatCannotBeIsOneSentence) {
     std::vector<std::string> all{"--backend", "cuda", "-o", "never.png"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     const CommandResult result = render(all);
-    EXPECT_EQ(result.code, 2) << message;
+    EXPECT_EQ(result.exit_code, 2) << message;
     // Without a GPU the devices' numbers are not looked at.
     const bool no_gpu = result.err.find("is not available") != std::string::npos && arguments[1] != "host";
     EXPECT_TRUE(no_gpu || result.err.find(message) != std::string::npos) << message << "\n" << result.err;
@@ -61,7 +59,7 @@ TEST_F(CudaOptions, WhatCannotBeIsOneSentence) {
 
 TEST_F(CudaOptions, OtherBackendsHaveNoDevices) {
   const CommandResult result = render({"--backend", "serial", "--device", "0", "-o", "never.png"});
-  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("no devices"), std::string::npos) << result.err;
   EXPECT_FALSE(exists("never.png"));
 }
@@ -72,7 +70,7 @@ TEST_F(CudaOptions, WithoutAGpuItSaysWhy) {
     if (backend["name"] != "cuda") continue;
     if (backend["available"]) GTEST_SKIP() << "there is a GPU here";
     const CommandResult result = render({"--backend", "cuda", "-o", "never.png"});
-    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.exit_code, 2);
     EXPECT_NE(result.err.find(backend["details"].get<std::string>()), std::string::npos) << result.err;
     EXPECT_FALSE(exists("never.png"));
     return;

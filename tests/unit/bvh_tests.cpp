@@ -1,7 +1,8 @@
-// The BVH finds what looking at every primitive finds, whatever the scene and the ray.
+// The BVHs find what looking at every primitive finds, whatever the scene and the ray.
 
 #include <gtest/gtest.h>
 
+#include "core/bvh/wide.h"
 #include "support/effort.h"
 #include "support/linear_intersector.h"
 #include "support/primitive_scenes.h"
@@ -11,9 +12,20 @@
 namespace alhazen::test {
 namespace {
 
-template <class Real>
+template <class Any>
+struct Binary {
+  using Real = Any;
+  using Intersector = BvhIntersector<Any>;
+};
+struct Wide {
+  using Real = float;
+  using Intersector = WideBvhIntersector<>;
+};
+
+template <class Tree>
 class BvhOf : public ::testing::Test {};
-TYPED_TEST_SUITE(BvhOf, Reals);
+using Trees = ::testing::Types<Binary<float>, Binary<double>, Wide>;
+TYPED_TEST_SUITE(BvhOf, Trees);
 
 template <class Real>
 Ray<Real> ray_from(const Vec3d& origin, const Vec3d& direction, double time = 0) {
@@ -21,9 +33,9 @@ Ray<Real> ray_from(const Vec3d& origin, const Vec3d& direction, double time = 0)
 }
 
 /// Both intersectors say the same of the ray. Returns whether it met anything.
-template <class Real>
+template <class Tree, class Real = typename Tree::Real>
 bool expect_same(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max = infinity<Real>) {
-  const BvhIntersector<Real> bvh(scene);
+  const typename Tree::Intersector bvh(scene);
   const LinearIntersector<Real> linear(scene);
   Hit<Real> hit, expected;
   const bool met = bvh.closest_hit(ray, t_max, hit), expect_met = linear.closest_hit(ray, t_max, expected);
@@ -49,32 +61,33 @@ Ray<Real> random_ray(Random& random, double size) {
 }
 
 TYPED_TEST(BvhOf, MixedPrimitives) {
-  using Real = TypeParam;
+  using Real = typename TypeParam::Real;
   const FlatScene<Real> scene = mixed_primitives(7, 200).flat<Real>();
   Random random(8);
   size_t met = 0;
   for (size_t i = 0; i < effort(100'000); ++i) {
-    met += expect_same(scene.view, random_ray<Real>(random, 15));
+    met += expect_same<TypeParam>(scene.view, random_ray<Real>(random, 15));
     if (this->HasFailure()) break;
   }
   EXPECT_GT(met, effort(20'000));
 }
 
 TYPED_TEST(BvhOf, LimitedDistance) {
-  using Real = TypeParam;
+  using Real = typename TypeParam::Real;
   const FlatScene<Real> scene = mixed_primitives(9, 200).flat<Real>();
   Random random(10);
   for (size_t i = 0; i < effort(20'000); ++i)
-    expect_same(scene.view, random_ray<Real>(random, 15), static_cast<Real>(random.magnitude_between(0.1, 30)));
+    expect_same<TypeParam>(scene.view, random_ray<Real>(random, 15),
+                           static_cast<Real>(random.magnitude_between(0.1, 30)));
 }
 
 /// A hit just at t_max is none, one just before it is.
 TYPED_TEST(BvhOf, DistanceIsExclusive) {
-  using Real = TypeParam;
+  using Real = typename TypeParam::Real;
   PrimitiveScene primitives;
   primitives.add_triangle({-1, -1, 5}, {1, -1, 5}, {0, 1, 5});
   const FlatScene<Real> scene = primitives.flat<Real>();
-  const BvhIntersector<Real> bvh(scene.view);
+  const typename TypeParam::Intersector bvh(scene.view);
   const Ray<Real> ray = ray_from<Real>({}, {0, 0, 1});
   Hit<Real> hit;
   ASSERT_TRUE(bvh.closest_hit(ray, infinity<Real>, hit));
@@ -86,7 +99,7 @@ TYPED_TEST(BvhOf, DistanceIsExclusive) {
 
 /// Directions along axes and within planes make zeros, whose reciprocals are infinite.
 TYPED_TEST(BvhOf, RaysAlongAxes) {
-  using Real = TypeParam;
+  using Real = typename TypeParam::Real;
   PrimitiveScene primitives;
   for (int x = -4; x < 4; ++x)
     for (int y = -4; y < 4; ++y) {
@@ -103,49 +116,49 @@ TYPED_TEST(BvhOf, RaysAlongAxes) {
       direction[axis] = random.below(3) - 1.0;
       if (direction[axis] == 0 && random.below(2)) direction[axis] = -0.0;
     }
-    if (!is_zero(direction)) expect_same(scene.view, ray_from<Real>(origin, direction));
+    if (!is_zero(direction)) expect_same<TypeParam>(scene.view, ray_from<Real>(origin, direction));
   }
 }
 
 TYPED_TEST(BvhOf, EmptyScene) {
-  using Real = TypeParam;
+  using Real = typename TypeParam::Real;
   const FlatScene<Real> scene = PrimitiveScene().flat<Real>();
   EXPECT_EQ(scene.view.nodes_count, 0u);
-  EXPECT_FALSE(expect_same(scene.view, ray_from<Real>({}, {1, 2, 3})));
+  EXPECT_FALSE(expect_same<TypeParam>(scene.view, ray_from<Real>({}, {1, 2, 3})));
 }
 
 TYPED_TEST(BvhOf, OnePrimitive) {
-  using Real = TypeParam;
+  using Real = typename TypeParam::Real;
   PrimitiveScene primitives;
   primitives.add_sphere({0, 0, 3}, 1);
   const FlatScene<Real> scene = primitives.flat<Real>();
-  EXPECT_TRUE(expect_same(scene.view, ray_from<Real>({}, {0, 0, 1})));
-  EXPECT_FALSE(expect_same(scene.view, ray_from<Real>({}, {0, 1, 0})));
+  EXPECT_TRUE(expect_same<TypeParam>(scene.view, ray_from<Real>({}, {0, 0, 1})));
+  EXPECT_FALSE(expect_same<TypeParam>(scene.view, ray_from<Real>({}, {0, 1, 0})));
 }
 
 TYPED_TEST(BvhOf, AllAtOnePoint) {
-  using Real = TypeParam;
+  using Real = typename TypeParam::Real;
   PrimitiveScene primitives;
   Random random(12);
   for (int i = 0; i < 300; ++i) primitives.add_sphere({1, 2, 3}, random.magnitude_between(0.1, 2));
   const FlatScene<Real> scene = primitives.flat<Real>();
-  for (int i = 0; i < 2000; ++i) expect_same(scene.view, random_ray<Real>(random, 5));
+  for (int i = 0; i < 2000; ++i) expect_same<TypeParam>(scene.view, random_ray<Real>(random, 5));
 }
 
 TYPED_TEST(BvhOf, IdenticalBoxes) {
-  using Real = TypeParam;
+  using Real = typename TypeParam::Real;
   PrimitiveScene primitives;
   constexpr int count = 100'000;
   for (int i = 0; i < count; ++i) primitives.add_triangle({-1, -1, 2}, {1, -1, 2}, {0, 1, 2});
   const FlatScene<Real> scene = primitives.flat<Real>();
-  EXPECT_TRUE(expect_same(scene.view, ray_from<Real>({}, {0, 0, 1})));
-  EXPECT_TRUE(expect_same(scene.view, ray_from<Real>({}, {0.01, 0.02, 1})));
-  EXPECT_FALSE(expect_same(scene.view, ray_from<Real>({}, {0, 0, -1})));
+  EXPECT_TRUE(expect_same<TypeParam>(scene.view, ray_from<Real>({}, {0, 0, 1})));
+  EXPECT_TRUE(expect_same<TypeParam>(scene.view, ray_from<Real>({}, {0.01, 0.02, 1})));
+  EXPECT_FALSE(expect_same<TypeParam>(scene.view, ray_from<Real>({}, {0, 0, -1})));
 }
 
 /// From 1e-8 to 1e12 in one scene. (Triangles below 1e-11 have no area in float and are left out.)
 TYPED_TEST(BvhOf, HugeRangeOfSizes) {
-  using Real = TypeParam;
+  using Real = typename TypeParam::Real;
   PrimitiveScene primitives;
   Random random(13);
   for (int i = 0; i < 300; ++i) {
@@ -157,15 +170,15 @@ TYPED_TEST(BvhOf, HugeRangeOfSizes) {
   const FlatScene<Real> scene = primitives.flat<Real>();
   for (size_t i = 0; i < effort(20'000); ++i) {
     const Vec3d origin = random.on_sphere() * random.magnitude_between(1e-8, 1e12);
-    expect_same(scene.view, ray_from<Real>(origin, random.on_sphere()));
+    expect_same<TypeParam>(scene.view, ray_from<Real>(origin, random.on_sphere()));
   }
 }
 
 /// Not numbers and infinities in every component: an answer comes, whatever it is.
 TYPED_TEST(BvhOf, RaysThatAreNoRays) {
-  using Real = TypeParam;
+  using Real = typename TypeParam::Real;
   const FlatScene<Real> scene = mixed_primitives(14, 50).flat<Real>();
-  const BvhIntersector<Real> bvh(scene.view);
+  const typename TypeParam::Intersector bvh(scene.view);
   Random random(15);
   const Real strange[] = {
       std::numeric_limits<Real>::quiet_NaN(), infinity<Real>, -infinity<Real>,

@@ -12,7 +12,7 @@
 #include "backends/cuda/kernels/pixel.h"
 #include "backends/cuda/kernels/wavefront.h"
 #include "backends/cuda/slices.h"
-#include "core/bvh/traversal.h"
+#include "core/bvh/wide.h"
 #include "render/backend.h"
 
 namespace alhazen::cuda {
@@ -22,6 +22,14 @@ struct FlatTracing {
   template <class Real, class Stacks>
   ALHAZEN_HD static BvhIntersector<Real, Stacks> intersector(const SceneView<Real>& scene, const Stacks& stacks) {
     return BvhIntersector<Real, Stacks>(scene, stacks);
+  }
+};
+
+/// Ray queries by the compressed wide BVH.
+struct WideTracing {
+  template <class Stacks>
+  ALHAZEN_HD static WideBvhIntersector<Stacks> intersector(const SceneView<float>& scene, const Stacks& stacks) {
+    return WideBvhIntersector<Stacks>(scene, stacks);
   }
 };
 
