@@ -1,7 +1,10 @@
 // The kernels of the CUDA backend as loops on the host: all schedules give the serial bits, whatever the size of the
 // picture, the block, the chunks and the depth.
 
+#include "backends/cuda/device_render.h"
+#include "backends/cuda/host_executor.h"
 #include "parity/scenes.h"
+#include "scene/flatten.h"
 
 namespace alhazen::testing {
 namespace {
@@ -110,6 +113,59 @@ TEST(CudaOnHostQueues, ThatStayEmpty) {
   expect_serial_bits(empty, serial);
   serial.integrator = "iterative";
   expect_serial_bits(empty, serial);
+}
+
+/// The tree that GPUs walk in float. Where two surfaces are met at the same distance it may find the other one.
+TEST(CudaOnHostWideBvh, GivesAllButTheSameBits) {
+  for (const std::string name : {"cornell", "spheres"})
+    for (const std::string& strategy : schedules) {
+      const Settings serial = serial_settings("float");
+      Scene scene = parity_scene(name);
+      const RenderSettings settings = resolve_settings(host_settings(serial, strategy), scene);
+      Diagnostics diagnostics;
+      const FlatScene<float> flat =
+          flatten<float>(std::move(scene), {settings.width, settings.height, 1, true}, diagnostics);
+      ASSERT_GT(flat.view.wide_nodes_count, 0u);
+      auto film = std::make_unique<Film<float>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
+      RenderControl control(1);
+      cuda::HostExecutor executor;
+      cuda::DeviceRender<cuda::HostExecutor, cuda::WideTracing, float> render(executor, {});
+      render.render_pass({flat, nullptr, settings, *film, control, 0, 18}, control.thread(0));
+      Rendering rendering;
+      rendering.film = std::move(film);
+      const Outcome outcome = outcome_of(rendering), expected = render_bits(parity_scene(name), serial);
+      ASSERT_EQ(outcome.rows.size(), expected.rows.size());
+      size_t same = 0;
+      for (size_t i = 0; i < outcome.rows.size(); ++i) same += outcome.rows[i] == expected.rows[i];
+      EXPECT_GE(static_cast<double>(same), 0.998 * static_cast<double>(outcome.rows.size())) << name << " " << strategy;
+    }
+}
+
+/// Devices that share a picture, one after the other.
+TEST(CudaOnHostShares, AddUpToThePicture) {
+  for (const uint32_t devices : {2u, 3u}) {
+    Settings serial = serial_settings("double");
+    serial.width = 21;
+    serial.height = 43;
+    const Outcome expected = render_bits(parity_scene("spheres"), serial);
+    Scene scene = parity_scene("spheres");
+    const RenderSettings settings = resolve_settings(host_settings(serial, "persistent"), scene);
+    Diagnostics diagnostics;
+    const FlatScene<double> flat =
+        flatten<double>(std::move(scene), {settings.width, settings.height, 1, false}, diagnostics);
+    auto film = std::make_unique<Film<double>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
+    RenderControl control(1);
+    for (uint32_t device = 0; device < devices; ++device) {
+      cuda::HostExecutor executor;
+      cuda::DeviceRender<cuda::HostExecutor, cuda::FlatTracing, double> render(executor, {device, devices});
+      render.render_pass({flat, nullptr, settings, *film, control, 0, 16}, control.thread(0));
+      render.render_pass({flat, nullptr, settings, *film, control, 16, 2}, control.thread(0));
+    }
+    EXPECT_EQ(control.thread(0).samples, expected.statistics.camera_samples);
+    Rendering rendering;
+    rendering.film = std::move(film);
+    EXPECT_TRUE(same_bits(outcome_of(rendering), expected)) << devices;
+  }
 }
 
 TEST(CudaOnHostLayers, NoneAreAskedFor) {

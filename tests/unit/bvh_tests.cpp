@@ -2,29 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include "core/bvh/wide.h"
 #include "support/effort.h"
 #include "support/linear_intersector.h"
 #include "support/primitive_scenes.h"
-#include "support/reals.h"
+#include "support/trees.h"
 #include "support/ulps.h"
 
 namespace alhazen::test {
 namespace {
 
-template <class Any>
-struct Binary {
-  using Real = Any;
-  using Intersector = BvhIntersector<Any>;
-};
-struct Wide {
-  using Real = float;
-  using Intersector = WideBvhIntersector<>;
-};
-
 template <class Tree>
 class BvhOf : public ::testing::Test {};
-using Trees = ::testing::Types<Binary<float>, Binary<double>, Wide>;
 TYPED_TEST_SUITE(BvhOf, Trees);
 
 template <class Real>

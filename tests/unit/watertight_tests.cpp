@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/bvh/traversal.h"
 #include "support/closed_meshes.h"
 #include "support/effort.h"
 #include "support/primitive_scenes.h"
-#include "support/reals.h"
+#include "support/trees.h"
 
 namespace alhazen::test {
 namespace {
@@ -30,10 +29,10 @@ struct Miss {
 
 /// Rays at the mesh, which is star-shaped about `center` and about as large as `radius`: from points in the inner half
 /// of it, and from outside on a way that leads through the inner half.
-template <class Real>
+template <class Tree, class Real = typename Tree::Real>
 Miss<Real> shoot(const SceneView<Real>& scene, const Mesh& mesh, const Vec3d& center, double radius, Aim aim,
                  size_t rays, Random& random) {
-  const BvhIntersector<Real> bvh(scene);
+  const typename Tree::Intersector bvh(scene);
   Miss<Real> misses;
   for (size_t i = 0; i < rays; ++i) {
     // What is drawn in double is rounded first, so that the ray aims at what the scene holds.
@@ -50,8 +49,9 @@ Miss<Real> shoot(const SceneView<Real>& scene, const Mesh& mesh, const Vec3d& ce
   return misses;
 }
 
-template <class Real>
+template <class Tree>
 void check_watertight(double jitter, double radius, const Vec3d& center, uint64_t seed) {
+  using Real = typename Tree::Real;
   Random random(seed);
   Mesh mesh = icosphere(4);
   jitter_radii(mesh, jitter, random);
@@ -60,7 +60,7 @@ void check_watertight(double jitter, double radius, const Vec3d& center, uint64_
   primitives.add_mesh(mesh);
   const FlatScene<Real> scene = primitives.flat<Real>();
   for (const Aim aim : {Aim::vertex, Aim::edge, Aim::face}) {
-    const Miss<Real> misses = shoot(scene.view, mesh, center, radius, aim, effort(100'000), random);
+    const Miss<Real> misses = shoot<Tree>(scene.view, mesh, center, radius, aim, effort(100'000), random);
     EXPECT_EQ(misses.from_inside, 0u) << "aim " << static_cast<int>(aim);
     EXPECT_EQ(misses.from_outside, 0u) << "aim " << static_cast<int>(aim);
   }
@@ -68,9 +68,9 @@ void check_watertight(double jitter, double radius, const Vec3d& center, uint64_
 
 const Vec3d far_away{1.5e5, -1.5e5, 1.5e5};
 
-template <class Real>
+template <class Tree>
 class WatertightOf : public ::testing::Test {};
-TYPED_TEST_SUITE(WatertightOf, Reals);
+TYPED_TEST_SUITE(WatertightOf, Trees);
 
 TYPED_TEST(WatertightOf, Icosphere) { check_watertight<TypeParam>(0, 1, {}, 1); }
 TYPED_TEST(WatertightOf, IcosphereFarAway) { check_watertight<TypeParam>(0, 100, far_away, 2); }
@@ -79,12 +79,12 @@ TYPED_TEST(WatertightOf, JitteredFarAway) { check_watertight<TypeParam>(0.02, 10
 
 /// From the very centre of a mesh about the origin the way to a vertex is exact: edge functions come out as 0.
 TYPED_TEST(WatertightOf, ExactlyThroughVertices) {
-  using Real = TypeParam;
+  using Real = typename TypeParam::Real;
   const Mesh mesh = icosphere(4);
   PrimitiveScene primitives;
   primitives.add_mesh(mesh);
   const FlatScene<Real> scene = primitives.flat<Real>();
-  const BvhIntersector<Real> bvh(scene.view);
+  const typename TypeParam::Intersector bvh(scene.view);
   Hit<Real> hit;
   for (const Vec3d& p : mesh.positions) {
     // The direction need not be of unit length for this.

@@ -105,12 +105,12 @@ TEST(WideBvh, OfNothingAndOfOne) {
   check(one.flat<float>());
 }
 
-TEST(WideBvh, OfHugeRangesFarFromTheOrigin) {
+TEST(WideBvh, OfHugeRangesOfSizes) {
   Random random(22);
   PrimitiveScene scene;
   for (int i = 0; i < 500; ++i) {
     const double size = random.magnitude_between(1e-8, 1e12);
-    const Vec3d p = random.on_sphere() * random.magnitude_between(1e-8, 1e12);
+    const Vec3d p = random.on_sphere() * size;
     scene.add_triangle(p, p + random.on_sphere() * size, p + random.on_sphere() * size);
   }
   for (int i = 0; i < 20; ++i) scene.add_sphere(random.on_sphere() * 1e37, 1e37);
@@ -131,7 +131,8 @@ TEST(WideBvh, IsSmallerThanTheBinaryOne) {
 
 TEST(WideBvh, IsMadeOnlyWhereItIsAskedFor) {
   Diagnostics diagnostics;
-  const FlatScene<float> scene = flatten<float>(described_scene("WorldBegin\nShape \"sphere\"\n"), {}, diagnostics);
+  const FlatScene<float> scene =
+      flatten<float>(described_scene("WorldBegin\nAreaLightSource \"diffuse\"\nShape \"sphere\"\n"), {}, diagnostics);
   EXPECT_EQ(scene.view.nodes_count, 1u);
   EXPECT_EQ(scene.view.wide_nodes_count, 0u);
 }

@@ -79,7 +79,8 @@ class CudaExecutor {
   void launch(const Kernel& kernel, Extent threads, Extent block) {
     const uint32_t block_threads = block.width * block.height;
     if (block_threads > usual_block) check_block<Kernel>(block);
-    const dim3 grid((threads.width + block.width - 1) / block.width, (threads.height + block.height - 1) / block.height);
+    const dim3 grid((threads.width + block.width - 1) / block.width,
+                    (threads.height + block.height - 1) / block.height);
     run_kernel<<<grid, dim3(block.width, block.height), stack_bytes(block_threads), stream_>>>(kernel);
     check(cudaGetLastError(), "launching");
   }
@@ -99,7 +100,8 @@ class CudaExecutor {
       throw InputError("a block of " + std::to_string(block.width) + "x" + std::to_string(block.height) +
                        " asks for too many registers: its " + std::to_string(threads) + " threads take " +
                        std::to_string(attributes.numRegs) + " each, and this GPU has room for " +
-                       std::to_string(attributes.maxThreadsPerBlock) + " such threads in a block: give a smaller --block");
+                       std::to_string(attributes.maxThreadsPerBlock) +
+                       " such threads in a block: give a smaller --block");
     const size_t bytes = stack_bytes(threads);
     if (bytes > 48 * 1024)
       check(cudaFuncSetAttribute(run_kernel<Kernel>, cudaFuncAttributeMaxDynamicSharedMemorySize,
