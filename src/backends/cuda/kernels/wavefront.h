@@ -11,23 +11,24 @@ namespace alhazen::cuda {
 inline constexpr uint32_t material_kinds = 3;
 inline constexpr uint32_t warp_lanes = 32;
 
-// clang-format off: it does not know what separates these.
+// clang-format does not know what separates these.
+// clang-format off
 /// Every array of the slots, once: ARRAY(element type, name). Structure of arrays, one element a slot.
 #define ALHAZEN_SLOT_ARRAYS(ARRAY)                                                                                     \
-  ARRAY(Real, origin_x)                                                                                                \
-  ARRAY(Real, origin_y) ARRAY(Real, origin_z) ARRAY(Real, direction_x) ARRAY(Real, direction_y)                        \
-      ARRAY(Real, direction_z) ARRAY(Real, time) ARRAY(Real, throughput_x) ARRAY(Real, throughput_y)                   \
-          ARRAY(Real, throughput_z) ARRAY(Real, bsdf_pdf) ARRAY(Real, eta_scale) ARRAY(uint32_t, vertex)               \
-              ARRAY(Real, radiance_x) ARRAY(Real, radiance_y) ARRAY(Real, radiance_z) ARRAY(uint32_t, segments)        \
-                  ARRAY(uint32_t, shadow_rays) ARRAY(Real, filter_weight) ARRAY(uint32_t, item) ARRAY(uint32_t, taken) \
-                      ARRAY(Real, hit_t) ARRAY(Real, hit_b1) ARRAY(Real, hit_b2) ARRAY(PrimitiveId, hit_primitive)     \
-                          ARRAY(Real, shadow_origin_x) ARRAY(Real, shadow_origin_y) ARRAY(Real, shadow_origin_z)       \
-                              ARRAY(Real, shadow_direction_x) ARRAY(Real, shadow_direction_y)                          \
-                                  ARRAY(Real, shadow_direction_z) ARRAY(Real, shadow_t_max) ARRAY(Real, light_x)       \
-                                      ARRAY(Real, light_y) ARRAY(Real, light_z) ARRAY(uint32_t, ray_queue_0)           \
-                                          ARRAY(uint32_t, ray_queue_1) ARRAY(uint32_t, ended_queue)                    \
-                                              ARRAY(uint32_t, shadow_queue) ARRAY(uint32_t, material_queue_0)          \
-                                                  ARRAY(uint32_t, material_queue_1) ARRAY(uint32_t, material_queue_2)
+  ARRAY(Real, origin_x) ARRAY(Real, origin_y) ARRAY(Real, origin_z)                                                    \
+  ARRAY(Real, direction_x) ARRAY(Real, direction_y) ARRAY(Real, direction_z) ARRAY(Real, time)                         \
+  ARRAY(Real, throughput_x) ARRAY(Real, throughput_y) ARRAY(Real, throughput_z)                                        \
+  ARRAY(Real, bsdf_pdf) ARRAY(Real, eta_scale) ARRAY(uint32_t, vertex)                                                 \
+  ARRAY(Real, radiance_x) ARRAY(Real, radiance_y) ARRAY(Real, radiance_z)                                              \
+  ARRAY(uint32_t, segments) ARRAY(uint32_t, shadow_rays)                                                               \
+  ARRAY(Real, filter_weight) ARRAY(uint32_t, item) ARRAY(uint32_t, taken)                                              \
+  ARRAY(Real, hit_t) ARRAY(Real, hit_b1) ARRAY(Real, hit_b2) ARRAY(PrimitiveId, hit_primitive)                         \
+  ARRAY(Real, shadow_origin_x) ARRAY(Real, shadow_origin_y) ARRAY(Real, shadow_origin_z)                               \
+  ARRAY(Real, shadow_direction_x) ARRAY(Real, shadow_direction_y) ARRAY(Real, shadow_direction_z)                      \
+  ARRAY(Real, shadow_t_max)                                                                                            \
+  ARRAY(Real, light_x) ARRAY(Real, light_y) ARRAY(Real, light_z)                                                       \
+  ARRAY(uint32_t, ray_queue_0) ARRAY(uint32_t, ray_queue_1) ARRAY(uint32_t, ended_queue) ARRAY(uint32_t, shadow_queue) \
+  ARRAY(uint32_t, material_queue_0) ARRAY(uint32_t, material_queue_1) ARRAY(uint32_t, material_queue_2)
 // clang-format on
 
 /// How long the queues are.
