@@ -50,6 +50,7 @@ void render(benchmark::State& state, const std::string& backend_name, const std:
   settings.schedule = parse_schedule(schedule);
   settings.threads = threads;
   const auto backend = make_backend(backend_name);
+  backend->start(settings);
   uint64_t rays = 0;
   for (auto _ : state) {
     Film<Real> film(settings.window, settings.aovs, false);

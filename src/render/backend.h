@@ -42,6 +42,8 @@ class Backend {
  public:
   virtual ~Backend() = default;
   virtual BackendDescription describe() const = 0;
+  /// What takes a moment and does not depend on the scene, such as starting a GPU. Called once, before the first pass.
+  virtual void start(const RenderSettings&) {}
   /// Passes are no larger than this.
   virtual uint32_t most_samples_per_pass() const { return usual_samples_per_pass; }
   virtual void render_pass(const RenderPass<float>& pass) = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -87,12 +88,8 @@ uint32_t pass_size(const RenderSettings& settings, uint32_t most, uint32_t sampl
 template <class Real>
 class PassLoop {
  public:
-  PassLoop(const FlatScene<Real>& scene, const RenderSettings& settings, Film<Real>& film)
-      : scene_(scene),
-        settings_(settings),
-        film_(film),
-        control_(settings.threads),
-        backend_(make_backend(settings.backend)) {}
+  PassLoop(Backend& backend, const FlatScene<Real>& scene, const RenderSettings& settings, Film<Real>& film)
+      : backend_(backend), scene_(scene), settings_(settings), film_(film), control_(settings.threads) {}
 
   void run(const RenderEvents& events, RenderStatistics& statistics) {
     if (!settings_.checkpoint.empty()) checkpoint_.emplace(settings_, scene_fingerprint(scene_));
@@ -122,7 +119,7 @@ class PassLoop {
     Clock::time_point saved = Clock::now();
     double last_pass_per_sample = 0;
     while (samples_done_ < settings_.samples_per_pixel && !control_.is_stopped()) {
-      const uint32_t size = pass_size(settings_, backend_->most_samples_per_pass(), samples_done_, elapsed_);
+      const uint32_t size = pass_size(settings_, backend_.most_samples_per_pass(), samples_done_, elapsed_);
       if (settings_.time_limit > 0 && elapsed_ > 0 && elapsed_ + last_pass_per_sample * size > settings_.time_limit)
         return;
       if (size % samples_per_block != 0) {
@@ -130,7 +127,7 @@ class PassLoop {
         in_whole_blocks_ = false;
       }
       const Clock::time_point start = Clock::now();
-      backend_->render_pass(RenderPass<Real>{scene_, kernel, settings_, film_, control_, samples_done_, size});
+      backend_.render_pass(RenderPass<Real>{scene_, kernel, settings_, film_, control_, samples_done_, size});
       const double seconds = seconds_since(start);
       elapsed_ += seconds;
       if (control_.is_stopped()) return;
@@ -148,11 +145,11 @@ class PassLoop {
     if (checkpoint_ && in_whole_blocks_) checkpoint_->save(film_, samples_done_);
   }
 
+  Backend& backend_;
   const FlatScene<Real>& scene_;
   const RenderSettings& settings_;
   Film<Real>& film_;
   RenderControl control_;
-  std::unique_ptr<Backend> backend_;
   std::optional<CheckpointFile> checkpoint_;
   uint32_t samples_done_ = 0;  ///< of every pixel
   bool in_whole_blocks_ = true;
@@ -176,9 +173,12 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   statistics.settings = settings;
   statistics.scene = scene.name;
   const Clock::time_point start = Clock::now();
+  const std::unique_ptr<Backend> backend = make_backend(settings.backend);
+  std::future<void> started = std::async(std::launch::async, [&] { backend->start(settings); });
   const bool wide_bvh = settings.backend == "cuda" && settings.device != host_device;
   const FlatScene<Real> flat = flatten<Real>(
       std::move(scene), FlattenOptions{settings.width, settings.height, settings.threads, wide_bvh}, diagnostics);
+  started.get();
   statistics.scene_sizes = flat.statistics;
   statistics.build_seconds = flat.statistics.build_seconds;
   statistics.load_seconds = load_seconds + seconds_since(start) - statistics.build_seconds;
@@ -186,7 +186,7 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   check_memory(film_bytes<Real>(settings.window, settings.aovs, weighted));
   auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, weighted);
   if (events.started) events.started(statistics);
-  PassLoop<Real>(flat, settings, *film).run(events, statistics);
+  PassLoop<Real>(*backend, flat, settings, *film).run(events, statistics);
   statistics.peak_rss_bytes = peak_rss_bytes();
   if (statistics.nonfinite_samples > 0)
     diagnostics.warn({statistics.scene}, std::to_string(statistics.nonfinite_samples) +

@@ -51,6 +51,7 @@ Outcome render_in_passes(Scene scene, const Settings& asked, const std::vector<u
   auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
   RenderControl control(settings.threads);
   const std::unique_ptr<Backend> backend = make_backend(settings.backend);
+  backend->start(settings);
   uint32_t first = 0;
   for (const uint32_t size : sizes) {
     backend->render_pass(RenderPass<Real>{flat, select_sample_kernel<Real>(settings.integrator, settings.sampler),

@@ -33,6 +33,20 @@ class CudaBackend final : public Backend {
     return description;
   }
 
+  void start(const RenderSettings& settings) override {
+    if (settings.device == host_device) {
+      engines_.push_back(make_host_engine({}));
+      return;
+    }
+    if (settings.device != all_devices) {
+      engines_.push_back(make_gpu_engine(settings.device, {}, settings.precision));
+      return;
+    }
+    const uint32_t count = static_cast<uint32_t>(list_devices().devices.size());
+    for (uint32_t i = 0; i < count; ++i)
+      engines_.push_back(make_gpu_engine(static_cast<int>(i), {i, count}, settings.precision));
+  }
+
   /// A GPU takes many samples in the time that a pass costs it, and looks for an end of the render between slices.
   uint32_t most_samples_per_pass() const override { return 1024; }
 
@@ -42,7 +56,6 @@ class CudaBackend final : public Backend {
  private:
   template <class Real>
   void render(const RenderPass<Real>& pass) {
-    if (engines_.empty()) make_engines(pass.settings.device);
     if (engines_.size() == 1) {
       const BusyTimer timer(pass.control.thread(0));
       engines_[0]->render_pass(pass, pass.control.thread(0));
@@ -65,19 +78,6 @@ class CudaBackend final : public Backend {
       });
     for (std::thread& thread : threads) thread.join();
     if (failure) std::rethrow_exception(failure);
-  }
-
-  void make_engines(int device) {
-    if (device == host_device) {
-      engines_.push_back(make_host_engine({}));
-      return;
-    }
-    const uint32_t count = static_cast<uint32_t>(list_devices().devices.size());
-    if (device != all_devices) {
-      engines_.push_back(make_gpu_engine(device, {}));
-      return;
-    }
-    for (uint32_t i = 0; i < count; ++i) engines_.push_back(make_gpu_engine(static_cast<int>(i), {i, count}));
   }
 
   std::vector<std::unique_ptr<Engine>> engines_;

@@ -38,7 +38,7 @@ struct DeviceList {
 /// The GPUs of this machine. Without CUDA in this binary: none, and how to build it in.
 const DeviceList& list_devices();
 
-/// The kernels on GPU `device`.
-std::unique_ptr<Engine> make_gpu_engine(int device, const RowShare& share);
+/// The kernels on GPU `device`, for passes in that precision alone. Starts the GPU.
+std::unique_ptr<Engine> make_gpu_engine(int device, const RowShare& share, Precision precision);
 
 }  // namespace alhazen::cuda

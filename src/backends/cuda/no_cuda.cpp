@@ -12,7 +12,7 @@ const DeviceList& list_devices() {
   return none;
 }
 
-std::unique_ptr<Engine> make_gpu_engine(int, const RowShare&) { throw InputError(list_devices().problem); }
+std::unique_ptr<Engine> make_gpu_engine(int, const RowShare&, Precision) { throw InputError(list_devices().problem); }
 
 }  // namespace alhazen::cuda
 
