@@ -47,7 +47,8 @@ double part_alike(const Film<Real>& a, const Film<Real>& b, double tolerance) {
   for (size_t i = 0; i < pixels; ++i) {
     const Vec3d x = convert<double>(a.view().radiance[i]), y = convert<double>(b.view().radiance[i]);
     const double distance = std::max({std::abs(x.x - y.x), std::abs(x.y - y.y), std::abs(x.z - y.z)});
-    alike += distance <= tolerance * std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});  // filters may be negative
+    alike +=
+        distance <= tolerance * std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});  // filters may be negative
   }
   return static_cast<double>(alike) / static_cast<double>(pixels);
 }
@@ -69,8 +70,8 @@ std::vector<Moments> moments_of(const Film<Real>& film) {
   for (size_t y = 0; y < rows; ++y)
     for (size_t x = 0; x < columns; ++x) {
       const size_t i = y * columns + x;
-      moments[y * parts / rows * parts + x * parts / columns].add(
-          luminance(convert<double>(film.view().radiance[i])) / film.view().samples[i]);
+      moments[y * parts / rows * parts + x * parts / columns].add(luminance(convert<double>(film.view().radiance[i])) /
+                                                                  film.view().samples[i]);
     }
   return moments;
 }
@@ -130,9 +131,15 @@ TEST_P(CudaOnDevice, InFloatIsUnbiased) {
   }
 }
 
+std::string name_of(const ::testing::TestParamInfo<Case>& info) {
+  const auto& [device, scene, integrator] = info.param;
+  return (device == "host" ? device : "GPU") + "_" + scene + "_" + integrator;
+}
+
 INSTANTIATE_TEST_SUITE_P(Parity, CudaOnDevice,
                          ::testing::Combine(::testing::Values("host", "0"), ::testing::Values("cornell", "spheres"),
-                                            ::testing::Values("path", "iterative")));
+                                            ::testing::Values("path", "iterative")),
+                         name_of);
 
 }  // namespace
 }  // namespace alhazen::testing
