@@ -175,9 +175,10 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Backend> backend = make_backend(settings.backend);
   std::future<void> started = std::async(std::launch::async, [&] { backend->start(settings); });
-  const bool wide_bvh = settings.backend == "cuda" && settings.device != host_device;
+  const bool is_on_gpu = settings.backend == "cuda" && settings.device != host_device;
+  const int build_threads = is_on_gpu ? 0 : settings.threads;
   const FlatScene<Real> flat = flatten<Real>(
-      std::move(scene), FlattenOptions{settings.width, settings.height, settings.threads, wide_bvh}, diagnostics);
+      std::move(scene), FlattenOptions{settings.width, settings.height, build_threads, is_on_gpu}, diagnostics);
   started.get();
   statistics.scene_sizes = flat.statistics;
   statistics.build_seconds = flat.statistics.build_seconds;

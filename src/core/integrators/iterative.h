@@ -22,8 +22,8 @@ ALHAZEN_HD void leave_scene(const SceneView<Real>& scene, const IterativeState<R
 
 /// Gathers and scatters where the path met a surface. False when it ends there. `light` is not asked for any.
 template <class Real, class Sampler, class Record, class Light>
-ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments, const Hit<Real>& hit,
-                      IterativeState<Real>& path, Record& record, const Light&) {
+ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
+                                     const Hit<Real>& hit, IterativeState<Real>& path, Record& record, const Light&) {
   const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
   if (path.vertex == 0) record_first_hit(point, hit, record);
   record.radiance += path.throughput * surface_emission(scene, point);

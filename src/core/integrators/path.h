@@ -62,8 +62,8 @@ ALHAZEN_HD bool continue_path(const Sampler& sampler, const ShadingPoint<Real>& 
 /// Gathers, lights and scatters where the path met a surface. False when it ends there. `light` is handed the way to a
 /// sampled light and what the path gains if it is free, and may look at once or later.
 template <class Real, class Sampler, class Record, class Light>
-ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments, const Hit<Real>& hit,
-                      PathState<Real>& path, Record& record, const Light& light) {
+ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
+                                     const Hit<Real>& hit, PathState<Real>& path, Record& record, const Light& light) {
   const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
   if (path.vertex == 0) record_first_hit(point, hit, record);
   gather_emission(scene, path, hit, point, record);

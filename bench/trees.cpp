@@ -1,0 +1,79 @@
+// The binary BVH beside the compressed wide one that GPUs walk, on the host: what building takes, what both weigh, and
+// how many rays a second they answer. The mesh is scenes/knot.ply.gz or what ALHAZEN_BENCH_MESH names.
+
+#include <benchmark/benchmark.h>
+
+#include <cstdlib>
+
+#include "core/bvh/wide.h"
+#include "io/read_scene.h"
+#include "scene/flatten.h"
+#include "support/random.h"
+
+namespace alhazen {
+namespace {
+
+FlatScene<float> read_mesh(bool wide_bvh) {
+  const char* file = std::getenv("ALHAZEN_BENCH_MESH");
+  Diagnostics diagnostics;
+  Scene scene = read_scene(file ? file : ALHAZEN_SOURCE_DIR "/scenes/knot.ply.gz", diagnostics);
+  return flatten<float>(std::move(scene), FlattenOptions{64, 64, 0, wide_bvh}, diagnostics);
+}
+
+const FlatScene<float>& mesh() {
+  static const FlatScene<float> flat = read_mesh(true);
+  return flat;
+}
+
+/// From points all round the mesh to points within its bounds: no two of them alike, as after some bounces.
+std::vector<Ray<float>> incoherent_rays() {
+  const BvhNode<float>& root = mesh().view.nodes[0];
+  const Vec3<float> size = root.high() - root.low(), centre = root.low() + size * 0.5f;
+  test::Random random(1);
+  std::vector<Ray<float>> rays(size_t{1} << 16);
+  for (Ray<float>& ray : rays) {
+    const Vec3<float> to = centre + size * convert<float>(random.in_box(-0.4, 0.4));
+    ray.origin = centre + size * convert<float>(random.in_box(-1, 1));
+    ray.direction = normalize(to - ray.origin);
+  }
+  return rays;
+}
+
+template <class Intersector>
+void closest_hit(benchmark::State& state) {
+  static const std::vector<Ray<float>> rays = incoherent_rays();
+  const Intersector intersector(mesh().view);
+  uint64_t hits = 0;
+  for (auto _ : state)
+    for (const Ray<float>& ray : rays) {
+      Hit<float> hit;
+      hits += intersector.closest_hit(ray, infinity<float>, hit);
+    }
+  state.counters["rays"] =
+      benchmark::Counter(static_cast<double>(rays.size()), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["hit %"] = benchmark::Counter(100.0 * static_cast<double>(hits) / static_cast<double>(rays.size()),
+                                               benchmark::Counter::kAvgIterations);
+}
+
+void build(benchmark::State& state, bool wide_bvh) {
+  for (auto _ : state) {
+    const FlatScene<float> flat = read_mesh(wide_bvh);
+    state.SetIterationTime(flat.statistics.build_seconds);
+  }
+  const SceneView<float>& view = mesh().view;
+  const uint64_t bytes =
+      wide_bvh ? view.wide_nodes_count * sizeof(WideNode) : view.nodes_count * sizeof(BvhNode<float>);
+  state.counters["triangles"] = static_cast<double>(view.triangles_count);
+  state.counters["bytes a triangle"] = static_cast<double>(bytes) / static_cast<double>(view.triangles_count);
+}
+
+BENCHMARK_CAPTURE(build, binary, false)->Name("mesh/build binary")->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(build, wide, true)
+    ->Name("mesh/build binary and wide")
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(closest_hit<BvhIntersector<float>>)->Name("mesh/closest hit binary")->Unit(benchmark::kMillisecond);
+BENCHMARK(closest_hit<WideBvhIntersector<>>)->Name("mesh/closest hit wide")->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace alhazen
