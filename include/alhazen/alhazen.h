@@ -19,7 +19,7 @@ namespace alhazen {
 
 /// How to render. What is left empty, zero or negative is taken from the scene file, or chosen.
 struct Settings {
-  std::string backend = "auto";  ///< auto, serial, openmp, cuda
+  std::string backend = "auto";  ///< auto, serial, openmp, cuda, optix (in float)
   /// openmp: rows, collapse, rows+reduction, reduction, tiles; cuda: pixel, chunk, persistent, wavefront
   std::string strategy = "auto";
   std::string schedule;             ///< openmp: static, dynamic or guided, with an optional ",CHUNK"
@@ -27,7 +27,7 @@ struct Settings {
   std::string integrator;           ///< path, iterative, recursive, branching
   std::string sampler;              ///< sobol, independent
   int threads = 0;                  ///< 0: all
-  std::string device;               ///< cuda: number of the GPU, all, or host: the same kernels as loops on the CPU
+  std::string device;               ///< cuda, optix: number of the GPU, or all; cuda: host, the same kernels on the CPU
   std::string block;                ///< cuda, pixel and chunk: threads of a block, WxH
   std::string chunk;                ///< cuda, chunk: chunks in each direction, WxH
   int64_t samples_per_pixel = 0;

@@ -94,7 +94,8 @@ void print_warnings(const Diagnostics& diagnostics, size_t first) {
 }
 
 std::string engine_of(const RenderSettings& r) {
-  if (r.backend != "cuda") return fmt::format("{} thread{}", r.threads, r.threads == 1 ? "" : "s");
+  if (r.backend != "cuda" && r.backend != "optix")
+    return fmt::format("{} thread{}", r.threads, r.threads == 1 ? "" : "s");
   if (r.device == host_device) return "the host";
   return r.device == all_devices ? fmt::format("{} GPUs", r.threads) : fmt::format("GPU {}", r.device);
 }
@@ -198,19 +199,22 @@ void add_picture_options(CLI::App& command, RenderOptions& o) {
 
 void add_engine_options(CLI::App& command, RenderOptions& o) {
   const char* group = "Engine";
-  command.add_option("--backend", o.settings.backend, "auto, serial, openmp or cuda; 'alhazen devices' lists them")
+  command
+      .add_option("--backend", o.settings.backend, "auto, serial, openmp, cuda or optix; 'alhazen devices' lists them")
       ->type_name("NAME")
       ->group(group);
   command
       .add_option("--strategy", o.settings.strategy,
                   "auto; openmp: tiles, rows, collapse, rows+reduction or reduction; cuda: persistent, pixel, chunk or "
-                  "wavefront")
+                  "wavefront; optix: megakernel")
       ->type_name("NAME")
       ->group(group);
   command.add_option("--schedule", o.settings.schedule, "openmp: static, dynamic or guided, and a chunk: dynamic,4")
       ->type_name("KIND[,CHUNK]")
       ->group(group);
-  command.add_option("--device", o.settings.device, "cuda: number of the GPU, all, or host: the kernels on the CPU")
+  command
+      .add_option("--device", o.settings.device,
+                  "cuda, optix: number of the GPU, or all; cuda: host, the kernels on the CPU")
       ->type_name("N")
       ->group(group);
   command.add_option("--block", o.settings.block, "cuda, pixel and chunk: threads of a block (16x16)")

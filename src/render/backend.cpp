@@ -22,15 +22,15 @@ void choose_strategy(const std::string& asked, const BackendDescription& backend
 }
 
 int parse_device(const std::string& text, const BackendDescription& backend) {
-  if (text == "host") return host_device;
+  if (text == "host" && backend.runs_on_host) return host_device;
   if (!backend.available) throw InputError("the backend '" + backend.name + "' is not available: " + backend.details);
   if (text == "all") return all_devices;
   const int count = static_cast<int>(backend.devices.size());
   int device = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), device);
   if (error != std::errc() || end != text.data() + text.size() || device < 0 || device >= count)
-    throw InputError("there is no device '" + text + "': it may be host, all or a number from 0 to " +
-                     std::to_string(count - 1) + "; 'alhazen devices' lists them");
+    throw InputError("there is no device '" + text + "': it may be " + (backend.runs_on_host ? "host, " : "") +
+                     "all or a number from 0 to " + std::to_string(count - 1) + "; 'alhazen devices' lists them");
   return device;
 }
 
@@ -50,6 +50,7 @@ std::vector<std::unique_ptr<Backend>> all_backends() {
   backends.push_back(make_serial_backend());
   backends.push_back(make_openmp_backend());
   backends.push_back(make_cuda_backend());
+  backends.push_back(make_optix_backend());
   return backends;
 }
 
@@ -66,14 +67,16 @@ std::unique_ptr<Backend> make_backend(const std::string& name) {
 void choose_backend(const Settings& asked, RenderSettings& settings) {
   settings.backend = asked.backend == "auto" ? (settings.threads > 1 ? "openmp" : "serial") : asked.backend;
   const BackendDescription backend = make_backend(settings.backend)->describe();
-  const bool has_devices = backend.name == "cuda";
-  if (has_devices)
+  if (backend.runs_on_devices)
     choose_device(asked, backend, settings);
   else if (!asked.device.empty())
     throw InputError("the backend '" + settings.backend + "' has no devices to choose from: leave out '" +
-                     asked.device + "', or use the backend cuda");
+                     asked.device + "', or use the backend cuda or optix");
   else if (!backend.available)
     throw InputError("the backend '" + settings.backend + "' is not available: " + backend.details);
+  if (settings.precision != Precision::single && !backend.traces_double)
+    throw InputError("the backend '" + backend.name +
+                     "' traces rays in float: use --precision float, or the backend cuda");
   if (settings.backend == "serial") settings.threads = 1;
   choose_strategy(asked.strategy, backend, settings);
   if (!asked.block.empty() && settings.strategy != "pixel" && settings.strategy != "chunk")

@@ -36,6 +36,9 @@ struct BackendDescription {
   bool available = true;
   std::string details;               ///< what it runs on; or why it cannot, and what to do
   std::vector<std::string> devices;  ///< where there may be several: each in a line
+  bool runs_on_devices = false;      ///< GPUs, by the integrators path and iterative alone
+  bool runs_on_host = false;         ///< whether `host` is a device too
+  bool traces_double = true;         ///< whether there is double precision
 };
 
 class Backend {
@@ -44,6 +47,9 @@ class Backend {
   virtual BackendDescription describe() const = 0;
   /// What takes a moment and does not depend on the scene, such as starting a GPU. Called once, before the first pass.
   virtual void start(const RenderSettings&) {}
+  /// Builds what rays are traced by, where that is not our own BVH; counts as building it. Called once, after start().
+  virtual void prepare(const FlatScene<float>&) {}
+  virtual void prepare(const FlatScene<double>&) {}
   /// Passes are no larger than this.
   virtual uint32_t most_samples_per_pass() const { return usual_samples_per_pass; }
   virtual void render_pass(const RenderPass<float>& pass) = 0;
@@ -53,6 +59,7 @@ class Backend {
 std::unique_ptr<Backend> make_serial_backend();
 std::unique_ptr<Backend> make_openmp_backend();
 std::unique_ptr<Backend> make_cuda_backend();
+std::unique_ptr<Backend> make_optix_backend();
 
 /// Every backend that this binary knows, available or not.
 std::vector<std::unique_ptr<Backend>> all_backends();

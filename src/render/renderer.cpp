@@ -175,14 +175,17 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Backend> backend = make_backend(settings.backend);
   std::future<void> started = std::async(std::launch::async, [&] { backend->start(settings); });
-  const bool is_on_gpu = settings.backend == "cuda" && settings.device != host_device;
+  const bool is_on_gpu = backend->describe().runs_on_devices && settings.device != host_device;
   const int build_threads = is_on_gpu ? 0 : settings.threads;
+  const bool wide_bvh = is_on_gpu && settings.backend == "cuda";
   const FlatScene<Real> flat = flatten<Real>(
-      std::move(scene), FlattenOptions{settings.width, settings.height, build_threads, is_on_gpu}, diagnostics);
+      std::move(scene), FlattenOptions{settings.width, settings.height, build_threads, wide_bvh}, diagnostics);
   started.get();
   statistics.scene_sizes = flat.statistics;
-  statistics.build_seconds = flat.statistics.build_seconds;
-  statistics.load_seconds = load_seconds + seconds_since(start) - statistics.build_seconds;
+  statistics.load_seconds = load_seconds + seconds_since(start) - flat.statistics.build_seconds;
+  const Clock::time_point build_start = Clock::now();
+  backend->prepare(flat);
+  statistics.build_seconds = flat.statistics.build_seconds + seconds_since(build_start);
   const bool weighted = flat.view.filter.has_negative != 0;
   check_memory(film_bytes<Real>(settings.window, settings.aovs, weighted));
   auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, weighted);

@@ -41,8 +41,8 @@ std::string RenderStatistics::to_json() const {
   j["strategy"] = settings.strategy;
   j["precision"] = to_string(settings.precision);
   j["schedule"] = settings.backend == "serial" ? "" : to_string(settings.schedule);
+  if (settings.backend == "cuda" || settings.backend == "optix") j["device"] = device_name(settings.device);
   if (settings.backend == "cuda") {
-    j["device"] = device_name(settings.device);
     j["block"] = to_string(settings.block);
     j["chunk"] = to_string(settings.chunk);
   }

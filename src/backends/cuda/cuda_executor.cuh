@@ -63,6 +63,7 @@ class CudaExecutor {
     check(cudaMemGetInfo(&free, &total), "asking for its memory");
     return free;
   }
+  cudaStream_t stream() const { return stream_; }
   void wait() { check(cudaStreamSynchronize(stream_), "rendering"); }
 
   template <class Kernel>

@@ -19,6 +19,8 @@ namespace alhazen::cuda {
 
 /// Ray queries by the binary BVH.
 struct FlatTracing {
+  static constexpr bool by_launch_of_pixels = false;  ///< whether there is no schedule but a launch of all pixels
+
   template <class Real, class Stacks>
   ALHAZEN_HD static BvhIntersector<Real, Stacks> intersector(const SceneView<Real>& scene, const Stacks& stacks) {
     return BvhIntersector<Real, Stacks>(scene, stacks);
@@ -27,6 +29,8 @@ struct FlatTracing {
 
 /// Ray queries by the compressed wide BVH.
 struct WideTracing {
+  static constexpr bool by_launch_of_pixels = false;
+
   template <class Stacks>
   ALHAZEN_HD static WideBvhIntersector<Stacks> intersector(const SceneView<float>& scene, const Stacks& stacks) {
     return WideBvhIntersector<Stacks>(scene, stacks);
@@ -45,6 +49,12 @@ class DeviceRender {
         sums_(executor),
         slots_memory_(executor),
         counter_(executor) {}
+
+  /// For executors that trace rays by something of their own: has it built.
+  void prepare(const FlatScene<Real>& scene) {
+    upload_scene(scene);
+    executor_.build(scene.view, device_scene(scene));
+  }
 
   void render_pass(const RenderPass<Real>& pass, ThreadStatistics& statistics) {
     const typename Executor::Range range("pass");
@@ -73,20 +83,22 @@ class DeviceRender {
   // ---- what is on the device -------------------------------------------------------------------------------------
 
   void upload(const RenderPass<Real>& pass) {
-    if (scene_ != &pass.scene) {
-      const typename Executor::Range range("upload the scene");
-      const size_t bytes = pass.scene.statistics.bytes;
-      arena_.reset();
-      arena_.reserve(bytes);
-      executor_.upload(arena_.data(), pass.scene.arena.get(), bytes);
-      totals_.reserve(1);
-      counter_.reserve(1);
-      scene_ = &pass.scene;
-    }
+    if (scene_ != &pass.scene) upload_scene(pass.scene);
+    totals_.reserve(1);
+    counter_.reserve(1);
     if (host_film_ != &pass.film) {
       host_film_ = &pass.film;
       upload_film(pass.film);
     }
+  }
+
+  void upload_scene(const FlatScene<Real>& scene) {
+    const typename Executor::Range range("upload the scene");
+    const size_t bytes = scene.statistics.bytes;
+    arena_.reset();
+    arena_.reserve(bytes);
+    executor_.upload(arena_.data(), scene.arena.get(), bytes);
+    scene_ = &scene;
   }
 
   /// The view of the scene with its pointers shifted from the host's arena to the device's.
@@ -190,14 +202,18 @@ class DeviceRender {
   /// False where the render was stopped within the slice, of which nothing is in the film then.
   template <IntegratorKind kind>
   bool run_slice(const RenderPass<Real>& pass, const Launch<Real>& launch) {
-    const std::string& strategy = pass.settings.strategy;
-    if (strategy == "pixel" || strategy == "chunk") {
-      run_pixels<kind>(pass.settings, launch);
-      return true;
-    }
+    if constexpr (!Tracing::by_launch_of_pixels)
+      if (pass.settings.strategy == "persistent" || pass.settings.strategy == "wavefront")
+        return run_queue<kind>(pass, launch);
+    run_pixels<kind>(pass.settings, launch);
+    return true;
+  }
+
+  template <IntegratorKind kind>
+  bool run_queue(const RenderPass<Real>& pass, const Launch<Real>& launch) {
     const ItemGrid grid{launch.width, launch.slice.rows, launch.slice.blocks()};
     sums_.reserve(grid.count());
-    if (strategy == "wavefront") {
+    if (pass.settings.strategy == "wavefront") {
       if (!run_wavefront<kind>(pass.control, launch, grid)) return false;
     } else {
       run_persistent<kind>(launch, grid);

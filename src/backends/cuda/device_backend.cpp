@@ -1,0 +1,72 @@
+#include "backends/cuda/device_backend.h"
+
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "backends/pixel_blocks.h"
+
+namespace alhazen::cuda {
+
+void DeviceBackend::start(const RenderSettings& settings) {
+  if (settings.device != all_devices) {
+    engines_.push_back(make_engine(settings.device, {}, settings.precision));
+    return;
+  }
+  const uint32_t count = static_cast<uint32_t>(list_devices().devices.size());
+  for (uint32_t i = 0; i < count; ++i)
+    engines_.push_back(make_engine(static_cast<int>(i), {i, count}, settings.precision));
+}
+
+template <class Action>
+void DeviceBackend::on_every_engine(const Action& action) {
+  if (engines_.size() == 1) return action(*engines_[0], 0);
+  std::exception_ptr failure;
+  std::mutex mutex;
+  std::vector<std::thread> threads;
+  for (size_t i = 0; i < engines_.size(); ++i)
+    threads.emplace_back([&, i] {
+      try {
+        action(*engines_[i], static_cast<int>(i));
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        failure = std::current_exception();
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+void DeviceBackend::prepare(const FlatScene<float>& scene) {
+  on_every_engine([&](Engine& engine, int) { engine.prepare(scene); });
+}
+
+template <class Real>
+void DeviceBackend::render(const RenderPass<Real>& pass) {
+  on_every_engine([&](Engine& engine, int index) {
+    ThreadStatistics& statistics = pass.control.thread(index);
+    const BusyTimer timer(statistics);
+    try {
+      engine.render_pass(pass, statistics);
+    } catch (...) {
+      pass.control.stop();
+      throw;
+    }
+  });
+}
+
+void DeviceBackend::render_pass(const RenderPass<float>& pass) { render(pass); }
+void DeviceBackend::render_pass(const RenderPass<double>& pass) { render(pass); }
+
+std::vector<std::string> describe_devices() {
+  std::vector<std::string> lines;
+  for (const DeviceInfo& d : list_devices().devices) {
+    char text[64];
+    std::snprintf(text, sizeof(text), ", compute capability %d.%d, %.1f GiB, %d SMs", d.major, d.minor,
+                  static_cast<double>(d.memory) / (1 << 30), d.multiprocessors);
+    lines.push_back(d.name + text);
+  }
+  return lines;
+}
+
+}  // namespace alhazen::cuda

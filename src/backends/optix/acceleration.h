@@ -1,0 +1,196 @@
+#pragma once
+
+// Acceleration structures from the scene's arena where it lies on the device: one a kind of primitive, compacted, and
+// one of instances above them where there is more than one kind.
+
+#include <array>
+#include <vector>
+
+#include "backends/cuda/executor.h"
+#include "backends/optix/library.h"
+#include "core/scene_view.h"
+
+namespace alhazen::optix {
+
+inline CUdeviceptr address(const void* pointer) { return reinterpret_cast<CUdeviceptr>(pointer); }
+
+/// What the programs must be compiled for.
+struct SceneTraits {
+  bool has[3]{};  ///< by PrimitiveKind
+
+  explicit SceneTraits(const SceneView<float>& scene)
+      : has{scene.triangles_count > 0, scene.spheres_count > 0, scene.moving_spheres_count > 0} {}
+  bool has_kind(PrimitiveKind kind) const { return has[static_cast<unsigned>(kind)]; }
+  bool moves() const { return has_kind(PrimitiveKind::moving_sphere); }
+  bool has_spheres() const { return has_kind(PrimitiveKind::sphere) || moves(); }
+  int kinds() const { return has[0] + has[1] + has[2]; }
+  bool has_instances() const { return kinds() > 1; }
+};
+
+inline constexpr unsigned build_flags = OPTIX_BUILD_FLAG_ALLOW_COMPACTION | OPTIX_BUILD_FLAG_PREFER_FAST_TRACE;
+
+template <class Executor>
+class Acceleration {
+ public:
+  Acceleration(const OptixFunctionTable& functions, Executor& executor)
+      : functions_(functions),
+        executor_(executor),
+        structures_{Bytes(executor), Bytes(executor), Bytes(executor)},
+        top_(executor) {}
+
+  /// `host` and `device` are views of the same scene, here and there.
+  void build(OptixDeviceContext context, const SceneView<float>& host, const SceneView<float>& device) {
+    context_ = context;
+    traversable_ = 0;
+    sbt_offset_ = 0;
+    const SceneTraits traits(host);
+    std::vector<OptixInstance> instances;
+    for (unsigned kind = 0; kind < structures_.size(); ++kind) {
+      if (!traits.has[kind]) continue;
+      traversable_ = build_kind(static_cast<PrimitiveKind>(kind), host, device);
+      sbt_offset_ = kind;
+      OptixInstance instance{
+          {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, kind, kind, 0xff, OPTIX_INSTANCE_FLAG_NONE, traversable_, {}};
+      instances.push_back(instance);
+    }
+    if (!traits.has_instances()) return;
+    sbt_offset_ = 0;
+    build_instances(instances);
+  }
+
+  OptixTraversableHandle traversable() const { return traversable_; }  ///< 0: there is nothing to meet
+  uint32_t sbt_offset() const { return sbt_offset_; }
+
+ private:
+  using Bytes = cuda::Buffer<Executor, std::byte>;
+
+  OptixTraversableHandle build_kind(PrimitiveKind kind, const SceneView<float>& host, const SceneView<float>& device) {
+    switch (kind) {
+      case PrimitiveKind::triangle:
+        return build_triangles(device);
+      case PrimitiveKind::sphere:
+        return build_spheres(device);
+      default:
+        return build_moving_spheres(host, device);
+    }
+  }
+
+  OptixTraversableHandle build_triangles(const SceneView<float>& device) {
+    const CUdeviceptr positions = address(device.positions);
+    OptixBuildInput input{};
+    input.type = OPTIX_BUILD_INPUT_TYPE_TRIANGLES;
+    OptixBuildInputTriangleArray& triangles = input.triangleArray;
+    triangles.vertexBuffers = &positions;
+    triangles.numVertices = device.positions_count;
+    triangles.vertexFormat = OPTIX_VERTEX_FORMAT_FLOAT3;
+    triangles.vertexStrideInBytes = sizeof(Vec3<float>);
+    triangles.indexBuffer = address(device.triangles) + offsetof(TriangleRecord, vertex);
+    triangles.numIndexTriplets = device.triangles_count;
+    triangles.indexFormat = OPTIX_INDICES_FORMAT_UNSIGNED_INT3;
+    triangles.indexStrideInBytes = sizeof(TriangleRecord);
+    triangles.flags = &without_any_hit;
+    triangles.numSbtRecords = 1;
+    return build_structure(input, 1, structures_[0]);
+  }
+
+  OptixTraversableHandle build_spheres(const SceneView<float>& device) {
+    using Record = SphereRecord<float>;
+    const CUdeviceptr centres = address(device.spheres) + offsetof(Record, center);
+    const CUdeviceptr radii = address(device.spheres) + offsetof(Record, radius);
+    return build_structure(sphere_input(&centres, sizeof(Record), &radii, sizeof(Record), device.spheres_count), 1,
+                           structures_[1]);
+  }
+
+  /// Two motion keys, at the ends of the shutter; the centres of the second are where the motion leads.
+  OptixTraversableHandle build_moving_spheres(const SceneView<float>& host, const SceneView<float>& device) {
+    using Record = MovingSphereRecord<float>;
+    const uint32_t count = host.moving_spheres_count;
+    // Both keys have one stride, so the second has records too, of which only the centre counts.
+    std::vector<Record> last(host.moving_spheres, host.moving_spheres + count);
+    for (Record& sphere : last) sphere.center += sphere.motion;
+    cuda::Buffer<Executor, Record> memory(executor_);
+    memory.reserve(count);
+    executor_.upload(memory.data(), last.data(), count * sizeof(Record));
+    const CUdeviceptr centres[2] = {address(device.moving_spheres) + offsetof(Record, center),
+                                    address(memory.data()) + offsetof(Record, center)};
+    const CUdeviceptr radius = address(device.moving_spheres) + offsetof(Record, radius);
+    const CUdeviceptr radii[2] = {radius, radius};
+    const OptixTraversableHandle handle =
+        build_structure(sphere_input(centres, sizeof(Record), radii, sizeof(Record), count), 2, structures_[2]);
+    executor_.wait();
+    return handle;
+  }
+
+  OptixBuildInput sphere_input(const CUdeviceptr* centres, size_t centre_stride, const CUdeviceptr* radii,
+                               size_t radius_stride, uint32_t count) const {
+    OptixBuildInput input{};
+    input.type = OPTIX_BUILD_INPUT_TYPE_SPHERES;
+    OptixBuildInputSphereArray& spheres = input.sphereArray;
+    spheres.vertexBuffers = centres;
+    spheres.vertexStrideInBytes = static_cast<unsigned>(centre_stride);
+    spheres.numVertices = count;
+    spheres.radiusBuffers = radii;
+    spheres.radiusStrideInBytes = static_cast<unsigned>(radius_stride);
+    spheres.flags = &without_any_hit;
+    spheres.numSbtRecords = 1;
+    return input;
+  }
+
+  void build_instances(const std::vector<OptixInstance>& instances) {
+    cuda::Buffer<Executor, OptixInstance> memory(executor_);
+    memory.reserve(instances.size());
+    executor_.upload(memory.data(), instances.data(), instances.size() * sizeof(OptixInstance));
+    OptixBuildInput input{};
+    input.type = OPTIX_BUILD_INPUT_TYPE_INSTANCES;
+    input.instanceArray.instances = address(memory.data());
+    input.instanceArray.numInstances = static_cast<unsigned>(instances.size());
+    traversable_ = build_structure(input, 1, top_);
+    executor_.wait();
+  }
+
+  /// Builds, then copies to as little memory as the structure needs.
+  OptixTraversableHandle build_structure(const OptixBuildInput& input, unsigned motion_keys, Bytes& structure) {
+    OptixAccelBuildOptions options{};
+    options.buildFlags = build_flags;
+    options.operation = OPTIX_BUILD_OPERATION_BUILD;
+    options.motionOptions.numKeys = static_cast<unsigned short>(motion_keys);
+    options.motionOptions.timeEnd = motion_keys > 1 ? 1.0f : 0.0f;
+    OptixAccelBufferSizes sizes{};
+    check(functions_, functions_.optixAccelComputeMemoryUsage(context_, &options, &input, 1, &sizes), building);
+    Bytes scratch(executor_), first(executor_);
+    cuda::Buffer<Executor, uint64_t> size_memory(executor_);
+    scratch.reserve(sizes.tempSizeInBytes);
+    first.reserve(sizes.outputSizeInBytes);
+    size_memory.reserve(1);
+    const OptixAccelEmitDesc emitted{address(size_memory.data()), OPTIX_PROPERTY_TYPE_COMPACTED_SIZE};
+    OptixTraversableHandle handle = 0;
+    check(functions_,
+          functions_.optixAccelBuild(context_, executor_.stream(), &options, &input, 1, address(scratch.data()),
+                                     sizes.tempSizeInBytes, address(first.data()), sizes.outputSizeInBytes, &handle,
+                                     &emitted, 1),
+          building);
+    uint64_t compacted = 0;
+    executor_.download(&compacted, size_memory.data(), sizeof(compacted));
+    structure.reset();
+    structure.reserve(compacted);
+    check(functions_,
+          functions_.optixAccelCompact(context_, executor_.stream(), handle, address(structure.data()), compacted,
+                                       &handle),
+          building);
+    executor_.wait();
+    return handle;
+  }
+
+  static constexpr const char* building = "building its acceleration structures";
+  static constexpr unsigned without_any_hit = OPTIX_GEOMETRY_FLAG_DISABLE_ANYHIT;
+
+  const OptixFunctionTable& functions_;
+  Executor& executor_;
+  OptixDeviceContext context_ = nullptr;
+  std::array<Bytes, 3> structures_;
+  Bytes top_;
+  OptixTraversableHandle traversable_ = 0;
+  uint32_t sbt_offset_ = 0;
+};
+
+}  // namespace alhazen::optix

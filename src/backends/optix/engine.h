@@ -1,0 +1,12 @@
+#pragma once
+
+#include <memory>
+
+#include "backends/cuda/device.h"
+
+namespace alhazen::optix {
+
+/// Rendering by OptiX on GPU `device`, in float.
+std::unique_ptr<cuda::Engine> make_optix_engine(int device, const cuda::RowShare& share);
+
+}  // namespace alhazen::optix

@@ -1,0 +1,72 @@
+#pragma once
+
+// An executor (backends/cuda/executor.h) whose pixel kernels are launches of OptiX. `Base` does the rest, and has a
+// stream().
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "backends/optix/pipeline.h"
+
+namespace alhazen::optix {
+
+template <class Base>
+class OptixExecutor : public Base {
+ public:
+  template <class... Arguments>
+  OptixExecutor(const OptixFunctionTable& functions, const DeviceCode& code, Arguments&&... arguments)
+      : Base(std::forward<Arguments>(arguments)...),
+        functions_(functions),
+        code_(code),
+        context_(functions),
+        acceleration_(functions, *this),
+        records_(*this),
+        params_(*this) {}
+
+  /// Makes ready for a scene that lies on the device.
+  void build(const SceneView<float>& host, const SceneView<float>& device) {
+    const typename Base::Range range("build for OptiX");
+    pipeline_.emplace(functions_, context_, code_, SceneTraits(host));
+    acceleration_.build(context_.get(), host, device);
+    const std::vector<SbtRecord> records = pipeline_->records();
+    records_.reserve(records.size());
+    this->upload(records_.data(), records.data(), records.size() * sizeof(SbtRecord));
+    params_.reserve(1);
+  }
+
+  /// A thread a pixel; OptiX chooses the blocks.
+  template <IntegratorKind kind>
+  void launch(const OptixKernel<kind>& kernel, cuda::Extent threads, cuda::Extent) {
+    const OptixParams params{kernel.launch, kernel.sums, acceleration_.traversable(), acceleration_.sbt_offset()};
+    this->upload(params_.data(), &params, sizeof(params));
+    const OptixShaderBindingTable table = binding_table(kind == IntegratorKind::path ? raygen_path : raygen_iterative);
+    check(functions_,
+          functions_.optixLaunch(pipeline_->get(), this->stream(), address(params_.data()), sizeof(params), &table,
+                                 threads.width, threads.height, 1),
+          "rendering", context_.log());
+  }
+
+ private:
+  OptixShaderBindingTable binding_table(RaygenRecord raygen) const {
+    OptixShaderBindingTable table{};
+    table.raygenRecord = address(records_.data() + raygen);
+    table.missRecordBase = address(records_.data() + raygen_records);
+    table.missRecordStrideInBytes = sizeof(SbtRecord);
+    table.missRecordCount = miss_records;
+    table.hitgroupRecordBase = address(records_.data() + raygen_records + miss_records);
+    table.hitgroupRecordStrideInBytes = sizeof(SbtRecord);
+    table.hitgroupRecordCount = hit_records;
+    return table;
+  }
+
+  const OptixFunctionTable& functions_;
+  DeviceCode code_;
+  Context context_;
+  Acceleration<Base> acceleration_;
+  std::optional<Pipeline> pipeline_;
+  cuda::Buffer<Base, SbtRecord> records_;
+  cuda::Buffer<Base, OptixParams> params_;
+};
+
+}  // namespace alhazen::optix

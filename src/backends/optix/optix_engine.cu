@@ -1,0 +1,39 @@
+#include "backends/cuda/cuda_executor.cuh"
+#include "backends/cuda/device_render.h"
+#include "backends/optix/engine.h"
+#include "backends/optix/executor.h"
+
+namespace alhazen::optix {
+
+namespace {
+
+class OptixEngine final : public cuda::Engine {
+ public:
+  OptixEngine(int device, const cuda::RowShare& share)
+      : executor_(optix_library().functions, device_code(), device), render_(executor_, share) {}
+
+  void prepare(const FlatScene<float>& scene) override {
+    executor_.use_device();
+    render_.prepare(scene);
+  }
+  void render_pass(const RenderPass<float>& pass, ThreadStatistics& statistics) override {
+    executor_.use_device();
+    render_.render_pass(pass, statistics);
+  }
+  void render_pass(const RenderPass<double>&, ThreadStatistics&) override {
+    throw InputError("the backend 'optix' traces rays in float: use --precision float, or the backend cuda");
+  }
+
+ private:
+  using Executor = OptixExecutor<cuda::CudaExecutor>;
+  Executor executor_;
+  cuda::DeviceRender<Executor, OptixTracing, float> render_;
+};
+
+}  // namespace
+
+std::unique_ptr<cuda::Engine> make_optix_engine(int device, const cuda::RowShare& share) {
+  return std::make_unique<OptixEngine>(device, share);
+}
+
+}  // namespace alhazen::optix

@@ -1,0 +1,208 @@
+#pragma once
+
+// The programs of OptiX, compiled by the driver for what the scene holds.
+
+#include <cstring>
+#include <vector>
+
+#include "backends/optix/acceleration.h"
+#include "backends/optix/device_code.h"
+#include "backends/optix/params.h"
+
+namespace alhazen::optix {
+
+/// The device context. What OptiX has to say is kept for the next error.
+class Context {
+ public:
+  explicit Context(const OptixFunctionTable& functions) : functions_(functions) {
+    OptixDeviceContextOptions options{};
+    options.logCallbackFunction = keep_message;
+    options.logCallbackData = &log_;
+    options.logCallbackLevel = 2;  // errors
+#ifndef NDEBUG
+    options.validationMode = OPTIX_DEVICE_CONTEXT_VALIDATION_MODE_ALL;
+    options.logCallbackLevel = 3;  // warnings too
+#endif
+    check(functions_, functions_.optixDeviceContextCreate(nullptr, &options, &context_), "starting");
+  }
+  ~Context() { functions_.optixDeviceContextDestroy(context_); }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  OptixDeviceContext get() const { return context_; }
+  /// What OptiX said in all, `of_call` first.
+  std::string log(const std::string& of_call = "") const {
+    return of_call + (of_call.empty() || log_.empty() ? "" : "; ") + log_;
+  }
+
+ private:
+  static void keep_message(unsigned, const char* tag, const char* message, void* log) {
+    std::string& text = *static_cast<std::string*>(log);
+    text += (text.empty() ? "" : "; ") + std::string(tag) + ": " + message;
+  }
+
+  const OptixFunctionTable& functions_;
+  std::string log_;
+  OptixDeviceContext context_ = nullptr;
+};
+
+/// A record of the shader binding table is its header alone.
+struct alignas(OPTIX_SBT_RECORD_ALIGNMENT) SbtRecord {
+  char header[OPTIX_SBT_RECORD_HEADER_SIZE];
+};
+
+class Pipeline {
+ public:
+  Pipeline(const OptixFunctionTable& functions, const Context& context, const DeviceCode& code,
+           const SceneTraits& traits)
+      : functions_(functions), context_(context) {
+    describe(traits);
+    try {
+      make_modules(code, traits);
+      make_groups(traits);
+      link();
+    } catch (...) {
+      destroy();
+      throw;
+    }
+  }
+  ~Pipeline() { destroy(); }
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  OptixPipeline get() const { return pipeline_; }
+
+  /// Records of ray generation, misses and hits, one after the other.
+  std::vector<SbtRecord> records() const {
+    std::vector<SbtRecord> records(groups_.size());
+    for (size_t i = 0; i < groups_.size(); ++i)
+      check(functions_, functions_.optixSbtRecordPackHeader(groups_[i], records[i].header), linking);
+    return records;
+  }
+
+ private:
+  void describe(const SceneTraits& traits) {
+    constexpr unsigned caller = OPTIX_PAYLOAD_SEMANTICS_TRACE_CALLER_READ_WRITE;
+    for (unsigned& word : closest_semantics_) word = caller | OPTIX_PAYLOAD_SEMANTICS_CH_WRITE;
+    occlusion_semantics_[0] = caller | OPTIX_PAYLOAD_SEMANTICS_MS_WRITE;
+    payloads_[0] = {closest_words, closest_semantics_};
+    payloads_[1] = {occlusion_words, occlusion_semantics_};
+    module_options_.numPayloadTypes = 2;
+    module_options_.payloadTypes = payloads_;
+#ifdef NDEBUG
+    module_options_.optLevel = OPTIX_COMPILE_OPTIMIZATION_LEVEL_3;
+    module_options_.debugLevel = OPTIX_COMPILE_DEBUG_LEVEL_MINIMAL;
+#else
+    module_options_.optLevel = OPTIX_COMPILE_OPTIMIZATION_LEVEL_0;
+    module_options_.debugLevel = OPTIX_COMPILE_DEBUG_LEVEL_MODERATE;
+    pipeline_options_.exceptionFlags = OPTIX_EXCEPTION_FLAG_TRACE_DEPTH | OPTIX_EXCEPTION_FLAG_STACK_OVERFLOW;
+#endif
+    pipeline_options_.usesMotionBlur = traits.moves();
+    pipeline_options_.traversableGraphFlags =
+        static_cast<unsigned>(traits.has_instances() ? OPTIX_TRAVERSABLE_GRAPH_FLAG_ALLOW_SINGLE_LEVEL_INSTANCING
+                                                     : OPTIX_TRAVERSABLE_GRAPH_FLAG_ALLOW_SINGLE_GAS);
+    pipeline_options_.numAttributeValues = 2;
+    pipeline_options_.pipelineLaunchParamsVariableName = params_name;
+    if (traits.has_kind(PrimitiveKind::triangle))
+      pipeline_options_.usesPrimitiveTypeFlags |= static_cast<unsigned>(OPTIX_PRIMITIVE_TYPE_FLAGS_TRIANGLE);
+    if (traits.has_spheres())
+      pipeline_options_.usesPrimitiveTypeFlags |= static_cast<unsigned>(OPTIX_PRIMITIVE_TYPE_FLAGS_SPHERE);
+  }
+
+  void make_modules(const DeviceCode& code, const SceneTraits& traits) {
+    std::string log;
+    OptixResult result = make_module(code.optix_ir, log);
+    if (result != OPTIX_SUCCESS) result = make_module(code.ptx, log);
+    check(functions_, result, "compiling its programs", context_.log(log));
+    for (const PrimitiveKind kind : {PrimitiveKind::sphere, PrimitiveKind::moving_sphere}) {
+      if (!traits.has_kind(kind)) continue;
+      OptixBuiltinISOptions options{};
+      options.builtinISModuleType = OPTIX_PRIMITIVE_TYPE_SPHERE;
+      options.usesMotionBlur = kind == PrimitiveKind::moving_sphere;
+      options.buildFlags = build_flags;
+      check(functions_,
+            functions_.optixBuiltinISModuleGet(context_.get(), &module_options_, &pipeline_options_, &options,
+                                               &sphere_modules_[static_cast<unsigned>(kind)]),
+            "asking for its spheres", context_.log());
+    }
+  }
+
+  OptixResult make_module(std::span<const unsigned char> code, std::string& log) {
+    char text[2048] = "";
+    size_t size = sizeof(text);
+    const OptixResult result =
+        functions_.optixModuleCreate(context_.get(), &module_options_, &pipeline_options_,
+                                     reinterpret_cast<const char*>(code.data()), code.size(), text, &size, &module_);
+    log = text;
+    return result;
+  }
+
+  void make_groups(const SceneTraits& traits) {
+    for (const char* name : raygen_names) {
+      OptixProgramGroupDesc group{};
+      group.kind = OPTIX_PROGRAM_GROUP_KIND_RAYGEN;
+      group.raygen = {module_, name};
+      add_group(group);
+    }
+    OptixProgramGroupDesc miss{};
+    miss.kind = OPTIX_PROGRAM_GROUP_KIND_MISS;
+    add_group(miss);  // closest hits: the payload stays as the caller made it
+    miss.miss = {module_, miss_occlusion_name};
+    add_group(miss);
+    for (unsigned kind = 0; kind < hit_records; ++kind) {
+      OptixProgramGroupDesc group{};
+      group.kind = OPTIX_PROGRAM_GROUP_KIND_HITGROUP;
+      if (traits.has[kind]) {
+        group.hitgroup.moduleCH = module_;
+        group.hitgroup.entryFunctionNameCH = closest_hit_names[kind];
+        group.hitgroup.moduleIS = sphere_modules_[kind];
+      }
+      add_group(group);
+    }
+  }
+
+  void add_group(const OptixProgramGroupDesc& description) {
+    char text[2048] = "";
+    size_t size = sizeof(text);
+    OptixProgramGroupOptions options{};
+    OptixProgramGroup group = nullptr;
+    const OptixResult result =
+        functions_.optixProgramGroupCreate(context_.get(), &description, 1, &options, text, &size, &group);
+    check(functions_, result, linking, context_.log(text));
+    groups_.push_back(group);
+  }
+
+  void link() {
+    char text[2048] = "";
+    size_t size = sizeof(text);
+    OptixPipelineLinkOptions options{};
+    options.maxTraceDepth = 1;
+    const OptixResult result =
+        functions_.optixPipelineCreate(context_.get(), &pipeline_options_, &options, groups_.data(),
+                                       static_cast<unsigned>(groups_.size()), text, &size, &pipeline_);
+    check(functions_, result, linking, context_.log(text));
+  }
+
+  void destroy() {
+    if (pipeline_) functions_.optixPipelineDestroy(pipeline_);
+    for (const OptixProgramGroup group : groups_) functions_.optixProgramGroupDestroy(group);
+    for (const OptixModule module : sphere_modules_)
+      if (module) functions_.optixModuleDestroy(module);
+    if (module_) functions_.optixModuleDestroy(module_);
+  }
+
+  static constexpr const char* linking = "linking its programs";
+
+  const OptixFunctionTable& functions_;
+  const Context& context_;
+  unsigned closest_semantics_[closest_words]{}, occlusion_semantics_[occlusion_words]{};
+  OptixPayloadType payloads_[2]{};
+  OptixModuleCompileOptions module_options_{};
+  OptixPipelineCompileOptions pipeline_options_{};
+  OptixModule module_ = nullptr;
+  OptixModule sphere_modules_[hit_records]{};  ///< by PrimitiveKind
+  std::vector<OptixProgramGroup> groups_;      ///< in the order of the records
+  OptixPipeline pipeline_ = nullptr;
+};
+
+}  // namespace alhazen::optix

@@ -1,0 +1,147 @@
+// The device programs of OptiX. Ray generation runs the core's integrators; hit programs return which primitive was
+// met, and where, and nothing else.
+
+#include <optix.h>
+
+#include "backends/optix/params.h"
+#include "core/bvh/traversal.h"
+
+namespace alhazen::optix {
+
+// Bytes, since a constant has no constructor.
+extern "C" {
+__constant__ __align__(16) unsigned char params[sizeof(OptixParams)];
+}
+
+__device__ inline const OptixParams& launch_params() { return *reinterpret_cast<const OptixParams*>(params); }
+
+/// Ray queries as integrators ask them.
+///
+/// What OptiX says of spheres is checked by our own, robust test: the built-in one works in float from the sphere's
+/// centre, and on a ground of radius 1000 may meet the surface that the ray has just left.
+class OptixIntersector {
+ public:
+  template <class Stacks>
+  __device__ OptixIntersector(const SceneView<float>& scene, const Stacks&) : scene_(&scene) {}
+
+  __device__ bool closest_hit(const Ray<float>& ray, float t_max, Hit<float>& hit) const {
+    hit.t = t_max;
+    hit.primitive = {};
+    float t_min = 0;
+    for (int attempt = 0; attempt < most_attempts && t_min < hit.t; ++attempt) {
+      Hit<float> met;
+      if (!trace(ray, t_min, hit.t, OPTIX_RAY_FLAG_DISABLE_ANYHIT, met)) break;
+      if (met.primitive.kind() == PrimitiveKind::triangle) {
+        hit = met;
+        break;
+      }
+      // Where our own test meets the sphere later or not at all, something else may stand in between.
+      t_min = met.t + beyond(met);
+      if (intersects_sphere(ray, met.primitive, hit) && hit.t <= met.t) break;
+    }
+    return !hit.primitive.is_none();
+  }
+
+  __device__ bool occluded(const Ray<float>& ray, float t_max) const {
+    constexpr unsigned flags = OPTIX_RAY_FLAG_DISABLE_ANYHIT | OPTIX_RAY_FLAG_TERMINATE_ON_FIRST_HIT;
+    if (scene_->spheres_count == 0 && scene_->moving_spheres_count == 0)
+      return is_anything_between(ray, t_max, flags | OPTIX_RAY_FLAG_DISABLE_CLOSESTHIT);
+    Hit<float> met, own;
+    own.t = t_max;
+    if (!trace(ray, 0, t_max, flags, met)) return false;
+    if (met.primitive.kind() == PrimitiveKind::triangle || intersects_sphere(ray, met.primitive, own)) return true;
+    return closest_hit(ray, t_max, own);
+  }
+
+ private:
+  static constexpr int most_attempts = 8;
+
+  __device__ static float3 vector(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
+
+  __device__ static bool trace(const Ray<float>& ray, float t_min, float t_max, unsigned flags, Hit<float>& hit) {
+    const OptixParams& launch = launch_params();
+    unsigned t = 0, b1 = 0, b2 = 0, primitive = PrimitiveId().bits;
+    optixTrace(OPTIX_PAYLOAD_TYPE_ID_0, launch.traversable, vector(ray.origin), vector(ray.direction), t_min, t_max,
+               ray.time, 0xff, flags, launch.sbt_offset, 0, miss_closest, t, b1, b2, primitive);
+    hit.t = __uint_as_float(t);
+    hit.b1 = __uint_as_float(b1);
+    hit.b2 = __uint_as_float(b2);
+    hit.primitive.bits = primitive;
+    return !hit.primitive.is_none();
+  }
+
+  __device__ static bool is_anything_between(const Ray<float>& ray, float t_max, unsigned flags) {
+    const OptixParams& launch = launch_params();
+    unsigned occluded = 1;
+    optixTrace(OPTIX_PAYLOAD_TYPE_ID_1, launch.traversable, vector(ray.origin), vector(ray.direction), 0.0f, t_max,
+               ray.time, 0xff, flags, launch.sbt_offset, 0, miss_occlusion, occluded);
+    return occluded != 0;
+  }
+
+  /// Our own test of a sphere; on a hit nearer than `hit.t` replaces it.
+  __device__ bool intersects_sphere(const Ray<float>& ray, PrimitiveId sphere, Hit<float>& hit) const {
+    return intersect_primitive(*scene_, sphere, ray, ShearedRay<float>{}, hit);
+  }
+
+  /// A step that leaves a point behind which OptiX met on a sphere.
+  __device__ float beyond(const Hit<float>& met) const {
+    const uint32_t index = met.primitive.index();
+    const bool moves = met.primitive.kind() == PrimitiveKind::moving_sphere;
+    return 1e-5f * met.t + 1e-6f * (moves ? scene_->moving_spheres[index].radius : scene_->spheres[index].radius);
+  }
+
+  const SceneView<float>* scene_;
+};
+
+struct OptixStacks {
+  using Intersector = OptixIntersector;
+};
+
+class OptixThread {
+ public:
+  __device__ uint32_t x() const { return optixGetLaunchIndex().x; }
+  __device__ uint32_t y() const { return optixGetLaunchIndex().y; }
+  __device__ OptixStacks stacks() const { return {}; }
+  __device__ void add(unsigned long long* total, uint32_t value) const {
+    atomicAdd(total, static_cast<unsigned long long>(value));
+  }
+};
+
+template <IntegratorKind kind>
+__device__ void generate_rays() {
+  OptixKernel<kind>{launch_params().launch, 1, 1, launch_params().sums}(OptixThread());
+}
+
+__device__ void report(PrimitiveKind kind, float b1, float b2) {
+  optixSetPayload_0(__float_as_uint(optixGetRayTmax()));
+  optixSetPayload_1(__float_as_uint(b1));
+  optixSetPayload_2(__float_as_uint(b2));
+  optixSetPayload_3(PrimitiveId(kind, optixGetPrimitiveIndex()).bits);
+}
+
+extern "C" __global__ void __raygen__path() { generate_rays<IntegratorKind::path>(); }
+
+extern "C" __global__ void __raygen__iterative() { generate_rays<IntegratorKind::iterative>(); }
+
+extern "C" __global__ void __miss__occlusion() {
+  optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_1);
+  optixSetPayload_0(0);
+}
+
+extern "C" __global__ void __closesthit__triangle() {
+  optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
+  const float2 weights = optixGetTriangleBarycentrics();
+  report(PrimitiveKind::triangle, weights.x, weights.y);
+}
+
+extern "C" __global__ void __closesthit__sphere() {
+  optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
+  report(PrimitiveKind::sphere, 0, 0);
+}
+
+extern "C" __global__ void __closesthit__moving_sphere() {
+  optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
+  report(PrimitiveKind::moving_sphere, 0, 0);
+}
+
+}  // namespace alhazen::optix

@@ -1,0 +1,370 @@
+// The host part of the OptiX backend over a driver that is not there: a function table that notes what it is given,
+// looks at it, and runs launches on the host, with our own BVH in the place of optixTrace. The picture has the serial
+// bits.
+
+#ifdef ALHAZEN_WITH_OPTIX
+
+#include <algorithm>
+
+#include "backends/cuda/device_render.h"
+#include "backends/cuda/host_executor.h"
+#include "backends/optix/executor.h"
+#include "parity/scenes.h"
+#include "scene/flatten.h"
+
+namespace alhazen::optix {
+namespace {
+
+using namespace alhazen::testing;
+using cuda::HostExecutor;
+
+/// What the driver was asked for, in the order of the calls.
+struct Calls {
+  std::vector<OptixBuildInput> inputs;
+  std::vector<OptixAccelBuildOptions> builds;
+  std::vector<OptixInstance> instances;
+  std::vector<Vec3<float>> first_centres, last_centres;  ///< of the spheres that move
+  std::vector<std::string> groups;                       ///< names of the programs
+  std::vector<bool> sphere_modules_move;
+  OptixPipelineCompileOptions pipeline{};
+  std::vector<unsigned> payload_words;
+  std::vector<Vec3<float>> corners;  ///< of all triangles, by vertex and index buffers
+  int modules = 0, failures = 0, made = 0, destroyed = 0, launches = 0;
+  OptixResult module_result = OPTIX_SUCCESS, build_result = OPTIX_SUCCESS, context_result = OPTIX_SUCCESS;
+};
+Calls calls;
+
+template <class Handle>
+Handle make_handle() {
+  ++calls.made;
+  return reinterpret_cast<Handle>(static_cast<uintptr_t>(calls.made));
+}
+
+template <class T>
+T* pointer(CUdeviceptr address) {
+  return reinterpret_cast<T*>(address);
+}
+
+/// An element of an array with a stride, wherever it lies.
+template <class T>
+T element(CUdeviceptr base, unsigned stride, uint32_t index) {
+  T value;
+  std::memcpy(&value, pointer<const char>(base) + size_t{stride} * index, sizeof(T));
+  return value;
+}
+
+void look_at(const OptixBuildInput& input) {
+  if (input.type == OPTIX_BUILD_INPUT_TYPE_TRIANGLES) {
+    const OptixBuildInputTriangleArray& t = input.triangleArray;
+    for (uint32_t i = 0; i < t.numIndexTriplets; ++i)
+      for (const uint32_t v : element<std::array<uint32_t, 3>>(t.indexBuffer, t.indexStrideInBytes, i)) {
+        ASSERT_LT(v, t.numVertices);
+        calls.corners.push_back(element<Vec3<float>>(t.vertexBuffers[0], t.vertexStrideInBytes, v));
+      }
+  } else if (input.type == OPTIX_BUILD_INPUT_TYPE_INSTANCES) {
+    const auto* first = pointer<const OptixInstance>(input.instanceArray.instances);
+    calls.instances.assign(first, first + input.instanceArray.numInstances);
+  }
+}
+
+void look_at_motion(const OptixBuildInputSphereArray& spheres) {
+  for (uint32_t i = 0; i < spheres.numVertices; ++i) {
+    calls.first_centres.push_back(element<Vec3<float>>(spheres.vertexBuffers[0], spheres.vertexStrideInBytes, i));
+    calls.last_centres.push_back(element<Vec3<float>>(spheres.vertexBuffers[1], spheres.vertexStrideInBytes, i));
+  }
+}
+
+OptixResult create_context(CUcontext, const OptixDeviceContextOptions* options, OptixDeviceContext* context) {
+  if (calls.context_result != OPTIX_SUCCESS) return calls.context_result;
+  options->logCallbackFunction(2, "MOCK", "a message", options->logCallbackData);
+  *context = make_handle<OptixDeviceContext>();
+  return OPTIX_SUCCESS;
+}
+
+OptixResult create_module(OptixDeviceContext, const OptixModuleCompileOptions* options,
+                          const OptixPipelineCompileOptions* pipeline, const char*, size_t size, char* log, size_t*,
+                          OptixModule* module) {
+  ++calls.modules;
+  std::strcpy(log, size == 1 ? "no IR" : "no PTX");
+  if (calls.failures-- > 0) return calls.module_result;
+  calls.pipeline = *pipeline;
+  calls.payload_words.clear();
+  for (unsigned i = 0; i < options->numPayloadTypes; ++i)
+    calls.payload_words.push_back(options->payloadTypes[i].numPayloadValues);
+  *module = make_handle<OptixModule>();
+  return OPTIX_SUCCESS;
+}
+
+OptixResult get_spheres(OptixDeviceContext, const OptixModuleCompileOptions*, const OptixPipelineCompileOptions*,
+                        const OptixBuiltinISOptions* options, OptixModule* module) {
+  EXPECT_EQ(options->builtinISModuleType, OPTIX_PRIMITIVE_TYPE_SPHERE);
+  EXPECT_EQ(options->buildFlags, build_flags);
+  calls.sphere_modules_move.push_back(options->usesMotionBlur != 0);
+  *module = make_handle<OptixModule>();
+  return OPTIX_SUCCESS;
+}
+
+std::string name_of(const OptixProgramGroupDesc& group) {
+  const char* name = group.kind == OPTIX_PROGRAM_GROUP_KIND_HITGROUP ? group.hitgroup.entryFunctionNameCH
+                     : group.kind == OPTIX_PROGRAM_GROUP_KIND_MISS   ? group.miss.entryFunctionName
+                                                                     : group.raygen.entryFunctionName;
+  return name ? name : "";
+}
+
+OptixResult create_group(OptixDeviceContext, const OptixProgramGroupDesc* group, unsigned,
+                         const OptixProgramGroupOptions*, char*, size_t*, OptixProgramGroup* made) {
+  calls.groups.push_back(name_of(*group));
+  ++calls.made;
+  *made = reinterpret_cast<OptixProgramGroup>(calls.groups.size());
+  return OPTIX_SUCCESS;
+}
+
+/// The header is the number of the group.
+OptixResult pack_header(OptixProgramGroup group, void* header) {
+  const size_t number = reinterpret_cast<size_t>(group);
+  std::memcpy(header, &number, sizeof(number));
+  return OPTIX_SUCCESS;
+}
+
+std::string program_at(CUdeviceptr base, unsigned stride, unsigned index) {
+  return calls.groups[element<size_t>(base, stride, index) - 1];
+}
+
+OptixResult build(OptixDeviceContext, CUstream, const OptixAccelBuildOptions* options, const OptixBuildInput* inputs,
+                  unsigned count, CUdeviceptr, size_t, CUdeviceptr, size_t, OptixTraversableHandle* handle,
+                  const OptixAccelEmitDesc* emitted, unsigned) {
+  if (calls.build_result != OPTIX_SUCCESS) return calls.build_result;
+  EXPECT_EQ(count, 1u);
+  calls.inputs.push_back(inputs[0]);
+  calls.builds.push_back(*options);
+  look_at(inputs[0]);
+  if (options->motionOptions.numKeys > 1) look_at_motion(inputs[0].sphereArray);
+  *pointer<uint64_t>(emitted->result) = 100;
+  *handle = calls.inputs.size();
+  return OPTIX_SUCCESS;
+}
+
+struct HostBvhStacks : LocalStacks {
+  using Intersector = BvhIntersector<float>;
+};
+
+struct LaunchThread : cuda::HostThread {
+  using HostThread::HostThread;
+  HostBvhStacks stacks() const { return {}; }
+};
+
+template <IntegratorKind kind>
+void run(const OptixParams& params, unsigned width, unsigned height) {
+  const OptixKernel<kind> kernel{params.launch, 1, 1, params.sums};
+  for (unsigned y = 0; y < height; ++y)
+    for (unsigned x = 0; x < width; ++x) kernel(LaunchThread(x, y, width));
+}
+
+OptixResult launch(OptixPipeline, CUstream, CUdeviceptr params, size_t size, const OptixShaderBindingTable* table,
+                   unsigned width, unsigned height, unsigned depth) {
+  ++calls.launches;
+  EXPECT_EQ(size, sizeof(OptixParams));
+  EXPECT_EQ(depth, 1u);
+  EXPECT_EQ(table->missRecordCount, 2u);
+  EXPECT_EQ(table->hitgroupRecordCount, 3u);
+  EXPECT_EQ(program_at(table->missRecordBase, table->missRecordStrideInBytes, 0), "");
+  EXPECT_EQ(program_at(table->missRecordBase, table->missRecordStrideInBytes, 1), "__miss__occlusion");
+  const std::string raygen = program_at(table->raygenRecord, 0, 0);
+  const OptixParams& p = *pointer<const OptixParams>(params);
+  const bool mixed = SceneTraits(p.launch.scene).has_instances();
+  EXPECT_EQ(p.traversable, mixed || !calls.inputs.empty() ? calls.inputs.size() : 0);
+  const std::string names[] = {"__closesthit__triangle", "__closesthit__sphere", "__closesthit__moving_sphere"};
+  for (unsigned kind = 0; kind < 3; ++kind)
+    EXPECT_EQ(program_at(table->hitgroupRecordBase, table->hitgroupRecordStrideInBytes, kind),
+              SceneTraits(p.launch.scene).has[kind] ? names[kind] : "");
+  if (raygen == "__raygen__path") run<IntegratorKind::path>(p, width, height);
+  if (raygen == "__raygen__iterative") run<IntegratorKind::iterative>(p, width, height);
+  return OPTIX_SUCCESS;
+}
+
+template <class Handle>
+OptixResult destroy(Handle) {
+  ++calls.destroyed;
+  return OPTIX_SUCCESS;
+}
+
+OptixFunctionTable mock_driver() {
+  calls = {};
+  OptixFunctionTable table{};
+  table.optixGetErrorName = [](OptixResult) { return "OPTIX_ERROR_OF_THE_MOCK"; };
+  table.optixDeviceContextCreate = create_context;
+  table.optixDeviceContextDestroy = destroy<OptixDeviceContext>;
+  table.optixModuleCreate = create_module;
+  table.optixModuleDestroy = destroy<OptixModule>;
+  table.optixBuiltinISModuleGet = get_spheres;
+  table.optixProgramGroupCreate = create_group;
+  table.optixProgramGroupDestroy = destroy<OptixProgramGroup>;
+  table.optixPipelineCreate = [](OptixDeviceContext, const OptixPipelineCompileOptions*,
+                                 const OptixPipelineLinkOptions*, const OptixProgramGroup*, unsigned count, char*,
+                                 size_t*, OptixPipeline* pipeline) {
+    EXPECT_EQ(count, raygen_records + miss_records + hit_records);
+    *pipeline = make_handle<OptixPipeline>();
+    return OPTIX_SUCCESS;
+  };
+  table.optixPipelineDestroy = destroy<OptixPipeline>;
+  table.optixSbtRecordPackHeader = pack_header;
+  table.optixAccelComputeMemoryUsage = [](OptixDeviceContext, const OptixAccelBuildOptions*, const OptixBuildInput*,
+                                          unsigned, OptixAccelBufferSizes* sizes) {
+    *sizes = {1000, 500, 0};
+    return OPTIX_SUCCESS;
+  };
+  table.optixAccelBuild = build;
+  table.optixAccelCompact = [](OptixDeviceContext, CUstream, OptixTraversableHandle from, CUdeviceptr, size_t size,
+                               OptixTraversableHandle* to) {
+    EXPECT_EQ(size, 100u);
+    *to = from;
+    return OPTIX_SUCCESS;
+  };
+  table.optixLaunch = launch;
+  return table;
+}
+
+class MockExecutor : public HostExecutor {
+ public:
+  CUstream stream() const { return nullptr; }
+};
+
+const unsigned char one_byte[] = {1}, two_bytes[] = {1, 2};
+const DeviceCode code{one_byte, two_bytes};
+
+/// Renders by the mock; what came out and what was asked for.
+Outcome render(const OptixFunctionTable& table, Scene scene, Settings asked) {
+  asked.backend = "serial";
+  const RenderSettings settings = resolve_settings(asked, scene);
+  Diagnostics diagnostics;
+  const FlatScene<float> flat =
+      flatten<float>(std::move(scene), {settings.width, settings.height, 1, false}, diagnostics);
+  auto film = std::make_unique<Film<float>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
+  RenderControl control(1);
+  {
+    OptixExecutor<MockExecutor> executor(table, code);
+    cuda::DeviceRender<OptixExecutor<MockExecutor>, OptixTracing, float> device(executor, {});
+    device.prepare(flat);
+    const uint32_t whole = settings.samples_per_pixel / 4 * 4;
+    device.render_pass({flat, nullptr, settings, *film, control, 0, whole}, control.thread(0));
+    if (whole < settings.samples_per_pixel)
+      device.render_pass({flat, nullptr, settings, *film, control, whole, settings.samples_per_pixel - whole},
+                         control.thread(0));
+  }
+  Rendering rendering;
+  rendering.film = std::move(film);
+  return outcome_of(rendering);
+}
+
+Settings settings_of(const std::string& integrator) {
+  Settings settings;
+  settings.backend = "serial";
+  settings.integrator = integrator;
+  settings.samples_per_pixel = 18;
+  settings.aovs = all_aovs;
+  return settings;
+}
+
+TEST(OptixMock, LaunchesGiveTheSerialBits) {
+  for (const std::string scene : {"cornell", "spheres"})
+    for (const std::string integrator : {"path", "iterative"}) {
+      const OptixFunctionTable table = mock_driver();
+      const Settings settings = settings_of(integrator);
+      EXPECT_TRUE(same_bits(render_bits(parity_scene(scene), settings), render(table, parity_scene(scene), settings)));
+      EXPECT_GT(calls.launches, 1);
+      EXPECT_EQ(calls.made, calls.destroyed) << "everything that was made is destroyed";
+    }
+}
+
+TEST(OptixMock, EveryKindHasAStructureAndARecord) {
+  const OptixFunctionTable table = mock_driver();
+  render(table, parity_scene("spheres"), settings_of("path"));
+  std::vector<OptixBuildInputType> types;
+  for (const OptixBuildInput& input : calls.inputs) types.push_back(input.type);
+  ASSERT_EQ(types.back(), OPTIX_BUILD_INPUT_TYPE_INSTANCES);
+  ASSERT_EQ(calls.instances.size() + 1, types.size());
+  for (const OptixInstance& instance : calls.instances) {
+    const bool spheres = types[instance.traversableHandle - 1] == OPTIX_BUILD_INPUT_TYPE_SPHERES;
+    const bool moves = calls.builds[instance.traversableHandle - 1].motionOptions.numKeys == 2;
+    EXPECT_EQ(instance.sbtOffset, !spheres ? 0u : moves ? 2u : 1u);
+    EXPECT_EQ(instance.transform[0] + instance.transform[5] + instance.transform[10], 3);
+  }
+  EXPECT_TRUE(calls.pipeline.usesMotionBlur);
+  EXPECT_EQ(calls.pipeline.traversableGraphFlags,
+            static_cast<unsigned>(OPTIX_TRAVERSABLE_GRAPH_FLAG_ALLOW_SINGLE_LEVEL_INSTANCING));
+  EXPECT_EQ(calls.sphere_modules_move, (std::vector<bool>{false, true}));
+  EXPECT_EQ(calls.payload_words, (std::vector<unsigned>{4, 1}));
+  ASSERT_FALSE(calls.first_centres.empty());
+  for (size_t i = 0; i < calls.first_centres.size(); ++i)
+    EXPECT_GT(length_squared(calls.last_centres[i] - calls.first_centres[i]), 0);
+}
+
+TEST(OptixMock, TrianglesLieInTheArena) {
+  const OptixFunctionTable table = mock_driver();
+  const Scene scene = scene_of(
+      "Film \"rgb\" \"integer xresolution\" 9 \"integer yresolution\" 7\n"
+      "WorldBegin\nLightSource \"infinite\" \"rgb L\" [1 2 3]\n"
+      "Shape \"trianglemesh\" \"integer indices\" [0 1 2 2 1 3] \"point3 P\" [0 0 5  1 0 5  0 1 5  1 1 6]\n");
+  const Settings settings = settings_of("path");
+  EXPECT_TRUE(same_bits(render_bits(scene, settings), render(table, scene, settings)));
+  ASSERT_EQ(calls.inputs.size(), 1u) << "one kind needs no instances";
+  EXPECT_EQ(calls.pipeline.traversableGraphFlags, static_cast<unsigned>(OPTIX_TRAVERSABLE_GRAPH_FLAG_ALLOW_SINGLE_GAS));
+  EXPECT_FALSE(calls.pipeline.usesMotionBlur);
+  ASSERT_EQ(calls.corners.size(), 6u);
+  EXPECT_EQ(calls.corners[5].z, 6);
+  EXPECT_EQ(calls.corners[3].y, 1);
+}
+
+TEST(OptixMock, NothingToMeet) {
+  const OptixFunctionTable table = mock_driver();
+  const Scene scene = scene_of(
+      "Film \"rgb\" \"integer xresolution\" 9 \"integer yresolution\" 7\n"
+      "WorldBegin\nLightSource \"infinite\" \"rgb L\" [1 2 3]\n");
+  const Settings settings = settings_of("path");
+  EXPECT_TRUE(same_bits(render_bits(scene, settings), render(table, scene, settings)));
+  EXPECT_TRUE(calls.inputs.empty());
+}
+
+TEST(OptixMock, PtxStandsInWhereIrIsRefused) {
+  const OptixFunctionTable table = mock_driver();
+  calls.failures = 1;
+  calls.module_result = OPTIX_ERROR_INVALID_INPUT;
+  render(table, parity_scene("cornell"), settings_of("path"));
+  EXPECT_EQ(calls.modules, 2);
+  EXPECT_GT(calls.launches, 0);
+}
+
+std::string error_of(const OptixFunctionTable& table) {
+  try {
+    render(table, parity_scene("cornell"), settings_of("path"));
+  } catch (const RenderError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(OptixMock, ErrorsSayWhatFailedAndLeaveNothing) {
+  OptixFunctionTable table = mock_driver();
+  calls.failures = 2;
+  calls.module_result = OPTIX_ERROR_INVALID_INPUT;
+  EXPECT_EQ(error_of(table),
+            "OptiX failed while compiling its programs: OPTIX_ERROR_OF_THE_MOCK: no PTX; MOCK: a message");
+  EXPECT_EQ(calls.made, calls.destroyed);
+  table = mock_driver();
+  calls.build_result = OPTIX_ERROR_DEVICE_OUT_OF_MEMORY;
+  EXPECT_EQ(error_of(table).rfind("OptiX is out of memory while building its acceleration structures: ", 0), 0u);
+  EXPECT_EQ(calls.made, calls.destroyed);
+  table = mock_driver();
+  calls.context_result = OPTIX_ERROR_CUDA_ERROR;
+  EXPECT_EQ(error_of(table), "OptiX failed while starting: OPTIX_ERROR_OF_THE_MOCK");
+}
+
+TEST(OptixLibraryFile, ThatIsMissingOrAnother) {
+  EXPECT_EQ(load_optix("libnosuchlibrary.so.1").problem.rfind("libnosuchlibrary.so.1 is not here: install ", 0), 0u);
+  EXPECT_EQ(load_optix("libm.so.6").problem.rfind("libm.so.6 is no library of OptiX: ", 0), 0u);
+}
+
+}  // namespace
+}  // namespace alhazen::optix
+
+#endif
