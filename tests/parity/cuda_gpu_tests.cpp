@@ -4,6 +4,7 @@
 
 #include "backends/cuda/device.h"
 #include "parity/scenes.h"
+#include "render/backend.h"
 #include "support/statistics.h"
 
 namespace alhazen::testing {
@@ -114,20 +115,30 @@ TEST_P(CudaOnDevice, InFloatGivesTheSamePictureByEverySchedule) {
   }
 }
 
+/// A picture in double, with a seed of its own.
+std::vector<Moments> reference_of(const std::string& scene, const std::string& integrator) {
+  Settings settings = settings_of("serial", "double", integrator);
+  settings.sampler = "independent";
+  settings.samples_per_pixel = 256;
+  settings.seed = 7;
+  return moments_of(*film_of<double>(scene, settings));
+}
+
+/// Z-test of a picture in float, part by part. All such tests of this file hold at 0.01 together.
+void expect_unbiased(const std::vector<Moments>& reference, const std::string& scene, Settings settings) {
+  constexpr size_t pictures = 2 * 2 * (2 * 4 + 1);  // scenes, integrators; devices and schedules, OptiX
+  settings.sampler = "independent";
+  const std::vector<Moments> moments = moments_of(*film_of<float>(scene, settings));
+  for (size_t part = 0; part < moments.size(); ++part)
+    EXPECT_GT(test::welch_p_value(moments[part], reference[part], 1e-6), test::sidak(0.01, pictures * moments.size()))
+        << "part " << part << ": " << moments[part].mean() << " and " << reference[part].mean();
+}
+
 TEST_P(CudaOnDevice, InFloatIsUnbiased) {
-  Settings reference_settings = settings_of("serial", "double", integrator_);
-  reference_settings.sampler = "independent";
-  reference_settings.samples_per_pixel = 256;
-  reference_settings.seed = 7;
-  const std::vector<Moments> reference = moments_of(*film_of<double>(scene_, reference_settings));
-  const size_t tests = 2 * 2 * 2 * schedules.size() * reference.size();
+  const std::vector<Moments> reference = reference_of(scene_, integrator_);
   for (const std::string& strategy : schedules) {
-    Settings settings = device_settings("float", strategy);
-    settings.sampler = "independent";
-    const std::vector<Moments> moments = moments_of(*film_of<float>(scene_, settings));
-    for (size_t part = 0; part < moments.size(); ++part)
-      EXPECT_GT(test::welch_p_value(moments[part], reference[part], 1e-6), test::sidak(0.01, tests))
-          << strategy << ", part " << part << ": " << moments[part].mean() << " and " << reference[part].mean();
+    SCOPED_TRACE(strategy);
+    expect_unbiased(reference, scene_, device_settings("float", strategy));
   }
 }
 
@@ -140,6 +151,23 @@ INSTANTIATE_TEST_SUITE_P(Parity, CudaOnDevice,
                          ::testing::Combine(::testing::Values("host", "0"), ::testing::Values("cornell", "spheres"),
                                             ::testing::Values("path", "iterative")),
                          name_of);
+
+/// Scene, integrator.
+class OptixOnDevice : public ::testing::TestWithParam<std::tuple<std::string, std::string>> {};
+
+TEST_P(OptixOnDevice, IsUnbiasedAndCloseToTheSerialPicture) {
+  const auto& [scene, integrator] = GetParam();
+  const BackendDescription backend = make_backend("optix")->describe();
+  if (!backend.available) GTEST_SKIP() << backend.details;
+  const Settings settings = settings_of("optix", "float", integrator);
+  expect_unbiased(reference_of(scene, integrator), scene, settings);
+  const auto serial = film_of<float>(scene, settings_of("serial", "float", integrator));
+  EXPECT_GE(part_alike(*serial, *film_of<float>(scene, settings), 1e-2), 0.8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Parity, OptixOnDevice,
+                         ::testing::Combine(::testing::Values("cornell", "spheres"),
+                                            ::testing::Values("path", "iterative")));
 
 }  // namespace
 }  // namespace alhazen::testing
