@@ -39,6 +39,7 @@ struct Settings {
   std::optional<std::array<int64_t, 4>> pixel_bounds;
   /// Further layers: albedo, normal, depth, bounces, samples, variance.
   std::vector<std::string> aovs;
+  std::string denoiser;    ///< none, or optix: on a GPU, whatever rendered; adds the layers albedo and normal
   double time_limit = 0;   ///< seconds of rendering; stops after the last whole pass within it; 0: none
   std::string checkpoint;  ///< file to save the state in, and to go on from with `resume`
   double checkpoint_seconds = 60;

@@ -247,6 +247,11 @@ void add_output_options(CLI::App& command, RenderOptions& o) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAMES")
       ->group(group);
+  command
+      .add_option("--denoise", o.settings.denoiser,
+                  "none, or optix: on a GPU, whatever rendered; adds the layers albedo and normal")
+      ->type_name("NAME")
+      ->group(group);
   command.add_option("--exr-type", o.exr_type, "half or float")->type_name("NAME")->group(group);
   command.add_option("--exposure", o.output.png.exposure, "PNG: brightness; a stop doubles it")
       ->type_name("STOPS")

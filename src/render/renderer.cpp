@@ -12,6 +12,7 @@
 
 #include "render/backend.h"
 #include "render/checkpoint.h"
+#include "render/denoiser.h"
 #include "render/sample_kernel.h"
 #include "scene/flatten.h"
 
@@ -202,14 +203,59 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
 }  // namespace
 
 ImageSource Rendering::source() const {
-  return std::visit(
+  ImageSource source = std::visit(
       [](const auto& any_film) {
         const auto* planes = any_film.get();
         return ImageSource{planes->window().width(), planes->window().height(), planes->channels(),
                            [planes](int y, std::span<float> row) { planes->resolve_row(y, row); }};
       },
       film);
+  if (denoised.empty()) return source;
+  const size_t width = static_cast<size_t>(source.width);
+  source.fill_row = [this, width, noisy = source.fill_row](int y, std::span<float> row) {
+    noisy(y, row);
+    for (size_t i = 0; i < 3 * width; ++i)
+      row[i % 3 * width + i / 3] = denoised[static_cast<size_t>(y) * 3 * width + i];
+  };
+  return source;
 }
+
+NoisyPicture noisy_picture(const ImageSource& source) {
+  const size_t width = static_cast<size_t>(source.width), height = static_cast<size_t>(source.height);
+  NoisyPicture picture{source.width, source.height, {}, {}, {}};
+  std::vector<float> row(width * source.channels.size());
+  // Where the channels of three planes begin in a row of the source, and where they go.
+  const auto channel = [&](const std::string& name) {
+    return static_cast<size_t>(std::find(source.channels.begin(), source.channels.end(), name) -
+                               source.channels.begin());
+  };
+  const std::pair<size_t, std::vector<float>*> planes[] = {{channel("R"), &picture.radiance},
+                                                           {channel("albedo.R"), &picture.albedo},
+                                                           {channel("normal.X"), &picture.normal}};
+  for (const auto& [first, plane] : planes) plane->reserve(3 * width * height);
+  for (int y = 0; y < source.height; ++y) {
+    source.fill_row(y, row);
+    for (const auto& [first, plane] : planes)
+      for (size_t i = 0; i < 3 * width; ++i) plane->push_back(row[(first + i % 3) * width + i / 3]);
+  }
+  return picture;
+}
+
+namespace {
+
+/// A picture that cannot be denoised is kept as it is: it may have taken long.
+void denoise(Rendering& rendering, Diagnostics& diagnostics) {
+  const Clock::time_point start = Clock::now();
+  try {
+    const NoisyPicture picture = noisy_picture(rendering.source());
+    rendering.denoised = denoise_by_optix(picture, std::max(0, rendering.statistics.settings.device));
+  } catch (const RenderError& error) {
+    diagnostics.warn({rendering.statistics.scene}, std::string("the picture was not denoised: ") + error.what());
+  }
+  rendering.statistics.denoise_seconds = seconds_since(start);
+}
+
+}  // namespace
 
 Rendering render_scene(Scene&& scene, const RenderSettings& settings, double load_seconds, const RenderEvents& events,
                        Diagnostics& diagnostics) {
@@ -218,9 +264,12 @@ Rendering render_scene(Scene&& scene, const RenderSettings& settings, double loa
       if (light.type != LightType::constant_infinite)
         diagnostics.warn(light.where, "point, spot and distant lights cannot be met by chance: the integrator '" +
                                           to_string(settings.integrator) + "' does not show them; 'path' does");
-  return settings.precision == Precision::single
-             ? render_in_precision<float>(std::move(scene), settings, load_seconds, events, diagnostics)
-             : render_in_precision<double>(std::move(scene), settings, load_seconds, events, diagnostics);
+  Rendering rendering =
+      settings.precision == Precision::single
+          ? render_in_precision<float>(std::move(scene), settings, load_seconds, events, diagnostics)
+          : render_in_precision<double>(std::move(scene), settings, load_seconds, events, diagnostics);
+  if (settings.denoise) denoise(rendering, diagnostics);
+  return rendering;
 }
 
 }  // namespace alhazen

@@ -7,6 +7,7 @@
 #include <memory>
 #include <variant>
 
+#include "render/denoiser.h"
 #include "render/film.h"
 #include "render/settings.h"
 #include "render/statistics.h"
@@ -26,11 +27,15 @@ class Rendering {
   using AnyFilm = std::variant<std::unique_ptr<Film<float>>, std::unique_ptr<Film<double>>>;
 
   AnyFilm film;
+  std::vector<float> denoised;  ///< three floats a pixel, in the place of the film's radiance; empty: not denoised
   RenderStatistics statistics;
 
   /// Rows of the picture as means so far. Refers to this object.
   ImageSource source() const;
 };
+
+/// What a denoiser takes of a picture with the layers albedo and normal.
+NoisyPicture noisy_picture(const ImageSource& source);
 
 /// `load_seconds` is what reading the scene took, for the statistics. Throws InputError, RenderError, std::bad_alloc.
 Rendering render_scene(Scene&& scene, const RenderSettings& settings, double load_seconds, const RenderEvents& events,

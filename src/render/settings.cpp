@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "render/backend.h"
+#include "render/denoiser.h"
 
 namespace alhazen {
 
@@ -155,6 +156,19 @@ Schedule parse_schedule(const std::string& text) {
   return schedule;
 }
 
+namespace {
+
+/// The denoiser is refused before the render where it is not there.
+void resolve_denoiser(const std::string& name, RenderSettings& s) {
+  if (name.empty() || name == "none") return;
+  if (name != "optix") throw InputError("unknown denoiser '" + name + "': it may be none, optix");
+  const std::string problem = optix_denoiser_problem();
+  if (!problem.empty()) throw InputError("the denoiser 'optix' is not available: " + problem);
+  s.denoise = s.aovs.albedo = s.aovs.normal = true;
+}
+
+}  // namespace
+
 RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   RenderSettings s;
   resolve_picture(asked, scene, s);
@@ -184,6 +198,7 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   if (!s.checkpoint.empty()) check_checkpoint(s.checkpoint);
   s.resume = asked.resume;
   if (s.resume && s.checkpoint.empty()) throw InputError("to resume, name the file to go on from: --checkpoint FILE");
+  resolve_denoiser(asked.denoiser, s);
   s.schedule = parse_schedule(asked.schedule.empty() ? "dynamic" : asked.schedule);
   choose_backend(asked, s);
   if (!asked.block.empty()) s.block = parse_block(asked.block);

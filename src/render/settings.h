@@ -58,6 +58,7 @@ struct RenderSettings {
   PixelWindow window;
   uint32_t seed = 0;
   AovSet aovs;
+  bool denoise = false;  ///< by OptiX
   double time_limit = 0;
   std::string checkpoint;
   double checkpoint_seconds = 60;

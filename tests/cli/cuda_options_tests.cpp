@@ -57,6 +57,29 @@ TEST_F(CudaOptions, WhatCannotBeIsOneSentence) {
   }
 }
 
+TEST_F(CudaOptions, DenoisersAreRefusedBeforeTheRender) {
+  const CommandResult unknown = render({"--denoise", "blur", "-o", "never.png"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("unknown denoiser 'blur': it may be none, optix"), std::string::npos) << unknown.err;
+  EXPECT_FALSE(exists("never.png"));
+  const CommandResult optix = render({"-q", "--spp", "1", "--denoise", "optix", "-o", "denoised.exr"});
+  if (optix.exit_code == 0) {
+    EXPECT_GE(image("denoised.exr").channel("albedo.R"), 0);
+    return;
+  }
+  EXPECT_EQ(optix.exit_code, 2);
+  EXPECT_NE(optix.err.find("the denoiser 'optix' is not available: "), std::string::npos) << optix.err;
+  EXPECT_EQ(lines_of(optix.err).size(), 1u) << optix.err;
+  EXPECT_FALSE(exists("denoised.exr"));
+}
+
+TEST_F(CudaOptions, OptixHasNoHost) {
+  const CommandResult result = render({"--backend", "optix", "--device", "host", "-o", "never.png"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(lines_of(result.err).size(), 1u) << result.err;
+  EXPECT_FALSE(exists("never.png"));
+}
+
 TEST_F(CudaOptions, OtherBackendsHaveNoDevices) {
   const CommandResult result = render({"--backend", "serial", "--device", "0", "-o", "never.png"});
   EXPECT_EQ(result.exit_code, 2);

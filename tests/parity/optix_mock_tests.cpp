@@ -8,6 +8,7 @@
 
 #include "backends/cuda/device_render.h"
 #include "backends/cuda/host_executor.h"
+#include "backends/optix/denoiser.h"
 #include "backends/optix/executor.h"
 #include "parity/scenes.h"
 #include "scene/flatten.h"
@@ -188,6 +189,24 @@ OptixResult destroy(Handle) {
   return OPTIX_SUCCESS;
 }
 
+/// Twice the radiance, plus albedo and normal.
+OptixResult invoke_denoiser(OptixDenoiser, CUstream, const OptixDenoiserParams* params, CUdeviceptr, size_t,
+                            const OptixDenoiserGuideLayer* guides, const OptixDenoiserLayer* layers, unsigned count,
+                            unsigned, unsigned, CUdeviceptr, size_t) {
+  EXPECT_EQ(count, 1u);
+  EXPECT_EQ(params->blendFactor, 0);
+  const OptixImage2D& in = layers[0].input;
+  for (const OptixImage2D* image : {&in, &layers[0].output, &guides->albedo, &guides->normal}) {
+    EXPECT_EQ(image->format, OPTIX_PIXEL_FORMAT_FLOAT3);
+    EXPECT_EQ(image->rowStrideInBytes, image->width * 12);
+    EXPECT_EQ(image->width * 1000 + image->height, in.width * 1000 + in.height);
+  }
+  for (size_t i = 0; i < size_t{3} * in.width * in.height; ++i)
+    pointer<float>(layers[0].output.data)[i] = 2 * pointer<float>(in.data)[i] + pointer<float>(guides->albedo.data)[i] +
+                                               pointer<float>(guides->normal.data)[i];
+  return OPTIX_SUCCESS;
+}
+
 OptixFunctionTable mock_driver() {
   calls = {};
   OptixFunctionTable table{};
@@ -221,6 +240,22 @@ OptixFunctionTable mock_driver() {
     return OPTIX_SUCCESS;
   };
   table.optixLaunch = launch;
+  table.optixDenoiserCreate = [](OptixDeviceContext, OptixDenoiserModelKind kind, const OptixDenoiserOptions* options,
+                                 OptixDenoiser* denoiser) {
+    EXPECT_EQ(kind, OPTIX_DENOISER_MODEL_KIND_AOV) << "which takes normals in world space";
+    EXPECT_TRUE(options->guideAlbedo && options->guideNormal);
+    *denoiser = make_handle<OptixDenoiser>();
+    return OPTIX_SUCCESS;
+  };
+  table.optixDenoiserDestroy = destroy<OptixDenoiser>;
+  table.optixDenoiserComputeMemoryResources = [](OptixDenoiser, unsigned, unsigned, OptixDenoiserSizes* sizes) {
+    sizes->stateSizeInBytes = sizes->withoutOverlapScratchSizeInBytes = 64;
+    return OPTIX_SUCCESS;
+  };
+  table.optixDenoiserSetup = [](OptixDenoiser, CUstream, unsigned, unsigned, CUdeviceptr, size_t, CUdeviceptr, size_t) {
+    return calls.build_result;
+  };
+  table.optixDenoiserInvoke = invoke_denoiser;
   return table;
 }
 
@@ -357,6 +392,49 @@ TEST(OptixMock, ErrorsSayWhatFailedAndLeaveNothing) {
   table = mock_driver();
   calls.context_result = OPTIX_ERROR_CUDA_ERROR;
   EXPECT_EQ(error_of(table), "OptiX failed while starting: OPTIX_ERROR_OF_THE_MOCK");
+}
+
+TEST(OptixMock, DenoiserTakesAndGivesWholePictures) {
+  const OptixFunctionTable table = mock_driver();
+  Scene scene = parity_scene("spheres");
+  Settings asked = settings_of("path");
+  asked.aovs = {"depth", "normal", "albedo"};
+  const RenderSettings settings = resolve_settings(asked, scene);
+  Diagnostics diagnostics;
+  Rendering rendering = render_scene(std::move(scene), settings, 0, {}, diagnostics);
+  const Outcome noisy = outcome_of(rendering);
+  {
+    MockExecutor executor;
+    const Context context(table);
+    rendering.denoised = Denoiser(table, context, executor).denoise(noisy_picture(rendering.source()));
+  }
+  EXPECT_EQ(calls.made, calls.destroyed);
+  const Outcome outcome = outcome_of(rendering);
+  ASSERT_EQ(outcome.channels, noisy.channels);
+  const size_t width = static_cast<size_t>(noisy.width);
+  const auto value = [&](const Outcome& from, const std::string& name, size_t x, size_t y) {
+    const auto at = std::find(from.channels.begin(), from.channels.end(), name) - from.channels.begin();
+    return from.rows[(y * from.channels.size() + static_cast<size_t>(at)) * width + x];
+  };
+  for (size_t y = 0; y < static_cast<size_t>(noisy.height); ++y)
+    for (size_t x = 0; x < width; ++x) {
+      const char* names[][3] = {
+          {"R", "albedo.R", "normal.X"}, {"G", "albedo.G", "normal.Y"}, {"B", "albedo.B", "normal.Z"}};
+      for (const auto& [colour, albedo, normal] : names) {
+        ASSERT_EQ(value(outcome, colour, x, y),
+                  2 * value(noisy, colour, x, y) + value(noisy, albedo, x, y) + value(noisy, normal, x, y));
+        ASSERT_EQ(value(outcome, normal, x, y), value(noisy, normal, x, y));
+      }
+    }
+}
+
+TEST(OptixMock, DenoiserThatFails) {
+  const OptixFunctionTable table = mock_driver();
+  calls.build_result = OPTIX_ERROR_CUDA_ERROR;
+  MockExecutor executor;
+  const Context context(table);
+  Denoiser denoiser(table, context, executor);
+  EXPECT_THROW(denoiser.denoise({1, 1, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}}), RenderError);
 }
 
 TEST(OptixLibraryFile, ThatIsMissingOrAnother) {

@@ -3,10 +3,13 @@
 #include <memory>
 
 #include "backends/cuda/device.h"
+#include "render/denoiser.h"
 
 namespace alhazen::optix {
 
 /// Rendering by OptiX on GPU `device`, in float.
 std::unique_ptr<cuda::Engine> make_optix_engine(int device, const cuda::RowShare& share);
+
+std::vector<float> denoise(const NoisyPicture& picture, int device);
 
 }  // namespace alhazen::optix

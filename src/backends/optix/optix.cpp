@@ -1,6 +1,7 @@
 // The backend `optix`: the same core, with rays traced by the vendor's library.
 
 #include "backends/cuda/device_backend.h"
+#include "render/denoiser.h"
 
 #ifdef ALHAZEN_WITH_OPTIX
 #include "backends/optix/engine.h"
@@ -47,6 +48,16 @@ class OptixBackend final : public cuda::DeviceBackend {
 };
 
 }  // namespace
+
+std::string optix_denoiser_problem() { return problem(); }
+
+std::vector<float> denoise_by_optix([[maybe_unused]] const NoisyPicture& picture, [[maybe_unused]] int device) {
+#ifdef ALHAZEN_WITH_OPTIX
+  return optix::denoise(picture, device);
+#else
+  throw InputError(problem());
+#endif
+}
 
 std::unique_ptr<Backend> make_optix_backend() { return std::make_unique<OptixBackend>(); }
 

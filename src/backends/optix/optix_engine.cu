@@ -1,5 +1,6 @@
 #include "backends/cuda/cuda_executor.cuh"
 #include "backends/cuda/device_render.h"
+#include "backends/optix/denoiser.h"
 #include "backends/optix/engine.h"
 #include "backends/optix/executor.h"
 
@@ -34,6 +35,12 @@ class OptixEngine final : public cuda::Engine {
 
 std::unique_ptr<cuda::Engine> make_optix_engine(int device, const cuda::RowShare& share) {
   return std::make_unique<OptixEngine>(device, share);
+}
+
+std::vector<float> denoise(const NoisyPicture& picture, int device) {
+  cuda::CudaExecutor executor(device);
+  const Context context(optix_library().functions);
+  return Denoiser(optix_library().functions, context, executor).denoise(picture);
 }
 
 }  // namespace alhazen::optix

@@ -1,0 +1,83 @@
+#pragma once
+
+// The denoiser of OptiX: the model for any number of layers, which takes normals in world space, with one layer.
+
+#include "backends/optix/pipeline.h"
+#include "render/denoiser.h"
+
+namespace alhazen::optix {
+
+template <class Executor>
+class Denoiser {
+ public:
+  Denoiser(const OptixFunctionTable& functions, const Context& context, Executor& executor)
+      : functions_(functions),
+        context_(context),
+        executor_(executor),
+        radiance_(executor),
+        albedo_(executor),
+        normal_(executor),
+        output_(executor),
+        state_(executor),
+        scratch_(executor) {
+    OptixDenoiserOptions options{};
+    options.guideAlbedo = options.guideNormal = 1;
+    check(functions_,
+          functions_.optixDenoiserCreate(context.get(), OPTIX_DENOISER_MODEL_KIND_AOV, &options, &denoiser_),
+          "starting its denoiser", context.log());
+  }
+  ~Denoiser() { functions_.optixDenoiserDestroy(denoiser_); }
+  Denoiser(const Denoiser&) = delete;
+  Denoiser& operator=(const Denoiser&) = delete;
+
+  std::vector<float> denoise(const NoisyPicture& picture) {
+    const unsigned width = static_cast<unsigned>(picture.width), height = static_cast<unsigned>(picture.height);
+    OptixDenoiserSizes sizes{};
+    ask(functions_.optixDenoiserComputeMemoryResources(denoiser_, width, height, &sizes));
+    state_.reserve(sizes.stateSizeInBytes);
+    scratch_.reserve(sizes.withoutOverlapScratchSizeInBytes);
+    ask(functions_.optixDenoiserSetup(denoiser_, executor_.stream(), width, height, address(state_.data()),
+                                      sizes.stateSizeInBytes, address(scratch_.data()),
+                                      sizes.withoutOverlapScratchSizeInBytes));
+    OptixDenoiserGuideLayer guides{};
+    guides.albedo = upload(albedo_, picture.albedo, width, height);
+    guides.normal = upload(normal_, picture.normal, width, height);
+    OptixDenoiserLayer layer{};
+    layer.input = upload(radiance_, picture.radiance, width, height);
+    output_.reserve(picture.radiance.size());
+    layer.output = image(output_, width, height);
+    const OptixDenoiserParams params{};  // exposure: found by itself
+    ask(functions_.optixDenoiserInvoke(denoiser_, executor_.stream(), &params, address(state_.data()),
+                                       sizes.stateSizeInBytes, &guides, &layer, 1, 0, 0, address(scratch_.data()),
+                                       sizes.withoutOverlapScratchSizeInBytes));
+    std::vector<float> denoised(picture.radiance.size());
+    executor_.download(denoised.data(), output_.data(), denoised.size() * sizeof(float));
+    return denoised;
+  }
+
+ private:
+  using Floats = cuda::Buffer<Executor, float>;
+  using Bytes = cuda::Buffer<Executor, std::byte>;
+
+  void ask(OptixResult result) const { check(functions_, result, "denoising", context_.log()); }
+
+  OptixImage2D upload(Floats& memory, const std::vector<float>& values, unsigned width, unsigned height) {
+    memory.reserve(values.size());
+    executor_.upload(memory.data(), values.data(), values.size() * sizeof(float));
+    return image(memory, width, height);
+  }
+
+  static OptixImage2D image(const Floats& memory, unsigned width, unsigned height) {
+    constexpr unsigned pixel = 3 * sizeof(float);
+    return {address(memory.data()), width, height, width * pixel, pixel, OPTIX_PIXEL_FORMAT_FLOAT3};
+  }
+
+  const OptixFunctionTable& functions_;
+  const Context& context_;
+  Executor& executor_;
+  OptixDenoiser denoiser_ = nullptr;
+  Floats radiance_, albedo_, normal_, output_;
+  Bytes state_, scratch_;
+};
+
+}  // namespace alhazen::optix
