@@ -249,7 +249,7 @@ void denoise(Rendering& rendering, Diagnostics& diagnostics) {
   try {
     const NoisyPicture picture = noisy_picture(rendering.source());
     rendering.denoised = denoise_by_optix(picture, std::max(0, rendering.statistics.settings.device));
-  } catch (const RenderError& error) {
+  } catch (const std::exception& error) {
     diagnostics.warn({rendering.statistics.scene}, std::string("the picture was not denoised: ") + error.what());
   }
   rendering.statistics.denoise_seconds = seconds_since(start);
