@@ -20,7 +20,8 @@ namespace alhazen {
 /// How to render. What is left empty, zero or negative is taken from the scene file, or chosen.
 struct Settings {
   std::string backend = "auto";  ///< auto, serial, openmp, cuda, optix (in float)
-  /// openmp: rows, collapse, rows+reduction, reduction, tiles; cuda: pixel, chunk, persistent, wavefront
+  /// openmp: rows, collapse, rows+reduction, reduction, tiles; cuda: pixel, chunk, persistent, wavefront;
+  /// optix: megakernel
   std::string strategy = "auto";
   std::string schedule;             ///< openmp: static, dynamic or guided, with an optional ",CHUNK"
   std::string precision = "float";  ///< float, double

@@ -94,8 +94,7 @@ void print_warnings(const Diagnostics& diagnostics, size_t first) {
 }
 
 std::string engine_of(const RenderSettings& r) {
-  if (r.backend != "cuda" && r.backend != "optix")
-    return fmt::format("{} thread{}", r.threads, r.threads == 1 ? "" : "s");
+  if (!r.runs_on_device) return fmt::format("{} thread{}", r.threads, r.threads == 1 ? "" : "s");
   if (r.device == host_device) return "the host";
   return r.device == all_devices ? fmt::format("{} GPUs", r.threads) : fmt::format("GPU {}", r.device);
 }

@@ -36,6 +36,7 @@ int parse_device(const std::string& text, const BackendDescription& backend) {
 
 /// Which of the GPUs, and one line of statistics for each of them.
 void choose_device(const Settings& asked, const BackendDescription& backend, RenderSettings& settings) {
+  settings.runs_on_device = true;
   settings.device = parse_device(asked.device.empty() ? "0" : asked.device, backend);
   settings.threads = settings.device == all_devices ? static_cast<int>(backend.devices.size()) : 1;
   if (settings.integrator != IntegratorKind::path && settings.integrator != IntegratorKind::iterative)

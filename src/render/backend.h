@@ -47,6 +47,8 @@ class Backend {
   virtual BackendDescription describe() const = 0;
   /// What takes a moment and does not depend on the scene, such as starting a GPU. Called once, before the first pass.
   virtual void start(const RenderSettings&) {}
+  /// Whether rays are traced by the compressed wide BVH.
+  virtual bool wants_wide_bvh(const RenderSettings&) const { return false; }
   /// Builds what rays are traced by, where that is not our own BVH; counts as building it. Called once, after start().
   virtual void prepare(const FlatScene<float>&) {}
   virtual void prepare(const FlatScene<double>&) {}

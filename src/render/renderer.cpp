@@ -175,12 +175,13 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   statistics.scene = scene.name;
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Backend> backend = make_backend(settings.backend);
-  std::future<void> started = std::async(std::launch::async, [&] { backend->start(settings); });
-  const bool is_on_gpu = backend->describe().runs_on_devices && settings.device != host_device;
+  const bool is_on_gpu = settings.runs_on_device && settings.device != host_device;
+  std::future<void> started =
+      std::async(is_on_gpu ? std::launch::async : std::launch::deferred, [&] { backend->start(settings); });
   const int build_threads = is_on_gpu ? 0 : settings.threads;
-  const bool wide_bvh = is_on_gpu && settings.backend == "cuda";
   const FlatScene<Real> flat = flatten<Real>(
-      std::move(scene), FlattenOptions{settings.width, settings.height, build_threads, wide_bvh}, diagnostics);
+      std::move(scene),
+      FlattenOptions{settings.width, settings.height, build_threads, backend->wants_wide_bvh(settings)}, diagnostics);
   started.get();
   statistics.scene_sizes = flat.statistics;
   statistics.load_seconds = load_seconds + seconds_since(start) - flat.statistics.build_seconds;

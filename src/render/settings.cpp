@@ -142,6 +142,15 @@ BlockSize parse_block(const std::string& text) {
   return block;
 }
 
+/// The denoiser is refused before the render where it is not there.
+void resolve_denoiser(const std::string& name, RenderSettings& s) {
+  if (name.empty() || name == "none") return;
+  if (name != "optix") throw InputError("unknown denoiser '" + name + "': it may be none, optix");
+  const std::string problem = optix_denoiser_problem();
+  if (!problem.empty()) throw InputError("the denoiser 'optix' is not available: " + problem);
+  s.denoise = s.aovs.albedo = s.aovs.normal = true;
+}
+
 }  // namespace
 
 Schedule parse_schedule(const std::string& text) {
@@ -155,19 +164,6 @@ Schedule parse_schedule(const std::string& text) {
     throw InputError("the chunk of a schedule must be a whole number of at least 1, not '" + chunk + "'");
   return schedule;
 }
-
-namespace {
-
-/// The denoiser is refused before the render where it is not there.
-void resolve_denoiser(const std::string& name, RenderSettings& s) {
-  if (name.empty() || name == "none") return;
-  if (name != "optix") throw InputError("unknown denoiser '" + name + "': it may be none, optix");
-  const std::string problem = optix_denoiser_problem();
-  if (!problem.empty()) throw InputError("the denoiser 'optix' is not available: " + problem);
-  s.denoise = s.aovs.albedo = s.aovs.normal = true;
-}
-
-}  // namespace
 
 RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   RenderSettings s;

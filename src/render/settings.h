@@ -44,9 +44,10 @@ inline constexpr int all_devices = -1, host_device = -2;
 struct RenderSettings {
   std::string backend;
   std::string strategy;
-  int device = 0;              ///< cuda: a GPU's number, all_devices or host_device
-  BlockSize block = {16, 16};  ///< cuda, pixel and chunk: threads of a block
-  BlockSize chunk = {4, 4};    ///< cuda, chunk: chunks in each direction
+  bool runs_on_device = false;  ///< cuda, optix
+  int device = 0;               ///< then: a GPU's number, all_devices or host_device
+  BlockSize block = {16, 16};   ///< cuda, pixel and chunk: threads of a block
+  BlockSize chunk = {4, 4};     ///< cuda, chunk: chunks in each direction
   Schedule schedule;
   Precision precision = Precision::single;
   IntegratorKind integrator = IntegratorKind::path;

@@ -41,7 +41,7 @@ std::string RenderStatistics::to_json() const {
   j["strategy"] = settings.strategy;
   j["precision"] = to_string(settings.precision);
   j["schedule"] = settings.backend == "serial" ? "" : to_string(settings.schedule);
-  if (settings.backend == "cuda" || settings.backend == "optix") j["device"] = device_name(settings.device);
+  if (settings.runs_on_device) j["device"] = device_name(settings.device);
   if (settings.backend == "cuda") {
     j["block"] = to_string(settings.block);
     j["chunk"] = to_string(settings.chunk);

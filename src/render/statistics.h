@@ -16,9 +16,9 @@ struct RenderStatistics {
   RenderSettings settings;
   std::string scene;
   SceneStatistics scene_sizes;
-  double load_seconds = 0;   ///< reading, flattening and starting a GPU, without the BVH
-  double build_seconds = 0;  ///< the BVH
-  double denoise_seconds = 0;
+  double load_seconds = 0;         ///< reading, flattening and starting a GPU, without the BVH
+  double build_seconds = 0;        ///< the BVH
+  double denoise_seconds = 0;      ///< 0 where nobody asked for it
   double render_seconds = 0;       ///< taking samples, nothing else
   uint32_t samples_per_pixel = 0;  ///< whole passes that were done
   bool complete = false;

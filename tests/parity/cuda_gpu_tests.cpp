@@ -92,28 +92,25 @@ class CudaOnDevice : public ::testing::TestWithParam<Case> {
     return settings;
   }
 
+  /// Every schedule's picture against the serial one: so large a part of the pixels is within `tolerance`.
+  template <class Real>
+  void expect_alike(const std::string& precision, double tolerance, double part) const {
+    const auto serial = film_of<Real>(scene_, settings_of("serial", precision, integrator_));
+    ASSERT_FALSE(is_black(*serial));
+    for (const std::string& strategy : schedules) {
+      const auto film = film_of<Real>(scene_, device_settings(precision, strategy));
+      EXPECT_GE(part_alike(*serial, *film, tolerance), part) << strategy;
+    }
+  }
+
   std::string device_, scene_, integrator_;
 };
 
-TEST_P(CudaOnDevice, InDoubleGivesTheSerialPicture) {
-  const auto serial = film_of<double>(scene_, settings_of("serial", "double", integrator_));
-  ASSERT_FALSE(is_black(*serial));
-  for (const std::string& strategy : schedules) {
-    const auto film = film_of<double>(scene_, device_settings("double", strategy));
-    EXPECT_GE(part_alike(*serial, *film, 1e-9), 0.999) << strategy;
-  }
-}
+TEST_P(CudaOnDevice, InDoubleGivesTheSerialPicture) { expect_alike<double>("double", 1e-9, 0.999); }
 
-TEST_P(CudaOnDevice, InFloatGivesTheSamePictureByEverySchedule) {
-  const auto serial = film_of<float>(scene_, settings_of("serial", "float", integrator_));
-  ASSERT_FALSE(is_black(*serial));
-  for (const std::string& strategy : schedules) {
-    // Fused operations and the other tree move a ray by an ulp; few paths then take another turn, and 1 of the 64
-    // samples of a pixel is seen.
-    const auto film = film_of<float>(scene_, device_settings("float", strategy));
-    EXPECT_GE(part_alike(*serial, *film, 1e-3), 0.9) << strategy;
-  }
-}
+/// Fused operations and the other tree move a ray by an ulp; few paths then take another turn, and 1 of the 64 samples
+/// of a pixel is seen.
+TEST_P(CudaOnDevice, InFloatGivesTheSamePictureByEverySchedule) { expect_alike<float>("float", 1e-3, 0.9); }
 
 /// A picture in double, with a seed of its own.
 std::vector<Moments> reference_of(const std::string& scene, const std::string& integrator) {

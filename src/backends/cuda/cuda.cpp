@@ -21,6 +21,8 @@ class CudaBackend final : public DeviceBackend {
     return description;
   }
 
+  bool wants_wide_bvh(const RenderSettings& settings) const override { return settings.device != host_device; }
+
  protected:
   std::unique_ptr<Engine> make_engine(int device, const RowShare& share, Precision precision) override {
     return device == host_device ? make_host_engine(share) : make_gpu_engine(device, share, precision);

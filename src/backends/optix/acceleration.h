@@ -97,8 +97,7 @@ class Acceleration {
     using Record = SphereRecord<float>;
     const CUdeviceptr centres = address(device.spheres) + offsetof(Record, center);
     const CUdeviceptr radii = address(device.spheres) + offsetof(Record, radius);
-    return build_structure(sphere_input(&centres, sizeof(Record), &radii, sizeof(Record), device.spheres_count), 1,
-                           structures_[1]);
+    return build_structure(sphere_input<Record>(&centres, &radii, device.spheres_count), 1, structures_[1]);
   }
 
   /// Two motion keys, at the ends of the shutter; the centres of the second are where the motion leads.
@@ -115,22 +114,20 @@ class Acceleration {
                                     address(memory.data()) + offsetof(Record, center)};
     const CUdeviceptr radius = address(device.moving_spheres) + offsetof(Record, radius);
     const CUdeviceptr radii[2] = {radius, radius};
-    const OptixTraversableHandle handle =
-        build_structure(sphere_input(centres, sizeof(Record), radii, sizeof(Record), count), 2, structures_[2]);
-    executor_.wait();
-    return handle;
+    return build_structure(sphere_input<Record>(centres, radii, count), 2, structures_[2]);
   }
 
-  OptixBuildInput sphere_input(const CUdeviceptr* centres, size_t centre_stride, const CUdeviceptr* radii,
-                               size_t radius_stride, uint32_t count) const {
+  /// Centres and radii lie in records, one address of each a motion key.
+  template <class Record>
+  OptixBuildInput sphere_input(const CUdeviceptr* centres, const CUdeviceptr* radii, uint32_t count) const {
     OptixBuildInput input{};
     input.type = OPTIX_BUILD_INPUT_TYPE_SPHERES;
     OptixBuildInputSphereArray& spheres = input.sphereArray;
     spheres.vertexBuffers = centres;
-    spheres.vertexStrideInBytes = static_cast<unsigned>(centre_stride);
+    spheres.vertexStrideInBytes = sizeof(Record);
     spheres.numVertices = count;
     spheres.radiusBuffers = radii;
-    spheres.radiusStrideInBytes = static_cast<unsigned>(radius_stride);
+    spheres.radiusStrideInBytes = sizeof(Record);
     spheres.flags = &without_any_hit;
     spheres.numSbtRecords = 1;
     return input;
@@ -145,10 +142,9 @@ class Acceleration {
     input.instanceArray.instances = address(memory.data());
     input.instanceArray.numInstances = static_cast<unsigned>(instances.size());
     traversable_ = build_structure(input, 1, top_);
-    executor_.wait();
   }
 
-  /// Builds, then copies to as little memory as the structure needs.
+  /// Builds, then copies to as little memory as the structure needs; when it returns, the input may go.
   OptixTraversableHandle build_structure(const OptixBuildInput& input, unsigned motion_keys, Bytes& structure) {
     OptixAccelBuildOptions options{};
     options.buildFlags = build_flags;

@@ -3,7 +3,6 @@
 // An executor (backends/cuda/executor.h) whose pixel kernels are launches of OptiX. `Base` does the rest, and has a
 // stream().
 
-#include <memory>
 #include <optional>
 #include <utility>
 

@@ -51,6 +51,12 @@ struct alignas(OPTIX_SBT_RECORD_ALIGNMENT) SbtRecord {
   char header[OPTIX_SBT_RECORD_HEADER_SIZE];
 };
 
+/// Where a call of OptiX writes what it has to say.
+struct CallLog {
+  char text[2048] = "";
+  size_t size = sizeof(text);
+};
+
 class Pipeline {
  public:
   Pipeline(const OptixFunctionTable& functions, const Context& context, const DeviceCode& code,
@@ -110,10 +116,10 @@ class Pipeline {
   }
 
   void make_modules(const DeviceCode& code, const SceneTraits& traits) {
-    std::string log;
+    CallLog log;
     OptixResult result = make_module(code.optix_ir, log);
     if (result != OPTIX_SUCCESS) result = make_module(code.ptx, log);
-    check(functions_, result, "compiling its programs", context_.log(log));
+    check(functions_, result, "compiling its programs", context_.log(log.text));
     for (const PrimitiveKind kind : {PrimitiveKind::sphere, PrimitiveKind::moving_sphere}) {
       if (!traits.has_kind(kind)) continue;
       OptixBuiltinISOptions options{};
@@ -127,14 +133,11 @@ class Pipeline {
     }
   }
 
-  OptixResult make_module(std::span<const unsigned char> code, std::string& log) {
-    char text[2048] = "";
-    size_t size = sizeof(text);
-    const OptixResult result =
-        functions_.optixModuleCreate(context_.get(), &module_options_, &pipeline_options_,
-                                     reinterpret_cast<const char*>(code.data()), code.size(), text, &size, &module_);
-    log = text;
-    return result;
+  OptixResult make_module(std::span<const unsigned char> code, CallLog& log) {
+    log = {};
+    return functions_.optixModuleCreate(context_.get(), &module_options_, &pipeline_options_,
+                                        reinterpret_cast<const char*>(code.data()), code.size(), log.text, &log.size,
+                                        &module_);
   }
 
   void make_groups(const SceneTraits& traits) {
@@ -162,25 +165,23 @@ class Pipeline {
   }
 
   void add_group(const OptixProgramGroupDesc& description) {
-    char text[2048] = "";
-    size_t size = sizeof(text);
+    CallLog log;
     OptixProgramGroupOptions options{};
     OptixProgramGroup group = nullptr;
     const OptixResult result =
-        functions_.optixProgramGroupCreate(context_.get(), &description, 1, &options, text, &size, &group);
-    check(functions_, result, linking, context_.log(text));
+        functions_.optixProgramGroupCreate(context_.get(), &description, 1, &options, log.text, &log.size, &group);
+    check(functions_, result, linking, context_.log(log.text));
     groups_.push_back(group);
   }
 
   void link() {
-    char text[2048] = "";
-    size_t size = sizeof(text);
+    CallLog log;
     OptixPipelineLinkOptions options{};
     options.maxTraceDepth = 1;
     const OptixResult result =
         functions_.optixPipelineCreate(context_.get(), &pipeline_options_, &options, groups_.data(),
-                                       static_cast<unsigned>(groups_.size()), text, &size, &pipeline_);
-    check(functions_, result, linking, context_.log(text));
+                                       static_cast<unsigned>(groups_.size()), log.text, &log.size, &pipeline_);
+    check(functions_, result, linking, context_.log(log.text));
   }
 
   void destroy() {
