@@ -35,7 +35,8 @@ struct SpheresScene {
     asked.samples_per_pixel = samples;
     SpheresScene loaded;
     loaded.settings = resolve_settings(asked, scene);
-    loaded.flat = flatten<Real>(std::move(scene), FlattenOptions{picture_size, picture_size, 0}, diagnostics);
+    loaded.flat = flatten<Real>(
+        std::move(scene), FlattenOptions{picture_size, picture_size, 0, {.binary = false, .simd = true}}, diagnostics);
     return loaded;
   }
 };

@@ -17,7 +17,7 @@ FlatScene<float> read_mesh(bool wide_bvh) {
   const char* file = std::getenv("ALHAZEN_BENCH_MESH");
   Diagnostics diagnostics;
   Scene scene = read_scene(file ? file : ALHAZEN_SOURCE_DIR "/scenes/knot.ply.gz", diagnostics);
-  return flatten<float>(std::move(scene), FlattenOptions{64, 64, 0, wide_bvh}, diagnostics);
+  return flatten<float>(std::move(scene), FlattenOptions{64, 64, 0, {.wide = wide_bvh}}, diagnostics);
 }
 
 const FlatScene<float>& mesh() {

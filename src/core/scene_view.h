@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/bvh/node.h"
+#include "core/bvh/simd_node.h"
 #include "core/bvh/wide_node.h"
 #include "core/cameras/camera.h"
 #include "core/cameras/filter.h"
@@ -18,29 +19,33 @@ namespace alhazen {
 
 /// Every array of the scene, once: ARRAY(element type, name). Storage, device pointers, memory report and checksum
 /// expand from this list.
-#define ALHAZEN_SCENE_ARRAYS(ARRAY)               \
-  ARRAY(BvhNode<Real>, nodes)                     \
-  ARRAY(WideNode, wide_nodes)                     \
-  ARRAY(WidePrimitive, wide_primitives)           \
-  ARRAY(PrimitiveId, primitives)                  \
-  ARRAY(TriangleRecord, triangles)                \
-  ARRAY(Vec3<Real>, positions)                    \
-  ARRAY(Vec3<Real>, normals)                      \
-  ARRAY(Vec2<Real>, uvs)                          \
-  ARRAY(SphereRecord<Real>, spheres)              \
-  ARRAY(MovingSphereRecord<Real>, moving_spheres) \
-  ARRAY(SphereFrame<Real>, sphere_frames)         \
-  ARRAY(SurfaceRecord, surfaces)                  \
-  ARRAY(MaterialRecord<Real>, materials)          \
-  ARRAY(TextureRecord<Real>, textures)            \
-  ARRAY(TextureMapping<Real>, texture_mappings)   \
-  ARRAY(ImageRecord, images)                      \
-  ARRAY(uint8_t, texel_bytes)                     \
-  ARRAY(float, texel_floats)                      \
-  ARRAY(Real, srgb_decode_table)                  \
-  ARRAY(uint8_t, noise_permutation)               \
-  ARRAY(LightRecord<Real>, lights)                \
-  ARRAY(Real, light_cdf)                          \
+#define ALHAZEN_SCENE_ARRAYS(ARRAY)                    \
+  ARRAY(BvhNode<Real>, nodes)                          \
+  ARRAY(WideNode, wide_nodes)                          \
+  ARRAY(WidePrimitive, wide_primitives)                \
+  ARRAY(SimdNode, simd_nodes)                          \
+  ARRAY(TriangleBlock<Real>, triangle_blocks)          \
+  ARRAY(SphereBlock<Real>, sphere_blocks)              \
+  ARRAY(MovingSphereBlock<Real>, moving_sphere_blocks) \
+  ARRAY(PrimitiveId, primitives)                       \
+  ARRAY(TriangleRecord, triangles)                     \
+  ARRAY(Vec3<Real>, positions)                         \
+  ARRAY(Vec3<Real>, normals)                           \
+  ARRAY(Vec2<Real>, uvs)                               \
+  ARRAY(SphereRecord<Real>, spheres)                   \
+  ARRAY(MovingSphereRecord<Real>, moving_spheres)      \
+  ARRAY(SphereFrame<Real>, sphere_frames)              \
+  ARRAY(SurfaceRecord, surfaces)                       \
+  ARRAY(MaterialRecord<Real>, materials)               \
+  ARRAY(TextureRecord<Real>, textures)                 \
+  ARRAY(TextureMapping<Real>, texture_mappings)        \
+  ARRAY(ImageRecord, images)                           \
+  ARRAY(uint8_t, texel_bytes)                          \
+  ARRAY(float, texel_floats)                           \
+  ARRAY(Real, srgb_decode_table)                       \
+  ARRAY(uint8_t, noise_permutation)                    \
+  ARRAY(LightRecord<Real>, lights)                     \
+  ARRAY(Real, light_cdf)                               \
   ARRAY(Real, filter_cdf)
 
 template <class Real>

@@ -11,6 +11,7 @@
 #include "render/sample_kernel.h"
 #include "render/settings.h"
 #include "scene/flat_scene.h"
+#include "scene/flatten.h"
 
 namespace alhazen {
 
@@ -47,8 +48,8 @@ class Backend {
   virtual BackendDescription describe() const = 0;
   /// What takes a moment and does not depend on the scene, such as starting a GPU. Called once, before the first pass.
   virtual void start(const RenderSettings&) {}
-  /// Whether rays are traced by the compressed wide BVH.
-  virtual bool wants_wide_bvh(const RenderSettings&) const { return false; }
+  /// What rays are traced by.
+  virtual Trees wanted_trees(const RenderSettings&) const { return {.binary = false, .simd = true}; }
   /// Builds what rays are traced by, where that is not our own BVH; counts as building it. Called once, after start().
   virtual void prepare(const FlatScene<float>&) {}
   virtual void prepare(const FlatScene<double>&) {}

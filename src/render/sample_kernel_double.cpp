@@ -4,7 +4,7 @@ namespace alhazen {
 
 template <>
 SampleKernel<double> select_sample_kernel(IntegratorKind integrator, SamplerType sampler) {
-  return select_kernel<BvhIntersector<double>, double>(integrator, sampler);
+  return select_kernel<SimdBvhIntersector<double>, double>(integrator, sampler);
 }
 
 }  // namespace alhazen

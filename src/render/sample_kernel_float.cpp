@@ -4,7 +4,7 @@ namespace alhazen {
 
 template <>
 SampleKernel<float> select_sample_kernel(IntegratorKind integrator, SamplerType sampler) {
-  return select_kernel<BvhIntersector<float>, float>(integrator, sampler);
+  return select_kernel<SimdBvhIntersector<float>, float>(integrator, sampler);
 }
 
 }  // namespace alhazen

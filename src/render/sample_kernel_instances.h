@@ -2,7 +2,7 @@
 
 // The body of the sample kernels, for the two files that instantiate it.
 
-#include "core/bvh/traversal.h"
+#include "core/bvh/simd_traversal.h"
 #include "core/sampling/independent.h"
 #include "core/sampling/sobol.h"
 #include "render/sample_kernel.h"

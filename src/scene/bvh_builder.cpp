@@ -14,9 +14,6 @@ namespace alhazen {
 namespace {
 
 constexpr int bin_count = 16;
-constexpr uint32_t max_leaf = 8;
-/// Cost of visiting a node's two children, in units of a primitive test.
-constexpr double traversal_cost = 1.2;
 /// From this depth on ranges are halved, which ends before max_bvh_depth for any number of primitives.
 constexpr int halving_depth = max_bvh_depth - 32;
 constexpr uint32_t task_size = 8192;
@@ -54,7 +51,7 @@ struct FreeMemory {
 template <class Real>
 class Builder {
  public:
-  explicit Builder(std::span<const Bounds3<Real>> boxes) : boxes_(boxes) {
+  Builder(std::span<const Bounds3<Real>> boxes, const BvhOptions& options) : boxes_(boxes), options_(options) {
     const size_t count = boxes.size();
     order_.resize(count);
     for (size_t i = 0; i < count; ++i) order_[i] = static_cast<uint32_t>(i);
@@ -63,9 +60,9 @@ class Builder {
     if (!nodes_) throw std::bad_alloc();
   }
 
-  BvhTree<Real> build(int threads) {
+  BvhTree<Real> build() {
     const uint32_t count = static_cast<uint32_t>(order_.size());
-    const int team = count < task_size ? 1 : threads > 0 ? threads : omp_get_max_threads();
+    const int team = count < task_size ? 1 : options_.threads > 0 ? options_.threads : omp_get_max_threads();
 #pragma omp parallel num_threads(team)
 #pragma omp single
     build_range(0, 0, count, 0);
@@ -143,10 +140,10 @@ class Builder {
         }
   }
 
-  static Split best_split(const Bins<Real>& bins, const RangeBounds<Real>& range, uint32_t count) {
+  Split best_split(const Bins<Real>& bins, const RangeBounds<Real>& range, uint32_t count) const {
     Split best;
     double best_cost = static_cast<double>(count) * static_cast<double>(range.boxes.half_area());
-    if (count > max_leaf) best_cost = std::numeric_limits<double>::infinity();
+    if (count > options_.max_leaf) best_cost = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
       if (!(range.centers.diagonal()[axis] > 0)) continue;
       const auto& row = bins[static_cast<size_t>(axis)];
@@ -165,7 +162,7 @@ class Builder {
         n += row[i - 1].count;
         if (n == 0 || n == count) continue;
         const double cost = n * static_cast<double>(box.half_area()) + right_cost[i] +
-                            traversal_cost * static_cast<double>(range.boxes.half_area());
+                            options_.traversal_cost * static_cast<double>(range.boxes.half_area());
         if (cost < best_cost) {
           best_cost = cost;
           best = {axis, static_cast<int>(i)};
@@ -209,7 +206,7 @@ class Builder {
         fill_bins(begin, end, range.centers, bins);
       split = best_split(bins, range, count);
     }
-    if (split.axis < 0 && count <= max_leaf) {
+    if (split.axis < 0 && count <= options_.max_leaf) {
       node.first = begin;
       node.count = static_cast<uint16_t>(count);
       return;
@@ -241,6 +238,7 @@ class Builder {
   }
 
   std::span<const Bounds3<Real>> boxes_;
+  BvhOptions options_;
   std::vector<uint32_t> order_;
   std::unique_ptr<BvhNode<Real>, FreeMemory> nodes_;
   std::atomic<uint32_t> next_node_{1};
@@ -249,12 +247,12 @@ class Builder {
 }  // namespace
 
 template <class Real>
-BvhTree<Real> build_bvh(std::span<const Bounds3<Real>> boxes, int threads) {
+BvhTree<Real> build_bvh(std::span<const Bounds3<Real>> boxes, const BvhOptions& options) {
   if (boxes.empty()) return {};
-  return Builder<Real>(boxes).build(threads);
+  return Builder<Real>(boxes, options).build();
 }
 
-template BvhTree<float> build_bvh(std::span<const Bounds3<float>>, int);
-template BvhTree<double> build_bvh(std::span<const Bounds3<double>>, int);
+template BvhTree<float> build_bvh(std::span<const Bounds3<float>>, const BvhOptions&);
+template BvhTree<double> build_bvh(std::span<const Bounds3<double>>, const BvhOptions&);
 
 }  // namespace alhazen

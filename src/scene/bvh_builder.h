@@ -17,8 +17,17 @@ struct BvhTree {
   std::vector<uint32_t> order;
 };
 
-/// `boxes` must be finite and not empty. `threads` 0: as OpenMP has it.
+struct BvhOptions {
+  uint32_t max_leaf = 8;        ///< primitives
+  double traversal_cost = 1.2;  ///< of a visit to a node's two children, in units of a primitive test
+  int threads = 0;              ///< 0: as OpenMP has it
+
+  /// Down to single primitives, for a collapse that chooses its leaves itself.
+  static BvhOptions for_collapse(int threads) { return {1, 0, threads}; }
+};
+
+/// `boxes` must be finite and not empty.
 template <class Real>
-BvhTree<Real> build_bvh(std::span<const Bounds3<Real>> boxes, int threads);
+BvhTree<Real> build_bvh(std::span<const Bounds3<Real>> boxes, const BvhOptions& options);
 
 }  // namespace alhazen

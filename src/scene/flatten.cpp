@@ -9,6 +9,7 @@
 #include "scene/flatten_camera.h"
 #include "scene/flatten_lights.h"
 #include "scene/flatten_materials.h"
+#include "scene/simd_bvh_builder.h"
 #include "scene/wide_bvh_builder.h"
 
 namespace alhazen {
@@ -42,7 +43,6 @@ class Flattener {
     assign_light_probabilities(light_areas_, out_);
     flat.statistics.triangles = out_.triangles.size();
     flat.statistics.spheres = out_.spheres.size() + out_.moving_spheres.size();
-    flat.statistics.nodes = out_.nodes.size();
     flat.statistics.lights = out_.lights.size();
     out_.move_into(flat);
     return flat;
@@ -267,16 +267,22 @@ class Flattener {
   void build_tree(FlatScene<Real>& flat) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<Bounds3<Real>> boxes = primitive_boxes();
-    BvhTree<Real> tree = build_bvh<Real>(boxes, options_.threads);
+    const Trees& trees = options_.trees;
+    BvhTree<Real> tree = build_bvh<Real>(
+        boxes, trees.simd ? BvhOptions::for_collapse(options_.threads) : BvhOptions{.threads = options_.threads});
     order_primitives(tree.order);
     out_.nodes = std::move(tree.nodes);
-    if constexpr (sizeof(Real) == sizeof(float))
-      if (options_.wide_bvh) {
-        std::vector<Bounds3<float>> ordered;
-        ordered.reserve(tree.order.size());
-        for (const uint32_t i : tree.order) ordered.push_back(boxes[i]);
-        add_wide_bvh(ordered);
-      }
+    if (trees.wide || trees.simd) {
+      std::vector<Bounds3<Real>> ordered;
+      ordered.reserve(tree.order.size());
+      for (const uint32_t i : tree.order) ordered.push_back(boxes[i]);
+      std::vector<Bounds3<Real>>().swap(boxes);
+      if constexpr (sizeof(Real) == sizeof(float))
+        if (trees.wide) add_wide_bvh(ordered);
+      if (trees.simd) build_simd_bvh<Real>(out_.nodes, ordered, options_.threads, out_);
+    }
+    flat.statistics.nodes = trees.binary ? out_.nodes.size() : out_.simd_nodes.size();
+    if (!trees.binary) std::vector<BvhNode<Real>>().swap(out_.nodes);
     flat.statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 

@@ -7,11 +7,17 @@
 
 namespace alhazen {
 
+/// What rays are traced by. The binary tree serves tests and GPUs in double, the compressed wide one GPUs in float, the
+/// SIMD one CPUs.
+struct Trees {
+  bool binary = true, wide = false, simd = false;
+};
+
 /// What the command line or a caller may override in the description.
 struct FlattenOptions {
   int64_t width = 0, height = 0;  ///< 0: as the scene says
   int threads = 0;                ///< for the BVH; 0: as OpenMP has it
-  bool wide_bvh = false;          ///< in float: the compressed wide BVH as well, for GPUs
+  Trees trees;
 };
 
 /// Takes the description apart as it goes, so that meshes are not held twice.

@@ -21,7 +21,7 @@ FlatScene<Real> flat_scene(Scene scene, int threads = 1) {
   Diagnostics diagnostics;
   FlattenOptions options;
   options.threads = threads;
-  options.wide_bvh = true;
+  options.trees = {.binary = true, .wide = true, .simd = true};
   FlatScene<Real> flat = flatten<Real>(std::move(scene), options, diagnostics);
   expect_no_warnings(diagnostics);
   return flat;

@@ -12,10 +12,9 @@ class LinearIntersector {
  public:
   explicit LinearIntersector(const SceneView<Real>& scene) : scene_(&scene) {}
 
-  /// The nearest hit before t_max; among hits at the same distance the first in the order of the primitives.
+  /// The nearest hit before t_max; among hits at the same distance that of the lowest primitive.
   bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
-    hit.t = t_max;
-    hit.b1 = hit.b2 = 0;
+    hit = no_hit_before(t_max);
     const ShearedRay<Real> sheared = shear_ray(ray);
     bool found = false;
     for (uint32_t i = 0; i < scene_->primitives_count; ++i)
@@ -25,8 +24,7 @@ class LinearIntersector {
 
   /// Whether anything stands before t_max.
   bool occluded(const Ray<Real>& ray, Real t_max) const {
-    Hit<Real> hit;
-    hit.t = t_max;
+    Hit<Real> hit = no_hit_before(t_max);
     const ShearedRay<Real> sheared = shear_ray(ray);
     for (uint32_t i = 0; i < scene_->primitives_count; ++i)
       if (intersect_primitive(*scene_, scene_->primitives[i], ray, sheared, hit)) return true;

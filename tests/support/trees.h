@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/bvh/simd_traversal.h"
 #include "core/bvh/wide.h"
 
 namespace alhazen::test {
@@ -18,6 +19,12 @@ struct WideTree {
   using Intersector = WideBvhIntersector<>;
 };
 
-using Trees = ::testing::Types<BinaryTree<float>, BinaryTree<double>, WideTree>;
+template <class Any>
+struct SimdTree {
+  using Real = Any;
+  using Intersector = SimdBvhIntersector<Any>;
+};
+
+using Trees = ::testing::Types<BinaryTree<float>, BinaryTree<double>, WideTree, SimdTree<float>, SimdTree<double>>;
 
 }  // namespace alhazen::test

@@ -77,12 +77,12 @@ TYPED_TEST_SUITE(BvhBuilderOf, Reals);
 TYPED_TEST(BvhBuilderOf, RandomBoxes) {
   for (const size_t count : std::initializer_list<size_t>{1, 2, 3, 8, 9, 100, 10'000}) {
     const Boxes<TypeParam> boxes = random_boxes<TypeParam>(count, count);
-    check_tree(boxes, build_bvh<TypeParam>(boxes, 1));
+    check_tree(boxes, build_bvh<TypeParam>(boxes, {.threads = 1}));
   }
 }
 
 TYPED_TEST(BvhBuilderOf, NoBoxes) {
-  const BvhTree<TypeParam> tree = build_bvh<TypeParam>(Boxes<TypeParam>{}, 1);
+  const BvhTree<TypeParam> tree = build_bvh<TypeParam>(Boxes<TypeParam>{}, {.threads = 1});
   EXPECT_TRUE(tree.nodes.empty());
   EXPECT_TRUE(tree.order.empty());
 }
@@ -93,7 +93,7 @@ TYPED_TEST(BvhBuilderOf, IdenticalBoxes) {
   box.extend(Vec3<Real>{1, 2, 3});
   box.extend(Vec3<Real>{2, 3, 4});
   const Boxes<Real> boxes(100'000, box);
-  check_tree(boxes, build_bvh<Real>(boxes, 1));
+  check_tree(boxes, build_bvh<Real>(boxes, {.threads = 1}));
 }
 
 TYPED_TEST(BvhBuilderOf, Points) {
@@ -101,7 +101,7 @@ TYPED_TEST(BvhBuilderOf, Points) {
   Bounds3<Real> box;
   box.extend(Vec3<Real>{});
   const Boxes<Real> boxes(5000, box);
-  check_tree(boxes, build_bvh<Real>(boxes, 1));
+  check_tree(boxes, build_bvh<Real>(boxes, {.threads = 1}));
 }
 
 TYPED_TEST(BvhBuilderOf, FlatGrid) {
@@ -113,7 +113,7 @@ TYPED_TEST(BvhBuilderOf, FlatGrid) {
       boxes.back().extend(Vec3<Real>{static_cast<Real>(x), static_cast<Real>(y), 0});
       boxes.back().extend(Vec3<Real>{static_cast<Real>(x + 1), static_cast<Real>(y + 1), 0});
     }
-  check_tree(boxes, build_bvh<Real>(boxes, 1));
+  check_tree(boxes, build_bvh<Real>(boxes, {.threads = 1}));
 }
 
 /// Each box twice as large and twice as far as the one before: every split takes one away. The deepest tree there is.
@@ -127,7 +127,7 @@ TYPED_TEST(BvhBuilderOf, GeometricRow) {
       boxes.back().extend(Vec3<Real>{x, x, x});
       boxes.back().extend(Vec3<Real>{x, x, x} * Real(1.5));
     }
-  check_tree(boxes, build_bvh<Real>(boxes, 1));
+  check_tree(boxes, build_bvh<Real>(boxes, {.threads = 1}));
 }
 
 /// As large as numbers go: areas overflow.
@@ -140,17 +140,17 @@ TYPED_TEST(BvhBuilderOf, LargestNumbers) {
     box.extend(p);
     box.extend(p + convert<Real>(random.in_box(0, 1)) * (std::numeric_limits<Real>::max() / 4));
   }
-  check_tree(boxes, build_bvh<Real>(boxes, 1));
+  check_tree(boxes, build_bvh<Real>(boxes, {.threads = 1}));
 }
 
 /// Large enough for the parts that are done by all threads.
 TYPED_TEST(BvhBuilderOf, SameTreeForAnyThreads) {
   using Real = TypeParam;
   const Boxes<Real> boxes = random_boxes<Real>(200'000, 5);
-  const BvhTree<Real> one = build_bvh<Real>(boxes, 1);
+  const BvhTree<Real> one = build_bvh<Real>(boxes, {.threads = 1});
   check_tree(boxes, one);
   for (const int threads : {2, 3, 8}) {
-    const BvhTree<Real> other = build_bvh<Real>(boxes, threads);
+    const BvhTree<Real> other = build_bvh<Real>(boxes, {.threads = threads});
     EXPECT_EQ(other.order, one.order);
     ASSERT_EQ(other.nodes.size(), one.nodes.size());
     for (size_t i = 0; i < one.nodes.size(); ++i) {

@@ -21,7 +21,9 @@ class CudaBackend final : public DeviceBackend {
     return description;
   }
 
-  bool wants_wide_bvh(const RenderSettings& settings) const override { return settings.device != host_device; }
+  Trees wanted_trees(const RenderSettings& settings) const override {
+    return {.binary = true, .wide = settings.device != host_device};
+  }
 
  protected:
   std::unique_ptr<Engine> make_engine(int device, const RowShare& share, Precision precision) override {

@@ -41,31 +41,45 @@ ALHAZEN_HD ALHAZEN_INLINE Real enter_box(const BvhNode<Real>& node, const SlabRa
   return t_near <= t_far ? t_near : infinity<Real>;
 }
 
-/// Tests one primitive; on a hit nearer than `hit.t` replaces it.
+/// What a search for the nearest hit before t_max begins with: no primitive is lower than this one.
+template <class Real>
+ALHAZEN_HD Hit<Real> no_hit_before(Real t_max) {
+  return {t_max, 0, 0, PrimitiveId(PrimitiveKind::triangle, 0)};
+}
+
+/// Of hits at the same distance that of the lowest primitive counts, whatever the order in which a tree is walked.
+template <class Real>
+ALHAZEN_HD ALHAZEN_INLINE bool is_nearer(Real t, PrimitiveId primitive, const Hit<Real>& hit) {
+  return t < hit.t || (t == hit.t && primitive.bits < hit.primitive.bits);
+}
+
+/// Tests one primitive; on a hit nearer than `hit` replaces it.
 template <class Real>
 ALHAZEN_HD bool intersect_primitive(const SceneView<Real>& scene, PrimitiveId primitive, const Ray<Real>& ray,
                                     const ShearedRay<Real>& sheared, Hit<Real>& hit) {
+  Hit<Real> found{hit.t, 0, 0, primitive};
   bool met = false;
   switch (primitive.kind()) {
     case PrimitiveKind::triangle: {
       const uint32_t* v = scene.triangles[primitive.index()].vertex;
       met = intersect_triangle(sheared, scene.positions[v[0]], scene.positions[v[1]], scene.positions[v[2]], hit.t,
-                               hit.t, hit.b1, hit.b2);
+                               found.t, found.b1, found.b2);
       break;
     }
     case PrimitiveKind::sphere: {
       const SphereRecord<Real>& s = scene.spheres[primitive.index()];
-      met = intersect_sphere(ray, s.center, s.radius, hit.t, hit.t);
+      met = intersect_sphere(ray, s.center, s.radius, hit.t, found.t);
       break;
     }
     case PrimitiveKind::moving_sphere: {
       const MovingSphereRecord<Real>& s = scene.moving_spheres[primitive.index()];
-      met = intersect_sphere(ray, s.center + s.motion * ray.time, s.radius, hit.t, hit.t);
+      met = intersect_sphere(ray, s.center + s.motion * ray.time, s.radius, hit.t, found.t);
       break;
     }
   }
-  if (met) hit.primitive = primitive;
-  return met;
+  if (!met || !is_nearer(found.t, primitive, hit)) return false;
+  hit = found;
+  return true;
 }
 
 /// A node that is yet to be visited, and where the ray enters it.
@@ -124,17 +138,17 @@ class BvhIntersector {
   ALHAZEN_HD explicit BvhIntersector(const SceneView<Real>& scene, const Stacks& stacks = {})
       : scene_(&scene), stacks_(stacks) {}
 
-  /// The nearest hit before t_max; among hits at the same distance the first that the walk meets.
+  /// The nearest hit before t_max; among hits at the same distance that of the lowest primitive.
   ALHAZEN_HD bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
-    hit.t = t_max;
-    hit.b1 = hit.b2 = 0;
-    return traverse_bvh<false>(*scene_, ray, stacks_, hit);
+    hit = no_hit_before(t_max);
+    const bool found = traverse_bvh<false>(*scene_, ray, stacks_, hit);
+    if (!found) hit.primitive = PrimitiveId();
+    return found;
   }
 
   /// Whether anything stands before t_max.
   ALHAZEN_HD bool occluded(const Ray<Real>& ray, Real t_max) const {
-    Hit<Real> hit;
-    hit.t = t_max;
+    Hit<Real> hit = no_hit_before(t_max);
     return traverse_bvh<true>(*scene_, ray, stacks_, hit);
   }
 

@@ -88,20 +88,22 @@ ALHAZEN_HD ALHAZEN_INLINE uint32_t enter_children(const WideNode& node, const Sl
 
 ALHAZEN_HD inline bool intersect_primitive(const WidePrimitive& primitive, const Ray<float>& ray,
                                            const ShearedRay<float>& sheared, Hit<float>& hit) {
+  Hit<float> found{hit.t, 0, 0, primitive.id};
   bool met = false;
   switch (primitive.id.kind()) {
     case PrimitiveKind::triangle:
-      met = intersect_triangle(sheared, primitive.a, primitive.b, primitive.c, hit.t, hit.t, hit.b1, hit.b2);
+      met = intersect_triangle(sheared, primitive.a, primitive.b, primitive.c, hit.t, found.t, found.b1, found.b2);
       break;
     case PrimitiveKind::sphere:
-      met = intersect_sphere(ray, primitive.a, primitive.b.x, hit.t, hit.t);
+      met = intersect_sphere(ray, primitive.a, primitive.b.x, hit.t, found.t);
       break;
     case PrimitiveKind::moving_sphere:
-      met = intersect_sphere(ray, primitive.a + primitive.c * ray.time, primitive.b.x, hit.t, hit.t);
+      met = intersect_sphere(ray, primitive.a + primitive.c * ray.time, primitive.b.x, hit.t, found.t);
       break;
   }
-  if (met) hit.primitive = primitive.id;
-  return met;
+  if (!met || !is_nearer(found.t, primitive.id, hit)) return false;
+  hit = found;
+  return true;
 }
 
 /// Walks the tree. With `any_hit` it ends at the first primitive met before `hit.t`.
@@ -147,14 +149,14 @@ class WideBvhIntersector {
       : scene_(&scene), stacks_(stacks) {}
 
   ALHAZEN_HD bool closest_hit(const Ray<float>& ray, float t_max, Hit<float>& hit) const {
-    hit.t = t_max;
-    hit.b1 = hit.b2 = 0;
-    return traverse_wide_bvh<false>(*scene_, ray, stacks_, hit);
+    hit = no_hit_before(t_max);
+    const bool found = traverse_wide_bvh<false>(*scene_, ray, stacks_, hit);
+    if (!found) hit.primitive = PrimitiveId();
+    return found;
   }
 
   ALHAZEN_HD bool occluded(const Ray<float>& ray, float t_max) const {
-    Hit<float> hit;
-    hit.t = t_max;
+    Hit<float> hit = no_hit_before(t_max);
     return traverse_wide_bvh<true>(*scene_, ray, stacks_, hit);
   }
 

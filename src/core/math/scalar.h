@@ -72,10 +72,10 @@ ALHAZEN_HD inline SineCosine<Real> sine_cosine(Real angle) {
   return {std::sin(angle), std::cos(angle)};
 }
 
-/// a * b + c with one rounding where the processor has that operation, with two otherwise.
+/// a * b + c, with one rounding on GPUs, with two on CPUs, where the same bits are to come of every instruction set.
 template <class Real>
 ALHAZEN_HD inline Real multiply_add(Real a, Real b, Real c) {
-#if defined(__CUDA_ARCH__) || defined(__FMA__)
+#if defined(__CUDA_ARCH__)
   return std::fma(a, b, c);
 #else
   return a * b + c;
@@ -83,10 +83,11 @@ ALHAZEN_HD inline Real multiply_add(Real a, Real b, Real c) {
 }
 
 /// a * b - c * d. With fused operations the error is below 1.5 ulp and the sign is always right (Kahan; Jeannerod,
-/// Louvet and Muller 2013). Without them it is still exactly antisymmetric under exchange of the two products.
+/// Louvet and Muller 2013). Without them, on CPUs, it is still exactly antisymmetric under exchange of the two
+/// products.
 template <class Real>
 ALHAZEN_HD inline Real difference_of_products(Real a, Real b, Real c, Real d) {
-#if defined(__CUDA_ARCH__) || defined(__FMA__)
+#if defined(__CUDA_ARCH__)
   const Real cd = c * d;
   return std::fma(a, b, -cd) + std::fma(-c, d, cd);
 #else

@@ -8,7 +8,7 @@
 
 namespace alhazen {
 
-/// Meets the sphere at a distance in (0, t_max): the discriminant from the vector to the closest point and the roots
+/// Meets the sphere at a distance in (0, t_max]: the discriminant from the vector to the closest point and the roots
 /// without cancellation (Haines, Gunther, Akenine-Moller 2019, Ray Tracing Gems ch. 7).
 template <class Real>
 ALHAZEN_HD bool intersect_sphere(const Ray<Real>& ray, const Vec3<Real>& center, Real radius, Real t_max, Real& t) {
@@ -25,7 +25,7 @@ ALHAZEN_HD bool intersect_sphere(const Ray<Real>& ray, const Vec3<Real>& center,
   const Real far = b >= 0 ? q : other;
   // Outside (c > 0) the near root counts, inside only the far one: the near root is then behind, or rounding.
   const Real distance = c > 0 ? near : far;
-  if (!(distance > 0 && distance < t_max)) return false;
+  if (!(distance > 0 && distance <= t_max)) return false;
   t = distance;
   return true;
 }

@@ -45,7 +45,7 @@ ALHAZEN_HD Real triangle_t_error(const Vec3<Real> p[3], const Vec3<Real>& e, Rea
   return 3 * (rounding_bound<Real>(3) * max_e * max_z + error_e * max_z + error_z * max_e) * std::abs(inverse_det);
 }
 
-/// Meets the triangle p0 p1 p2 at a distance in (0, t_max): sets t and the barycentric weights. Rays through a shared
+/// Meets the triangle p0 p1 p2 at a distance in (0, t_max]: sets t and the barycentric weights. Rays through a shared
 /// edge or vertex always meet one of the triangles; degenerate triangles are never met.
 template <class Real>
 ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>& p0, const Vec3<Real>& p1,
@@ -65,7 +65,7 @@ ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>
   const Real inverse_det = Real(1) / det;
   const Vec3<Real> z = Vec3<Real>{p_t[0].z, p_t[1].z, p_t[2].z} * ray.shear.z;
   const Real distance = dot(e, z) * inverse_det;
-  if (!(distance > 0 && distance < t_max)) return false;
+  if (!(distance > 0 && distance <= t_max)) return false;
   const Vec3<Real> scaled[3] = {{p_t[0].x, p_t[0].y, z.x}, {p_t[1].x, p_t[1].y, z.y}, {p_t[2].x, p_t[2].y, z.z}};
   if (distance <= triangle_t_error(scaled, e, inverse_det)) return false;
   t = distance;

@@ -1,0 +1,58 @@
+#pragma once
+
+// The BVH that CPUs walk: 8 children a node, primitives of one kind in blocks, all laid out as SIMD instructions take
+// them. Boxes are float in both precisions, so that double costs no more than its primitives do.
+
+#include <cstdint>
+
+namespace alhazen {
+
+inline constexpr int simd_children = 8;
+
+/// What stands below a node: another node, or blocks of primitives of one kind.
+struct SimdChild {
+  enum Kind : uint32_t { node = 0, triangles = 1, spheres = 2, moving_spheres = 3 };
+  static constexpr uint32_t index_bits = 26, most_blocks = 15;
+
+  static constexpr uint32_t pack(Kind kind, uint32_t blocks, uint32_t first) {
+    return static_cast<uint32_t>(kind) << 30 | blocks << index_bits | first;
+  }
+  static constexpr Kind kind(uint32_t child) { return static_cast<Kind>(child >> 30); }
+  static constexpr uint32_t blocks(uint32_t child) { return child >> index_bits & most_blocks; }
+  static constexpr uint32_t first(uint32_t child) { return child & ((1u << index_bits) - 1); }
+  /// Stands in the places that a node leaves free.
+  static constexpr uint32_t nothing = 1u << 30;
+};
+
+struct alignas(32) SimdNode {
+  float bounds[6][simd_children];  ///< [2 * axis + 1 where it is the high side]
+  uint32_t child[simd_children];
+};
+
+/// Lanes that hold no triangle have all their vertices in one point, which is never met.
+template <class Real>
+struct TriangleBlock {
+  static constexpr int lanes = 4;
+  Real vertex[3][3][lanes];  ///< [vertex][axis]
+  uint32_t index[lanes];     ///< in SceneView::triangles
+};
+
+/// Lanes that hold no sphere have a radius that is not a number.
+template <class Real>
+struct SphereBlock {
+  static constexpr int lanes = 8;
+  Real center[3][lanes];
+  Real radius[lanes];
+  uint32_t index[lanes];  ///< in SceneView::spheres
+};
+
+template <class Real>
+struct MovingSphereBlock {
+  static constexpr int lanes = 8;
+  Real center[3][lanes];
+  Real motion[3][lanes];
+  Real radius[lanes];
+  uint32_t index[lanes];  ///< in SceneView::moving_spheres
+};
+
+}  // namespace alhazen

@@ -1,0 +1,137 @@
+#pragma once
+
+// The one SIMD type: some numbers side by side, made of as many registers as the instruction set needs for them. The
+// arithmetic is GCC's vector extensions, whose operators round as those of single numbers do; intrinsics are kept for
+// what they lack. Compiled once an instruction set (render/kernels.h); not for GPUs.
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include "core/math/platform.h"
+
+namespace alhazen {
+
+/// Bytes of a register that a processor with these instructions adds and multiplies at once.
+#if defined(__AVX512F__)
+inline constexpr int most_register_bytes = 64;
+#elif defined(__AVX__)
+inline constexpr int most_register_bytes = 32;
+#else
+inline constexpr int most_register_bytes = 16;
+#endif
+
+template <class T, int count>
+struct Lanes {
+  static constexpr int bytes = count * static_cast<int>(sizeof(T));
+  static constexpr int register_bytes = bytes < most_register_bytes ? bytes : most_register_bytes;
+  static constexpr int registers = bytes / register_bytes;
+  static constexpr int per_register = count / registers;
+  typedef T Register __attribute__((vector_size(register_bytes)));
+
+  Register r[registers];
+
+  ALHAZEN_INLINE static Lanes load(const T* from) {
+    Lanes a;
+    std::memcpy(&a, from, sizeof(a));
+    return a;
+  }
+  ALHAZEN_INLINE void store(T* to) const { std::memcpy(to, r, sizeof(*this)); }
+  ALHAZEN_INLINE T lane(int i) const { return r[i / per_register][i % per_register]; }
+  ALHAZEN_INLINE static Lanes all(T x) {
+    return map([&](int) { return x - Register{}; });
+  }
+
+  template <class Function>
+  ALHAZEN_INLINE static Lanes map(const Function& function) {
+    Lanes a;
+    for (int i = 0; i < registers; ++i) a.r[i] = function(i);
+    return a;
+  }
+
+  ALHAZEN_INLINE friend Lanes operator+(const Lanes& a, const Lanes& b) {
+    return map([&](int i) { return a.r[i] + b.r[i]; });
+  }
+  ALHAZEN_INLINE friend Lanes operator-(const Lanes& a, const Lanes& b) {
+    return map([&](int i) { return a.r[i] - b.r[i]; });
+  }
+  ALHAZEN_INLINE friend Lanes operator*(const Lanes& a, const Lanes& b) {
+    return map([&](int i) { return a.r[i] * b.r[i]; });
+  }
+  ALHAZEN_INLINE friend Lanes operator/(const Lanes& a, const Lanes& b) {
+    return map([&](int i) { return a.r[i] / b.r[i]; });
+  }
+
+  /// Of each pair of lanes the smaller; b's where one is not a number.
+  ALHAZEN_INLINE friend Lanes smaller(const Lanes& a, const Lanes& b) {
+    return map([&](int i) { return a.r[i] < b.r[i] ? a.r[i] : b.r[i]; });
+  }
+  ALHAZEN_INLINE friend Lanes larger(const Lanes& a, const Lanes& b) {
+    return map([&](int i) { return a.r[i] > b.r[i] ? a.r[i] : b.r[i]; });
+  }
+  /// x where a < b, else y.
+  ALHAZEN_INLINE friend Lanes where_less(const Lanes& a, const Lanes& b, const Lanes& x, const Lanes& y) {
+    return map([&](int i) { return a.r[i] < b.r[i] ? x.r[i] : y.r[i]; });
+  }
+
+  /// a * b - c, with one rounding where the processor can: for bounds, which need not be the same everywhere.
+  ALHAZEN_INLINE friend Lanes multiply_subtract(const Lanes& a, const Lanes& b, const Lanes& c) {
+#if defined(__FMA__)
+    return map([&](int i) {
+      Register v;
+      for (int k = 0; k < per_register; ++k) v[k] = std::fma(a.r[i][k], b.r[i][k], -c.r[i][k]);
+      return v;
+    });
+#else
+    return a * b - c;
+#endif
+  }
+
+  ALHAZEN_INLINE friend Lanes square_root(const Lanes& a) {
+    return map([&](int i) {
+      Register v;
+      for (int k = 0; k < per_register; ++k) v[k] = std::sqrt(a.r[i][k]);
+      return v;
+    });
+  }
+
+  /// A bit for each lane, set where a <= b.
+  ALHAZEN_INLINE friend uint32_t less_equal(const Lanes& a, const Lanes& b) {
+    uint32_t bits = 0;
+    for (int i = 0; i < registers; ++i) bits |= bits_of(a.r[i] <= b.r[i]) << (i * per_register);
+    return bits;
+  }
+
+  /// A bit for each lane, set where a < b.
+  ALHAZEN_INLINE friend uint32_t less(const Lanes& a, const Lanes& b) {
+    uint32_t bits = 0;
+    for (int i = 0; i < registers; ++i) bits |= bits_of(a.r[i] < b.r[i]) << (i * per_register);
+    return bits;
+  }
+
+ private:
+  template <class Comparison>
+  ALHAZEN_INLINE static uint32_t bits_of(Comparison c) {
+#if defined(__AVX512DQ__)
+    if constexpr (register_bytes == 64 && sizeof(T) == 4) return _mm512_movepi32_mask((__m512i)c);
+    if constexpr (register_bytes == 64 && sizeof(T) == 8) return _mm512_movepi64_mask((__m512i)c);
+#endif
+#if defined(__AVX__)
+    if constexpr (register_bytes == 32 && sizeof(T) == 4) return static_cast<uint32_t>(_mm256_movemask_ps((__m256)c));
+    if constexpr (register_bytes == 32 && sizeof(T) == 8) return static_cast<uint32_t>(_mm256_movemask_pd((__m256d)c));
+#endif
+#if defined(__SSE2__)
+    if constexpr (register_bytes == 16 && sizeof(T) == 4) return static_cast<uint32_t>(_mm_movemask_ps((__m128)c));
+    if constexpr (register_bytes == 16 && sizeof(T) == 8) return static_cast<uint32_t>(_mm_movemask_pd((__m128d)c));
+#endif
+    uint32_t bits = 0;
+    for (int k = 0; k < per_register; ++k) bits |= static_cast<uint32_t>(c[k] & 1) << k;
+    return bits;
+  }
+};
+
+}  // namespace alhazen
