@@ -5,7 +5,7 @@
 
 #include "io/pbrt/pbrt.h"
 #include "render/backend.h"
-#include "render/sample_kernel_instances.h"
+#include "render/kernels/instances.h"
 #include "scene/flatten.h"
 #include "support/linear_intersector.h"
 
@@ -82,7 +82,7 @@ void register_precision(const std::string& precision) {
   for (const char* schedule : {"static", "guided"})
     add(std::string("openmp 2 rows ") + schedule, "openmp", "rows", schedule, 2, iterative);
   add("serial linear scan", "serial", "", "dynamic", 1,
-      SampleKernel<Real>(sample_block<IntegratorKind::iterative, SobolSampler, test::LinearIntersector<Real>, Real>));
+      SampleKernel<Real>(take_blocks<IntegratorKind::iterative, SobolSampler, test::LinearIntersector<Real>, Real>));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   alhazen_cxx_options(-Wno-restrict)
 endif()
 if(NOT ALHAZEN_ARCH STREQUAL "")
-  alhazen_cxx_options(-march=${ALHAZEN_ARCH})
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-march=${ALHAZEN_ARCH}>)
 endif()
 if(ALHAZEN_SANITIZE OR ALHAZEN_FUZZ)
   alhazen_cxx_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)

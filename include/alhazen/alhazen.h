@@ -19,11 +19,11 @@ namespace alhazen {
 
 /// How to render. What is left empty, zero or negative is taken from the scene file, or chosen.
 struct Settings {
-  std::string backend = "auto";  ///< auto, serial, openmp, cuda, optix (in float)
-  /// openmp: rows, collapse, rows+reduction, reduction, tiles; cuda: pixel, chunk, persistent, wavefront;
+  std::string backend = "auto";  ///< auto, serial, openmp, embree (in float), cuda, optix (in float)
+  /// openmp, embree: rows, collapse, rows+reduction, reduction, tiles; cuda: pixel, chunk, persistent, wavefront;
   /// optix: megakernel
   std::string strategy = "auto";
-  std::string schedule;             ///< openmp: static, dynamic or guided, with an optional ",CHUNK"
+  std::string schedule;             ///< openmp, embree: static, dynamic or guided, with an optional ",CHUNK"
   std::string precision = "float";  ///< float, double
   std::string integrator;           ///< path, iterative, recursive, branching
   std::string sampler;              ///< sobol, independent

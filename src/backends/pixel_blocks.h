@@ -34,27 +34,59 @@ uint32_t first_block(const RenderPass<Real>& pass, int x, int y) {
   return held > pass.first_sample ? (held - pass.first_sample) / samples_per_block : 0;
 }
 
-/// Takes block `block` of the pass at pixel (x, y).
 template <class Real>
-BlockSum<Real> take_block(const RenderPass<Real>& pass, int x, int y, uint32_t block, ThreadStatistics& statistics) {
+BlockRequest request_block(const RenderPass<Real>& pass, int x, int y, uint32_t block) {
   const uint32_t offset = block * samples_per_block;
   const uint32_t left = pass.sample_count - offset;
-  const BlockSum<Real> sum = pass.kernel(pass.scene.view, pass.settings.seed, pass.settings.max_segments,
-                                         static_cast<uint32_t>(x), static_cast<uint32_t>(y), pass.first_sample + offset,
-                                         left < samples_per_block ? left : samples_per_block);
-  statistics.samples += sum.samples;
-  statistics.rays += sum.segments;
-  statistics.shadow_rays += sum.shadow_rays;
-  statistics.nonfinite_samples += sum.nonfinite;
-  return sum;
+  return {static_cast<uint32_t>(x), static_cast<uint32_t>(y), pass.first_sample + offset,
+          left < samples_per_block ? left : samples_per_block};
 }
 
-/// The pass at pixel (x, y); nothing where the render is to stop.
 template <class Real>
-void render_pixel(const RenderPass<Real>& pass, int x, int y, ThreadStatistics& statistics) {
-  if (pass.control.is_stopped()) return;
-  for (uint32_t block = first_block(pass, x, y); block < block_count(pass); ++block)
-    pass.film.add(x, y, take_block(pass, x, y, block, statistics));
+void take_requests(const RenderPass<Real>& pass, const BlockRequest* requests, uint32_t count, BlockSum<Real>* sums,
+                   ThreadStatistics& statistics) {
+  pass.kernel(pass.scene.view, pass.tracer, pass.settings.seed, pass.settings.max_segments, requests, count, sums,
+              pass.film.view().wants_first_hit());
+  for (uint32_t i = 0; i < count; ++i) {
+    statistics.samples += sums[i].samples;
+    statistics.rays += sums[i].segments;
+    statistics.shadow_rays += sums[i].shadow_rays;
+    statistics.nonfinite_samples += sums[i].nonfinite;
+  }
 }
+
+/// Takes blocks of the pass, which are handed in one by one, many at a time, and adds them to the film in that order.
+template <class Real>
+class BlockBatch {
+ public:
+  BlockBatch(const RenderPass<Real>& pass, ThreadStatistics& statistics) : pass_(pass), statistics_(statistics) {}
+  ~BlockBatch() { take(); }
+  BlockBatch(const BlockBatch&) = delete;
+  BlockBatch& operator=(const BlockBatch&) = delete;
+
+  /// All blocks of pixel (x, y) that are not yet taken; nothing where the render is to stop.
+  void add_pixel(int x, int y) {
+    for (uint32_t block = first_block(pass_, x, y); block < block_count(pass_); ++block) {
+      if (count_ == most_blocks_per_request) take();
+      requests_[count_++] = request_block(pass_, x, y, block);
+    }
+  }
+
+ private:
+  void take() {
+    const uint32_t count = count_;
+    count_ = 0;
+    if (count == 0 || pass_.control.is_stopped()) return;
+    take_requests(pass_, requests_, count, sums_, statistics_);
+    for (uint32_t i = 0; i < count; ++i)
+      pass_.film.add(static_cast<int>(requests_[i].x), static_cast<int>(requests_[i].y), sums_[i]);
+  }
+
+  const RenderPass<Real>& pass_;
+  ThreadStatistics& statistics_;
+  uint32_t count_ = 0;
+  BlockRequest requests_[most_blocks_per_request];
+  BlockSum<Real> sums_[most_blocks_per_request];
+};
 
 }  // namespace alhazen

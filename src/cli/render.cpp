@@ -199,16 +199,20 @@ void add_picture_options(CLI::App& command, RenderOptions& o) {
 void add_engine_options(CLI::App& command, RenderOptions& o) {
   const char* group = "Engine";
   command
-      .add_option("--backend", o.settings.backend, "auto, serial, openmp, cuda or optix; 'alhazen devices' lists them")
+      .add_option("--backend", o.settings.backend,
+                  "auto, serial, openmp, embree, cuda or optix; 'alhazen devices' lists them")
       ->type_name("NAME")
       ->group(group);
   command
       .add_option("--strategy", o.settings.strategy,
-                  "auto; openmp: tiles, rows, collapse, rows+reduction or reduction; cuda: persistent, pixel, chunk or "
+                  "auto; openmp and embree: tiles, rows, collapse, rows+reduction or reduction; cuda: persistent, "
+                  "pixel, chunk or "
                   "wavefront; optix: megakernel")
       ->type_name("NAME")
       ->group(group);
-  command.add_option("--schedule", o.settings.schedule, "openmp: static, dynamic or guided, and a chunk: dynamic,4")
+  command
+      .add_option("--schedule", o.settings.schedule,
+                  "openmp, embree: static, dynamic or guided, and a chunk: dynamic,4")
       ->type_name("KIND[,CHUNK]")
       ->group(group);
   command

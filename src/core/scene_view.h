@@ -15,7 +15,7 @@
 #include "core/shapes/records.h"
 #include "core/textures/record.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// Every array of the scene, once: ARRAY(element type, name). Storage, device pointers, memory report and checksum
 /// expand from this list.
@@ -63,4 +63,4 @@ struct SceneView {
   Real exposure = 1;                     ///< factor on recorded radiance
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

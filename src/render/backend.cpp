@@ -50,6 +50,7 @@ std::vector<std::unique_ptr<Backend>> all_backends() {
   std::vector<std::unique_ptr<Backend>> backends;
   backends.push_back(make_serial_backend());
   backends.push_back(make_openmp_backend());
+  backends.push_back(make_embree_backend());
   backends.push_back(make_cuda_backend());
   backends.push_back(make_optix_backend());
   return backends;

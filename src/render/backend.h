@@ -27,6 +27,7 @@ struct RenderPass {
   RenderControl& control;
   uint32_t first_sample;
   uint32_t sample_count;
+  const void* tracer = nullptr;  ///< what the kernel traces rays by, where that is not the scene's own BVH
 };
 
 inline constexpr uint32_t usual_samples_per_pass = 64;
@@ -61,6 +62,7 @@ class Backend {
 
 std::unique_ptr<Backend> make_serial_backend();
 std::unique_ptr<Backend> make_openmp_backend();
+std::unique_ptr<Backend> make_embree_backend();
 std::unique_ptr<Backend> make_cuda_backend();
 std::unique_ptr<Backend> make_optix_backend();
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "core/shapes/interaction.h"
@@ -268,8 +269,14 @@ class Flattener {
     const auto start = std::chrono::steady_clock::now();
     std::vector<Bounds3<Real>> boxes = primitive_boxes();
     const Trees& trees = options_.trees;
-    BvhTree<Real> tree = build_bvh<Real>(
-        boxes, trees.simd ? BvhOptions::for_collapse(options_.threads) : BvhOptions{.threads = options_.threads});
+    BvhTree<Real> tree;
+    if (trees.binary || trees.wide || trees.simd) {
+      tree = build_bvh<Real>(
+          boxes, trees.simd ? BvhOptions::for_collapse(options_.threads) : BvhOptions{.threads = options_.threads});
+    } else {
+      tree.order.resize(boxes.size());
+      std::iota(tree.order.begin(), tree.order.end(), 0u);
+    }
     order_primitives(tree.order);
     out_.nodes = std::move(tree.nodes);
     if (trees.wide || trees.simd) {

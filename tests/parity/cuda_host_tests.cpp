@@ -124,13 +124,13 @@ TEST(CudaOnHostWideBvh, GivesAllButTheSameBits) {
       const RenderSettings settings = resolve_settings(host_settings(serial, strategy), scene);
       Diagnostics diagnostics;
       const FlatScene<float> flat =
-          flatten<float>(std::move(scene), {settings.width, settings.height, 1, true}, diagnostics);
+          flatten<float>(std::move(scene), {settings.width, settings.height, 1, {.wide = true}}, diagnostics);
       ASSERT_GT(flat.view.wide_nodes_count, 0u);
       auto film = std::make_unique<Film<float>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
       RenderControl control(1);
       cuda::HostExecutor executor;
       cuda::DeviceRender<cuda::HostExecutor, cuda::WideTracing, float> render(executor, {});
-      render.render_pass({flat, nullptr, settings, *film, control, 0, 18}, control.thread(0));
+      render.render_pass({flat, SampleKernel<float>(nullptr), settings, *film, control, 0, 18}, control.thread(0));
       Rendering rendering;
       rendering.film = std::move(film);
       const Outcome outcome = outcome_of(rendering), expected = render_bits(parity_scene(name), serial);
@@ -152,14 +152,14 @@ TEST(CudaOnHostShares, AddUpToThePicture) {
     const RenderSettings settings = resolve_settings(host_settings(serial, "persistent"), scene);
     Diagnostics diagnostics;
     const FlatScene<double> flat =
-        flatten<double>(std::move(scene), {settings.width, settings.height, 1, false}, diagnostics);
+        flatten<double>(std::move(scene), {settings.width, settings.height, 1, {}}, diagnostics);
     auto film = std::make_unique<Film<double>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
     RenderControl control(1);
     for (uint32_t device = 0; device < devices; ++device) {
       cuda::HostExecutor executor;
       cuda::DeviceRender<cuda::HostExecutor, cuda::FlatTracing, double> render(executor, {device, devices});
-      render.render_pass({flat, nullptr, settings, *film, control, 0, 16}, control.thread(0));
-      render.render_pass({flat, nullptr, settings, *film, control, 16, 2}, control.thread(0));
+      render.render_pass({flat, SampleKernel<double>(nullptr), settings, *film, control, 0, 16}, control.thread(0));
+      render.render_pass({flat, SampleKernel<double>(nullptr), settings, *film, control, 16, 2}, control.thread(0));
     }
     EXPECT_EQ(control.thread(0).samples, expected.statistics.camera_samples);
     Rendering rendering;

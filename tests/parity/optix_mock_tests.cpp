@@ -272,8 +272,7 @@ Outcome render(const OptixFunctionTable& table, Scene scene, Settings asked) {
   asked.backend = "serial";
   const RenderSettings settings = resolve_settings(asked, scene);
   Diagnostics diagnostics;
-  const FlatScene<float> flat =
-      flatten<float>(std::move(scene), {settings.width, settings.height, 1, false}, diagnostics);
+  const FlatScene<float> flat = flatten<float>(std::move(scene), {settings.width, settings.height, 1, {}}, diagnostics);
   auto film = std::make_unique<Film<float>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
   RenderControl control(1);
   {
@@ -281,10 +280,11 @@ Outcome render(const OptixFunctionTable& table, Scene scene, Settings asked) {
     cuda::DeviceRender<OptixExecutor<MockExecutor>, OptixTracing, float> device(executor, {});
     device.prepare(flat);
     const uint32_t whole = settings.samples_per_pixel / 4 * 4;
-    device.render_pass({flat, nullptr, settings, *film, control, 0, whole}, control.thread(0));
+    device.render_pass({flat, SampleKernel<float>(nullptr), settings, *film, control, 0, whole}, control.thread(0));
     if (whole < settings.samples_per_pixel)
-      device.render_pass({flat, nullptr, settings, *film, control, whole, settings.samples_per_pixel - whole},
-                         control.thread(0));
+      device.render_pass(
+          {flat, SampleKernel<float>(nullptr), settings, *film, control, whole, settings.samples_per_pixel - whole},
+          control.thread(0));
   }
   Rendering rendering;
   rendering.film = std::move(film);

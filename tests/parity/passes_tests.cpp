@@ -46,7 +46,8 @@ template <class Real>
 Outcome render_in_passes(Scene scene, const Settings& asked, const std::vector<uint32_t>& sizes) {
   Diagnostics diagnostics;
   const RenderSettings settings = resolve_settings(asked, scene);
-  const FlatScene<Real> flat = flatten<Real>(std::move(scene), {settings.width, settings.height, 1}, diagnostics);
+  const FlatScene<Real> flat =
+      flatten<Real>(std::move(scene), {settings.width, settings.height, 1, {.simd = true}}, diagnostics);
   Rendering rendering;
   auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
   RenderControl control(settings.threads);

@@ -37,7 +37,9 @@ Vec3d render_pixel(const SceneView<Real>& scene, const Take& take, uint32_t x, u
   double weight = 0;
   for (uint32_t first = 0; first < take.samples; first += samples_per_block) {
     const uint32_t count = std::min(samples_per_block, take.samples - first);
-    const BlockSum<Real> block = kernel(scene, take.seed, take.max_segments, x, y, first, count);
+    const BlockRequest request{x, y, first, count};
+    BlockSum<Real> block;
+    kernel(scene, nullptr, take.seed, take.max_segments, &request, 1, &block);
     sum += convert<double>(block.radiance);
     weight += static_cast<double>(block.weight);
   }

@@ -1,10 +1,11 @@
+#include "backends/openmp/openmp.h"
+
 #include <omp.h>
 
 #include <algorithm>
 #include <string>
 
 #include "backends/pixel_blocks.h"
-#include "render/backend.h"
 
 namespace alhazen {
 
@@ -25,8 +26,10 @@ void reduce_pixel(const RenderPass<Real>& pass, int x, int y) {
     ThreadStatistics& statistics = pass.control.thread(index);
     const BusyTimer timer(statistics);
 #pragma omp for schedule(static) nowait
-    for (int block = first; block < count; ++block)
-      blocks[block] = take_block(pass, x, y, static_cast<uint32_t>(block), statistics);
+    for (int block = first; block < count; ++block) {
+      const BlockRequest request = request_block(pass, x, y, static_cast<uint32_t>(block));
+      take_requests(pass, &request, 1, &blocks[block], statistics);
+    }
   }
   for (int block = first; block < count; ++block) pass.film.add(x, y, blocks[block]);
 }
@@ -42,7 +45,10 @@ void render_rows(const RenderPass<Real>& pass) {
 #pragma omp for schedule(runtime) nowait
     for (int y = window.y0; y < window.y1; ++y) {
       if (pass.control.is_stopped()) continue;
-      for (int x = window.x0; x < window.x1; ++x) render_pixel(pass, x, y, statistics);
+      {
+        BlockBatch<Real> batch(pass, statistics);
+        for (int x = window.x0; x < window.x1; ++x) batch.add_pixel(x, y);
+      }
       pass.control.add_samples(static_cast<uint64_t>(window.width()) * pass.sample_count);
     }
   }
@@ -60,7 +66,7 @@ void render_collapsed(const RenderPass<Real>& pass) {
     for (int y = window.y0; y < window.y1; ++y)
       for (int x = window.x0; x < window.x1; ++x) {
         if (pass.control.is_stopped()) continue;
-        render_pixel(pass, x, y, statistics);
+        BlockBatch<Real>(pass, statistics).add_pixel(x, y);
         pass.control.add_samples(pass.sample_count);
       }
   }
@@ -105,8 +111,11 @@ void render_tiles(const RenderPass<Real>& pass) {
       if (pass.control.is_stopped()) continue;
       const int x0 = window.x0 + tile % columns * tile_size, x1 = std::min(x0 + tile_size, window.x1);
       const int y0 = window.y0 + tile / columns * tile_size, y1 = std::min(y0 + tile_size, window.y1);
-      for (int y = y0; y < y1; ++y)
-        for (int x = x0; x < x1; ++x) render_pixel(pass, x, y, statistics);
+      {
+        BlockBatch<Real> batch(pass, statistics);
+        for (int y = y0; y < y1; ++y)
+          for (int x = x0; x < x1; ++x) batch.add_pixel(x, y);
+      }
       pass.control.add_samples(static_cast<uint64_t>((x1 - x0) * (y1 - y0)) * pass.sample_count);
     }
   }
@@ -124,34 +133,38 @@ omp_sched_t openmp_schedule(ScheduleKind kind) {
   return omp_sched_dynamic;
 }
 
+template <class Real>
+void render_by_strategy(const RenderPass<Real>& pass) {
+  const std::string& strategy = pass.settings.strategy;
+  omp_set_dynamic(0);
+  omp_set_max_active_levels(1);
+  omp_set_schedule(openmp_schedule(pass.settings.schedule.kind), pass.settings.schedule.chunk);
+  if (strategy == "rows") return render_rows(pass);
+  if (strategy == "collapse") return render_collapsed(pass);
+  if (strategy == "rows+reduction") return render_rows_with_reduction(pass);
+  if (strategy == "reduction") return render_with_reduction(pass);
+  render_tiles(pass);
+}
+
 class OpenMpBackend final : public Backend {
  public:
   BackendDescription describe() const override {
     return {"openmp",
-            {"tiles", "rows", "collapse", "rows+reduction", "reduction"},
+            openmp_strategies(),
             true,
-            std::to_string(omp_get_num_procs()) + " processors",
+            std::to_string(omp_get_num_procs()) + " processors, " + to_string(instruction_sets().back()),
             {}};
   }
-  void render_pass(const RenderPass<float>& pass) override { render(pass); }
-  void render_pass(const RenderPass<double>& pass) override { render(pass); }
-
- private:
-  template <class Real>
-  static void render(const RenderPass<Real>& pass) {
-    const std::string& strategy = pass.settings.strategy;
-    omp_set_dynamic(0);
-    omp_set_max_active_levels(1);
-    omp_set_schedule(openmp_schedule(pass.settings.schedule.kind), pass.settings.schedule.chunk);
-    if (strategy == "rows") return render_rows(pass);
-    if (strategy == "collapse") return render_collapsed(pass);
-    if (strategy == "rows+reduction") return render_rows_with_reduction(pass);
-    if (strategy == "reduction") return render_with_reduction(pass);
-    render_tiles(pass);
-  }
+  void render_pass(const RenderPass<float>& pass) override { render_openmp(pass); }
+  void render_pass(const RenderPass<double>& pass) override { render_openmp(pass); }
 };
 
 }  // namespace
+
+std::vector<std::string> openmp_strategies() { return {"tiles", "rows", "collapse", "rows+reduction", "reduction"}; }
+
+void render_openmp(const RenderPass<float>& pass) { render_by_strategy(pass); }
+void render_openmp(const RenderPass<double>& pass) { render_by_strategy(pass); }
 
 std::unique_ptr<Backend> make_openmp_backend() { return std::make_unique<OpenMpBackend>(); }
 

@@ -8,7 +8,9 @@ namespace {
 /// The report's Algorithm 1: one thread, pixel after pixel.
 class SerialBackend final : public Backend {
  public:
-  BackendDescription describe() const override { return {"serial", {}, true, "one core", {}}; }
+  BackendDescription describe() const override {
+    return {"serial", {}, true, "one core, " + to_string(instruction_sets().back()), {}};
+  }
   void render_pass(const RenderPass<float>& pass) override { render(pass); }
   void render_pass(const RenderPass<double>& pass) override { render(pass); }
 
@@ -19,7 +21,10 @@ class SerialBackend final : public Backend {
     ThreadStatistics& statistics = pass.control.thread(0);
     const BusyTimer timer(statistics);
     for (int y = window.y0; y < window.y1 && !pass.control.is_stopped(); ++y) {
-      for (int x = window.x0; x < window.x1; ++x) render_pixel(pass, x, y, statistics);
+      {
+        BlockBatch<Real> batch(pass, statistics);
+        for (int x = window.x0; x < window.x1; ++x) batch.add_pixel(x, y);
+      }
       pass.control.add_samples(static_cast<uint64_t>(window.width()) * pass.sample_count);
     }
   }

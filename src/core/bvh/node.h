@@ -6,7 +6,7 @@
 
 #include "core/math/bounds.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// An inner node has count 0 and its children at `first` and `first + 1`; a leaf has `count` primitives from `first`
 /// in SceneView::primitives. `axis` is the axis along which the children were parted.
@@ -24,4 +24,4 @@ struct BvhNode {
 /// No tree is deeper: the builder ends in leaves before (scene/bvh_builder.h).
 inline constexpr int max_bvh_depth = 64;
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

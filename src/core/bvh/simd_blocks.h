@@ -9,7 +9,7 @@
 #include "core/bvh/traversal.h"
 #include "core/simd/lanes.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// Which lanes might be met at a distance in (0, hit.t]: replaces `hit` by the nearest of them that `accept` takes.
 template <class V, class Real, class Accept>
@@ -134,4 +134,4 @@ ALHAZEN_INLINE bool intersect_leaf(const SceneView<Real>& scene, uint32_t child,
   }
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

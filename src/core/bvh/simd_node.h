@@ -5,7 +5,9 @@
 
 #include <cstdint>
 
-namespace alhazen {
+#include "core/math/platform.h"
+
+namespace ALHAZEN_CORE {
 
 inline constexpr int simd_children = 8;
 
@@ -55,4 +57,4 @@ struct MovingSphereBlock {
   uint32_t index[lanes];  ///< in SceneView::moving_spheres
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

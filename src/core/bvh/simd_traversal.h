@@ -4,12 +4,11 @@
 // turns, a step each, what the next step of a ray reads being fetched while the others have theirs: so the waits for
 // memory and for each other's results overlap. How a ray walks does not depend on the others.
 
-#include <algorithm>
 #include <bit>
 
 #include "core/bvh/simd_blocks.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// A ray as boxes are tested: side * inverse - near_offset is where it enters a slab, side * inverse - far_offset where
 /// it leaves it. The offsets are apart by more than rounding can add up to, the boxes too are wider (simd_box): a box
@@ -68,9 +67,10 @@ inline constexpr int simd_stack_size = (simd_children - 1) * max_simd_depth + 1;
 
 /// One ray on its way through the tree.
 template <bool any_hit, class Real>
-class SimdWalk {
+class alignas(64) SimdWalk {
  public:
-  SimdWalk() {}  // NOLINT: not initialised, for most of the stack is never used
+  /// `stack` has simd_stack_size entries and lies elsewhere: walks side by side are to be few cache lines each.
+  ALHAZEN_INLINE void use(uint64_t* stack) { stack_ = stack; }
 
   ALHAZEN_INLINE void start(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max) {
     ray_ = &ray;
@@ -124,12 +124,12 @@ class SimdWalk {
     } else if (entered != 0) {
       const uint64_t second = next();
       const int base = height_;
-      stack_[height_++] = std::max(nearest, second);
-      nearest = std::min(nearest, second);
+      stack_[height_++] = larger(nearest, second);
+      nearest = smaller(nearest, second);
       while (entered != 0) {
         uint64_t entry_left = next();
-        const uint64_t farther = std::max(nearest, entry_left);
-        nearest = std::min(nearest, entry_left);
+        const uint64_t farther = larger(nearest, entry_left);
+        nearest = smaller(nearest, entry_left);
         int place = height_++;
         for (; place > base && stack_[place - 1] < farther; --place) stack_[place] = stack_[place - 1];
         stack_[place] = farther;
@@ -156,7 +156,7 @@ class SimdWalk {
   const Ray<Real>* ray_;
   Hit<Real> hit_;
   ShearedRay<Real> sheared_;
-  uint64_t stack_[simd_stack_size];
+  uint64_t* stack_;
 };
 
 /// Where the children of each kind lie, for fetching them without a branch.
@@ -205,9 +205,11 @@ class SimdBvhIntersector {
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     const SimdPrefetch<Real> prefetch(*scene_);
     SimdWalk<any_hit, Real> walks[simd_walks];
+    uint64_t stacks[simd_walks][simd_stack_size];
     uint32_t query[simd_walks], live = 0, next = 0;
     for (; live < simd_walks && next < count; ++live, ++next) {
       query[live] = next;
+      walks[live].use(stacks[live]);
       walks[live].start(*scene_, ray(next), t_max(next));
     }
     uint32_t order[simd_walks];
@@ -235,6 +237,8 @@ class SimdBvhIntersector {
   template <bool any_hit>
   bool walk(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
     SimdWalk<any_hit, Real> walk;
+    uint64_t stack[simd_stack_size];
+    walk.use(stack);
     walk.start(*scene_, ray, t_max);
     while (walk.step(*scene_)) {
     }
@@ -246,4 +250,4 @@ class SimdBvhIntersector {
   const SceneView<Real>* scene_;
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

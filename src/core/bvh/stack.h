@@ -5,7 +5,7 @@
 
 #include "core/math/platform.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// A stack of at most `capacity` entries, which the caller knows to be enough.
 template <class Entry, int capacity>
@@ -31,4 +31,4 @@ struct LocalStacks {
   }
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -7,7 +7,7 @@
 #include "core/shapes/sphere.h"
 #include "core/shapes/triangle.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// A ray as the slab test wants it: reciprocals of its direction (infinite where a component is zero, which the test
 /// bears), and for each axis which of a node's planes it meets first.
@@ -157,4 +157,4 @@ class BvhIntersector {
   Stacks stacks_;
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -6,7 +6,7 @@
 #include "core/bvh/traversal.h"
 #include "core/bvh/wide_node.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// Nodes: `bits` has in the high byte which of the siblings are to be visited, by priority, in the low byte which of
 /// them are nodes; they begin at `base`. Primitives: a bit for each of 24 from `base` on.
@@ -165,4 +165,4 @@ class WideBvhIntersector {
   Stacks stacks_;
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -5,7 +5,7 @@
 
 #include "core/shapes/records.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// 80 bytes, five loads of 16. Child i's box goes from origin + low * 2^exponent to origin + high * 2^exponent, axis by
 /// axis. Bytes of children lie four in a word, the first in the low bits.
@@ -37,4 +37,4 @@ static_assert(sizeof(WidePrimitive) == 48);
 
 inline constexpr uint32_t most_wide_leaf = 3;
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -6,7 +6,7 @@
 #include "core/math/vec.h"
 #include "core/sampling/warp.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 struct CameraRecord {
@@ -37,4 +37,4 @@ ALHAZEN_HD Ray<Real> camera_ray(const CameraRecord<Real>& camera, const Vec2<Rea
           time};
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

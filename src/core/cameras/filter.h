@@ -8,7 +8,7 @@
 #include "core/math/vec.h"
 #include "core/sampling/discrete.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// The box is sampled directly, other filters from one table for each axis: filter_cdf holds for x, then for y,
 /// `cells` + 1 values of the cumulative distribution of |f| and `cells` signs of f.
@@ -47,4 +47,4 @@ ALHAZEN_HD FilterSample<Real> sample_filter(const FilterRecord<Real>& filter, co
   return s;
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

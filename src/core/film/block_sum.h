@@ -5,7 +5,7 @@
 #include "core/integrators/record.h"
 #include "core/math/scalar.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// Samples are summed in blocks of this many, and blocks are added to the film in order.
 inline constexpr uint32_t samples_per_block = 4;
@@ -49,4 +49,4 @@ struct BlockSum {
   }
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

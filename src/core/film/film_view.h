@@ -4,7 +4,7 @@
 
 #include "core/film/block_sum.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// Every plane of the film, once: PLANE(element type, name). All but the first two are there only where they are asked
 /// for: `weights` where the filter has negative weights, the others for their layers.
@@ -58,4 +58,4 @@ struct FilmView {
   }
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

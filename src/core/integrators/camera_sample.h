@@ -9,7 +9,7 @@
 #include "core/integrators/path.h"
 #include "core/integrators/recursive.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 enum class IntegratorKind : uint32_t { branching, recursive, iterative, path };
 
@@ -71,4 +71,4 @@ ALHAZEN_HD SampleRecord<Real> integrate(const SceneView<Real>& scene, const Inte
   return record;
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

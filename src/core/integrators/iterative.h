@@ -5,7 +5,7 @@
 
 #include "core/integrators/stages.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// A path under way, between two segments.
 template <class Real>
@@ -36,4 +36,4 @@ ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler
   return true;
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

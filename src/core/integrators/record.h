@@ -7,7 +7,7 @@
 
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// What a path gathers and costs.
 template <class Real>
@@ -28,13 +28,14 @@ template <class Real>
 struct SampleRecord : PathRecord<Real> {
   FirstHit<Real> first;
   uint32_t has_hit = 0;  ///< 1 where there was one
+  bool keeps_first_hit = true;
 
   /// What an integrator calls at the first surface.
   ALHAZEN_HD void keep_first_hit(const FirstHit<Real>& hit) {
     first = hit;
     has_hit = 1;
   }
-  ALHAZEN_HD bool wants_first_hit() const { return true; }
+  ALHAZEN_HD bool wants_first_hit() const { return keeps_first_hit; }
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

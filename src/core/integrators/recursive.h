@@ -4,7 +4,7 @@
 
 #include "core/integrators/stages.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// Radiance that arrives along `ray`, from at most `segments_left` segments; `segment` counts those before it.
 template <class Real, class Intersector, class Sampler>
@@ -24,4 +24,4 @@ ALHAZEN_HD Vec3<Real> cast_ray_recursive(const SceneView<Real>& scene, const Int
                                                   segments_left - 1, segment + 1, record);
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

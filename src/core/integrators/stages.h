@@ -9,7 +9,7 @@
 #include "core/math/ray.h"
 #include "core/sampling/dimensions.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// A point on a surface, ready to be shaded.
 template <class Real>
@@ -96,7 +96,8 @@ ALHAZEN_HD DirectLight<Real> direct_light(const SceneView<Real>& scene, const Sa
   DirectLight<Real> direct;
   if (scene.lights_count == 0 || point.bsdf.is_specular()) return direct;
   const LightSample<Real> light =
-      sample_light(scene, point.si.position, point.si.time, sampler.template get_1d<Real>(dimensions.light_choice()),
+      sample_light(scene, point.si.position, point.si.time,
+                   scene.lights_count > 1 ? sampler.template get_1d<Real>(dimensions.light_choice()) : Real(0),
                    sampler.template get_2d<Real>(dimensions.light_point()));
   if (!(light.pdf > 0) || is_zero(light.radiance) || !is_on_one_side(point, light.direction)) return direct;
   const BsdfValue<Real> f = evaluate_bsdf(point.bsdf, point.wo, light.direction);
@@ -111,8 +112,11 @@ ALHAZEN_HD DirectLight<Real> direct_light(const SceneView<Real>& scene, const Sa
 template <class Real, class Sampler>
 ALHAZEN_HD BsdfSample<Real> scatter(const ShadingPoint<Real>& point, const Sampler& sampler,
                                     const VertexDimensions& dimensions) {
-  BsdfSample<Real> s = sample_bsdf(point.bsdf, point.wo, sampler.template get_1d<Real>(dimensions.bsdf_lobe()),
-                                   sampler.template get_2d<Real>(dimensions.bsdf_direction()));
+  // What no one reads is not drawn.
+  const Real u_lobe = point.bsdf.has_lobes() ? sampler.template get_1d<Real>(dimensions.bsdf_lobe()) : Real(0);
+  const Vec2<Real> u =
+      point.bsdf.is_specular() ? Vec2<Real>{} : sampler.template get_2d<Real>(dimensions.bsdf_direction());
+  BsdfSample<Real> s = sample_bsdf(point.bsdf, point.wo, u_lobe, u);
   if (s.pdf > 0 && !is_on_one_side(point, s.direction)) s.pdf = 0;
   return s;
 }
@@ -123,4 +127,4 @@ ALHAZEN_HD void record_first_hit(const ShadingPoint<Real>& point, const Hit<Real
     record.keep_first_hit(FirstHit<Real>{bsdf_albedo(point.bsdf), point.si.shading_normal, hit.t});
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -7,7 +7,7 @@
 #include "core/sampling/warp.h"
 #include "core/shapes/interaction.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 struct LightSample {
@@ -166,4 +166,4 @@ ALHAZEN_HD Real pdf_background(const SceneView<Real>& scene) {
                                             : scene.lights[scene.background_light].pmf * pdf_uniform_sphere<Real>;
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

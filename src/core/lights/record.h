@@ -7,7 +7,7 @@
 #include "core/math/vec.h"
 #include "core/shapes/records.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 enum class LightKind : uint32_t { triangle, sphere, moving_sphere, point, spot, distant, constant_infinite };
 
@@ -23,4 +23,4 @@ struct LightRecord {
   Real cos_outer, cos_inner;  ///< spot: cosines where the light ends and where the falloff begins
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

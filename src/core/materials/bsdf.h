@@ -9,7 +9,7 @@
 #include "core/math/frame.h"
 #include "core/textures/texture.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 struct Bsdf {
@@ -23,6 +23,9 @@ struct Bsdf {
   ALHAZEN_HD DiffuseBsdf<Real> diffuse() const { return {a}; }
   ALHAZEN_HD ConductorBsdf<Real> conductor() const { return {a, b, alpha}; }
   ALHAZEN_HD DielectricBsdf<Real> dielectric() const { return {ior, alpha}; }
+
+  /// True where a lobe is chosen at random before a direction is.
+  ALHAZEN_HD bool has_lobes() const { return kind == MaterialKind::dielectric; }
 
   /// True where light is only sent in single directions, so that sampling lights is of no use.
   ALHAZEN_HD bool is_specular() const {
@@ -116,4 +119,4 @@ ALHAZEN_HD Vec3<Real> bsdf_albedo(const Bsdf<Real>& bsdf) {
   return {};
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -6,7 +6,7 @@
 #include "core/materials/microfacet.h"
 #include "core/materials/sample.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 struct ConductorBsdf {
@@ -54,4 +54,4 @@ ALHAZEN_HD BsdfValue<Real> evaluate_conductor(const ConductorBsdf<Real>& bsdf, c
   return {f * (d * ggx_g2(o, i, bsdf.alpha) / (4 * o.z)), ggx_g1(o, bsdf.alpha) * d / (4 * o.z)};
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -7,7 +7,7 @@
 #include "core/materials/microfacet.h"
 #include "core/materials/sample.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 struct DielectricBsdf {
@@ -97,4 +97,4 @@ ALHAZEN_HD BsdfValue<Real> evaluate_dielectric(const DielectricBsdf<Real>& bsdf,
   return {splat((1 - rate) * d * g2 * jacobian * cos_o / (o.z * eta * eta)), (1 - rate) * density * jacobian};
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

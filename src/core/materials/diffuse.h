@@ -5,7 +5,7 @@
 #include "core/materials/sample.h"
 #include "core/sampling/warp.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 struct DiffuseBsdf {
@@ -29,4 +29,4 @@ ALHAZEN_HD BsdfValue<Real> evaluate_diffuse(const DiffuseBsdf<Real>& bsdf, const
   return {bsdf.reflectance * pdf, pdf};
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -5,7 +5,7 @@
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// Dielectric interface by the cosines of incidence and refraction, both >= 0 and not both 0.
 template <class Real>
@@ -59,4 +59,4 @@ ALHAZEN_HD Real absorption_for_reflectance(Real reflectance) {
   return 2 * std::sqrt(r) / std::sqrt(1 - r);
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -7,7 +7,7 @@
 #include "core/math/vec.h"
 #include "core/sampling/warp.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// Below this alpha a surface is treated as smooth.
 template <class Real>
@@ -62,4 +62,4 @@ ALHAZEN_HD Vec3<Real> sample_visible_normal(const Vec3<Real>& w, Real alpha, con
   return normalize(Vec3<Real>{alpha * n.x, alpha * n.y, larger(Real(1e-6), n.z)});
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -6,7 +6,7 @@
 
 #include "core/textures/record.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 enum class MaterialKind : uint32_t { diffuse, conductor, dielectric };
 
@@ -20,4 +20,4 @@ struct MaterialRecord {
   Real ior;                  ///< dielectric: inside relative to outside
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -6,7 +6,7 @@
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 struct BsdfSample {
@@ -24,4 +24,4 @@ struct BsdfValue {
   Real pdf = 0;
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -5,7 +5,7 @@
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 struct Bounds3 {
@@ -31,4 +31,4 @@ struct Bounds3 {
   }
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -5,7 +5,7 @@
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 struct Frame {
@@ -26,4 +26,4 @@ ALHAZEN_HD Frame<Real> frame_about(const Vec3<Real>& n) {
   return {{Real(1) + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

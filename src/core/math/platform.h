@@ -1,6 +1,15 @@
 #pragma once
 
-// What a translation unit needs to know about where it is compiled: the host alone, or host and device.
+// What a translation unit needs to know about where it is compiled: the host alone, or host and device; and for which
+// instruction set, where it is compiled for several.
+
+// Code that is compiled once an instruction set lies in a namespace of its own each time, or the linker would take one
+// copy of an inline function for all of them (render/kernels).
+#if defined(ALHAZEN_ISA)
+#define ALHAZEN_CORE alhazen::inline ALHAZEN_ISA
+#else
+#define ALHAZEN_CORE alhazen
+#endif
 
 #if defined(__CUDACC__)
 #define ALHAZEN_HD __host__ __device__

@@ -5,7 +5,7 @@
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 struct Ray {
@@ -25,4 +25,4 @@ ALHAZEN_HD Vec3<Real> offset_origin(const Vec3<Real>& position, const Vec3<Real>
   return {next_towards(moved.x, offset.x), next_towards(moved.y, offset.y), next_towards(moved.z, offset.z)};
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -8,7 +8,7 @@
 
 #include "core/math/platform.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 inline constexpr Real pi = Real(3.14159265358979323846264338327950288);
@@ -102,4 +102,4 @@ ALHAZEN_HD inline Real next_towards(Real x, Real towards) {
   return towards > 0 ? x + step : towards < 0 ? x - step : x;
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -7,7 +7,7 @@
 
 #include "core/math/platform.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 struct Vec2 {
@@ -140,4 +140,4 @@ using Vec2d = Vec2<double>;
 using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

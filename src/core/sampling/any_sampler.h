@@ -5,7 +5,7 @@
 #include "core/sampling/independent.h"
 #include "core/sampling/sobol.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 enum class SamplerType : uint32_t { sobol, independent };
 
@@ -35,4 +35,4 @@ class AnySampler {
   };
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

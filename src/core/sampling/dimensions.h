@@ -6,7 +6,7 @@
 
 #include "core/math/platform.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 struct CameraDimensions {
   static constexpr uint32_t film = 0;  ///< pair
@@ -27,4 +27,4 @@ struct VertexDimensions {
   ALHAZEN_HD constexpr uint32_t roulette() const { return base + 4; }
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

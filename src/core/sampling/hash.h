@@ -6,7 +6,7 @@
 
 #include "core/math/platform.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// A bijection of 64 bits in which every input bit reaches every output bit (Stafford 2011, "Better Bit Mixing", mix
 /// 13).
@@ -53,4 +53,4 @@ ALHAZEN_HD constexpr Real unit_interval(uint32_t bits) {
     return static_cast<Real>(bits) * static_cast<Real>(0x1p-32);
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

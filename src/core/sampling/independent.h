@@ -5,7 +5,7 @@
 #include "core/math/vec.h"
 #include "core/sampling/hash.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 class IndependentSampler {
  public:
@@ -38,4 +38,4 @@ class IndependentSampler {
   uint64_t key_;
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

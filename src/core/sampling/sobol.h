@@ -6,7 +6,7 @@
 #include "core/math/vec.h"
 #include "core/sampling/hash.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// Scrambles the bits of a number that is given with its bits reversed, each bit by the bits below it (Laine and Karras
 /// 2011, with the constants of Vegdahl 2021).
@@ -66,4 +66,4 @@ class SobolSampler {
   uint32_t reversed_sample_;
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

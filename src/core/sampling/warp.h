@@ -5,7 +5,7 @@
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// Uniform over the unit disk by radius and angle.
 template <class Real>
@@ -60,4 +60,4 @@ ALHAZEN_HD Real power_heuristic(Real a, Real b) {
   return 1 / (1 + ratio * ratio);
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

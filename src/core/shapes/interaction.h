@@ -6,7 +6,7 @@
 #include "core/shapes/sphere.h"
 #include "core/shapes/triangle.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 struct SurfaceInteraction {
@@ -157,4 +157,4 @@ ALHAZEN_HD Vec3<Real> consistent_shading_normal(const SurfaceInteraction<Real>& 
   return normalize(si.shading_normal + wo * (side * (least - seen)));
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -6,7 +6,7 @@
 
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 enum class PrimitiveKind : uint32_t { triangle = 0, sphere = 1, moving_sphere = 2 };
 
@@ -75,4 +75,4 @@ struct Hit {
   PrimitiveId primitive;
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -6,7 +6,7 @@
 #include "core/math/ray.h"
 #include "core/math/scalar.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// Meets the sphere at a distance in (0, t_max]: the discriminant from the vector to the closest point and the roots
 /// without cancellation (Haines, Gunther, Akenine-Moller 2019, Ray Tracing Gems ch. 7).
@@ -98,4 +98,4 @@ ALHAZEN_HD Vec2<Real> sphere_uv(const Vec3<Real>& local_normal) {
   return {phi * Real(0.5) * inv_pi<Real>, 1 - theta * inv_pi<Real>};
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -6,7 +6,7 @@
 #include "core/math/scalar.h"
 #include "core/shapes/records.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// The ray as the triangle test wants it: axes permuted so that the direction is longest along the last, and the shear
 /// that turns the direction into that axis. Made once a ray.
@@ -86,4 +86,4 @@ ALHAZEN_HD Vec2<Real> sample_triangle(const Vec2<Real>& u) {
   return {u.x - b1, b1};
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

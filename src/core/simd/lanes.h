@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -14,7 +13,7 @@
 
 #include "core/math/platform.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// Bytes of a register that a processor with these instructions adds and multiplies at once.
 #if defined(__AVX512F__)
@@ -37,10 +36,10 @@ struct Lanes {
 
   ALHAZEN_INLINE static Lanes load(const T* from) {
     Lanes a;
-    std::memcpy(&a, from, sizeof(a));
+    __builtin_memcpy(&a, from, sizeof(a));
     return a;
   }
-  ALHAZEN_INLINE void store(T* to) const { std::memcpy(to, r, sizeof(*this)); }
+  ALHAZEN_INLINE void store(T* to) const { __builtin_memcpy(to, r, sizeof(*this)); }
   ALHAZEN_INLINE T lane(int i) const { return r[i / per_register][i % per_register]; }
   ALHAZEN_INLINE static Lanes all(T x) {
     return map([&](int) { return x - Register{}; });
@@ -134,4 +133,4 @@ struct Lanes {
   }
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 
-namespace alhazen {
+#include "core/math/platform.h"
+
+namespace ALHAZEN_CORE {
 
 enum class TextureKind : uint32_t {
   constant,
@@ -19,4 +21,4 @@ enum class TextureKind : uint32_t {
 
 enum class WrapMode : uint32_t { repeat, black, clamp };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

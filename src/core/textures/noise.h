@@ -7,7 +7,7 @@
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 template <class Real>
 ALHAZEN_HD Real noise_gradient(const uint8_t* permutation, int x, int y, int z, const Vec3<Real>& d) {
@@ -54,4 +54,4 @@ ALHAZEN_HD Real octave_noise(const uint8_t* permutation, Vec3<Real> p, Real roug
   return sum;
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -7,7 +7,7 @@
 #include "core/math/vec.h"
 #include "core/textures/kinds.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// A texture is `count` nodes from `first` in SceneView::textures, inputs before the nodes that take them; the last
 /// node is its value. count 0: absent.
@@ -46,4 +46,4 @@ struct ImageRecord {
   uint32_t nearest;  ///< 1: nearest texel, 0: bilinear
 };
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

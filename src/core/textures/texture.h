@@ -5,7 +5,7 @@
 #include "core/scene_view.h"
 #include "core/textures/noise.h"
 
-namespace alhazen {
+namespace ALHAZEN_CORE {
 
 /// Where a texture is looked up.
 template <class Real>
@@ -160,4 +160,4 @@ ALHAZEN_HD Vec3<Real> evaluate_texture(const SceneView<Real>& scene, TextureRang
   return stack[0];
 }
 
-}  // namespace alhazen
+}  // namespace ALHAZEN_CORE

@@ -1,0 +1,18 @@
+# The instruction sets that sample kernels are compiled for, each in a namespace of its name (core/math/platform.h).
+
+set(ALHAZEN_INSTRUCTION_SETS baseline)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  list(APPEND ALHAZEN_INSTRUCTION_SETS avx2 avx512)
+endif()
+set(ALHAZEN_FLAGS_avx2 -march=x86-64-v3)
+set(ALHAZEN_FLAGS_avx512 -march=x86-64-v4 -mprefer-vector-width=256)
+
+function(alhazen_compile_for target set)
+  target_compile_definitions(${target} PRIVATE ALHAZEN_ISA=${set})
+  target_compile_options(${target} PRIVATE ${ALHAZEN_FLAGS_${set}})
+  target_link_libraries(${target} PRIVATE alhazen_options)
+  if(ALHAZEN_WITH_EMBREE)
+    target_link_libraries(${target} PRIVATE embree)
+    target_compile_definitions(${target} PRIVATE ALHAZEN_WITH_EMBREE)
+  endif()
+endfunction()

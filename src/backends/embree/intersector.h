@@ -1,0 +1,51 @@
+#pragma once
+
+// The ray queries that integrators ask, answered by Embree. The identifiers of its geometries are our kinds of
+// primitives.
+
+#include "backends/embree/api.h"
+#include "core/bvh/traversal.h"
+
+namespace ALHAZEN_CORE {
+
+class EmbreeIntersector {
+ public:
+  EmbreeIntersector(const SceneView<float>& view, const void* tracer)
+      : view_(&view), scene_(static_cast<const EmbreeTracer*>(tracer)->scene) {}
+
+  bool closest_hit(const Ray<float>& ray, float t_max, Hit<float>& hit) const {
+    RTCRayHit query;
+    query.ray = embree_ray(ray, t_max);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    intersect_1(scene_, query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    // Where exactly, our own test says: what is spawned there relies on its bounds.
+    hit = no_hit_before(t_max);
+    hit.primitive = PrimitiveId(PrimitiveKind::moving_sphere, max_primitives_of_a_kind);
+    return intersect_primitive(*view_, {static_cast<PrimitiveKind>(query.hit.geomID), query.hit.primID}, ray,
+                               shear_ray(ray), hit);
+  }
+
+  bool occluded(const Ray<float>& ray, float t_max) const {
+    RTCRay query = embree_ray(ray, t_max);
+    occluded_1(scene_, query);
+    return query.tfar < 0;
+  }
+
+  /// Many queries, as core/bvh/simd_traversal.h has it; one after the other.
+  template <bool any_hit, class RayOf, class Limit, class Answer>
+  void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
+    for (uint32_t i = 0; i < count; ++i) {
+      Hit<float> hit;
+      const bool found = any_hit ? t_max(i) > 0 && occluded(ray(i), t_max(i)) : closest_hit(ray(i), t_max(i), hit);
+      answer(i, found, hit);
+    }
+  }
+
+ private:
+  const SceneView<float>* view_;
+  RTCScene scene_;
+};
+
+}  // namespace ALHAZEN_CORE

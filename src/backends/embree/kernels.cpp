@@ -1,0 +1,13 @@
+// The sample kernels over Embree. Compiled once an instruction set, in its namespace, as those in render/kernels are.
+
+#include "backends/embree/intersector.h"
+#include "render/kernels/instances.h"
+
+namespace ALHAZEN_CORE {
+
+RawKernel select_embree_kernel(uint32_t integrator, uint32_t sampler) {
+  return select_kernel<EmbreeIntersector, float>(static_cast<IntegratorKind>(integrator),
+                                                 static_cast<SamplerType>(sampler));
+}
+
+}  // namespace ALHAZEN_CORE

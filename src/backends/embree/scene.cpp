@@ -1,0 +1,162 @@
+#include "backends/embree/scene.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "core/shapes/sphere.h"
+#include "core/shapes/triangle.h"
+
+namespace alhazen {
+
+namespace {
+
+struct Sphere {
+  Vec3<float> center;
+  float radius;
+};
+
+/// The sphere of number `index` at `time`.
+template <PrimitiveKind kind>
+Sphere sphere_at(const void* view, uint32_t index, float time) {
+  const SceneView<float>& scene = *static_cast<const SceneView<float>*>(view);
+  if constexpr (kind == PrimitiveKind::sphere) {
+    const SphereRecord<float>& s = scene.spheres[index];
+    return {s.center, s.radius};
+  } else {
+    const MovingSphereRecord<float>& s = scene.moving_spheres[index];
+    return {s.center + s.motion * time, s.radius};
+  }
+}
+
+/// Boxes are wider by what rounding of centre and radius can lose.
+template <PrimitiveKind kind>
+void sphere_bounds(const RTCBoundsFunctionArguments* arguments) {
+  const Sphere s =
+      sphere_at<kind>(arguments->geometryUserPtr, arguments->primID, static_cast<float>(arguments->timeStep));
+  const Vec3<float> r = splat(s.radius) + (abs(s.center) + splat(s.radius)) * 4e-7f;
+  RTCBounds& box = *arguments->bounds_o;
+  box.lower_x = s.center.x - r.x;
+  box.lower_y = s.center.y - r.y;
+  box.lower_z = s.center.z - r.z;
+  box.upper_x = s.center.x + r.x;
+  box.upper_y = s.center.y + r.y;
+  box.upper_z = s.center.z + r.z;
+}
+
+template <PrimitiveKind kind>
+bool meet(const void* view, uint32_t index, const RTCRay& query, float& t) {
+  const Ray<float> ray{{query.org_x, query.org_y, query.org_z}, {query.dir_x, query.dir_y, query.dir_z}, query.time};
+  const Sphere s = sphere_at<kind>(view, index, query.time);
+  return intersect_sphere(ray, s.center, s.radius, query.tfar, t);
+}
+
+template <PrimitiveKind kind>
+void intersect_sphere_n(const RTCIntersectFunctionNArguments* arguments) {
+  if (arguments->valid[0] == 0) return;
+  RTCRayHit& query = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);  // queries are of one ray each
+  float t;
+  if (!meet<kind>(arguments->geometryUserPtr, arguments->primID, query.ray, t)) return;
+  query.ray.tfar = t;
+  query.hit.u = query.hit.v = 0;
+  query.hit.geomID = arguments->geomID;
+  query.hit.primID = arguments->primID;
+}
+
+template <PrimitiveKind kind>
+void occluded_sphere_n(const RTCOccludedFunctionNArguments* arguments) {
+  if (arguments->valid[0] == 0) return;
+  RTCRay& query = *reinterpret_cast<RTCRay*>(arguments->ray);
+  float t;
+  if (meet<kind>(arguments->geometryUserPtr, arguments->primID, query, t)) query.tfar = -infinity<float>;
+}
+
+/// Takes a triangle only where our own test does: it bounds its error, and so rays meet neither the triangle that they
+/// leave nor the light that they are sent to.
+void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
+  if (arguments->valid[0] == 0) return;
+  const RTCRay& query = *reinterpret_cast<const RTCRay*>(arguments->ray);
+  const SceneView<float>& scene = *static_cast<const SceneView<float>*>(arguments->geometryUserPtr);
+  const uint32_t index = reinterpret_cast<const RTCHit*>(arguments->hit)->primID;
+  const uint32_t* v = scene.triangles[index].vertex;
+  const Ray<float> ray{{query.org_x, query.org_y, query.org_z}, {query.dir_x, query.dir_y, query.dir_z}};
+  float t, b1, b2;
+  const float t_max = reinterpret_cast<const EmbreeQuery*>(arguments->context)->t_max;
+  if (!intersect_triangle(shear_ray(ray), scene.positions[v[0]], scene.positions[v[1]], scene.positions[v[2]], t_max, t,
+                          b1, b2))
+    arguments->valid[0] = 0;
+}
+
+bool count_bytes(void* bytes, ssize_t change, bool) {
+  // Threads of the builder call this side by side.
+  __atomic_fetch_add(static_cast<int64_t*>(bytes), static_cast<int64_t>(change), __ATOMIC_RELAXED);
+  return true;
+}
+
+}  // namespace
+
+EmbreeScene::EmbreeScene(const SceneView<float>& view, int threads) : view_(view) {
+  device_ = rtcNewDevice(threads > 0 ? ("threads=" + std::to_string(threads)).c_str() : nullptr);
+  check();
+  rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
+  tracer_.scene = rtcNewScene(device_);
+  rtcSetSceneBuildQuality(tracer_.scene, RTC_BUILD_QUALITY_HIGH);
+  rtcSetSceneFlags(tracer_.scene, RTC_SCENE_FLAG_ROBUST);
+  if (view.triangles_count > 0) add_triangles();
+  constexpr PrimitiveKind still = PrimitiveKind::sphere, moving = PrimitiveKind::moving_sphere;
+  if (view.spheres_count > 0)
+    add_spheres(still, view.spheres_count, sphere_bounds<still>, intersect_sphere_n<still>, occluded_sphere_n<still>,
+                1);
+  if (view.moving_spheres_count > 0)
+    add_spheres(moving, view.moving_spheres_count, sphere_bounds<moving>, intersect_sphere_n<moving>,
+                occluded_sphere_n<moving>, 2);
+  rtcCommitScene(tracer_.scene);
+  check();
+}
+
+EmbreeScene::~EmbreeScene() {
+  rtcReleaseScene(tracer_.scene);
+  rtcReleaseDevice(device_);
+}
+
+void EmbreeScene::add_triangles() {
+  const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  // The vertices of a record are its first words. Embree reads 4 bytes beyond the last position, which are the arena's.
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, view_.triangles, 0,
+                             sizeof(TriangleRecord), view_.triangles_count);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, view_.positions, 0,
+                             sizeof(Vec3<float>), view_.positions_count);
+  rtcSetGeometryUserData(geometry, const_cast<SceneView<float>*>(&view_));
+  rtcSetGeometryIntersectFilterFunction(geometry, filter_triangle);
+  rtcSetGeometryOccludedFilterFunction(geometry, filter_triangle);
+  attach(geometry, PrimitiveKind::triangle);
+}
+
+void EmbreeScene::add_spheres(PrimitiveKind kind, uint32_t count, RTCBoundsFunction bounds,
+                              RTCIntersectFunctionN intersect, RTCOccludedFunctionN occluded, unsigned int time_steps) {
+  const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, count);
+  rtcSetGeometryTimeStepCount(geometry, time_steps);
+  rtcSetGeometryUserData(geometry, const_cast<SceneView<float>*>(&view_));
+  rtcSetGeometryBoundsFunction(geometry, bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersect);
+  rtcSetGeometryOccludedFunction(geometry, occluded);
+  attach(geometry, kind);
+}
+
+void EmbreeScene::attach(RTCGeometry geometry, PrimitiveKind kind) {
+  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(tracer_.scene, geometry, static_cast<unsigned int>(kind));
+  rtcReleaseGeometry(geometry);
+}
+
+void EmbreeScene::check() const {
+  const RTCError error = rtcGetDeviceError(device_);
+  if (device_ && error == RTC_ERROR_NONE) return;
+  const char* reason = error == RTC_ERROR_OUT_OF_MEMORY     ? "out of memory"
+                       : error == RTC_ERROR_UNSUPPORTED_CPU ? "this processor lacks instructions that it needs"
+                                                            : "an error that it does not explain";
+  throw std::runtime_error(std::string("Embree: ") + reason + " (" + std::to_string(static_cast<int>(error)) + ")");
+}
+
+}  // namespace alhazen

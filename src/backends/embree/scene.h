@@ -1,0 +1,36 @@
+#pragma once
+
+// A flat scene as Embree takes it: triangles read from the arena where they lie, spheres by our own test.
+
+#include "backends/embree/api.h"
+#include "core/scene_view.h"
+
+namespace alhazen {
+
+/// Owns Embree's structures over `view`, which must outlive it.
+class EmbreeScene {
+ public:
+  /// Throws std::runtime_error with Embree's reason where it cannot be built.
+  EmbreeScene(const SceneView<float>& view, int threads);
+  ~EmbreeScene();
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  const EmbreeTracer& tracer() const { return tracer_; }
+  /// Memory that Embree holds for it, bytes.
+  int64_t bytes() const { return bytes_; }
+
+ private:
+  void add_triangles();
+  void add_spheres(PrimitiveKind kind, uint32_t count, RTCBoundsFunction bounds, RTCIntersectFunctionN intersect,
+                   RTCOccludedFunctionN occluded, unsigned int time_steps);
+  void attach(RTCGeometry geometry, PrimitiveKind kind);
+  void check() const;
+
+  const SceneView<float>& view_;
+  int64_t bytes_ = 0;
+  RTCDevice device_ = nullptr;
+  EmbreeTracer tracer_{};
+};
+
+}  // namespace alhazen

@@ -1,0 +1,12 @@
+// Compiled once an instruction set, in its namespace.
+
+#include "render/kernels/instances.h"
+
+namespace ALHAZEN_CORE {
+
+RawKernel select_float_kernel(uint32_t integrator, uint32_t sampler) {
+  return select_kernel<SimdBvhIntersector<float>, float>(static_cast<IntegratorKind>(integrator),
+                                                         static_cast<SamplerType>(sampler));
+}
+
+}  // namespace ALHAZEN_CORE

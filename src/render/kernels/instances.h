@@ -1,0 +1,86 @@
+#pragma once
+
+// The body of the sample kernels, for the files that instantiate it.
+
+#include "core/bvh/simd_traversal.h"
+#include "core/film/block_sum.h"
+#include "core/integrators/batch.h"
+#include "core/sampling/any_sampler.h"
+#include "render/kernels/request.h"
+
+namespace ALHAZEN_CORE {
+
+/// One sample after the other, for integrators that call themselves.
+template <IntegratorKind kind, class Sampler, class Intersector, class Real>
+void take_blocks_singly(const KernelRequest& request, const SceneView<Real>& scene, const Intersector& intersector,
+                        BlockSum<Real>* sums) {
+  for (uint32_t b = 0; b < request.block_count; ++b) {
+    const BlockRequest& block = request.blocks[b];
+    for (uint32_t i = 0; i < block.count; ++i) {
+      const Sampler sampler(request.seed, block.x, block.y, block.first + i);
+      const CameraSample<Real> camera = sample_camera(scene, sampler, block.x, block.y);
+      sums[b].add(integrate<kind>(scene, intersector, sampler, camera.ray, request.max_segments), camera.filter_weight);
+    }
+  }
+}
+
+template <IntegratorKind kind, class Sampler, class Intersector, class Real>
+void take_blocks_together(const KernelRequest& request, const SceneView<Real>& scene, const Intersector& intersector,
+                          BlockSum<Real>* sums) {
+  // A block has its place for samples_per_block of them, whether or not it takes as many.
+  SampleRecord<Real> records[most_blocks_per_request * samples_per_block];
+  Real weights[most_blocks_per_request * samples_per_block];
+  uint16_t places[most_blocks_per_request * samples_per_block];
+  uint32_t count = 0;
+  for (uint32_t b = 0; b < request.block_count; ++b)
+    for (uint32_t i = 0; i < request.blocks[b].count; ++i)
+      places[count++] = static_cast<uint16_t>(b * samples_per_block + i);
+  integrate_batch<kind, Sampler>(
+      scene, intersector, request.max_segments, request.wants_first_hit, count,
+      [&](uint32_t sample, Sampler& sampler) {
+        const uint32_t place = places[sample];
+        const BlockRequest& block = request.blocks[place / samples_per_block];
+        sampler = Sampler(request.seed, block.x, block.y, block.first + place % samples_per_block);
+        const CameraSample<Real> camera = sample_camera(scene, sampler, block.x, block.y);
+        weights[place] = camera.filter_weight;
+        return camera.ray;
+      },
+      [&](uint32_t sample, const SampleRecord<Real>& record) { records[places[sample]] = record; });
+  for (uint32_t i = 0; i < count; ++i) sums[places[i] / samples_per_block].add(records[places[i]], weights[places[i]]);
+}
+
+/// `Intersector` is made from the scene and the tracer and answers the ray queries.
+template <IntegratorKind kind, class Sampler, class Intersector, class Real>
+void take_blocks(const KernelRequest& request) {
+  const SceneView<Real>& scene = *static_cast<const SceneView<Real>*>(request.scene);
+  const Intersector intersector(scene, request.tracer);
+  BlockSum<Real>* const sums = static_cast<BlockSum<Real>*>(request.sums);
+  for (uint32_t b = 0; b < request.block_count; ++b) sums[b] = {};
+  if constexpr (kind == IntegratorKind::path || kind == IntegratorKind::iterative)
+    take_blocks_together<kind, Sampler, Intersector, Real>(request, scene, intersector, sums);
+  else
+    take_blocks_singly<kind, Sampler, Intersector, Real>(request, scene, intersector, sums);
+}
+
+template <class Sampler, class Intersector, class Real>
+RawKernel select_by_integrator(IntegratorKind integrator) {
+  switch (integrator) {
+    case IntegratorKind::branching:
+      return take_blocks<IntegratorKind::branching, Sampler, Intersector, Real>;
+    case IntegratorKind::recursive:
+      return take_blocks<IntegratorKind::recursive, Sampler, Intersector, Real>;
+    case IntegratorKind::iterative:
+      return take_blocks<IntegratorKind::iterative, Sampler, Intersector, Real>;
+    case IntegratorKind::path:
+      break;
+  }
+  return take_blocks<IntegratorKind::path, Sampler, Intersector, Real>;
+}
+
+template <class Intersector, class Real>
+RawKernel select_kernel(IntegratorKind integrator, SamplerType sampler) {
+  return sampler == SamplerType::sobol ? select_by_integrator<SobolSampler, Intersector, Real>(integrator)
+                                       : select_by_integrator<IndependentSampler, Intersector, Real>(integrator);
+}
+
+}  // namespace ALHAZEN_CORE

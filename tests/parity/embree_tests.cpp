@@ -1,0 +1,132 @@
+// Embree answers ray queries as our own BVH does, and so the pictures are alike. Skipped where Embree is not built in.
+
+#include "parity/scenes.h"
+
+#if defined(ALHAZEN_WITH_EMBREE)
+
+#include "backends/embree/intersector.h"
+#include "backends/embree/scene.h"
+#include "support/closed_meshes.h"
+#include "support/linear_intersector.h"
+#include "support/primitive_scenes.h"
+#include "support/ulps.h"
+
+namespace alhazen::testing {
+namespace {
+
+using test::Random;
+
+Ray<float> random_ray(Random& random, double size) {
+  const Vec3d origin = random.in_box(-size, size);
+  const Vec3d direction =
+      random.uniform<double>() < 0.5 ? random.on_sphere() : normalize(random.in_box(-0.5, 0.5) * size - origin);
+  return {convert<float>(origin), normalize(convert<float>(direction)), random.uniform<float>()};
+}
+
+TEST(Embree, MeetsWhatLookingAtEveryPrimitiveFinds) {
+  const FlatScene<float> scene = test::mixed_primitives(7, 200).flat<float>();
+  const EmbreeScene embree(scene.view, 1);
+  const EmbreeIntersector intersector(scene.view, &embree.tracer());
+  const test::LinearIntersector<float> linear(scene.view);
+  Random random(8);
+  size_t met = 0, different = 0;
+  constexpr size_t rays = 50'000;
+  for (size_t i = 0; i < rays; ++i) {
+    const Ray<float> ray = random_ray(random, 15);
+    Hit<float> hit, expected;
+    const bool found = intersector.closest_hit(ray, infinity<float>, hit);
+    const bool expect_found = linear.closest_hit(ray, infinity<float>, expected);
+    met += found;
+    // Rays that graze an edge may go either way: the triangle tests round differently.
+    if (found != expect_found || (found && !(hit.primitive == expected.primitive))) {
+      ++different;
+      continue;
+    }
+    EXPECT_EQ(intersector.occluded(ray, infinity<float>), found);
+    if (found) {
+      EXPECT_NEAR(hit.t, expected.t, 1e-4f * expected.t + 1e-5f);
+    }
+    if (found && hit.primitive.kind() != PrimitiveKind::triangle) {
+      EXPECT_EQ(hit.t, expected.t);  // the very same test of spheres
+    }
+    if (found && expected.t > 1e-3f) {
+      EXPECT_FALSE(intersector.occluded(ray, expected.t * 0.999f));
+    }
+  }
+  EXPECT_GT(met, rays / 5);
+  EXPECT_LE(different, rays / 10'000);
+}
+
+TEST(Embree, IsNotHurtByNothing) {
+  const FlatScene<float> scene = test::PrimitiveScene().flat<float>();
+  const EmbreeScene embree(scene.view, 1);
+  const EmbreeIntersector intersector(scene.view, &embree.tracer());
+  Hit<float> hit;
+  EXPECT_FALSE(intersector.closest_hit({{}, {0, 0, 1}}, infinity<float>, hit));
+  EXPECT_FALSE(intersector.occluded({{}, {0, 0, 1}}, infinity<float>));
+}
+
+TEST(Embree, ReportsItsMemory) {
+  const FlatScene<float> scene = test::mixed_primitives(3, 1000).flat<float>();
+  EXPECT_GT(EmbreeScene(scene.view, 1).bytes(), 1000 * 64);
+}
+
+Settings settings_of(const std::string& backend) {
+  Settings settings;
+  settings.backend = backend;
+  settings.precision = "float";
+  settings.samples_per_pixel = 18;
+  settings.aovs = all_aovs;
+  return settings;
+}
+
+/// The same samples: but for the few paths that take another turn where a hit differs by its rounding, the same values.
+class EmbreePicture : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EmbreePicture, IsThatOfTheSerialBackend) {
+  const Scene& scene = parity_scene(GetParam());
+  const Outcome serial = render_bits(scene, settings_of("serial")), embree = render_bits(scene, settings_of("embree"));
+  ASSERT_EQ(serial.rows.size(), embree.rows.size());
+  EXPECT_EQ(serial.statistics.camera_samples, embree.statistics.camera_samples);
+  size_t alike = 0;
+  double sum = 0, expected_sum = 0;
+  for (size_t i = 0; i < serial.rows.size(); ++i) {
+    const double a = static_cast<double>(embree.rows[i]), b = static_cast<double>(serial.rows[i]);
+    alike += std::abs(a - b) <= 2e-3 * std::abs(b) + 1e-4;
+    sum += std::isfinite(a) ? a : 0;
+    expected_sum += std::isfinite(b) ? b : 0;
+  }
+  EXPECT_GT(static_cast<double>(alike), 0.95 * static_cast<double>(serial.rows.size()));
+  EXPECT_NEAR(sum, expected_sum, 0.01 * std::abs(expected_sum));
+  EXPECT_EQ(embree.statistics.nonfinite_samples, 0u);
+}
+
+TEST_P(EmbreePicture, IsTheSameBitsByEveryStrategyAndThreadCount) {
+  const Scene& scene = parity_scene(GetParam());
+  Settings settings = settings_of("embree");
+  settings.threads = 1;
+  const Outcome expected = render_bits(scene, settings);
+  for (const char* strategy : {"tiles", "rows", "collapse", "rows+reduction", "reduction"})
+    for (const int threads : {1, 2, 3}) {
+      settings.strategy = strategy;
+      settings.threads = threads;
+      EXPECT_TRUE(same_bits(expected, render_bits(scene, settings))) << strategy << " on " << threads;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Parity, EmbreePicture, ::testing::Values("cornell", "spheres"));
+
+TEST(Embree, TracesInFloatAlone) {
+  Settings settings = settings_of("embree");
+  settings.precision = "double";
+  EXPECT_THROW(render_bits(parity_scene("cornell"), settings), InputError);
+}
+
+}  // namespace
+}  // namespace alhazen::testing
+
+#else
+
+TEST(Embree, MeetsWhatLookingAtEveryPrimitiveFinds) { GTEST_SKIP() << "this build is without Embree"; }
+
+#endif
