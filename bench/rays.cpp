@@ -97,7 +97,7 @@ struct Recorded {
 #endif
 
   explicit Recorded(const std::string& name) {
-    constexpr uint32_t width = 480, height = 320, samples = 4;
+    constexpr uint32_t width = 480, height = 160, samples = 16;
     Diagnostics diagnostics;
     Scene scene = name == "weekend" ? read_scene(ALHAZEN_SOURCE_DIR "/scenes/weekend.pbrt", diagnostics)
                                     : parse_pbrt(knot_text(), "knot.pbrt", "", diagnostics);
@@ -161,8 +161,9 @@ void register_precision(const std::string& precision) {
             ->Unit(benchmark::kMillisecond);
       };
       for (const InstructionSet isa : instruction_sets()) {
-        add("single " + to_string(isa), select(isa, Call::one), Call::one);
-        add("stream " + to_string(isa), select(isa, Call::many), Call::many);
+        add("one " + to_string(isa), select(isa, Call::one), Call::one);
+        add("many " + to_string(isa), select(isa, Call::many), Call::many);
+        if (set == primary) add("coherent " + to_string(isa), select(isa, Call::coherent), Call::coherent);
       }
 #if defined(ALHAZEN_WITH_EMBREE)
       if constexpr (sizeof(Real) == sizeof(float)) {

@@ -1,7 +1,6 @@
 // Compiled once an instruction set, in its namespace.
 
 #include "core/bvh/simd_traversal.h"
-#include "core/integrators/batch.h"
 #include "kernels/query.h"
 #if defined(ALHAZEN_WITH_EMBREE)
 #include "backends/embree/intersector.h"
@@ -34,13 +33,25 @@ uint64_t trace_some(const SimdBvhIntersector<Real>& intersector, const Query<Rea
 }
 
 template <class Real>
+uint64_t trace_coherently(const SimdBvhIntersector<Real>& intersector, const Query<Real>* query, uint32_t count) {
+  uint64_t hits = 0;
+  intersector.trace_coherent(
+      count, [&](uint32_t i) -> const Ray<Real>& { return query[i].ray; }, [&](uint32_t i) { return query[i].t_max; },
+      [&](uint32_t, bool found, const Hit<Real>&) { hits += found; });
+  return hits;
+}
+
+template <class Real, bool coherent>
 uint64_t trace_together(const void* scene, const void*, const void* queries, uint32_t count, bool any_hit) {
   const SimdBvhIntersector<Real> intersector(*static_cast<const SceneView<Real>*>(scene));
   const Query<Real>* const query = static_cast<const Query<Real>*>(queries);
   uint64_t hits = 0;
-  for (uint32_t i = 0; i < count; i += batch_lanes) {
-    const uint32_t some = count - i < batch_lanes ? count - i : batch_lanes;
-    hits += any_hit ? trace_some<true>(intersector, query + i, some) : trace_some<false>(intersector, query + i, some);
+  constexpr uint32_t at_a_time = 128;  // as many as a PathBatch has under way
+  for (uint32_t i = 0; i < count; i += at_a_time) {
+    const uint32_t some = count - i < at_a_time ? count - i : at_a_time;
+    hits += coherent  ? trace_coherently(intersector, query + i, some)
+            : any_hit ? trace_some<true>(intersector, query + i, some)
+                      : trace_some<false>(intersector, query + i, some);
   }
   return hits;
 }
@@ -73,7 +84,9 @@ TraceQueries select(Call call) {
     case Call::one:
       return trace_singly<SimdBvhIntersector<Real>, Real>;
     case Call::many:
-      return trace_together<Real>;
+      return trace_together<Real, false>;
+    case Call::coherent:
+      return trace_together<Real, true>;
     case Call::plain_embree:
 #if defined(ALHAZEN_WITH_EMBREE)
       if constexpr (sizeof(Real) == sizeof(float)) return trace_by_plain_embree;

@@ -9,11 +9,13 @@
 #include <memory>
 #include <new>
 
+#include "core/simd/lanes.h"
+
 namespace alhazen {
 
 namespace {
 
-constexpr int bin_count = 16;
+constexpr int most_bins = 16;
 /// From this depth on ranges are halved, which ends before max_bvh_depth for any number of primitives.
 constexpr int halving_depth = max_bvh_depth - 32;
 constexpr uint32_t task_size = 8192;
@@ -21,22 +23,101 @@ constexpr uint32_t task_size = 8192;
 constexpr uint32_t parallel_binning_size = 1u << 17;
 constexpr uint32_t binning_chunks = 16;
 
+/// Fewer bins for few primitives: most ranges are small, and sweeping over bins is what they cost.
+constexpr int bins_for(uint32_t count) { return count < 96 ? 4 + static_cast<int>(count / 8) : most_bins; }
+
 template <class Real>
-struct Bin {
-  Bounds3<Real> box;
-  uint32_t count = 0;
+using Row = Lanes<Real, 4>;
+
+/// What is to be put into the tree: a box and its number, as SIMD instructions take them. Of a row of four the last is
+/// of no meaning to a box.
+template <class Real>
+struct alignas(8 * sizeof(Real)) Reference {
+  Vec3<Real> low;
+  uint32_t index;
+  alignas(4 * sizeof(Real)) Vec3<Real> high;
+
+  Row<Real> lows() const { return Row<Real>::load(&low.x); }
+  Row<Real> highs() const { return Row<Real>::load(&high.x); }
+  Vec3<Real> center() const { return Bounds3<Real>{low, high}.center(); }
 };
 
 template <class Real>
-using Bins = std::array<std::array<Bin<Real>, bin_count>, 3>;
+struct RowBounds {
+  Row<Real> low, high;
+
+  static RowBounds empty() { return {Row<Real>::all(infinity<Real>), Row<Real>::all(-infinity<Real>)}; }
+  void extend(const Row<Real>& other_low, const Row<Real>& other_high) {
+    low = smaller(other_low, low);
+    high = larger(other_high, high);
+  }
+  void extend(const RowBounds& other) { extend(other.low, other.high); }
+  Bounds3<Real> bounds() const {
+    return {{low.lane(0), low.lane(1), low.lane(2)}, {high.lane(0), high.lane(1), high.lane(2)}};
+  }
+};
+
+template <class Real>
+struct Bin {
+  RowBounds<Real> box;
+  uint32_t count;
+};
+
+/// The first `count` bins of each axis.
+template <class Real>
+struct Bins {
+  int count;
+  Bin<Real> of_axis[3][most_bins];
+
+  explicit Bins(int bins) : count(bins) {
+    for (auto& row : of_axis)
+      for (int i = 0; i < count; ++i) row[i] = {RowBounds<Real>::empty(), 0};
+  }
+  void extend(const Bins& other) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (int i = 0; i < count; ++i) {
+        of_axis[axis][i].box.extend(other.of_axis[axis][i].box);
+        of_axis[axis][i].count += other.of_axis[axis][i].count;
+      }
+  }
+};
 
 template <class Real>
 struct RangeBounds {
-  Bounds3<Real> boxes, centers;
+  RowBounds<Real> boxes = RowBounds<Real>::empty(), centers = RowBounds<Real>::empty();
   void extend(const RangeBounds& other) {
     boxes.extend(other.boxes);
     centers.extend(other.centers);
   }
+};
+
+/// From twice a centre to its bin on each axis.
+template <class Real>
+class Binning {
+ public:
+  Binning(const Bounds3<Real>& centers, int bins) : bins_(bins) {
+    const Vec3<Real> extent = centers.diagonal();
+    for (int axis = 0; axis < 3; ++axis) {
+      const Real s = static_cast<Real>(bins) * (1 - std::numeric_limits<Real>::epsilon() * 8) / extent[axis];
+      scale_[axis] = extent[axis] > 0 && std::isfinite(s) ? s : Real(0);
+      low_[axis] = centers.low[axis];
+    }
+  }
+
+  ALHAZEN_INLINE void bins_of(const Reference<Real>& reference, int (&bin)[3]) const {
+    const Row<Real> center = (reference.lows() + reference.highs()) * Row<Real>::all(Real(0.5));
+    Real place[4];
+    ((center - Row<Real>::load(low_)) * Row<Real>::load(scale_)).store(place);
+    for (int axis = 0; axis < 3; ++axis) bin[axis] = std::clamp(static_cast<int>(place[axis]), 0, bins_ - 1);
+  }
+
+  ALHAZEN_INLINE int bin_of(const Reference<Real>& reference, int axis) const {
+    return std::clamp(static_cast<int>((reference.center()[axis] - low_[axis]) * scale_[axis]), 0, bins_ - 1);
+  }
+
+ private:
+  int bins_;
+  Real low_[4]{}, scale_[4]{};
 };
 
 struct Split {
@@ -51,62 +132,51 @@ struct FreeMemory {
 template <class Real>
 class Builder {
  public:
-  Builder(std::span<const Bounds3<Real>> boxes, const BvhOptions& options) : boxes_(boxes), options_(options) {
-    const size_t count = boxes.size();
-    order_.resize(count);
-    for (size_t i = 0; i < count; ++i) order_[i] = static_cast<uint32_t>(i);
+  Builder(std::span<const Bounds3<Real>> boxes, const BvhOptions& options)
+      : options_(options), references_(new Reference<Real>[boxes.size()]), count_(static_cast<uint32_t>(boxes.size())) {
+    team_ = count_ < task_size ? 1 : options.threads > 0 ? options.threads : omp_get_max_threads();
+#pragma omp parallel for num_threads(team_)
+    for (uint32_t i = 0; i < count_; ++i) references_[i] = {boxes[i].low, i, boxes[i].high};
     // Pages of the upper bound 2 n - 1 are touched only as far as nodes are made.
-    nodes_.reset(static_cast<BvhNode<Real>*>(std::calloc(2 * count, sizeof(BvhNode<Real>))));
+    nodes_.reset(static_cast<BvhNode<Real>*>(std::calloc(2 * size_t{count_}, sizeof(BvhNode<Real>))));
     if (!nodes_) throw std::bad_alloc();
   }
 
   BvhTree<Real> build() {
-    const uint32_t count = static_cast<uint32_t>(order_.size());
-    const int team = count < task_size ? 1 : options_.threads > 0 ? options_.threads : omp_get_max_threads();
-#pragma omp parallel num_threads(team)
+#pragma omp parallel num_threads(team_)
 #pragma omp single
-    build_range(0, 0, count, 0);
+    build_range(0, 0, count_, 0);
     BvhTree<Real> tree;
+    tree.order.resize(count_);
+    for (uint32_t i = 0; i < count_; ++i) tree.order[i] = references_[i].index;
+    references_.reset();
     tree.nodes.reserve(next_node_);
     tree.nodes.emplace_back();
     number_depth_first(0, 0, tree.nodes);
-    tree.order = std::move(order_);
     return tree;
   }
 
  private:
   RangeBounds<Real> bounds_of(uint32_t begin, uint32_t end) const {
     RangeBounds<Real> b;
+    const Row<Real> half = Row<Real>::all(Real(0.5));
     for (uint32_t i = begin; i < end; ++i) {
-      const Bounds3<Real>& box = boxes_[order_[i]];
-      b.boxes.extend(box);
-      b.centers.extend(box.center());
+      const Row<Real> low = references_[i].lows(), high = references_[i].highs();
+      const Row<Real> center = (low + high) * half;
+      b.boxes.extend(low, high);
+      b.centers.extend(center, center);
     }
     return b;
   }
 
-  static int bin_of(const Vec3<Real>& center, const Bounds3<Real>& centers, const Vec3<Real>& scale, int axis) {
-    const int bin = static_cast<int>((center[axis] - centers.low[axis]) * scale[axis]);
-    return std::clamp(bin, 0, bin_count - 1);
-  }
-
-  static Vec3<Real> bin_scale(const Bounds3<Real>& centers) {
-    const Vec3<Real> extent = centers.diagonal();
-    const auto scale = [](Real e) {
-      const Real s = static_cast<Real>(bin_count) * (1 - std::numeric_limits<Real>::epsilon() * 8) / e;
-      return e > 0 && std::isfinite(s) ? s : Real(0);
-    };
-    return {scale(extent.x), scale(extent.y), scale(extent.z)};
-  }
-
-  void fill_bins(uint32_t begin, uint32_t end, const Bounds3<Real>& centers, Bins<Real>& bins) const {
-    const Vec3<Real> scale = bin_scale(centers);
+  void fill_bins(uint32_t begin, uint32_t end, const Binning<Real>& binning, Bins<Real>& bins) const {
     for (uint32_t i = begin; i < end; ++i) {
-      const Bounds3<Real>& box = boxes_[order_[i]];
-      const Vec3<Real> center = box.center();
+      int place[3];
+      binning.bins_of(references_[i], place);
+      const Row<Real> low = references_[i].lows(), high = references_[i].highs();
       for (int axis = 0; axis < 3; ++axis) {
-        Bin<Real>& bin = bins[static_cast<size_t>(axis)][static_cast<size_t>(bin_of(center, centers, scale, axis))];
-        bin.box.extend(box);
+        Bin<Real>& bin = bins.of_axis[axis][place[axis]];
+        bin.box.extend(low, high);
         ++bin.count;
       }
     }
@@ -129,63 +199,61 @@ class Builder {
     return parts[0];
   }
 
-  void parallel_bins(uint32_t begin, uint32_t end, const Bounds3<Real>& centers, Bins<Real>& bins) const {
-    std::vector<Bins<Real>> parts(binning_chunks);
-    for_chunks(begin, end, [&](uint32_t c, uint32_t b, uint32_t e) { fill_bins(b, e, centers, parts[c]); });
-    for (const Bins<Real>& part : parts)
-      for (size_t axis = 0; axis < 3; ++axis)
-        for (size_t i = 0; i < bin_count; ++i) {
-          bins[axis][i].box.extend(part[axis][i].box);
-          bins[axis][i].count += part[axis][i].count;
-        }
+  void parallel_bins(uint32_t begin, uint32_t end, const Binning<Real>& binning, Bins<Real>& bins) const {
+    std::vector<Bins<Real>> parts(binning_chunks, Bins<Real>(bins.count));
+    for_chunks(begin, end, [&](uint32_t c, uint32_t b, uint32_t e) { fill_bins(b, e, binning, parts[c]); });
+    for (const Bins<Real>& part : parts) bins.extend(part);
   }
 
-  Split best_split(const Bins<Real>& bins, const RangeBounds<Real>& range, uint32_t count) const {
+  Split best_split(const Bins<Real>& bins, const Bounds3<Real>& boxes, const Bounds3<Real>& centers,
+                   uint32_t count) const {
     Split best;
-    double best_cost = static_cast<double>(count) * static_cast<double>(range.boxes.half_area());
+    const double area = static_cast<double>(boxes.half_area());
+    double best_cost = static_cast<double>(count) * area;
     if (count > options_.max_leaf) best_cost = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
-      if (!(range.centers.diagonal()[axis] > 0)) continue;
-      const auto& row = bins[static_cast<size_t>(axis)];
-      std::array<double, bin_count> right_cost{};
-      Bounds3<Real> box;
+      if (!(centers.diagonal()[axis] > 0)) continue;
+      const auto& row = bins.of_axis[axis];
+      double right_cost[most_bins];
+      RowBounds<Real> box = RowBounds<Real>::empty();
       uint32_t n = 0;
-      for (size_t i = bin_count - 1; i > 0; --i) {
+      for (int i = bins.count - 1; i > 0; --i) {
         box.extend(row[i].box);
         n += row[i].count;
-        right_cost[i] = n * static_cast<double>(box.half_area());
+        right_cost[i] = n * static_cast<double>(box.bounds().half_area());
       }
-      box = {};
+      box = RowBounds<Real>::empty();
       n = 0;
-      for (size_t i = 1; i < bin_count; ++i) {
+      for (int i = 1; i < bins.count; ++i) {
         box.extend(row[i - 1].box);
         n += row[i - 1].count;
         if (n == 0 || n == count) continue;
-        const double cost = n * static_cast<double>(box.half_area()) + right_cost[i] +
-                            options_.traversal_cost * static_cast<double>(range.boxes.half_area());
+        const double cost =
+            n * static_cast<double>(box.bounds().half_area()) + right_cost[i] + options_.traversal_cost * area;
         if (cost < best_cost) {
           best_cost = cost;
-          best = {axis, static_cast<int>(i)};
+          best = {axis, i};
         }
       }
     }
     return best;
   }
 
-  uint32_t partition(uint32_t begin, uint32_t end, const Bounds3<Real>& centers, const Split& split) {
-    const Vec3<Real> scale = bin_scale(centers);
-    const auto middle = std::partition(order_.begin() + begin, order_.begin() + end, [&](uint32_t i) {
-      return bin_of(boxes_[i].center(), centers, scale, split.axis) < split.bin;
+  uint32_t partition(uint32_t begin, uint32_t end, const Binning<Real>& binning, const Split& split) {
+    Reference<Real>* const first = references_.get();
+    const auto middle = std::partition(first + begin, first + end, [&](const Reference<Real>& reference) {
+      return binning.bin_of(reference, split.axis) < split.bin;
     });
-    return static_cast<uint32_t>(middle - order_.begin());
+    return static_cast<uint32_t>(middle - first);
   }
 
   uint32_t halve(uint32_t begin, uint32_t end, int axis) {
     const uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](uint32_t a, uint32_t b) {
-                       const Real ca = boxes_[a].center()[axis], cb = boxes_[b].center()[axis];
-                       return ca < cb || (ca == cb && a < b);
+    Reference<Real>* const first = references_.get();
+    std::nth_element(first + begin, first + middle, first + end,
+                     [&](const Reference<Real>& a, const Reference<Real>& b) {
+                       const Real ca = a.center()[axis], cb = b.center()[axis];
+                       return ca < cb || (ca == cb && a.index < b.index);
                      });
     return middle;
   }
@@ -194,25 +262,27 @@ class Builder {
     const uint32_t count = end - begin;
     const bool parallel = count >= parallel_binning_size;
     const RangeBounds<Real> range = parallel ? parallel_bounds(begin, end) : bounds_of(begin, end);
+    const Bounds3<Real> boxes = range.boxes.bounds(), centers = range.centers.bounds();
     BvhNode<Real>& node = nodes_.get()[node_index];
-    node.corners[0] = range.boxes.low;
-    node.corners[1] = range.boxes.high;
+    node.corners[0] = boxes.low;
+    node.corners[1] = boxes.high;
+    const Binning<Real> binning(centers, bins_for(count));
     Split split;
     if (count > 1 && depth < halving_depth) {
-      Bins<Real> bins;
+      Bins<Real> bins(bins_for(count));
       if (parallel)
-        parallel_bins(begin, end, range.centers, bins);
+        parallel_bins(begin, end, binning, bins);
       else
-        fill_bins(begin, end, range.centers, bins);
-      split = best_split(bins, range, count);
+        fill_bins(begin, end, binning, bins);
+      split = best_split(bins, boxes, centers, count);
     }
     if (split.axis < 0 && count <= options_.max_leaf) {
       node.first = begin;
       node.count = static_cast<uint16_t>(count);
       return;
     }
-    const int axis = split.axis < 0 ? max_axis(range.centers.diagonal()) : split.axis;
-    const uint32_t middle = split.axis < 0 ? halve(begin, end, axis) : partition(begin, end, range.centers, split);
+    const int axis = split.axis < 0 ? max_axis(centers.diagonal()) : split.axis;
+    const uint32_t middle = split.axis < 0 ? halve(begin, end, axis) : partition(begin, end, binning, split);
     node.first = next_node_.fetch_add(2);
     node.count = 0;
     node.axis = static_cast<uint16_t>(axis);
@@ -237,9 +307,10 @@ class Builder {
     number_depth_first(children + 1, node.first + 1, out);
   }
 
-  std::span<const Bounds3<Real>> boxes_;
   BvhOptions options_;
-  std::vector<uint32_t> order_;
+  std::unique_ptr<Reference<Real>[]> references_;
+  uint32_t count_;
+  int team_;
   std::unique_ptr<BvhNode<Real>, FreeMemory> nodes_;
   std::atomic<uint32_t> next_node_{1};
 };

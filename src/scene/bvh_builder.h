@@ -23,7 +23,7 @@ struct BvhOptions {
   int threads = 0;              ///< 0: as OpenMP has it
 
   /// Down to single primitives, for a collapse that chooses its leaves itself.
-  static BvhOptions for_collapse(int threads) { return {1, 0, threads}; }
+  static BvhOptions for_collapse(int threads) { return {4, 1, threads}; }
 };
 
 /// `boxes` must be finite and not empty.

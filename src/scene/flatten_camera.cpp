@@ -22,7 +22,7 @@ double mitchell(double x, double b, double c) {
 
 double gaussian(double x, double sigma) { return std::exp(-x * x / (2 * sigma * sigma)); }
 
-/// Appends the cumulative distribution of |f| over the cells of one axis, then the signs of f.
+/// Appends the table of one axis that core/cameras/filter.h describes.
 template <class Real>
 bool add_filter_axis(const Filter& filter, double radius, std::vector<Real>& table) {
   std::vector<double> cells(filter_cells);
@@ -44,6 +44,13 @@ bool add_filter_axis(const Filter& filter, double radius, std::vector<Real>& tab
   for (const double cell : cells) {
     table.push_back(cell < 0 ? Real(-1) : Real(1));
     negative = negative || cell < 0;
+  }
+  const size_t cdf = table.size() - 2 * filter_cells - 1;
+  uint32_t cell = 0;
+  for (uint32_t part = 0; part < filter_cells; ++part) {
+    const Real lowest = static_cast<Real>(part) / static_cast<Real>(filter_cells);
+    while (table[cdf + cell + 1] <= lowest) ++cell;
+    table.push_back(static_cast<Real>(cell));
   }
   return negative;
 }

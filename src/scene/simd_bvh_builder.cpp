@@ -4,6 +4,7 @@
 
 #include "core/bvh/simd_traversal.h"
 #include "scene/bvh_collapse.h"
+#include "scene/octant_slots.h"
 
 namespace alhazen {
 
@@ -111,30 +112,36 @@ class SimdBuilder {
     SimdNode& node = scene_.simd_nodes[at];
     uint32_t children[simd_children];
     const uint32_t count = collapse_.children_of(next.binary, children);
-    for (uint32_t c = 0; c < simd_children; ++c) {
-      if (c >= count) {
-        for (int axis = 0; axis < 3; ++axis) {
-          node.bounds[2 * axis][c] = infinity<float>;
-          node.bounds[2 * axis + 1][c] = -infinity<float>;
-        }
-        node.child[c] = SimdChild::nothing;
-        continue;
-      }
+    const Vec3<Real> middle = collapse_.box(next.binary).center();
+    Vec3<Real> offsets[simd_children];
+    for (uint32_t c = 0; c < count; ++c) offsets[c] = collapse_.box(children[c]).center() - middle;
+    const std::array<uint32_t, 8> slots = octant_slots(offsets, count);
+    for (uint32_t slot = 0; slot < simd_children; ++slot) leave_free(node, slot);
+    for (uint32_t c = 0; c < count; ++c) {
       const Bounds3<float> box = simd_box(collapse_.box(children[c]));
+      const uint32_t slot = slots[c];
       for (int axis = 0; axis < 3; ++axis) {
-        node.bounds[2 * axis][c] = box.low[axis];
-        node.bounds[2 * axis + 1][c] = box.high[axis];
+        node.bounds[2 * axis][slot] = box.low[axis];
+        node.bounds[2 * axis + 1][slot] = box.high[axis];
       }
       if (collapse_.makes_leaf(children[c])) {
         SimdChild::Kind kind;
         const uint32_t blocks = blocks_of(children[c], kind);
-        node.child[c] = SimdChild::pack(kind, blocks, next.first_block[kind]);
+        node.child[slot] = SimdChild::pack(kind, blocks, next.first_block[kind]);
         fill_blocks(children[c], kind, next.first_block[kind], blocks);
         next.first_block[kind] += blocks;
       } else {
-        node.child[c] = SimdChild::pack(SimdChild::node, 0, next.first_node++);
+        node.child[slot] = SimdChild::pack(SimdChild::node, 0, next.first_node++);
       }
     }
+  }
+
+  static void leave_free(SimdNode& node, uint32_t slot) {
+    for (int axis = 0; axis < 3; ++axis) {
+      node.bounds[2 * axis][slot] = infinity<float>;
+      node.bounds[2 * axis + 1][slot] = -infinity<float>;
+    }
+    node.child[slot] = SimdChild::nothing;
   }
 
   void fill_blocks(uint32_t leaf, SimdChild::Kind kind, uint32_t first_block, uint32_t blocks) {

@@ -6,6 +6,7 @@
 
 #include "core/bvh/wide.h"
 #include "scene/bvh_collapse.h"
+#include "scene/octant_slots.h"
 
 namespace alhazen {
 
@@ -67,33 +68,13 @@ class Collapse {
     return all;
   }
 
-  /// Gives each child the slot whose octant it lies in, as far as slots are free, the clearest cases first; then sorts
-  /// by slot. A ray goes first to the slot whose bits say where its direction is negative.
+  /// Gives each child its slot, and sorts by slot.
   void assign_slots(uint32_t index, std::vector<Child>& children) const {
     const Vec3<float> middle = collapse_.box(index).center();
-    struct Pair {
-      float cost;
-      uint32_t child, slot;
-    };
-    std::vector<Pair> pairs;
-    for (uint32_t c = 0; c < children.size(); ++c) {
-      const Vec3<float> offset = collapse_.box(children[c].node).center() - middle;
-      for (uint32_t slot = 0; slot < WideNode::children; ++slot)
-        pairs.push_back(
-            {(slot & 1 ? -offset.x : offset.x) + (slot & 2 ? -offset.y : offset.y) + (slot & 4 ? -offset.z : offset.z),
-             c, slot});
-    }
-    // Numbers that are none, of boxes beyond all bounds, must not upset the order.
-    for (Pair& pair : pairs)
-      if (std::isnan(pair.cost)) pair.cost = 0;
-    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.cost < b.cost; });
-    uint32_t placed = 0, used = 0;
-    for (const Pair& pair : pairs) {
-      if (placed >> pair.child & 1 || used >> pair.slot & 1) continue;
-      children[pair.child].slot = pair.slot;
-      placed |= 1u << pair.child;
-      used |= 1u << pair.slot;
-    }
+    Vec3<float> offsets[WideNode::children];
+    for (uint32_t c = 0; c < children.size(); ++c) offsets[c] = collapse_.box(children[c].node).center() - middle;
+    const std::array<uint32_t, 8> slots = octant_slots(offsets, static_cast<uint32_t>(children.size()));
+    for (uint32_t c = 0; c < children.size(); ++c) children[c].slot = slots[c];
     std::sort(children.begin(), children.end(), [](const Child& a, const Child& b) { return a.slot < b.slot; });
   }
 

@@ -6,6 +6,7 @@
 
 #include "core/bvh/simd_traversal.h"
 #include "core/bvh/wide.h"
+#include "isa/queries.h"
 
 namespace alhazen::test {
 
@@ -25,6 +26,15 @@ struct SimdTree {
   using Intersector = SimdBvhIntersector<Any>;
 };
 
-using Trees = ::testing::Types<BinaryTree<float>, BinaryTree<double>, WideTree, SimdTree<float>, SimdTree<double>>;
+/// The same as it was compiled for one of the instruction sets.
+template <class Any, InstructionSet set>
+struct IsaTree {
+  using Real = Any;
+  using Intersector = IsaIntersector<Any, set>;
+};
+
+using Trees = ::testing::Types<BinaryTree<float>, BinaryTree<double>, WideTree, SimdTree<float>, SimdTree<double>,
+                               IsaTree<float, InstructionSet::avx2>, IsaTree<double, InstructionSet::avx2>,
+                               IsaTree<float, InstructionSet::avx512>, IsaTree<double, InstructionSet::avx512>>;
 
 }  // namespace alhazen::test

@@ -1,13 +1,9 @@
 #pragma once
 
-// A ray against a block of primitives at once. The arithmetic is that of core/shapes, operation by operation, so that
-// hits are the same to the last bit, whatever the instruction set.
-
-#include <bit>
+// A ray against a block of primitives at once.
 
 #include "core/bvh/simd_node.h"
-#include "core/bvh/traversal.h"
-#include "core/simd/lanes.h"
+#include "core/bvh/simd_tests.h"
 
 namespace ALHAZEN_CORE {
 
@@ -34,59 +30,23 @@ ALHAZEN_INLINE bool take_nearest(const V& t, uint32_t lanes, const uint32_t* ind
 template <class Real>
 ALHAZEN_INLINE bool intersect_block(const TriangleBlock<Real>& block, const Ray<Real>&, const ShearedRay<Real>& ray,
                                     Hit<Real>& hit) {
-  constexpr int lanes = TriangleBlock<Real>::lanes;
-  using V = Lanes<Real, lanes>;
-  const V shear_x = V::all(ray.shear.x), shear_y = V::all(ray.shear.y), shear_z = V::all(ray.shear.z);
-  const V origin_x = V::all(ray.origin[ray.kx]), origin_y = V::all(ray.origin[ray.ky]),
-          origin_z = V::all(ray.origin[ray.kz]);
-  V x[3], y[3], z[3];
-  for (int v = 0; v < 3; ++v) {
-    z[v] = V::load(block.vertex[v][ray.kz]) - origin_z;
-    x[v] = V::load(block.vertex[v][ray.kx]) - origin_x - shear_x * z[v];
-    y[v] = V::load(block.vertex[v][ray.ky]) - origin_y - shear_y * z[v];
-  }
-  const V zero = V::all(0);
-  const V e[3] = {x[1] * y[2] - y[1] * x[2], x[2] * y[0] - y[2] * x[0], x[0] * y[1] - y[0] * x[1]};
-  const uint32_t inside =
-      less_equal(zero, smaller(smaller(e[0], e[1]), e[2])) | less_equal(larger(larger(e[0], e[1]), e[2]), zero);
-  if (inside == 0) return false;
-  // Where the sum is 0, t is infinite or not a number, and not taken.
-  const V inverse = V::all(1) / (e[0] + e[1] + e[2]);
-  const V t = (e[0] * (z[0] * shear_z) + e[1] * (z[1] * shear_z) + e[2] * (z[2] * shear_z)) * inverse;
-  return take_nearest(t, inside, block.index, PrimitiveKind::triangle, hit, [&](int lane) {
-    Vec3<Real> p[3];
-    for (int v = 0; v < 3; ++v) p[v] = {x[v].lane(lane), y[v].lane(lane), z[v].lane(lane) * ray.shear.z};
-    const Vec3<Real> edges{e[0].lane(lane), e[1].lane(lane), e[2].lane(lane)};
-    const Real inverse_det = inverse.lane(lane);
-    if (t.lane(lane) <= triangle_t_error(p, edges, inverse_det)) return false;
-    hit.b1 = edges.y * inverse_det;
-    hit.b2 = edges.z * inverse_det;
-    return true;
-  });
+  using V = Lanes<Real, TriangleBlock<Real>::lanes>;
+  const int axis[3] = {ray.kx, ray.ky, ray.kz};
+  const V origin[3] = {V::all(ray.origin[ray.kx]), V::all(ray.origin[ray.ky]), V::all(ray.origin[ray.kz])};
+  const V shear[3] = {V::all(ray.shear.x), V::all(ray.shear.y), V::all(ray.shear.z)};
+  const TriangleLanes<V> met([&](int v, int k) { return V::load(block.vertex[v][axis[k]]); }, origin, shear);
+  if (met.inside == 0) return false;
+  return take_nearest(met.t, met.inside, block.index, PrimitiveKind::triangle, hit,
+                      [&](int lane) { return met.accept(lane, ray.shear.z, hit); });
 }
 
-/// Spheres about `f` from their centres to the ray's origin.
 template <class V, class Real>
 ALHAZEN_INLINE bool intersect_spheres(const V (&f)[3], const Real* radii, const uint32_t* index, PrimitiveKind kind,
                                       const Ray<Real>& ray, Hit<Real>& hit) {
   const V d[3] = {V::all(ray.direction.x), V::all(ray.direction.y), V::all(ray.direction.z)};
-  const V zero = V::all(0);
-  const V b = zero - (f[0] * d[0] + f[1] * d[1] + f[2] * d[2]);
-  const V closest[3] = {f[0] + d[0] * b, f[1] + d[1] * b, f[2] + d[2] * b};
-  const V radius = V::load(radii);
-  const V discriminant =
-      radius * radius - (closest[0] * closest[0] + closest[1] * closest[1] + closest[2] * closest[2]);
-  const uint32_t crossed = less_equal(zero, discriminant);
-  if (crossed == 0) return false;
-  const V root = square_root(discriminant);
-  const V q = where_less(b, zero, b - root, b + root);
-  const V c = f[0] * f[0] + f[1] * f[1] + f[2] * f[2] - radius * radius;
-  const V other = c / q;
-  const V near = where_less(b, zero, q, other), far = where_less(b, zero, other, q);
-  return take_nearest(where_less(zero, c, near, far), crossed, index, kind, hit, [&](int) {
-    hit.b1 = hit.b2 = 0;
-    return true;
-  });
+  const SphereLanes<V> met(f, d, V::load(radii));
+  if (met.crossed == 0) return false;
+  return take_nearest(met.t, met.crossed, index, kind, hit, [&](int) { return met.accept(hit); });
 }
 
 template <class Real>

@@ -18,8 +18,8 @@ struct CameraRecord {
 
 /// The ray through raster position `film` (pixels; the first pixel's centre is at 0.5, 0.5).
 template <class Real>
-ALHAZEN_HD Ray<Real> camera_ray(const CameraRecord<Real>& camera, const Vec2<Real>& film, const Vec2<Real>& u_lens,
-                                Real time) {
+ALHAZEN_HD ALHAZEN_HOT Ray<Real> camera_ray(const CameraRecord<Real>& camera, const Vec2<Real>& film,
+                                            const Vec2<Real>& u_lens, Real time) {
   Vec3<Real> origin{};
   Vec3<Real> direction{camera.x_scale * film.x + camera.x_offset, camera.y_scale * film.y + camera.y_offset, 1};
   if (camera.lens_radius > 0) {

@@ -6,12 +6,12 @@
 #include <cstdint>
 
 #include "core/math/vec.h"
-#include "core/sampling/discrete.h"
 
 namespace ALHAZEN_CORE {
 
 /// The box is sampled directly, other filters from one table for each axis: filter_cdf holds for x, then for y,
-/// `cells` + 1 values of the cumulative distribution of |f| and `cells` signs of f.
+/// `cells` + 1 values of the cumulative distribution of |f|, `cells` signs of f, and for each of `cells` equal parts of
+/// [0, 1) the cell that its lowest number falls in.
 template <class Real>
 struct FilterRecord {
   Real x_radius = Real(0.5), y_radius = Real(0.5);  ///< pixels
@@ -26,24 +26,26 @@ struct FilterSample {
 };
 
 template <class Real>
-ALHAZEN_HD Real sample_filter_axis(const Real* table, uint32_t cells, Real radius, Real u, Real& weight) {
-  const uint32_t cell = sample_cdf(table, cells, u);
+ALHAZEN_HD ALHAZEN_HOT Real sample_filter_axis(const Real* table, uint32_t cells, Real radius, Real u, Real& weight) {
+  const Real count = static_cast<Real>(cells);
+  uint32_t cell = static_cast<uint32_t>(table[2 * cells + 1 + static_cast<uint32_t>(u * count)]);
+  while (table[cell + 1] <= u) ++cell;
   const Real width = table[cell + 1] - table[cell];
   const Real within = width > 0 ? (u - table[cell]) / width : Real(0.5);
   weight *= table[cells + 1 + cell];
-  return radius * (2 * (static_cast<Real>(cell) + within) / static_cast<Real>(cells) - 1);
+  return radius * (2 * (static_cast<Real>(cell) + within) / count - 1);
 }
 
 template <class Real>
-ALHAZEN_HD FilterSample<Real> sample_filter(const FilterRecord<Real>& filter, const Real* filter_cdf,
-                                            const Vec2<Real>& u) {
+ALHAZEN_HD ALHAZEN_HOT FilterSample<Real> sample_filter(const FilterRecord<Real>& filter, const Real* filter_cdf,
+                                                        const Vec2<Real>& u) {
   FilterSample<Real> s{{}, 1};
   if (filter.cells == 0) {
     s.offset = {filter.x_radius * (2 * u.x - 1), filter.y_radius * (2 * u.y - 1)};
     return s;
   }
   s.offset.x = sample_filter_axis(filter_cdf, filter.cells, filter.x_radius, u.x, s.weight);
-  s.offset.y = sample_filter_axis(filter_cdf + 2 * filter.cells + 1, filter.cells, filter.y_radius, u.y, s.weight);
+  s.offset.y = sample_filter_axis(filter_cdf + 3 * filter.cells + 1, filter.cells, filter.y_radius, u.y, s.weight);
   return s;
 }
 

@@ -20,8 +20,8 @@ struct CameraSample {
 };
 
 template <class Real, class Sampler>
-ALHAZEN_HD CameraSample<Real> sample_camera(const SceneView<Real>& scene, const Sampler& sampler, uint32_t x,
-                                            uint32_t y) {
+ALHAZEN_HD ALHAZEN_HOT CameraSample<Real> sample_camera(const SceneView<Real>& scene, const Sampler& sampler,
+                                                        uint32_t x, uint32_t y) {
   const FilterSample<Real> filter =
       sample_filter(scene.filter, scene.filter_cdf, sampler.template get_2d<Real>(CameraDimensions::film));
   const Vec2<Real> film{static_cast<Real>(x) + Real(0.5) + filter.offset.x,

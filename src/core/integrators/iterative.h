@@ -16,7 +16,8 @@ struct IterativeState {
 };
 
 template <class Real, class Record>
-ALHAZEN_HD void leave_scene(const SceneView<Real>& scene, const IterativeState<Real>& path, Record& record) {
+ALHAZEN_HD ALHAZEN_HOT void leave_scene(const SceneView<Real>& scene, const IterativeState<Real>& path,
+                                        Record& record) {
   record.radiance += path.throughput * scene.background;
 }
 

@@ -20,19 +20,19 @@ struct PathState {
 
 /// Weight of light that the ray found by chance, against sampling it with density `light_pdf`.
 template <class Real>
-ALHAZEN_HD Real chance_weight(const PathState<Real>& path, Real light_pdf) {
+ALHAZEN_HD ALHAZEN_HOT Real chance_weight(const PathState<Real>& path, Real light_pdf) {
   return path.is_specular ? Real(1) : power_heuristic(path.bsdf_pdf, light_pdf);
 }
 
 template <class Real, class Record>
-ALHAZEN_HD void leave_scene(const SceneView<Real>& scene, const PathState<Real>& path, Record& record) {
+ALHAZEN_HD ALHAZEN_HOT void leave_scene(const SceneView<Real>& scene, const PathState<Real>& path, Record& record) {
   if (is_zero(scene.background)) return;
   record.radiance += path.throughput * scene.background * chance_weight(path, pdf_background(scene));
 }
 
 template <class Real, class Record>
-ALHAZEN_HD void gather_emission(const SceneView<Real>& scene, const PathState<Real>& path, const Hit<Real>& hit,
-                                const ShadingPoint<Real>& point, Record& record) {
+ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const PathState<Real>& path,
+                                            const Hit<Real>& hit, const ShadingPoint<Real>& point, Record& record) {
   const Vec3<Real> emission = surface_emission(scene, point);
   if (is_zero(emission)) return;
   const Real light_pdf =
@@ -42,7 +42,8 @@ ALHAZEN_HD void gather_emission(const SceneView<Real>& scene, const PathState<Re
 
 /// Picks the next ray. False: the path ends here.
 template <class Real, class Sampler>
-ALHAZEN_HD bool continue_path(const Sampler& sampler, const ShadingPoint<Real>& point, PathState<Real>& path) {
+ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingPoint<Real>& point,
+                                          PathState<Real>& path) {
   const VertexDimensions dimensions(path.vertex);
   const BsdfSample<Real> s = scatter(point, sampler, dimensions);
   if (!(s.pdf > 0)) return false;

@@ -21,7 +21,8 @@ struct ShadingPoint {
 };
 
 template <class Real>
-ALHAZEN_HD ShadingPoint<Real> shading_point(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>& hit) {
+ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point(const SceneView<Real>& scene, const Ray<Real>& ray,
+                                                        const Hit<Real>& hit) {
   ShadingPoint<Real> point;
   point.si = surface_interaction(scene, ray, hit);
   point.wo = -ray.direction;
@@ -34,7 +35,7 @@ ALHAZEN_HD ShadingPoint<Real> shading_point(const SceneView<Real>& scene, const 
 
 /// Radiance that the surface itself sends back along the ray.
 template <class Real>
-ALHAZEN_HD Vec3<Real> surface_emission(const SceneView<Real>& scene, const ShadingPoint<Real>& point) {
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> surface_emission(const SceneView<Real>& scene, const ShadingPoint<Real>& point) {
   return point.light == no_light ? Vec3<Real>{}
                                  : emitted_radiance(scene.lights[point.light], point.si.normal, point.wo);
 }
@@ -42,7 +43,7 @@ ALHAZEN_HD Vec3<Real> surface_emission(const SceneView<Real>& scene, const Shadi
 /// Whether `wi` lies on the same side of the shading normal as of the surface: interpolated normals alone would let
 /// light through closed surfaces.
 template <class Real>
-ALHAZEN_HD bool is_on_one_side(const ShadingPoint<Real>& point, const Vec3<Real>& wi) {
+ALHAZEN_HD ALHAZEN_HOT bool is_on_one_side(const ShadingPoint<Real>& point, const Vec3<Real>& wi) {
   return dot(wi, point.si.normal) * dot(wi, point.bsdf.frame.normal) *
              (dot(point.wo, point.si.normal) < 0 ? Real(-1) : Real(1)) *
              (dot(point.wo, point.bsdf.frame.normal) < 0 ? Real(-1) : Real(1)) >
@@ -50,7 +51,7 @@ ALHAZEN_HD bool is_on_one_side(const ShadingPoint<Real>& point, const Vec3<Real>
 }
 
 template <class Real>
-ALHAZEN_HD Ray<Real> spawn_ray(const SurfaceInteraction<Real>& si, const Vec3<Real>& direction) {
+ALHAZEN_HD ALHAZEN_HOT Ray<Real> spawn_ray(const SurfaceInteraction<Real>& si, const Vec3<Real>& direction) {
   return {offset_origin(si.position, si.position_error, si.normal, direction), direction, si.time};
 }
 
@@ -63,7 +64,7 @@ struct ShadowRay {
 
 /// The way from the surface to a sampled light.
 template <class Real>
-ALHAZEN_HD ShadowRay<Real> shadow_ray(const SurfaceInteraction<Real>& si, const LightSample<Real>& light) {
+ALHAZEN_HD ALHAZEN_HOT ShadowRay<Real> shadow_ray(const SurfaceInteraction<Real>& si, const LightSample<Real>& light) {
   ShadowRay<Real> shadow{spawn_ray(si, light.direction), infinity<Real>};
   if (!light.is_finite) return shadow;
   // The rounded direction misses its aim by so much, which on a light seen from the edge is a way behind the surface.
@@ -91,8 +92,9 @@ struct DirectLight {
 };
 
 template <class Real, class Sampler>
-ALHAZEN_HD DirectLight<Real> direct_light(const SceneView<Real>& scene, const Sampler& sampler,
-                                          const VertexDimensions& dimensions, const ShadingPoint<Real>& point) {
+ALHAZEN_HD ALHAZEN_HOT DirectLight<Real> direct_light(const SceneView<Real>& scene, const Sampler& sampler,
+                                                      const VertexDimensions& dimensions,
+                                                      const ShadingPoint<Real>& point) {
   DirectLight<Real> direct;
   if (scene.lights_count == 0 || point.bsdf.is_specular()) return direct;
   const LightSample<Real> light =
@@ -110,8 +112,8 @@ ALHAZEN_HD DirectLight<Real> direct_light(const SceneView<Real>& scene, const Sa
 }
 
 template <class Real, class Sampler>
-ALHAZEN_HD BsdfSample<Real> scatter(const ShadingPoint<Real>& point, const Sampler& sampler,
-                                    const VertexDimensions& dimensions) {
+ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> scatter(const ShadingPoint<Real>& point, const Sampler& sampler,
+                                                const VertexDimensions& dimensions) {
   // What no one reads is not drawn.
   const Real u_lobe = point.bsdf.has_lobes() ? sampler.template get_1d<Real>(dimensions.bsdf_lobe()) : Real(0);
   const Vec2<Real> u =
@@ -122,7 +124,7 @@ ALHAZEN_HD BsdfSample<Real> scatter(const ShadingPoint<Real>& point, const Sampl
 }
 
 template <class Real, class Record>
-ALHAZEN_HD void record_first_hit(const ShadingPoint<Real>& point, const Hit<Real>& hit, Record& record) {
+ALHAZEN_HD ALHAZEN_HOT void record_first_hit(const ShadingPoint<Real>& point, const Hit<Real>& hit, Record& record) {
   if (record.wants_first_hit())
     record.keep_first_hit(FirstHit<Real>{bsdf_albedo(point.bsdf), point.si.shading_normal, hit.t});
 }

@@ -21,14 +21,15 @@ struct LightSample {
 };
 
 template <class Real>
-ALHAZEN_HD Vec3<Real> emitted_radiance(const LightRecord<Real>& light, const Vec3<Real>& front_normal,
-                                       const Vec3<Real>& towards) {
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> emitted_radiance(const LightRecord<Real>& light, const Vec3<Real>& front_normal,
+                                                   const Vec3<Real>& towards) {
   return light.two_sided || dot(front_normal, towards) > 0 ? light.radiance : Vec3<Real>{};
 }
 
 template <class Real>
-ALHAZEN_HD LightSample<Real> sample_triangle_light(const SceneView<Real>& scene, const LightRecord<Real>& light,
-                                                   const Vec3<Real>& reference, const Vec2<Real>& u) {
+ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_triangle_light(const SceneView<Real>& scene,
+                                                               const LightRecord<Real>& light,
+                                                               const Vec3<Real>& reference, const Vec2<Real>& u) {
   LightSample<Real> s;
   const TriangleRecord& triangle = scene.triangles[light.primitive];
   const Vec2<Real> b = sample_triangle(u);
@@ -51,9 +52,10 @@ ALHAZEN_HD LightSample<Real> sample_triangle_light(const SceneView<Real>& scene,
 }
 
 template <class Real>
-ALHAZEN_HD LightSample<Real> sample_sphere_light(const SceneView<Real>& scene, const LightRecord<Real>& light,
-                                                 const Vec3<Real>& center, Real radius, uint32_t surface,
-                                                 const Vec3<Real>& reference, const Vec2<Real>& u) {
+ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_sphere_light(const SceneView<Real>& scene,
+                                                             const LightRecord<Real>& light, const Vec3<Real>& center,
+                                                             Real radius, uint32_t surface, const Vec3<Real>& reference,
+                                                             const Vec2<Real>& u) {
   LightSample<Real> s;
   Vec3<Real> outward;
   s.direction = sample_sphere(center, radius, reference, u, outward, s.pdf);
@@ -93,8 +95,8 @@ ALHAZEN_HD LightSample<Real> sample_point_light(const LightRecord<Real>& light, 
 
 /// One light, chosen by `u_choice`, towards a point of it.
 template <class Real>
-ALHAZEN_HD LightSample<Real> sample_light(const SceneView<Real>& scene, const Vec3<Real>& reference, Real time,
-                                          Real u_choice, const Vec2<Real>& u) {
+ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light(const SceneView<Real>& scene, const Vec3<Real>& reference,
+                                                      Real time, Real u_choice, const Vec2<Real>& u) {
   LightSample<Real> s;
   if (scene.lights_count == 0) return s;
   const LightRecord<Real>& light =
@@ -137,8 +139,8 @@ ALHAZEN_HD LightSample<Real> sample_light(const SceneView<Real>& scene, const Ve
 /// Density with which `sample_light` at the origin of `ray` returns its direction by way of the emissive surface that
 /// the ray met.
 template <class Real>
-ALHAZEN_HD Real pdf_light(const SceneView<Real>& scene, const LightRecord<Real>& light, const Ray<Real>& ray,
-                          const Hit<Real>& hit, const SurfaceInteraction<Real>& si) {
+ALHAZEN_HD ALHAZEN_HOT Real pdf_light(const SceneView<Real>& scene, const LightRecord<Real>& light,
+                                      const Ray<Real>& ray, const Hit<Real>& hit, const SurfaceInteraction<Real>& si) {
   switch (light.kind) {
     case LightKind::triangle: {
       const Real area = Real(0.5) * length(triangle_cross(scene, scene.triangles[light.primitive]));

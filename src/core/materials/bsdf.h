@@ -36,16 +36,16 @@ struct Bsdf {
 };
 
 template <class Real>
-ALHAZEN_HD Real evaluate_alpha(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
-                               const TexturePoint<Real>& at) {
+ALHAZEN_HD ALHAZEN_HOT Real evaluate_alpha(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
+                                           const TexturePoint<Real>& at) {
   if (material.roughness.count == 0) return 0;
   const Real roughness = clamp(evaluate_texture(scene, material.roughness, at).x, Real(0), Real(1));
   return material.remap_roughness ? std::sqrt(roughness) : roughness;
 }
 
 template <class Real>
-ALHAZEN_HD Bsdf<Real> make_bsdf(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
-                                const TexturePoint<Real>& at, const Vec3<Real>& shading_normal) {
+ALHAZEN_HD ALHAZEN_HOT Bsdf<Real> make_bsdf(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
+                                            const TexturePoint<Real>& at, const Vec3<Real>& shading_normal) {
   Bsdf<Real> bsdf{material.kind, frame_about(shading_normal), {}, {}, 0, material.ior};
   switch (material.kind) {
     case MaterialKind::diffuse:
@@ -71,8 +71,8 @@ ALHAZEN_HD Bsdf<Real> make_bsdf(const SceneView<Real>& scene, const MaterialReco
 
 /// A direction for light that leaves along `wo`. pdf 0: absorbed.
 template <class Real>
-ALHAZEN_HD BsdfSample<Real> sample_bsdf(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, Real u_lobe,
-                                        const Vec2<Real>& u) {
+ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> sample_bsdf(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, Real u_lobe,
+                                                    const Vec2<Real>& u) {
   const Vec3<Real> local = bsdf.frame.to_local(wo);
   BsdfSample<Real> s;
   switch (bsdf.kind) {
@@ -92,7 +92,8 @@ ALHAZEN_HD BsdfSample<Real> sample_bsdf(const Bsdf<Real>& bsdf, const Vec3<Real>
 
 /// f * |cos| for light from `wi` to `wo`, and the density of `sample_bsdf`. Zero for specular surfaces.
 template <class Real>
-ALHAZEN_HD BsdfValue<Real> evaluate_bsdf(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, const Vec3<Real>& wi) {
+ALHAZEN_HD ALHAZEN_HOT BsdfValue<Real> evaluate_bsdf(const Bsdf<Real>& bsdf, const Vec3<Real>& wo,
+                                                     const Vec3<Real>& wi) {
   const Vec3<Real> o = bsdf.frame.to_local(wo), i = bsdf.frame.to_local(wi);
   switch (bsdf.kind) {
     case MaterialKind::diffuse:

@@ -13,7 +13,8 @@ struct DiffuseBsdf {
 };
 
 template <class Real>
-ALHAZEN_HD BsdfSample<Real> sample_diffuse(const DiffuseBsdf<Real>& bsdf, const Vec3<Real>& wo, const Vec2<Real>& u) {
+ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> sample_diffuse(const DiffuseBsdf<Real>& bsdf, const Vec3<Real>& wo,
+                                                       const Vec2<Real>& u) {
   BsdfSample<Real> s;
   s.direction = sample_cosine_hemisphere(u);
   s.pdf = pdf_cosine_hemisphere(s.direction.z);
@@ -23,7 +24,8 @@ ALHAZEN_HD BsdfSample<Real> sample_diffuse(const DiffuseBsdf<Real>& bsdf, const 
 }
 
 template <class Real>
-ALHAZEN_HD BsdfValue<Real> evaluate_diffuse(const DiffuseBsdf<Real>& bsdf, const Vec3<Real>& wo, const Vec3<Real>& wi) {
+ALHAZEN_HD ALHAZEN_HOT BsdfValue<Real> evaluate_diffuse(const DiffuseBsdf<Real>& bsdf, const Vec3<Real>& wo,
+                                                        const Vec3<Real>& wi) {
   if (!(wo.z * wi.z > 0)) return {};
   const Real pdf = pdf_cosine_hemisphere(std::abs(wi.z));
   return {bsdf.reflectance * pdf, pdf};

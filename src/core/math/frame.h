@@ -19,7 +19,7 @@ struct Frame {
 
 /// A frame about a unit normal without a branch (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 template <class Real>
-ALHAZEN_HD Frame<Real> frame_about(const Vec3<Real>& n) {
+ALHAZEN_HD ALHAZEN_HOT Frame<Real> frame_about(const Vec3<Real>& n) {
   const Real sign = std::copysign(Real(1), n.z);
   const Real a = Real(-1) / (sign + n.z);
   const Real b = n.x * n.y * a;

@@ -24,3 +24,10 @@
 #else
 #define ALHAZEN_INLINE inline
 #endif
+
+// Small functions of the inner loops, which GCC does not inline by itself where much else is; nvcc does.
+#if defined(__GNUC__) && !defined(__CUDACC__)
+#define ALHAZEN_HOT inline __attribute__((always_inline))
+#else
+#define ALHAZEN_HOT inline
+#endif

@@ -17,8 +17,8 @@ struct Ray {
 /// `position` moved off the surface to the side that `direction` points to, by the bound on the error of `position`
 /// along the geometric `normal` (Pharr, Jakob, Humphreys: PBR 4th ed., 6.8.6).
 template <class Real>
-ALHAZEN_HD Vec3<Real> offset_origin(const Vec3<Real>& position, const Vec3<Real>& position_error,
-                                    const Vec3<Real>& normal, const Vec3<Real>& direction) {
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> offset_origin(const Vec3<Real>& position, const Vec3<Real>& position_error,
+                                                const Vec3<Real>& normal, const Vec3<Real>& direction) {
   const Real distance = dot(abs(normal), position_error);
   const Vec3<Real> offset = normal * (dot(direction, normal) < 0 ? -distance : distance);
   const Vec3<Real> moved = position + offset;

@@ -17,9 +17,10 @@ struct CameraDimensions {
 
 /// The draws at one vertex of a path; `vertex` 0 is the first surface that the camera ray meets.
 struct VertexDimensions {
+  static constexpr uint32_t count = 5;
   uint32_t base;
 
-  ALHAZEN_HD explicit constexpr VertexDimensions(uint32_t vertex) : base(CameraDimensions::count + 5 * vertex) {}
+  ALHAZEN_HD explicit constexpr VertexDimensions(uint32_t vertex) : base(CameraDimensions::count + count * vertex) {}
   ALHAZEN_HD constexpr uint32_t bsdf_lobe() const { return base; }
   ALHAZEN_HD constexpr uint32_t bsdf_direction() const { return base + 1; }  ///< pair
   ALHAZEN_HD constexpr uint32_t light_choice() const { return base + 2; }

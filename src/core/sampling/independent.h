@@ -9,6 +9,7 @@ namespace ALHAZEN_CORE {
 
 class IndependentSampler {
  public:
+  IndependentSampler() = default;
   ALHAZEN_HD IndependentSampler(uint32_t seed, uint32_t x, uint32_t y, uint32_t sample)
       // Complemented, or pixel (a, seed) at sample b would draw the numbers of pixel (b, seed) at sample a.
       : key_(mix64(mix64((static_cast<uint64_t>(y) << 32) | x) +
@@ -35,7 +36,7 @@ class IndependentSampler {
  private:
   ALHAZEN_HD uint64_t bits(uint32_t dimension) const { return mix64(key_ ^ (dimension * 0xd1342543de82ef95u)); }
 
-  uint64_t key_;
+  uint64_t key_ = 0;
 };
 
 }  // namespace ALHAZEN_CORE

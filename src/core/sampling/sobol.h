@@ -33,6 +33,7 @@ ALHAZEN_HD constexpr uint32_t sobol_second_reversed(uint32_t index) {
 
 class SobolSampler {
  public:
+  SobolSampler() = default;
   ALHAZEN_HD SobolSampler(uint32_t seed, uint32_t x, uint32_t y, uint32_t sample)
       : pixel_seed_(combine32(combine32(combine32(0x2545f491u, seed), x), y)), reversed_sample_(reverse_bits(sample)) {}
 
@@ -62,8 +63,8 @@ class SobolSampler {
   /// The sample's index in an order of its own for each dimension, so that dimensions do not correlate.
   ALHAZEN_HD uint32_t shuffled_index(uint32_t seed) const { return reverse_bits(laine_karras(reversed_sample_, seed)); }
 
-  uint32_t pixel_seed_;
-  uint32_t reversed_sample_;
+  uint32_t pixel_seed_ = 0;
+  uint32_t reversed_sample_ = 0;
 };
 
 }  // namespace ALHAZEN_CORE

@@ -17,7 +17,7 @@ ALHAZEN_HD Vec2<Real> sample_disk_polar(const Vec2<Real>& u) {
 
 /// Uniform over the unit disk, keeping neighbours together (Shirley and Chiu 1997).
 template <class Real>
-ALHAZEN_HD Vec2<Real> sample_disk(const Vec2<Real>& u) {
+ALHAZEN_HD ALHAZEN_HOT Vec2<Real> sample_disk(const Vec2<Real>& u) {
   const Real x = 2 * u.x - 1, y = 2 * u.y - 1;
   if (x == 0 && y == 0) return {};
   const bool by_x = std::abs(x) > std::abs(y);
@@ -29,7 +29,7 @@ ALHAZEN_HD Vec2<Real> sample_disk(const Vec2<Real>& u) {
 
 /// Hemisphere about +z with density cos / pi over solid angle (Malley's method).
 template <class Real>
-ALHAZEN_HD Vec3<Real> sample_cosine_hemisphere(const Vec2<Real>& u) {
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_cosine_hemisphere(const Vec2<Real>& u) {
   const Vec2<Real> d = sample_disk(u);
   return {d.x, d.y, safe_sqrt(1 - d.x * d.x - d.y * d.y)};
 }
@@ -53,7 +53,7 @@ inline constexpr Real pdf_uniform_sphere = inv_pi<Real> / 4;
 /// Weight of a strategy with density `a` beside one with density `b` (power heuristic, exponent 2; Veach 1997, 9.2.4).
 /// By the ratio, so that neither square can overflow.
 template <class Real>
-ALHAZEN_HD Real power_heuristic(Real a, Real b) {
+ALHAZEN_HD ALHAZEN_HOT Real power_heuristic(Real a, Real b) {
   if (!(a > 0)) return 0;
   if (!(a < infinity<Real>)) return 1;
   const Real ratio = b / a;

@@ -32,9 +32,34 @@ ALHAZEN_HD uint32_t surface_of(const SceneView<Real>& scene, PrimitiveId primiti
   }
 }
 
+/// Asks for the record of what was met, before anything of it is read. For CPUs.
+template <class Real>
+ALHAZEN_INLINE void prefetch_primitive(const SceneView<Real>& scene, PrimitiveId primitive) {
+  switch (primitive.kind()) {
+    case PrimitiveKind::sphere:
+      return __builtin_prefetch(scene.spheres + primitive.index());
+    case PrimitiveKind::moving_sphere:
+      return __builtin_prefetch(scene.moving_spheres + primitive.index());
+    default:
+      return __builtin_prefetch(scene.triangles + primitive.index());
+  }
+}
+
+/// Asks for what the record refers to.
+template <class Real>
+ALHAZEN_INLINE void prefetch_vertices(const SceneView<Real>& scene, PrimitiveId primitive) {
+  if (primitive.kind() != PrimitiveKind::triangle) return;
+  const TriangleRecord& triangle = scene.triangles[primitive.index()];
+  const uint32_t normal_offset = scene.surfaces[triangle.surface].normal_offset;
+  for (const uint32_t v : triangle.vertex) {
+    __builtin_prefetch(scene.positions + v);
+    if (normal_offset != no_offset) __builtin_prefetch(scene.normals + v + normal_offset);
+  }
+}
+
 /// Geometric normal of a triangle by its winding, not of unit length.
 template <class Real>
-ALHAZEN_HD Vec3<Real> triangle_cross(const SceneView<Real>& scene, const TriangleRecord& triangle) {
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> triangle_cross(const SceneView<Real>& scene, const TriangleRecord& triangle) {
   const Vec3<Real> p0 = scene.positions[triangle.vertex[0]];
   return cross(scene.positions[triangle.vertex[1]] - p0, scene.positions[triangle.vertex[2]] - p0);
 }
@@ -56,7 +81,7 @@ ALHAZEN_HD Vec2<Real> vertex_uv(const SceneView<Real>& scene, const SurfaceRecor
 /// Unit geometric normal on the front of the surface: flipped where the surface says so, and towards the shading
 /// normals of the mesh where it has them.
 template <class Real>
-ALHAZEN_HD Vec3<Real> triangle_front_normal(const SceneView<Real>& scene, const TriangleRecord& triangle) {
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> triangle_front_normal(const SceneView<Real>& scene, const TriangleRecord& triangle) {
   const SurfaceRecord& surface = scene.surfaces[triangle.surface];
   Vec3<Real> n = normalize(triangle_cross(scene, triangle));
   if (surface.normal_offset != no_offset) {
@@ -68,7 +93,8 @@ ALHAZEN_HD Vec3<Real> triangle_front_normal(const SceneView<Real>& scene, const 
 }
 
 template <class Real>
-ALHAZEN_HD SurfaceInteraction<Real> triangle_interaction(const SceneView<Real>& scene, const Hit<Real>& hit) {
+ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> triangle_interaction(const SceneView<Real>& scene,
+                                                                     const Hit<Real>& hit) {
   const TriangleRecord& triangle = scene.triangles[hit.primitive.index()];
   const SurfaceRecord& surface = scene.surfaces[triangle.surface];
   const Real b0 = 1 - hit.b1 - hit.b2;
@@ -104,9 +130,9 @@ ALHAZEN_HD SurfaceInteraction<Real> triangle_interaction(const SceneView<Real>& 
 /// The hit point is pushed onto the sphere along the radius, so its error depends on centre and radius alone, not on
 /// the distance that the ray came.
 template <class Real>
-ALHAZEN_HD SurfaceInteraction<Real> sphere_interaction(const SceneView<Real>& scene, const Ray<Real>& ray, Real t,
-                                                       const Vec3<Real>& center, Real radius, uint32_t surface,
-                                                       uint32_t frame) {
+ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> sphere_interaction(const SceneView<Real>& scene, const Ray<Real>& ray,
+                                                                   Real t, const Vec3<Real>& center, Real radius,
+                                                                   uint32_t surface, uint32_t frame) {
   SurfaceInteraction<Real> si;
   const Vec3<Real> outward = normalize(ray.origin - center + ray.direction * t);
   const Vec3<Real> from_center = outward * radius;
@@ -124,8 +150,8 @@ ALHAZEN_HD SurfaceInteraction<Real> sphere_interaction(const SceneView<Real>& sc
 }
 
 template <class Real>
-ALHAZEN_HD SurfaceInteraction<Real> surface_interaction(const SceneView<Real>& scene, const Ray<Real>& ray,
-                                                        const Hit<Real>& hit) {
+ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> surface_interaction(const SceneView<Real>& scene, const Ray<Real>& ray,
+                                                                    const Hit<Real>& hit) {
   SurfaceInteraction<Real> si;
   switch (hit.primitive.kind()) {
     case PrimitiveKind::sphere: {
@@ -149,7 +175,7 @@ ALHAZEN_HD SurfaceInteraction<Real> surface_interaction(const SceneView<Real>& s
 /// The shading normal, bent as little as needed for `wo` to lie on the same side of it as of the geometric normal.
 /// Interpolated normals break that near silhouettes, and black rims come of it.
 template <class Real>
-ALHAZEN_HD Vec3<Real> consistent_shading_normal(const SurfaceInteraction<Real>& si, const Vec3<Real>& wo) {
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> consistent_shading_normal(const SurfaceInteraction<Real>& si, const Vec3<Real>& wo) {
   const Real side = dot(wo, si.normal) < 0 ? Real(-1) : Real(1);
   const Real seen = side * dot(wo, si.shading_normal);
   constexpr Real least = Real(1e-3);

@@ -33,8 +33,8 @@ ALHAZEN_HD bool intersect_sphere(const Ray<Real>& ray, const Vec3<Real>& center,
 /// Cone of directions from `point` that meets the sphere: cosine of its half angle, and 1 minus that cosine without
 /// cancellation. False where the point is inside or on the sphere.
 template <class Real>
-ALHAZEN_HD bool subtended_cone(const Vec3<Real>& center, Real radius, const Vec3<Real>& point, Real& cos_max,
-                               Real& one_minus_cos_max) {
+ALHAZEN_HD ALHAZEN_HOT bool subtended_cone(const Vec3<Real>& center, Real radius, const Vec3<Real>& point,
+                                           Real& cos_max, Real& one_minus_cos_max) {
   const Real distance_squared = length_squared(center - point);
   const Real sin2 = radius * radius / distance_squared;
   if (!(sin2 < Real(0.99999))) return false;
@@ -47,8 +47,8 @@ ALHAZEN_HD bool subtended_cone(const Vec3<Real>& center, Real radius, const Vec3
 /// a point uniform over its area. `normal_at` receives the outward unit normal where the direction meets it, `pdf` the
 /// density over solid angle.
 template <class Real>
-ALHAZEN_HD Vec3<Real> sample_sphere(const Vec3<Real>& center, Real radius, const Vec3<Real>& point, const Vec2<Real>& u,
-                                    Vec3<Real>& normal_at, Real& pdf) {
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_sphere(const Vec3<Real>& center, Real radius, const Vec3<Real>& point,
+                                                const Vec2<Real>& u, Vec3<Real>& normal_at, Real& pdf) {
   const Real phi = 2 * pi<Real> * u.y;
   Real cos_max, one_minus_cos_max;
   if (!subtended_cone(center, radius, point, cos_max, one_minus_cos_max)) {

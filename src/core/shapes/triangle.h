@@ -18,7 +18,7 @@ struct ShearedRay {
 };
 
 template <class Real>
-ALHAZEN_HD ShearedRay<Real> shear_ray(const Ray<Real>& ray) {
+ALHAZEN_HD ALHAZEN_HOT ShearedRay<Real> shear_ray(const Ray<Real>& ray) {
   ShearedRay<Real> s;
   s.origin = ray.origin;
   s.kz = max_axis(abs(ray.direction));
@@ -32,7 +32,7 @@ ALHAZEN_HD ShearedRay<Real> shear_ray(const Ray<Real>& ray) {
 /// A lower bound on t that the rounding of `intersect_triangle` cannot reach from a hit behind the origin
 /// (PBR 4th ed., 6.8.7). `p` are the sheared vertices, `inverse_det` the reciprocal of the sum of edge functions `e`.
 template <class Real>
-ALHAZEN_HD Real triangle_t_error(const Vec3<Real> p[3], const Vec3<Real>& e, Real inverse_det) {
+ALHAZEN_HD ALHAZEN_HOT Real triangle_t_error(const Vec3<Real> p[3], const Vec3<Real>& e, Real inverse_det) {
   const auto largest = [](Real a, Real b, Real c) { return larger(std::abs(a), larger(std::abs(b), std::abs(c))); };
   const Real max_x = largest(p[0].x, p[1].x, p[2].x);
   const Real max_y = largest(p[0].y, p[1].y, p[2].y);
@@ -77,7 +77,7 @@ ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>
 /// A point on the triangle by area, from two uniform numbers: barycentric weights of vertices 0 and 1, pdf 1 / area
 /// (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
 template <class Real>
-ALHAZEN_HD Vec2<Real> sample_triangle(const Vec2<Real>& u) {
+ALHAZEN_HD ALHAZEN_HOT Vec2<Real> sample_triangle(const Vec2<Real>& u) {
   if (u.x < u.y) {
     const Real b0 = u.x * Real(0.5);
     return {b0, u.y - b0};

@@ -72,53 +72,94 @@ struct Lanes {
   ALHAZEN_INLINE friend Lanes larger(const Lanes& a, const Lanes& b) {
     return map([&](int i) { return a.r[i] > b.r[i] ? a.r[i] : b.r[i]; });
   }
+  ALHAZEN_INLINE friend Lanes magnitude(const Lanes& a) {
+    return map([&](int i) { return a.r[i] < 0 ? -a.r[i] : a.r[i]; });
+  }
   /// x where a < b, else y.
   ALHAZEN_INLINE friend Lanes where_less(const Lanes& a, const Lanes& b, const Lanes& x, const Lanes& y) {
     return map([&](int i) { return a.r[i] < b.r[i] ? x.r[i] : y.r[i]; });
   }
 
-  /// a * b - c, with one rounding where the processor can: for bounds, which need not be the same everywhere.
-  ALHAZEN_INLINE friend Lanes multiply_subtract(const Lanes& a, const Lanes& b, const Lanes& c) {
-#if defined(__FMA__)
-    return map([&](int i) {
-      Register v;
-      for (int k = 0; k < per_register; ++k) v[k] = std::fma(a.r[i][k], b.r[i][k], -c.r[i][k]);
-      return v;
-    });
-#else
-    return a * b - c;
-#endif
+  /// a * b + c, with one rounding where the processor can: for bounds, which need not be the same everywhere.
+  ALHAZEN_INLINE friend Lanes fused_multiply_add(const Lanes& a, const Lanes& b, const Lanes& c) {
+    return map([&](int i) { return fused(a.r[i], b.r[i], c.r[i]); });
   }
 
   ALHAZEN_INLINE friend Lanes square_root(const Lanes& a) {
-    return map([&](int i) {
-      Register v;
-      for (int k = 0; k < per_register; ++k) v[k] = std::sqrt(a.r[i][k]);
-      return v;
-    });
+    return map([&](int i) { return root(a.r[i]); });
   }
 
   /// A bit for each lane, set where a <= b.
   ALHAZEN_INLINE friend uint32_t less_equal(const Lanes& a, const Lanes& b) {
     uint32_t bits = 0;
-    for (int i = 0; i < registers; ++i) bits |= bits_of(a.r[i] <= b.r[i]) << (i * per_register);
+    for (int i = 0; i < registers; ++i) bits |= less_equal_bits(a.r[i], b.r[i]) << (i * per_register);
     return bits;
   }
 
   /// A bit for each lane, set where a < b.
   ALHAZEN_INLINE friend uint32_t less(const Lanes& a, const Lanes& b) {
     uint32_t bits = 0;
-    for (int i = 0; i < registers; ++i) bits |= bits_of(a.r[i] < b.r[i]) << (i * per_register);
+    for (int i = 0; i < registers; ++i) bits |= less_bits(a.r[i], b.r[i]) << (i * per_register);
     return bits;
   }
 
  private:
+  static constexpr bool is_float = sizeof(T) == sizeof(float);
+
+  // What compilers do not make of the operators by themselves: here `if constexpr` picks one instruction.
+
+  ALHAZEN_INLINE static Register fused(const Register& a, const Register& b, const Register& c) {
+#if defined(__AVX512F__)
+    if constexpr (register_bytes == 64 && is_float) return (Register)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
+    if constexpr (register_bytes == 64 && !is_float)
+      return (Register)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
+#endif
+#if defined(__FMA__)
+    if constexpr (register_bytes == 32 && is_float) return (Register)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
+    if constexpr (register_bytes == 32 && !is_float)
+      return (Register)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
+    if constexpr (register_bytes == 16 && is_float) return (Register)_mm_fmadd_ps((__m128)a, (__m128)b, (__m128)c);
+    if constexpr (register_bytes == 16 && !is_float) return (Register)_mm_fmadd_pd((__m128d)a, (__m128d)b, (__m128d)c);
+#endif
+    return a * b + c;
+  }
+
+  ALHAZEN_INLINE static Register root(const Register& a) {
+#if defined(__AVX512F__)  // masked, since GCC 12 takes the plain ones for uses of a variable without a value
+    if constexpr (register_bytes == 64 && is_float) return (Register)_mm512_maskz_sqrt_ps(0xffff, (__m512)a);
+    if constexpr (register_bytes == 64 && !is_float) return (Register)_mm512_maskz_sqrt_pd(0xff, (__m512d)a);
+#endif
+#if defined(__AVX__)
+    if constexpr (register_bytes == 32 && is_float) return (Register)_mm256_sqrt_ps((__m256)a);
+    if constexpr (register_bytes == 32 && !is_float) return (Register)_mm256_sqrt_pd((__m256d)a);
+#endif
+#if defined(__SSE2__)
+    if constexpr (register_bytes == 16 && is_float) return (Register)_mm_sqrt_ps((__m128)a);
+    if constexpr (register_bytes == 16 && !is_float) return (Register)_mm_sqrt_pd((__m128d)a);
+#endif
+    Register v;
+    for (int k = 0; k < per_register; ++k) v[k] = std::sqrt(a[k]);
+    return v;
+  }
+
+  ALHAZEN_INLINE static uint32_t less_equal_bits(const Register& a, const Register& b) {
+#if defined(__AVX512F__)
+    if constexpr (register_bytes == 64 && is_float) return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ);
+    if constexpr (register_bytes == 64 && !is_float) return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OQ);
+#endif
+    return bits_of(a <= b);
+  }
+
+  ALHAZEN_INLINE static uint32_t less_bits(const Register& a, const Register& b) {
+#if defined(__AVX512F__)
+    if constexpr (register_bytes == 64 && is_float) return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ);
+    if constexpr (register_bytes == 64 && !is_float) return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ);
+#endif
+    return bits_of(a < b);
+  }
+
   template <class Comparison>
   ALHAZEN_INLINE static uint32_t bits_of(Comparison c) {
-#if defined(__AVX512DQ__)
-    if constexpr (register_bytes == 64 && sizeof(T) == 4) return _mm512_movepi32_mask((__m512i)c);
-    if constexpr (register_bytes == 64 && sizeof(T) == 8) return _mm512_movepi64_mask((__m512i)c);
-#endif
 #if defined(__AVX__)
     if constexpr (register_bytes == 32 && sizeof(T) == 4) return static_cast<uint32_t>(_mm256_movemask_ps((__m256)c));
     if constexpr (register_bytes == 32 && sizeof(T) == 8) return static_cast<uint32_t>(_mm256_movemask_pd((__m256d)c));

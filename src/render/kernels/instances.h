@@ -36,16 +36,16 @@ void take_blocks_together(const KernelRequest& request, const SceneView<Real>& s
     for (uint32_t i = 0; i < request.blocks[b].count; ++i)
       places[count++] = static_cast<uint16_t>(b * samples_per_block + i);
   integrate_batch<kind, Sampler>(
-      scene, intersector, request.max_segments, request.wants_first_hit, count,
-      [&](uint32_t sample, Sampler& sampler) {
+      scene, intersector, request.seed, request.max_segments, request.wants_first_hit, count,
+      [&](uint32_t sample) -> PixelSample {
         const uint32_t place = places[sample];
         const BlockRequest& block = request.blocks[place / samples_per_block];
-        sampler = Sampler(request.seed, block.x, block.y, block.first + place % samples_per_block);
-        const CameraSample<Real> camera = sample_camera(scene, sampler, block.x, block.y);
-        weights[place] = camera.filter_weight;
-        return camera.ray;
+        return {block.x, block.y, block.first + place % samples_per_block};
       },
-      [&](uint32_t sample, const SampleRecord<Real>& record) { records[places[sample]] = record; });
+      [&](uint32_t sample, const SampleRecord<Real>& record, Real filter_weight) {
+        records[places[sample]] = record;
+        weights[places[sample]] = filter_weight;
+      });
   for (uint32_t i = 0; i < count; ++i) sums[places[i] / samples_per_block].add(records[places[i]], weights[places[i]]);
 }
 

@@ -1,0 +1,153 @@
+#pragma once
+
+// One ray on its way through the BVH of simd_node.h, a step at a time, and two ways to keep what it has yet to visit.
+
+#include <bit>
+
+#include "core/bvh/simd_blocks.h"
+#include "core/bvh/simd_ray.h"
+
+namespace ALHAZEN_CORE {
+
+/// The nearest child first, sorted by branches: for a ray that walks alone, where guessing ahead hides the waits.
+template <bool any_hit>
+class NearestFirst {
+ public:
+  /// Puts the children entered aside but for the nearest, which becomes `current`. False where none is entered.
+  ALHAZEN_INLINE bool push(const SimdNode& node, const BoxRay& ray, float t_max, int& height, uint32_t& current) {
+    const SimdEntry entry = enter_children(node, ray, t_max);
+    uint32_t entered = entry.children();
+    if (entered == 0) return false;
+    float t[simd_children];
+    entry.near.store(t);
+    const auto next = [&]() -> uint64_t {
+      const int child = std::countr_zero(entered);
+      entered &= entered - 1;
+      // Distances from 0 on sort as their bits do.
+      return any_hit ? node.child[child]
+                     : static_cast<uint64_t>(std::bit_cast<uint32_t>(t[child])) << 32 | node.child[child];
+    };
+    uint64_t nearest = next();
+    if constexpr (any_hit) {
+      for (; entered != 0; nearest = next()) entries_[height++] = nearest;
+    } else if (entered != 0) {
+      const uint64_t second = next();
+      const int base = height;
+      entries_[height++] = larger(nearest, second);
+      nearest = smaller(nearest, second);
+      while (entered != 0) {
+        const uint64_t another = next();
+        const uint64_t farther = larger(nearest, another);
+        nearest = smaller(nearest, another);
+        int place = height++;
+        for (; place > base && entries_[place - 1] < farther; --place) entries_[place] = entries_[place - 1];
+        entries_[place] = farther;
+      }
+    }
+    current = static_cast<uint32_t>(nearest);
+    return true;
+  }
+
+  ALHAZEN_INLINE bool pop(float t_max, int& height, uint32_t& current) const {
+    while (height > 0) {
+      const uint64_t entry = entries_[--height];
+      if (!any_hit && !(std::bit_cast<float>(static_cast<uint32_t>(entry >> 32)) <= t_max)) continue;
+      current = static_cast<uint32_t>(entry);
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  uint64_t entries_[simd_stack_size];
+};
+
+/// Children in the order of the ray's octant, without a branch that nobody can foresee: for rays that take turns, where
+/// a wrong guess would make all of them wait.
+template <bool any_hit>
+class OctantFirst {
+ public:
+  /// Puts all children entered aside.
+  ALHAZEN_INLINE bool push(const SimdNode& node, const BoxRay& ray, float t_max, int& height, uint32_t&) {
+    const SimdEntry entry = enter_children(node, ray, t_max);
+    uint32_t entered;
+    if constexpr (any_hit) {
+      entered = entry.children();
+      store_set_lanes(node.child, entered, child_ + height);
+    } else {
+      const uint32_t(&order)[simd_children] = simd_orders.of_octant[ray.octant];
+      const SimdEntry ordered{permuted(entry.near, order), permuted(entry.far, order)};
+      entered = ordered.children();
+      float t[simd_children];
+      uint32_t child[simd_children];
+      ordered.near.store(t);
+      permute(node.child, order, child);
+      store_set_lanes(t, entered, t_ + height);
+      store_set_lanes(child, entered, child_ + height);
+    }
+    height += std::popcount(entered);
+    return false;
+  }
+
+  ALHAZEN_INLINE bool pop(float t_max, int& height, uint32_t& current) const {
+    while (height > 0) {
+      --height;
+      if (!any_hit && !(t_[height] <= t_max)) continue;
+      current = child_[height];
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  float t_[any_hit ? 1 : simd_stack_size];
+  uint32_t child_[simd_stack_size];
+};
+
+template <bool any_hit, class Real, class Stack>
+class alignas(64) SimdWalk {
+ public:
+  /// `stack` lies elsewhere: walks side by side are to be few cache lines each.
+  ALHAZEN_INLINE void use(Stack* stack) { stack_ = stack; }
+
+  ALHAZEN_INLINE void start(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max) {
+    ray_ = &ray;
+    box_ = box_ray(ray);
+    sheared_ = shear_ray(ray);
+    hit_ = no_hit_before(t_max);
+    t_max_ = simd_limit(t_max);
+    height_ = 0;
+    found_ = false;
+    // Nothing to visit but an empty leaf where there is no tree, or no ray.
+    current_ = scene.simd_nodes_count > 0 && can_walk(ray) ? 0 : SimdChild::nothing;
+  }
+
+  /// Visits what is next; false when the walk is over.
+  ALHAZEN_INLINE bool step(const SceneView<Real>& scene) {
+    if (SimdChild::kind(current_) == SimdChild::node) {
+      if (stack_->push(scene.simd_nodes[current_], box_, t_max_, height_, current_)) return true;
+    } else if (intersect_leaf(scene, current_, *ray_, sheared_, hit_)) {
+      found_ = true;
+      if (any_hit) return false;
+      t_max_ = simd_limit(hit_.t);
+    }
+    return stack_->pop(t_max_, height_, current_);
+  }
+
+  uint32_t current() const { return current_; }
+  bool found() const { return found_; }
+  const Hit<Real>& hit() const { return hit_; }
+
+ private:
+  BoxRay box_;
+  float t_max_;
+  uint32_t current_;
+  int height_;
+  bool found_;
+  const Ray<Real>* ray_;
+  Hit<Real> hit_;
+  ShearedRay<Real> sheared_;
+  Stack* stack_;
+};
+
+}  // namespace ALHAZEN_CORE

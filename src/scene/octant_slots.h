@@ -1,0 +1,45 @@
+#pragma once
+
+// Which place among its 8 siblings a child of a wide node gets, so that a ray may visit them in an order that its
+// direction alone tells (Ylitie, Karras, Laine 2017, section 3.3): slot s ^ octant is the priority of slot s, the
+// lowest first, where `octant` has a bit for each axis along which the direction is negative.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "core/math/vec.h"
+
+namespace alhazen {
+
+/// The slots of `count` children by the way from the middle of their parent to theirs: each the slot whose octant it
+/// lies in, as far as slots are free, the clearest cases first.
+template <class Real>
+std::array<uint32_t, 8> octant_slots(const Vec3<Real> (&offsets)[8], uint32_t count) {
+  Real cost[8][8];
+  for (uint32_t c = 0; c < count; ++c)
+    for (uint32_t slot = 0; slot < 8; ++slot) {
+      const Vec3<Real>& o = offsets[c];
+      const Real sum = (slot & 1 ? -o.x : o.x) + (slot & 2 ? -o.y : o.y) + (slot & 4 ? -o.z : o.z);
+      cost[c][slot] = std::isnan(sum) ? 0 : sum;  // of boxes beyond all bounds: it must not upset the order
+    }
+  std::array<uint32_t, 8> slots{};
+  uint32_t placed = 0, used = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    uint32_t best_child = 8, best_slot = 0;
+    for (uint32_t c = 0; c < count; ++c) {
+      if (placed >> c & 1) continue;
+      for (uint32_t slot = 0; slot < 8; ++slot)
+        if (!(used >> slot & 1) && (best_child == 8 || cost[c][slot] < cost[best_child][best_slot])) {
+          best_child = c;
+          best_slot = slot;
+        }
+    }
+    slots[best_child] = best_slot;
+    placed |= 1u << best_child;
+    used |= 1u << best_slot;
+  }
+  return slots;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,55 @@
+#pragma once
+
+// Ray queries answered by the BVH of CPUs as it was compiled for one of the instruction sets (queries.cpp).
+
+#include "isa/request.h"
+#include "render/sample_kernel.h"
+
+namespace alhazen {
+
+#define ALHAZEN_DECLARE_ANSWERS(set)                                               \
+  namespace set {                                                                  \
+  test::AnswerQueries select_answers(test::Way way, bool any_hit, bool is_double); \
+  }
+ALHAZEN_DECLARE_ANSWERS(baseline)
+#if defined(__x86_64__)
+ALHAZEN_DECLARE_ANSWERS(avx2)
+ALHAZEN_DECLARE_ANSWERS(avx512)
+#endif
+#undef ALHAZEN_DECLARE_ANSWERS
+
+namespace test {
+
+/// By the instruction set that is asked for, or the best below it that this processor has.
+template <class Real>
+void answer_queries(const SceneView<Real>& scene, InstructionSet set, Way way, bool any_hit, uint32_t count,
+                    const Ray<Real>* rays, const Real* limits, Hit<Real>* hits, bool* found) {
+  const InstructionSet here = set < instruction_sets().back() ? set : instruction_sets().back();
+  const auto select = ALHAZEN_KERNEL_OF(here, select_answers);
+  select(way, any_hit, sizeof(Real) == sizeof(double))({&scene, rays, limits, count, hits, found});
+}
+
+/// Queries one by one.
+template <class Real, InstructionSet set>
+class IsaIntersector {
+ public:
+  explicit IsaIntersector(const SceneView<Real>& scene) : scene_(&scene) {}
+
+  bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
+    bool found;
+    answer_queries(*scene_, set, Way::one, false, 1, &ray, &t_max, &hit, &found);
+    return found;
+  }
+  bool occluded(const Ray<Real>& ray, Real t_max) const {
+    Hit<Real> hit;
+    bool found;
+    answer_queries(*scene_, set, Way::one, true, 1, &ray, &t_max, &hit, &found);
+    return found;
+  }
+
+ private:
+  const SceneView<Real>* scene_;
+};
+
+}  // namespace test
+}  // namespace alhazen
