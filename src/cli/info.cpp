@@ -42,7 +42,8 @@ void show(const InfoOptions& options) {
   const size_t materials = scene.materials.size(), textures = scene.textures.size(), images = scene.images.size(),
                meshes = scene.meshes.size(), instances = scene.instances.size();
   const char* filter = name_of(scene.filter.type);
-  const SceneStatistics sizes = flatten<float>(std::move(scene), {}, diagnostics).statistics;
+  const FlattenOptions as_on_cpus{.trees = {.binary = false, .simd = true}};
+  const SceneStatistics sizes = flatten<float>(std::move(scene), as_on_cpus, diagnostics).statistics;
   const nlohmann::ordered_json j{{"scene", options.scene},
                                  {"width", settings.window.width()},
                                  {"height", settings.window.height()},
@@ -61,6 +62,7 @@ void show(const InfoOptions& options) {
                                  {"images", images},
                                  {"nodes", sizes.nodes},
                                  {"scene_bytes", sizes.bytes},
+                                 {"tree_bytes", sizes.tree_bytes},
                                  {"build_seconds", sizes.build_seconds},
                                  {"peak_rss_bytes", peak_rss_bytes()}};
   if (options.json) {

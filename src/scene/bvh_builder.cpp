@@ -29,18 +29,22 @@ constexpr int bins_for(uint32_t count) { return count < 96 ? 4 + static_cast<int
 template <class Real>
 using Row = Lanes<Real, 4>;
 
-/// What is to be put into the tree: a box and its number, as SIMD instructions take them. Of a row of four the last is
-/// of no meaning to a box.
+/// What is to be put into the tree: a box and its number, as SIMD instructions take them: two rows of four, of which
+/// the last is of no meaning to the box.
 template <class Real>
-struct alignas(8 * sizeof(Real)) Reference {
+struct Reference {
   Vec3<Real> low;
-  uint32_t index;
-  alignas(4 * sizeof(Real)) Vec3<Real> high;
+  uint32_t index = 0;
+  Vec3<Real> high;
+  Real unused = 0;
 
   Row<Real> lows() const { return Row<Real>::load(&low.x); }
   Row<Real> highs() const { return Row<Real>::load(&high.x); }
   Vec3<Real> center() const { return Bounds3<Real>{low, high}.center(); }
 };
+
+static_assert(sizeof(Reference<float>) == 2 * sizeof(Row<float>) &&
+              sizeof(Reference<double>) == 2 * sizeof(Row<double>));
 
 template <class Real>
 struct RowBounds {
@@ -136,7 +140,7 @@ class Builder {
       : options_(options), references_(new Reference<Real>[boxes.size()]), count_(static_cast<uint32_t>(boxes.size())) {
     team_ = count_ < task_size ? 1 : options.threads > 0 ? options.threads : omp_get_max_threads();
 #pragma omp parallel for num_threads(team_)
-    for (uint32_t i = 0; i < count_; ++i) references_[i] = {boxes[i].low, i, boxes[i].high};
+    for (uint32_t i = 0; i < count_; ++i) references_[i] = {boxes[i].low, i, boxes[i].high, 0};
     // Pages of the upper bound 2 n - 1 are touched only as far as nodes are made.
     nodes_.reset(static_cast<BvhNode<Real>*>(std::calloc(2 * size_t{count_}, sizeof(BvhNode<Real>))));
     if (!nodes_) throw std::bad_alloc();

@@ -7,6 +7,7 @@
 
 #include "core/shapes/interaction.h"
 #include "scene/bvh_builder.h"
+#include "scene/bvh_reinsertion.h"
 #include "scene/flatten_camera.h"
 #include "scene/flatten_lights.h"
 #include "scene/flatten_materials.h"
@@ -273,6 +274,7 @@ class Flattener {
     if (trees.binary || trees.wide || trees.simd) {
       tree = build_bvh<Real>(
           boxes, trees.simd ? BvhOptions::for_collapse(options_.threads) : BvhOptions{.threads = options_.threads});
+      reinsert_subtrees(tree, options_.threads);
     } else {
       tree.order.resize(boxes.size());
       std::iota(tree.order.begin(), tree.order.end(), 0u);
@@ -290,6 +292,10 @@ class Flattener {
     }
     flat.statistics.nodes = trees.binary ? out_.nodes.size() : out_.simd_nodes.size();
     if (!trees.binary) std::vector<BvhNode<Real>>().swap(out_.nodes);
+    const auto bytes = [](const auto& array) { return array.size() * sizeof(array[0]); };
+    flat.statistics.tree_bytes = bytes(out_.nodes) + bytes(out_.wide_nodes) + bytes(out_.wide_primitives) +
+                                 bytes(out_.simd_nodes) + bytes(out_.triangle_blocks) + bytes(out_.sphere_blocks) +
+                                 bytes(out_.moving_sphere_blocks);
     flat.statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 

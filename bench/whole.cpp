@@ -1,0 +1,85 @@
+// Whole renders by `path` on one core, of the very samples whose rays rays.cpp has Embree trace; and what building the
+// trees takes, on as many threads as the machine has processors.
+
+#include <benchmark/benchmark.h>
+
+#include <thread>
+
+#include "recorded.h"
+#include "render/sample_kernel.h"
+#include "scene/flatten.h"
+
+namespace alhazen {
+namespace {
+
+template <class Real>
+void render(benchmark::State& state, const std::string& scene) {
+  const Recorded<Real>& recorded = Recorded<Real>::of(scene);
+  const SampleKernel<Real> kernel = select_sample_kernel<Real>(IntegratorKind::path, SamplerType::sobol);
+  std::vector<BlockRequest> requests;
+  std::vector<BlockSum<Real>> sums(most_blocks_per_request);
+  uint64_t rays = 0;
+  const auto take = [&] {
+    kernel(recorded.flat.view, nullptr, 0, bench_segments, requests.data(), static_cast<uint32_t>(requests.size()),
+           sums.data(), false);
+    for (size_t i = 0; i < requests.size(); ++i) rays += sums[i].segments + sums[i].shadow_rays;
+    requests.clear();
+  };
+  for (auto _ : state) {
+    rays = 0;
+    for (uint32_t y = 0; y < bench_height; ++y)
+      for (uint32_t x = 0; x < bench_width; ++x)
+        for (uint32_t first = 0; first < bench_samples; first += samples_per_block) {
+          requests.push_back({x, y, first, samples_per_block});
+          if (requests.size() == most_blocks_per_request) take();
+        }
+    take();
+  }
+  state.counters["rays"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+int processors() { return static_cast<int>(std::thread::hardware_concurrency()); }
+
+template <class Real>
+void build_ours(benchmark::State& state, const std::string& scene) {
+  double bytes = 0;
+  for (auto _ : state) {
+    Diagnostics diagnostics;
+    const FlatScene<Real> flat = flatten<Real>(
+        read_bench_scene(scene), FlattenOptions{64, 64, processors(), {.binary = false, .simd = true}}, diagnostics);
+    state.SetIterationTime(flat.statistics.build_seconds);
+    bytes = static_cast<double>(flat.statistics.tree_bytes) / static_cast<double>(flat.statistics.triangles);
+  }
+  state.counters["bytes a triangle"] = bytes;
+}
+
+#if defined(ALHAZEN_WITH_EMBREE)
+void build_embree(benchmark::State& state, const std::string& scene) {
+  const Recorded<float>& recorded = Recorded<float>::of(scene);
+  for (auto _ : state) PlainEmbree(recorded.flat.view, processors());
+}
+#endif
+
+const bool is_registered = [] {
+  for (const std::string scene : bench_scenes) {
+    benchmark::RegisterBenchmark(("whole/" + scene + "/float path").c_str(), render<float>, scene)
+        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(("whole/" + scene + "/double path").c_str(), render<double>, scene)
+        ->Unit(benchmark::kMillisecond);
+  }
+  benchmark::RegisterBenchmark("build/knot/float ours", build_ours<float>, "knot")
+      ->Unit(benchmark::kMillisecond)
+      ->UseManualTime();
+  benchmark::RegisterBenchmark("build/knot/double ours", build_ours<double>, "knot")
+      ->Unit(benchmark::kMillisecond)
+      ->UseManualTime();
+#if defined(ALHAZEN_WITH_EMBREE)
+  benchmark::RegisterBenchmark("build/knot/float embree", build_embree, "knot")
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime();
+#endif
+  return true;
+}();
+
+}  // namespace
+}  // namespace alhazen

@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Traversal, whole renders and builds beside Embree: interleaved repeats in one run, medians, ratios.
+
+usage: scripts/bench-rays.py [--binary build/release/bench/alhazen_bench] [--mesh MESH.ply] [--repeats 5]
+                             [--filter REGEX] [--json FILE] [--markdown]
+
+Each group of the same rays, renders or builds is compared with Embree's line in it. A ratio above 1 is faster than Embree.
+"""
+
+import argparse
+import json
+import os
+import statistics
+import subprocess
+import sys
+
+
+def run(options):
+    command = [options.binary, f"--benchmark_repetitions={options.repeats}", "--benchmark_min_time=0.05",
+               "--benchmark_enable_random_interleaving=true", "--benchmark_format=json",
+               f"--benchmark_filter={options.filter}"]
+    environment = dict(os.environ)
+    if options.mesh:
+        environment["ALHAZEN_BENCH_MESH"] = os.path.abspath(options.mesh)
+    finished = subprocess.run(command, stdout=subprocess.PIPE, env=environment, check=False)
+    if finished.returncode != 0:
+        sys.exit(f"bench-rays: {options.binary} failed with exit code {finished.returncode}")
+    return json.loads(finished.stdout)
+
+
+def groups_of(report):
+    """{group: {engine: (milliseconds of each repeat, rays or None, bytes a triangle or None)}}"""
+    groups = {}
+    for entry in report["benchmarks"]:
+        if entry["run_type"] != "iteration":
+            continue
+        name = entry["run_name"].removesuffix("/real_time").removesuffix("/manual_time")
+        group, engine = name.rsplit("/", 1)
+        line = groups.setdefault(group, {}).setdefault(engine, ([], entry.get("rays"), entry.get("bytes a triangle")))
+        line[0].append(entry["real_time"])
+    return groups
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--binary", default="build/release/bench/alhazen_bench")
+    parser.add_argument("--mesh", help="the mesh of the scene 'knot' (default: scenes/knot.ply.gz)")
+    parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--filter", default="^(rays|whole|build)/")
+    parser.add_argument("--json", help="write the raw report here")
+    parser.add_argument("--markdown", action="store_true", help="tables for docs/results")
+    options = parser.parse_args()
+    if not os.access(options.binary, os.X_OK):
+        sys.exit(f"bench-rays: {options.binary} is not there: build it first (scripts/build.sh alhazen_bench)")
+    report = run(options)
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump(report, file, indent=1)
+    row = "| {} | {} | {} | {} | {} |" if options.markdown else "{:<26} {:<42} {:>24} {:>9} {:>9}"
+    print(row.format("what", "engine", "median ms (min to max)", "Mrays/s", "ratio"))
+    if options.markdown:
+        print("|---|---|---|---|---|")
+    for group, engines in groups_of(report).items():
+        embree = engines.get("float embree")
+        for engine, (times, rays, memory) in engines.items():
+            median = statistics.median(times)
+            speed = f"{rays / 1e6:.2f}" if rays else f"{memory:.0f} B/tri" if memory else ""
+            ratio = f"{statistics.median(embree[0]) / median:.2f}" if embree else ""
+            print(row.format(group, engine, f"{median:.1f} ({min(times):.1f} to {max(times):.1f})", speed, ratio))
+
+
+if __name__ == "__main__":
+    main()
