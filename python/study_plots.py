@@ -15,6 +15,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.ticker  # noqa: E402
 import numpy as np  # noqa: E402
 
 COLOURS = {"blue": "#0b6e8f", "orange": "#d9762b", "green": "#4c8c4a", "red": "#b5424b", "grey": "#98a4af"}
@@ -242,23 +243,32 @@ def draw_queries(study):
     save(figure, study.folder, "queries")
 
 
-def draw_depth(study):
-    columns = study.columns("depth")
-    if not study.cells("depth"):
+def draw_depth(study, table, name):
+    columns = study.columns(table)
+    if not study.cells(table):
         return
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.6))
-    for i, column in enumerate(columns):
-        cells = study.cells("depth", column)
+    for column in columns:
+        cells = study.cells(table, column)
         depths = [int(cell["row"]) for cell in cells]
-        style = {"marker": "o", "markersize": 4, "linewidth": 1.6, "label": column, "linestyle": "--" if i == 1 else "-"}
+        colour, line = {"branching": ("orange", "-"), "recursive": ("green", "--")}.get(column.split()[0], ("blue", "-"))
+        style = {"marker": "o", "markersize": 4, "linewidth": 1.6, "label": column, "linestyle": line,
+                 "color": COLOURS[colour]}
         left.plot(depths, [cell["rays_per_sample"] for cell in cells], **style)
-        right.plot(depths, [cell["nanoseconds_per_sample"] for cell in cells], **style)
-    for axes, title in ((left, "rays of a camera sample"), (right, "nanoseconds of a camera sample")):
+        right.plot(depths, [cell["nanoseconds_per_sample"] / 1000 for cell in cells], **style)
+    depths = np.arange(1, 13)
+    most = max(cell["rays_per_sample"] for cell in study.cells(table))
+    shown = depths[2.0 ** depths - 1 <= 2 * most]
+    left.plot(shown, 2.0 ** shown - 1, color="#98a4af", linestyle=":", label="all of them branch: $2^D - 1$")
+    for axes, title in ((left, "rays of a camera sample"), (right, "microseconds of a camera sample")):
         axes.set_yscale("log")
+        axes.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+        axes.set_xticks(depths[1::2])
         axes.set_xlabel("D, segments at most")
         axes.set_title(title)
-    left.legend()
-    save(figure, study.folder, "depth")
+    left.legend(fontsize=9)
+    save(figure, study.folder, name)
 
 
 def draw_objects(study):
@@ -309,7 +319,8 @@ def main():
     draw_figure3(study)
     draw_balance(study)
     draw_queries(study)
-    draw_depth(study)
+    draw_depth(study, "depth", "depth")
+    draw_depth(study, "glass", "glass")
     draw_objects(study)
     draw_error(study)
 

@@ -75,9 +75,13 @@ CellText text_of(const Study& study, const Table& table, const Cell& cell) {
     return text;
   }
   set_value(table, trial, text);
-  if (trial.seconds.size() < static_cast<size_t>(study.scale.repeats) && !trial.work.is_measured_once)
-    text.note += fmt::format("{}measured {} of {} times", text.note.empty() ? "" : "; ", trial.seconds.size(),
-                             study.scale.repeats);
+  const auto add_note = [&](const std::string& note) { text.note += (text.note.empty() ? "" : "; ") + note; };
+  if (trial.seconds.size() < static_cast<size_t>(study.scale.repeats))
+    add_note(fmt::format("measured {} of {} times", trial.seconds.size(), study.scale.repeats));
+  const auto disturbed = std::count_if(trial.processor_shares.begin(), trial.processor_shares.end(),
+                                       [](double share) { return share < least_share; });
+  if (disturbed > 0)
+    add_note(fmt::format("in {} of {} runs other programs took processors", disturbed, trial.seconds.size()));
   if (const double speedup = speedup_of(study, table, cell); speedup > 0) text.speedup = times_text(speedup);
   return text;
 }

@@ -272,6 +272,21 @@ double usual_noise(const Study& study) {
   return noises.empty() ? 0 : spread_of(noises).median;
 }
 
+namespace {
+
+std::string disturbance_of(const Study& study) {
+  size_t again = 0, kept = 0;
+  for (const Trial& trial : study.trials) {
+    again += trial.disturbed_seconds.size();
+    for (const double share : trial.processor_shares) kept += share < least_share;
+  }
+  if (again + kept == 0) return "no run had less than nine tenths of the processors that it could use";
+  return fmt::format("{} runs that other programs disturbed were made again, {} are among the figures and marked",
+                     again, kept);
+}
+
+}  // namespace
+
 std::vector<std::string> facts_of(const Study& study) {
   const Machine& m = study.machine;
   const SceneFacts& s = study.scene;
@@ -284,7 +299,7 @@ std::vector<std::string> facts_of(const Study& study) {
       fmt::format("{}, {} processors, {}, {:.0f} GiB; {}", m.processor, m.processors, m.instructions, m.memory_gib,
                   m.system),
       fmt::format("Alhazen {}, {}, {}", m.version, m.compiler, m.flags),
-      fmt::format("{} (hash {}): {} spheres, {} triangles, {} lights; D = {}", s.name, s.hash, s.spheres, s.triangles,
+      fmt::format("{} (hash {}): {} spheres, {} triangles; lights: {}; D = {}", s.name, s.hash, s.spheres, s.triangles,
                   s.lights, s.segments),
       fmt::format(
           "{}: level {}; CPU {} x {} pixels, S = {}; GPU {} x {}, S = {}; {} repeats in turn, {:.0f} s in all{}",
@@ -294,9 +309,10 @@ std::vector<std::string> facts_of(const Study& study) {
           study.is_complete ? "" : "; interrupted: what is missing is marked")};
   if (const double noise = usual_noise(study); noise > 0)
     lines.push_back(fmt::format(
-        "Half the spread of a usual cell over its repeats is {:.1f} % of its median; load "
-        "average {:.1f} to {:.1f}, {:.0f} MHz",
-        100 * noise, least_load, most_load, study.conditions.empty() ? 0 : study.conditions.back().megahertz));
+        "Half the spread of a usual cell over its repeats is {:.1f} % of its median; load average {:.1f} to "
+        "{:.1f}, {:.0f} MHz; {}",
+        100 * noise, least_load, most_load, study.conditions.empty() ? 0 : study.conditions.back().megahertz,
+        disturbance_of(study)));
   return lines;
 }
 

@@ -39,6 +39,8 @@ Json trial_json(const Trial& t) {
   if (t.seconds.empty()) return j;
   j["seconds"] = seconds_json(t.seconds);
   j["busy_seconds"] = t.busy_seconds;
+  j["processor_shares"] = t.processor_shares;
+  if (!t.disturbed_seconds.empty()) j["disturbed_seconds"] = t.disturbed_seconds;
   j["build_seconds"] = t.build_seconds;
   j["width"] = t.width;
   j["height"] = t.height;
@@ -184,6 +186,8 @@ void resume_from(const nlohmann::json& earlier, const std::string& path, Study& 
       trial.status = TrialStatus::ok;
       trial.seconds = j.at("seconds").at("samples").get<std::vector<double>>();
       trial.busy_seconds = j.at("busy_seconds").get<std::vector<std::vector<double>>>();
+      trial.processor_shares = j.at("processor_shares").get<std::vector<double>>();
+      trial.disturbed_seconds = j.value("disturbed_seconds", std::vector<double>());
       trial.build_seconds = j.at("build_seconds");
       trial.width = j.at("width");
       trial.height = j.at("height");

@@ -53,7 +53,11 @@ Machine this_machine() {
   m.instructions = to_string(instruction_sets().back());
   m.memory_gib = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) * 0x1p-30;
   utsname names{};
-  if (uname(&names) == 0) m.system = std::string(names.sysname) + " " + names.release + " " + names.machine;
+  if (uname(&names) == 0) {
+    const std::string release = names.release;
+    const std::string kernel = release.substr(0, release.find('.', release.find('.') + 1));
+    m.system = std::string(names.sysname) + " " + kernel + " " + names.machine;
+  }
   m.governor = first_word_of("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
 #if defined(__clang__)
   m.compiler = __VERSION__;

@@ -16,12 +16,12 @@ using Clock = std::chrono::steady_clock;
 /// What is measured is written at least so often, seconds.
 constexpr double save_interval = 20;
 
-size_t repeats_of(const Trial& trial, const Scale& scale) {
-  return trial.work.is_measured_once ? 1 : static_cast<size_t>(scale.repeats);
-}
+/// Runs of a trial that may be made again since something else took the processors.
+size_t most_disturbed(const Scale& scale) { return (static_cast<size_t>(scale.repeats) + 2) / 3; }
 
-bool is_wanted(const Trial& trial, size_t repeats) {
-  return (trial.status == TrialStatus::not_run || trial.status == TrialStatus::ok) && trial.seconds.size() < repeats;
+bool is_wanted(const Trial& trial, const Scale& scale) {
+  return (trial.status == TrialStatus::not_run || trial.status == TrialStatus::ok) &&
+         trial.seconds.size() < static_cast<size_t>(scale.repeats);
 }
 
 /// Over R, G, B; pixels that are not finite count as black.
@@ -38,14 +38,24 @@ double rmse_of(const Image& picture, const Image& reference) {
   return std::sqrt(sum / static_cast<double>(count));
 }
 
-void record(const Outcome& outcome, const Image* reference, Trial& trial) {
+/// False: the run was disturbed and is to be made again.
+bool record(const Outcome& outcome, const Image* reference, const Study& study, Trial& trial) {
   trial.status = outcome.status;
   trial.reason = outcome.reason;
-  if (outcome.status != TrialStatus::ok) return;
+  if (outcome.status != TrialStatus::ok) return true;
   const RenderStatistics& s = outcome.statistics;
-  trial.seconds.push_back(s.render_seconds);
-  std::vector<double>& busy = trial.busy_seconds.emplace_back();
+  std::vector<double> busy;
   for (const ThreadStatistics& thread : s.threads) busy.push_back(thread.busy_seconds);
+  const double share = s.settings.runs_on_device ? 1
+                                                 : processor_share(outcome.processor_seconds, s.render_seconds, busy,
+                                                                   study.machine.processors);
+  if (share < least_share && trial.disturbed_seconds.size() < most_disturbed(study.scale)) {
+    trial.disturbed_seconds.push_back(s.render_seconds);
+    return false;
+  }
+  trial.seconds.push_back(s.render_seconds);
+  trial.busy_seconds.push_back(std::move(busy));
+  trial.processor_shares.push_back(share);
   trial.build_seconds = s.build_seconds;
   trial.width = s.settings.window.width();
   trial.height = s.settings.window.height();
@@ -54,6 +64,7 @@ void record(const Outcome& outcome, const Image* reference, Trial& trial) {
   trial.rays = s.rays;
   trial.shadow_rays = s.shadow_rays;
   if (outcome.picture && reference) trial.rmse = rmse_of(*outcome.picture, *reference);
+  return true;
 }
 
 class Rounds {
@@ -61,14 +72,14 @@ class Rounds {
   Rounds(Study& study, const Scene& scene, const Image* reference, const MeasureEvents& events)
       : study_(study), scene_(scene), reference_(reference), events_(events) {
     now_.rounds = study.scale.repeats;
-    for (const Trial& trial : study.trials) {
-      const size_t repeats = repeats_of(trial, study.scale);
-      if (is_wanted(trial, repeats)) now_.total += repeats - trial.seconds.size();
-    }
+    for (const Trial& trial : study.trials)
+      if (is_wanted(trial, study.scale)) now_.total += static_cast<size_t>(study.scale.repeats) - trial.seconds.size();
   }
 
   bool run() {
-    for (now_.round = 1; now_.round <= now_.rounds; ++now_.round) {
+    // Rounds beyond those asked for are of what was disturbed.
+    const int most = now_.rounds + static_cast<int>(most_disturbed(study_.scale));
+    for (now_.round = 1; now_.round <= most; ++now_.round) {
       if (!run_round()) return false;
       events_.save();
     }
@@ -81,8 +92,8 @@ class Rounds {
     size_t done = 0;
     for (const size_t index : order_of_round()) {
       Trial& trial = study_.trials[index];
-      const size_t repeats = std::min(static_cast<size_t>(now_.round), repeats_of(trial, study_.scale));
-      if (!is_wanted(trial, repeats)) continue;
+      const size_t tries = trial.seconds.size() + trial.disturbed_seconds.size();
+      if (!is_wanted(trial, study_.scale) || tries >= static_cast<size_t>(now_.round)) continue;
       if (done++ == 0) study_.conditions.push_back({start, load_average(), megahertz()});
       if (!run_trial(trial)) return false;
       if (elapsed() - saved_ > save_interval) {
@@ -106,11 +117,11 @@ class Rounds {
     if (!events_.go_on()) return false;
     const Outcome outcome = run_work(trial.work, scene_, trial.work.is_compared && trial.rmse < 0, events_.go_on);
     if (outcome.status == TrialStatus::not_run) return false;
-    record(outcome, reference_, trial);
-    if (outcome.status == TrialStatus::ok)
+    const bool counts = record(outcome, reference_, study_, trial);
+    if (outcome.status != TrialStatus::ok)
+      now_.total -= std::min(now_.total - now_.done, static_cast<size_t>(study_.scale.repeats) - trial.seconds.size());
+    else if (counts)
       ++now_.done;
-    else
-      now_.total -= std::min(now_.total - now_.done, repeats_of(trial, study_.scale) - trial.seconds.size());
     return true;
   }
 

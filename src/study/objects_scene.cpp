@@ -7,12 +7,13 @@ namespace alhazen::study {
 
 namespace {
 
-/// Radius of a single sphere in the cube from -1 to 1, by which the mean free path is about its edge.
-constexpr double radius_of_one = 1.2;
+/// Radius of a single sphere in the cube from -1 to 1, by which the mean free path is about its edge, or a twelfth of
+/// it.
+constexpr double radius_of_one = 1.2, dense_radius_of_one = 4;
 
 }  // namespace
 
-Scene cloud_of_spheres(uint64_t count) {
+Scene cloud_of_spheres(uint64_t count, bool is_glass) {
   Scene scene;
   scene.name = std::to_string(count) + " spheres";
   scene.film.width = scene.film.height = 400;
@@ -25,16 +26,17 @@ Scene cloud_of_spheres(uint64_t count) {
   grey.name = "grey";
   grey.value = {0.7, 0.7, 0.7};
   scene.textures.push_back(grey);
-  Material diffuse;
-  diffuse.reflectance = 0;
-  scene.materials.push_back(diffuse);
+  Material material;
+  material.type = is_glass ? MaterialType::dielectric : MaterialType::diffuse;
+  if (!is_glass) material.reflectance = 0;
+  scene.materials.push_back(material);
   Light sky;
   sky.radiance = {1, 1, 1};
   scene.lights.push_back(sky);
 
   std::mt19937_64 random(count);
   const auto between_minus_one_and_one = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
-  const double radius = radius_of_one / std::sqrt(static_cast<double>(count));
+  const double radius = (is_glass ? dense_radius_of_one : radius_of_one) / std::sqrt(static_cast<double>(count));
   std::vector<Shape>& shapes = scene.groups[0].shapes;
   shapes.reserve(count);
   for (uint64_t i = 0; i < count; ++i) {

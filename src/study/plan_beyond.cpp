@@ -125,6 +125,31 @@ void plan_depth(Plan& plan) {
   }
 }
 
+void plan_glass(Plan& plan) {
+  Table& table =
+      plan.add(Table{"glass",
+                     "The worst case of depth: nothing but glass",
+                     "A dense cloud of 1000 spheres of glass, from which hardly a path gets out: every segment "
+                     "of Algorithm 2 branches. One thread, float.",
+                     "D",
+                     Measure::seconds,
+                     {"branching (Algorithm 2)", "iterative (Algorithm 5)"},
+                     {}});
+  table.shows_rays = true;
+  for (int depth = 1; depth <= 12; ++depth) {
+    Work work = plan.on_cpu("serial", "float", 1);
+    work.objects = 1000;
+    work.is_glass = true;
+    work.settings.max_depth = depth - 1;
+    work.settings.width = work.settings.height = plan.scale().depth_size / 4;
+    work.settings.samples_per_pixel = plan.scale().depth_samples;
+    const std::string baseline = plan.add(work);
+    work.settings.integrator = "branching";
+    add_cell(table, std::to_string(depth), table.columns[0], plan.add(work), baseline);
+    add_cell(table, std::to_string(depth), table.columns[1], baseline, baseline);
+  }
+}
+
 void plan_objects(Plan& plan) {
   Table& table =
       plan.add(Table{"objects",
@@ -190,6 +215,7 @@ void plan_beyond(Plan& plan) {
   plan_queries(plan);
   plan_balance(plan);
   plan_depth(plan);
+  plan_glass(plan);
   plan_objects(plan);
   plan_error(plan);
 }

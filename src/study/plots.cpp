@@ -88,6 +88,7 @@ const std::vector<Plot>& all_plots() {
       {"balance", "balance", "How evenly threads are busy"},
       {"queries", "queries", "Time per ray"},
       {"depth", "depth", "Rays and time of a camera sample by depth"},
+      {"glass", "glass", "Rays and time of a camera sample by depth, in a cloud of glass"},
       {"objects", "objects", "Time per ray by the number of objects"},
       {"error", "error", "Error against time"},
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 #include "render/backend.h"
 
@@ -26,7 +27,7 @@ constexpr uint32_t pass_samples = samples_per_block;
 
 template <class Real>
 RenderStatistics render(Scene&& scene, const RenderSettings& settings, Queries queries,
-                        const std::function<bool()>& go_on, Diagnostics& diagnostics) {
+                        const std::function<bool()>& go_on, double& processor_seconds, Diagnostics& diagnostics) {
   RenderStatistics statistics;
   statistics.settings = settings;
   const FlatScene<Real> flat = flatten<Real>(
@@ -40,12 +41,14 @@ RenderStatistics render(Scene&& scene, const RenderSettings& settings, Queries q
   Film<Real> film(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
   RenderControl control(1);
   const auto start = std::chrono::steady_clock::now();
+  const std::clock_t processor_start = std::clock();
   while (statistics.samples_per_pixel < settings.samples_per_pixel && go_on()) {
     const uint32_t count = std::min(pass_samples, settings.samples_per_pixel - statistics.samples_per_pixel);
     backend->render_pass(RenderPass<Real>{flat, kernel, settings, film, control, statistics.samples_per_pixel, count});
     statistics.samples_per_pixel += count;
   }
   statistics.render_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  processor_seconds = static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC;
   statistics.complete = statistics.samples_per_pixel == settings.samples_per_pixel;
   statistics.threads = control.threads();
   statistics.camera_samples = control.thread(0).samples;
@@ -56,10 +59,11 @@ RenderStatistics render(Scene&& scene, const RenderSettings& settings, Queries q
 }  // namespace
 
 RenderStatistics render_by_queries(Scene&& scene, const RenderSettings& settings, Queries queries,
-                                   const std::function<bool()>& go_on, Diagnostics& diagnostics) {
+                                   const std::function<bool()>& go_on, double& processor_seconds,
+                                   Diagnostics& diagnostics) {
   return settings.precision == Precision::single
-             ? render<float>(std::move(scene), settings, queries, go_on, diagnostics)
-             : render<double>(std::move(scene), settings, queries, go_on, diagnostics);
+             ? render<float>(std::move(scene), settings, queries, go_on, processor_seconds, diagnostics)
+             : render<double>(std::move(scene), settings, queries, go_on, processor_seconds, diagnostics);
 }
 
 }  // namespace study

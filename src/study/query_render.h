@@ -10,7 +10,9 @@
 namespace alhazen::study {
 
 /// As render_scene. `settings` are those of the serial backend; of the statistics, times and counts are filled in.
+/// `processor_seconds` receives the processor time of the samples.
 RenderStatistics render_by_queries(Scene&& scene, const RenderSettings& settings, Queries queries,
-                                   const std::function<bool()>& go_on, Diagnostics& diagnostics);
+                                   const std::function<bool()>& go_on, double& processor_seconds,
+                                   Diagnostics& diagnostics);
 
 }  // namespace alhazen::study

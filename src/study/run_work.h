@@ -16,6 +16,7 @@ struct Outcome {
   TrialStatus status = TrialStatus::not_run;  ///< not_run: it was stopped
   std::string reason;
   RenderStatistics statistics;
+  double processor_seconds = 0;  ///< of all threads of this process, while it rendered
   std::optional<Image> picture;
 };
 

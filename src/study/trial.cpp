@@ -14,7 +14,7 @@ std::string command_options(const Work& work) {
   const auto add = [&](const char* name, const std::string& value) {
     if (!value.empty()) options += fmt::format("{}{} {}", options.empty() ? "" : " ", name, value);
   };
-  if (work.objects > 0) options = fmt::format("[{} spheres]", work.objects);
+  if (work.objects > 0) options = fmt::format("[{} {}spheres]", work.objects, work.is_glass ? "glass " : "");
   if (work.queries == Queries::linear_scan) options += (options.empty() ? "" : " ") + std::string("[linear scan]");
   if (work.queries == Queries::binary_bvh) options += (options.empty() ? "" : " ") + std::string("[binary BVH]");
   add("--backend", s.backend);
@@ -43,6 +43,14 @@ std::string to_string(TrialStatus status) {
       break;
   }
   return "failed";
+}
+
+double processor_share(double processor_seconds, double seconds, const std::vector<double>& busy_seconds,
+                       int processors) {
+  double busy = 0;
+  for (const double thread : busy_seconds) busy += thread;
+  const double possible = std::min(busy, seconds * processors);
+  return possible > 0 ? processor_seconds / possible : 1;
 }
 
 Spread spread_of(std::vector<double> values) {

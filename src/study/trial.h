@@ -16,9 +16,9 @@ enum class Queries { of_backend, linear_scan, binary_bvh };
 struct Work {
   Settings settings;  ///< backend, strategy, ... as on the command line
   Queries queries = Queries::of_backend;
-  uint64_t objects = 0;           ///< 0: the study's scene; else a cloud of so many spheres (objects_scene.h)
-  bool is_compared = false;       ///< whether its picture is compared with a reference
-  bool is_measured_once = false;  ///< too long to be repeated
+  uint64_t objects = 0;      ///< 0: the study's scene; else a cloud of so many spheres (objects_scene.h)
+  bool is_glass = false;     ///< the cloud: dense and of glass
+  bool is_compared = false;  ///< whether its picture is compared with a reference
 };
 
 /// The options of `alhazen render` that do this work, as far as there are any: also the name of the work.
@@ -37,6 +37,8 @@ struct Trial {
   std::string reason;                             ///< why there is nothing, in one line
   std::vector<double> seconds;                    ///< of the render phase, in the order in which they were measured
   std::vector<std::vector<double>> busy_seconds;  ///< the same, thread by thread
+  std::vector<double> processor_shares;           ///< the same: processor_share of each
+  std::vector<double> disturbed_seconds;          ///< of runs that were made again, since others took the processors
   double build_seconds = 0;                       ///< of the BVH, the last time
   int64_t width = 0, height = 0;
   uint64_t samples_per_pixel = 0;
@@ -49,6 +51,13 @@ struct Trial {
 struct Spread {
   double median = 0, min = 0, max = 0;
 };
+
+/// How much of the processor time that its threads could have had a run was given: 1 where it had the machine to
+/// itself.
+double processor_share(double processor_seconds, double seconds, const std::vector<double>& busy_seconds,
+                       int processors);
+/// Runs that were given less are disturbed: something else ran.
+inline constexpr double least_share = 0.9;
 
 /// Of at least one value.
 Spread spread_of(std::vector<double> values);
