@@ -31,6 +31,11 @@ def set_style():
     })
 
 
+def short(value):
+    """Three digits that count, never with an exponent."""
+    return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
+
+
 class Study:
     def __init__(self, folder):
         self.folder = folder
@@ -70,7 +75,7 @@ def bars(axes, labels, cells, colours, unit="x"):
     if wide:
         axes.set_xscale("log")
     for position, value, error in zip(positions, values, errors[1]):
-        axes.annotate(f"{value:.3g}{unit}", (value + error, position), xytext=(4, 0), textcoords="offset points", va="center")
+        axes.annotate(short(value) + unit, (value + error, position), xytext=(4, 0), textcoords="offset points", va="center")
     axes.margins(x=0.12)
 
 
@@ -232,11 +237,10 @@ def draw_queries(study):
             if row in values:
                 place = position + (0.5 - i) * height
                 axes.barh(place, values[row], height, color=CYCLE[i], label=column if row == rows[0] else None)
-                axes.annotate(f"{values[row]:.3g} ns", (values[row], place), xytext=(4, 0), textcoords="offset points",
+                axes.annotate(short(values[row]) + " ns", (values[row], place), xytext=(4, 0), textcoords="offset points",
                               va="center", fontsize=9)
     axes.set_yticks(positions, rows)
     axes.grid(axis="y", visible=False)
-    axes.set_xscale("log")
     axes.margins(x=0.12)
     axes.set_xlabel("nanoseconds a ray, one thread, shading included")
     axes.legend(loc="lower right")

@@ -1,6 +1,7 @@
 #include "study/conclusions.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -230,17 +231,48 @@ class Conclusions {
 
 }  // namespace
 
+namespace {
+
+struct Disturbance {
+  size_t made_again = 0, kept = 0, runs = 0;
+};
+
+Disturbance disturbance_of(const Study& study) {
+  Disturbance d;
+  for (const Trial& trial : study.trials) {
+    d.made_again += trial.disturbed_seconds.size();
+    d.runs += trial.seconds.size();
+    for (const double share : trial.processor_shares) d.kept += share < least_share;
+  }
+  return d;
+}
+
+std::string text_of(const Disturbance& d) {
+  if (d.made_again + d.kept == 0) return "no run had less than nine tenths of the processors that it could use";
+  return fmt::format("runs that other programs disturbed: {} made again, {} among the figures and marked", d.made_again,
+                     d.kept);
+}
+
+/// "OpenMP rows, 12 threads, static" for a row of Table 3.
+std::string name_of_row(const std::string& table, const std::string& prefix, const std::string& row) {
+  if (table != "table3") return prefix + row;
+  const size_t space = row.find(' ');
+  return prefix + row.substr(0, space) + " threads," + row.substr(space);
+}
+
+}  // namespace
+
 Headline headline_of(const Study& study) {
   Headline headline;
   const std::pair<const char*, const char*> tables[] = {{"table2", "OpenMP "},
-                                                        {"table3", "OpenMP rows, threads "},
+                                                        {"table3", "OpenMP rows, "},
                                                         {"table4", "CUDA blocks "},
                                                         {"table5", "CUDA chunks "},
                                                         {"optix", ""},
                                                         {"engines", ""}};
   for (const auto& [id, prefix] : tables) {
     const auto [row, speedup] = fastest_row(study, id, "float");
-    if (speedup > headline.speedup) headline = {"", prefix + row, speedup};
+    if (speedup > headline.speedup) headline = {"", name_of_row(id, prefix, row), speedup};
   }
   headline.text = headline.engine.empty()
                       ? std::string("Accelerating ray tracing: a study")
@@ -272,20 +304,25 @@ double usual_noise(const Study& study) {
   return noises.empty() ? 0 : spread_of(noises).median;
 }
 
-namespace {
-
-std::string disturbance_of(const Study& study) {
-  size_t again = 0, kept = 0;
-  for (const Trial& trial : study.trials) {
-    again += trial.disturbed_seconds.size();
-    for (const double share : trial.processor_shares) kept += share < least_share;
-  }
-  if (again + kept == 0) return "no run had less than nine tenths of the processors that it could use";
-  return fmt::format("{} runs that other programs disturbed were made again, {} are among the figures and marked",
-                     again, kept);
+std::string disturbance_warning(const Study& study) {
+  const Disturbance d = disturbance_of(study);
+  if (d.kept * 20 < d.runs || d.runs == 0) return {};
+  return fmt::format(
+      "in {} of {} runs other programs took processors of this machine: what is marked is too slow, and so "
+      "are the speedups made of it; the same command with --resume measures those runs again",
+      d.kept, d.runs);
 }
 
-}  // namespace
+std::string pictures_of(const Study& study, const Table& table) {
+  std::vector<std::string> sizes;
+  for (const Cell& cell : table.cells) {
+    const Trial* t = study.find(cell.trial);
+    if (!t || !t->has_times()) continue;
+    const std::string size = fmt::format("{} x {} pixels, S = {}", t->width, t->height, t->samples_per_pixel);
+    if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
+  }
+  return sizes.empty() || sizes.size() > 2 ? "" : fmt::format("{}.", fmt::join(sizes, "; or "));
+}
 
 std::vector<std::string> facts_of(const Study& study) {
   const Machine& m = study.machine;
@@ -312,7 +349,7 @@ std::vector<std::string> facts_of(const Study& study) {
         "Half the spread of a usual cell over its repeats is {:.1f} % of its median; load average {:.1f} to "
         "{:.1f}, {:.0f} MHz; {}",
         100 * noise, least_load, most_load, study.conditions.empty() ? 0 : study.conditions.back().megahertz,
-        disturbance_of(study)));
+        text_of(disturbance_of(study))));
   return lines;
 }
 

@@ -169,6 +169,22 @@ nlohmann::json read_study_json(const std::string& path) {
   return j;
 }
 
+namespace {
+
+/// Runs that were disturbed are made again.
+void take_undisturbed(const nlohmann::json& j, Trial& trial) {
+  const auto& seconds = j.at("seconds").at("samples");
+  const auto &busy = j.at("busy_seconds"), &shares = j.at("processor_shares");
+  for (size_t i = 0; i < seconds.size(); ++i) {
+    if (shares.at(i).get<double>() < least_share) continue;
+    trial.seconds.push_back(seconds.at(i));
+    trial.busy_seconds.push_back(busy.at(i).get<std::vector<double>>());
+    trial.processor_shares.push_back(shares.at(i));
+  }
+}
+
+}  // namespace
+
 void resume_from(const nlohmann::json& earlier, const std::string& path, Study& study) try {
   const auto& scene = earlier.at("scene");
   const auto& scale = earlier.at("scale");
@@ -184,10 +200,7 @@ void resume_from(const nlohmann::json& earlier, const std::string& path, Study& 
     for (Trial& trial : study.trials) {
       if (trial.key != key || j.at("status") != "ok") continue;
       trial.status = TrialStatus::ok;
-      trial.seconds = j.at("seconds").at("samples").get<std::vector<double>>();
-      trial.busy_seconds = j.at("busy_seconds").get<std::vector<std::vector<double>>>();
-      trial.processor_shares = j.at("processor_shares").get<std::vector<double>>();
-      trial.disturbed_seconds = j.value("disturbed_seconds", std::vector<double>());
+      take_undisturbed(j, trial);
       trial.build_seconds = j.at("build_seconds");
       trial.width = j.at("width");
       trial.height = j.at("height");

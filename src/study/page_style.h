@@ -17,6 +17,7 @@ p { margin: 0 0 12px; max-width: 76ch; }
 .above { color: var(--accent); font-weight: 600; margin: 0 0 8px; }
 .facts { color: var(--soft); font-size: 13.5px; margin: 12px 0 0; padding: 0; list-style: none; }
 section { background: var(--paper); border: 1px solid var(--line); border-radius: 10px; padding: 22px 24px; margin: 20px 0; }
+.warning { border-left: 4px solid #d9762b; background: var(--paper); padding: 10px 14px; margin: 16px 0; max-width: none; }
 .cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(190px, 1fr)); gap: 14px; margin: 20px 0; }
 .card { background: var(--paper); border: 1px solid var(--line); border-radius: 10px; padding: 16px 18px; }
 .card b { display: block; font-size: 28px; line-height: 1.15; color: var(--accent); }

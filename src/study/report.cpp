@@ -10,6 +10,7 @@
 #include "render/checkpoint.h"
 #include "render/renderer.h"
 #include "scene/flatten.h"
+#include "study/conclusions.h"
 #include "study/json.h"
 #include "study/plan.h"
 #include "study/write.h"
@@ -90,6 +91,7 @@ class Report {
     earlier_seconds_ = study_.seconds;
     study_.is_complete = take_pictures() && measure_trials();
     save_seconds();
+    if (const std::string warning = disturbance_warning(study_); !warning.empty()) events_.warning(warning);
     events_.stage("writing tables, plots and the page");
     return {study_.is_complete, write_study(study_, options_.output, events_.warning)};
   }

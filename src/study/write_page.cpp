@@ -193,7 +193,10 @@ std::string html_of(const Study& study, const std::string& folder) {
       "why</p>\n<h1>{}</h1>\n<ul class=\"facts\">",
       escaped(headline.text), page_style, escaped(headline.text));
   for (const std::string& line : facts_of(study)) html += fmt::format("<li>{}</li>", escaped(line));
-  html += "</ul>\n" + cards(study, headline);
+  html += "</ul>\n";
+  if (const std::string warning = disturbance_warning(study); !warning.empty())
+    html += "<p class=\"warning\">Careful: " + escaped(warning) + ".</p>\n";
+  html += cards(study, headline);
   html += plots_of("headline", folder).empty() ? "" : section("headline", "At a glance", plots_of("headline", folder));
   std::string conclusions;
   for (const Conclusion& c : conclusions_of(study))
@@ -202,9 +205,9 @@ std::string html_of(const Study& study, const std::string& folder) {
   if (!conclusions.empty()) html += section("conclusions", "What to conclude", "<dl>" + conclusions + "</dl>\n");
   html += figures(study, folder);
   for (const Table& table : study.tables)
-    html += section(
-        table.id, table.title,
-        fmt::format("<p>{}</p>\n{}{}", escaped(table.text), html_table(study, table), plots_of(table.id, folder)));
+    html += section(table.id, table.title,
+                    fmt::format("<p>{} {}</p>\n{}{}", escaped(table.text), escaped(pictures_of(study, table)),
+                                html_table(study, table), plots_of(table.id, folder)));
   html += section(
       "method", "How it was measured",
       "<p>Times are those of the render phase alone: no reading, no building of trees. Every cell was warmed up with a "

@@ -104,11 +104,14 @@ std::string csv_of(const Study& study) {
 std::string markdown_of(const Study& study) {
   std::string text = "# " + headline_of(study).text + "\n\n";
   for (const std::string& line : facts_of(study)) text += line + "  \n";
+  if (const std::string warning = disturbance_warning(study); !warning.empty())
+    text += "\n**Careful:** " + warning + ".\n";
   text += "\n## What to conclude\n\n";
   for (const Conclusion& conclusion : conclusions_of(study))
     text += fmt::format("- **{}** {}\n", conclusion.title, conclusion.text);
   for (const Table& table : study.tables)
-    text += fmt::format("\n## {}\n\n{}\n\n{}", table.title, table.text, markdown_table(study, table));
+    text += fmt::format("\n## {}\n\n{} {}\n\n{}", table.title, table.text, pictures_of(study, table),
+                        markdown_table(study, table));
   if (study.work_per_thread.is_there()) {
     const WorkPerThread& w = study.work_per_thread;
     text += fmt::format("\n## Figure 3: mean number of bounces of every thread\n\n{}\n\n", figure3_text(study));
