@@ -23,10 +23,11 @@ class StudyCommand : public Command {
   static void set(const char* name, const std::string& value) { setenv(name, value.c_str(), 1); }
   static void without_plots() { set("ALHAZEN_PYTHON", "/nonexistent/python"); }
 
-  /// `alhazen study report` of the small scene, with `arguments` after it.
-  CommandResult report(const std::vector<std::string>& arguments, const CommandOptions& options = {}) const {
+  /// `alhazen study report` of the small scene, in pictures of `size`, with `arguments` after it.
+  CommandResult report(const std::vector<std::string>& arguments, const CommandOptions& options = {},
+                       const std::string& size = "16") const {
     std::vector<std::string> all{"study", "report", "--quick", "--scene",   "scene.pbrt", "--size",
-                                 "16",    "--spp",  "4",       "--repeats", "2"};
+                                 size,    "--spp",  "4",       "--repeats", "2"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     return run(all, options);
   }
