@@ -35,12 +35,12 @@ Scale quick_scale() {
   Scale s;
   s.name = "quick";
   s.width = s.height = 200;
-  s.samples = 32;
+  s.samples = 24;
   s.gpu_samples = 64;
   s.depth_size = 64;
   s.objects_size = 100;
   s.objects_samples = 8;
-  s.linear_tests = 300'000'000;
+  s.linear_tests = 200'000'000;
   s.error_size = 120;
   s.reference_samples = 1024;
   s.picture_samples = 32;

@@ -49,7 +49,7 @@ struct Table {
 /// How much is run; the same on every machine.
 struct Scale {
   std::string name = "default";
-  int64_t width = 400, height = 400, samples = 24;      ///< CPU, on the study's scene; 0: as the scene says
+  int64_t width = 400, height = 400, samples = 20;      ///< CPU, on the study's scene; 0: as the scene says
   int64_t gpu_samples = 256;                            ///< GPUs render the scene's own size
   int64_t depth_size = 128, depth_samples = 4;          ///< depth against cost
   int64_t objects_size = 128, objects_samples = 16;     ///< cost against objects

@@ -152,14 +152,14 @@ TEST_F(StudyReport, InterruptedItKeepsWhatItHasAndGoesOn) {
   const std::vector<std::string> arguments{"--output", "out", "--only", "table1,table3"};
   CommandOptions options;
   options.signal_when = [](const std::string& err) { return err.find("round 1 of") != std::string::npos ? SIGINT : 0; };
-  const CommandResult interrupted = report(arguments, options, "400");
+  const CommandResult interrupted = report(arguments, options, "150");
   EXPECT_EQ(interrupted.exit_code, 130) << interrupted.everything();
   const nlohmann::json first = json("out/study.json");
   EXPECT_EQ(first["complete"], false);
   EXPECT_NE(text("out/tables.md").find("not run"), std::string::npos);
   std::vector<std::string> again = arguments;
   again.emplace_back("--resume");
-  const CommandResult resumed = report(again, {}, "400");
+  const CommandResult resumed = report(again, {}, "150");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.everything();
   const nlohmann::json second = json("out/study.json");
   EXPECT_EQ(second["complete"], true);
