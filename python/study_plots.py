@@ -268,6 +268,9 @@ def draw_depth(study, table, name):
         axes.set_yscale("log")
         axes.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
         axes.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+        low, high = axes.get_ylim()
+        if high < 50 * low:
+            axes.yaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
         axes.set_xticks(depths[1::2])
         axes.set_xlabel("D, segments at most")
         axes.set_title(title)

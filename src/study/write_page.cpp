@@ -83,10 +83,22 @@ double largest_speedup(const Study& study, const Table& table, const std::string
   return largest;
 }
 
+/// Whether the speedups of a column are over the same, so that one of them is the best.
+bool has_one_baseline(const Table& table, const std::string& column) {
+  std::string baseline;
+  for (const Cell& cell : table.cells) {
+    if (cell.column != column) continue;
+    if (!baseline.empty() && cell.baseline != baseline) return false;
+    baseline = cell.baseline;
+  }
+  return true;
+}
+
 std::string html_cell(const Study& study, const Table& table, const Cell& cell, double largest, Footnotes& notes) {
   const CellText text = text_of(study, table, cell);
   const double speedup = speedup_of(study, table, cell);
-  const bool is_best = speedup > 0 && speedup == largest && table.measure != Measure::load_balance;
+  const bool is_best = speedup > 0 && speedup == largest && table.measure != Measure::load_balance &&
+                       has_one_baseline(table, cell.column);
   std::string html = fmt::format("<td{}><b>{}",
                                  !text.is_measured ? " class=\"none\""
                                  : is_best         ? " class=\"best\""
