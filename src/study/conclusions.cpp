@@ -65,7 +65,20 @@ class Conclusions {
   }
 
  private:
-  void add(const std::string& title, const std::string& text) { list_.push_back({title, text}); }
+  /// What is concluded from disturbed runs says so.
+  void add(const std::string& title, const std::string& text, const char* table_id = "") {
+    const bool is_disturbed = has_disturbed_runs(table_id);
+    list_.push_back({title, text + (is_disturbed ? " (Other programs disturbed some of these runs.)" : "")});
+  }
+
+  bool has_disturbed_runs(const char* table_id) const {
+    const Table* table = study_.table(table_id);
+    if (!table) return false;
+    for (const Cell& cell : table->cells)
+      for (const double share : study_.find(cell.trial)->processor_shares)
+        if (share < least_share) return true;
+    return false;
+  }
 
   void precision() {
     const Trial* in_float = trial_at(study_, "table1", "iterative (Algorithm 5)", "float");
@@ -91,7 +104,7 @@ class Conclusions {
           " Why: with the static one the busiest thread works {:.2f} times the mean, with the dynamic one {:.2f} "
           "times.",
           busiest_over_mean(*busy_static), busiest_over_mean(*busy_dynamic));
-    add("Schedule.", text);
+    add("Schedule.", text, "table3");
   }
 
   void forms() {
@@ -105,7 +118,7 @@ class Conclusions {
     std::string text = "From the fastest form of OpenMP to the slowest:";
     for (const auto& [speedup, row] : order)
       text += fmt::format("{} {} ({})", row == order.front().second ? "" : ",", row, times_text(speedup));
-    add("Loops.", text + ". In the report: rows, rows+reduction, collapse, reduction.");
+    add("Loops.", text + ". In the report: rows, rows+reduction, collapse, reduction.", "table2");
   }
 
   void crowding() {
@@ -119,7 +132,8 @@ class Conclusions {
         fmt::format(
             "12 threads on {} processors: static goes from {} to {}, since each thread's part is smaller and the "
             "system shares out the processors; dynamic from {} to {}.",
-            processors, times_text(own), times_text(more), times_text(own_dynamic), times_text(more_dynamic)));
+            processors, times_text(own), times_text(more), times_text(own_dynamic), times_text(more_dynamic)),
+        "table3");
   }
 
   void gpus() {
@@ -227,15 +241,18 @@ class Conclusions {
       if (!before) {
         add("Equal error.",
             fmt::format("{}is below already at S = {}, after {}: at least {} times as fast.", start,
-                        trial->samples_per_pixel, seconds_text(after_time), short_number(time / after_time)));
+                        trial->samples_per_pixel, seconds_text(after_time), short_number(time / after_time)),
+            "error");
         return;
       }
       const double at = std::log(before->rmse / slow->rmse) / std::log(before->rmse / trial->rmse);
       const double before_time = spread_of(before->seconds).median;
       const double wanted = before_time * std::pow(after_time / before_time, at);
-      add("Equal error.", fmt::format("{}reaches in {}: {} times as fast (interpolated between S = {} and {}).", start,
-                                      seconds_text(wanted), short_number(time / wanted), before->samples_per_pixel,
-                                      trial->samples_per_pixel));
+      add("Equal error.",
+          fmt::format("{}reaches in {}: {} times as fast (interpolated between S = {} and {}).", start,
+                      seconds_text(wanted), short_number(time / wanted), before->samples_per_pixel,
+                      trial->samples_per_pixel),
+          "error");
       return;
     }
   }
