@@ -41,6 +41,11 @@ class LinearIntersector {
     }
   }
 
+  template <class RayOf, class Limit, class Answer>
+  void trace_coherent(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
+    trace<false>(count, ray, t_max, answer);
+  }
+
  private:
   const SceneView<Real>* scene_;
 };

@@ -22,6 +22,11 @@ class BinaryBvhQueries : public BvhIntersector<Real> {
       answer(i, found, hit);
     }
   }
+
+  template <class RayOf, class Limit, class Answer>
+  void trace_coherent(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
+    trace<false>(count, ray, t_max, answer);
+  }
 };
 
 template <class Real>
