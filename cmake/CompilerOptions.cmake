@@ -11,7 +11,10 @@ endfunction()
 # No contraction of a*b+c into fused operations: the same code then gives the same bits wherever it is inlined, and the
 # places where fused operations matter ask for them (core/math/scalar.h).
 alhazen_cxx_options(
-  -Wall -Wextra -Wshadow -Wconversion -Werror -Wdouble-promotion -fno-math-errno -fno-trapping-math -ffp-contract=off)
+  -Wall -Wextra -Wshadow -Wconversion -Werror -Wdouble-promotion)
+set(ALHAZEN_CODE_OPTIONS -fno-math-errno -fno-trapping-math -ffp-contract=off)
+alhazen_cxx_options(${ALHAZEN_CODE_OPTIONS})
+list(JOIN ALHAZEN_CODE_OPTIONS " " ALHAZEN_CXX_OPTIONS)
 
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # False alarms on string concatenation (GCC bug 105651).

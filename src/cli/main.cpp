@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   alhazen::register_compare(app);
   alhazen::register_devices(app);
   alhazen::register_info(app);
+  alhazen::register_study(app, exit_code);
   try {
     return after_flushing(parse_and_run(app, argc, argv, exit_code));
   } catch (const alhazen::InputError& error) {

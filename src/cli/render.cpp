@@ -2,18 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <memory>
 
+#include "cli/interrupt.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/subcommands.h"
 #include "io/read_scene.h"
 #include "render/renderer.h"
+#include "study/tuned.h"
 
 namespace alhazen {
 
@@ -28,14 +28,6 @@ struct RenderOptions {
   std::string progress = "auto", stats;
   bool quiet = false, verbose = false;
 };
-
-std::atomic<bool> interrupted{false};
-
-/// The first signal stops the render at the next row, the second ends the program at once.
-extern "C" void handle_interrupt(int signal_number) {
-  interrupted.store(true, std::memory_order_relaxed);
-  std::signal(signal_number, SIG_DFL);
-}
 
 /// Numbers parted by `separator`, exactly `values.size()` of them.
 template <class Number, size_t count>
@@ -138,28 +130,27 @@ int run(RenderOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   Scene scene = read_scene(options.scene, diagnostics);
   const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const RenderSettings settings = resolve_settings(options.settings, scene);
+  const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene);
 
   size_t warnings_shown = 0;
   RenderEvents events;
   events.progress = [&](const Progress& progress) {
     printer.show(progress);
-    return !interrupted.load(std::memory_order_relaxed);
+    return !is_interrupted();
   };
   events.started = [&](const RenderStatistics& statistics) {
     print_warnings(diagnostics, 0);
     warnings_shown = diagnostics.warnings().size();
     if (options.verbose) print_start(statistics);
-    std::signal(SIGINT, handle_interrupt);
-    std::signal(SIGTERM, handle_interrupt);
+    catch_interrupts();
   };
   const Rendering rendering = render_scene(std::move(scene), settings, load_seconds, events, diagnostics);
   printer.finish();
   print_warnings(diagnostics, warnings_shown);
   write_outputs(options.output, rendering);
   print_end(options, rendering.statistics);
-  if (!interrupted.load(std::memory_order_relaxed)) return exit_done;
+  if (!is_interrupted()) return exit_done;
   fmt::print(stderr, "interrupted: the picture is of the samples so far\n");
   return exit_interrupted;
 }
@@ -199,8 +190,10 @@ void add_picture_options(CLI::App& command, RenderOptions& o) {
 void add_engine_options(CLI::App& command, RenderOptions& o) {
   const char* group = "Engine";
   command
-      .add_option("--backend", o.settings.backend,
-                  "auto, serial, openmp, embree, cuda or optix; 'alhazen devices' lists them")
+      .add_option(
+          "--backend", o.settings.backend,
+          "auto (what 'alhazen study tune' stored, else the CPU), serial, openmp, embree, cuda or optix; 'alhazen "
+          "devices' lists them")
       ->type_name("NAME")
       ->group(group);
   command

@@ -17,5 +17,10 @@ CLI::App* register_render(CLI::App& app, int& exit_code);
 CLI::App* register_compare(CLI::App& app);
 CLI::App* register_devices(CLI::App& app);
 CLI::App* register_info(CLI::App& app);
+/// `study` and the subcommands below it.
+CLI::App* register_study(CLI::App& app, int& exit_code);
+void register_study_report(CLI::App& study, int& exit_code);
+void register_study_tune(CLI::App& study, int& exit_code);
+void register_study_compare(CLI::App& study);
 
 }  // namespace alhazen

@@ -1,53 +1,11 @@
 #pragma once
 
-// The ray queries answered by looking at every primitive in turn, as the report's Algorithm 5 does: the reference that
-// the BVH is measured against, in results and in time.
+// The linear scan, under the name that tests know it by.
 
-#include "core/bvh/traversal.h"
+#include "core/bvh/linear.h"
 
 namespace alhazen::test {
 
-template <class Real>
-class LinearIntersector {
- public:
-  explicit LinearIntersector(const SceneView<Real>& scene, const void* = nullptr) : scene_(&scene) {}
-
-  /// The nearest hit before t_max; among hits at the same distance that of the lowest primitive.
-  bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
-    hit = no_hit_before(t_max);
-    const ShearedRay<Real> sheared = shear_ray(ray);
-    bool found = false;
-    for (uint32_t i = 0; i < scene_->primitives_count; ++i)
-      found = intersect_primitive(*scene_, scene_->primitives[i], ray, sheared, hit) || found;
-    return found;
-  }
-
-  /// Whether anything stands before t_max.
-  bool occluded(const Ray<Real>& ray, Real t_max) const {
-    Hit<Real> hit = no_hit_before(t_max);
-    const ShearedRay<Real> sheared = shear_ray(ray);
-    for (uint32_t i = 0; i < scene_->primitives_count; ++i)
-      if (intersect_primitive(*scene_, scene_->primitives[i], ray, sheared, hit)) return true;
-    return false;
-  }
-
-  /// Many queries, one after the other (core/bvh/simd_traversal.h).
-  template <bool any_hit, class RayOf, class Limit, class Answer>
-  void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    for (uint32_t i = 0; i < count; ++i) {
-      Hit<Real> hit;
-      const bool found = any_hit ? occluded(ray(i), t_max(i)) : closest_hit(ray(i), t_max(i), hit);
-      answer(i, found, hit);
-    }
-  }
-
-  template <class RayOf, class Limit, class Answer>
-  void trace_coherent(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    trace<false>(count, ray, t_max, answer);
-  }
-
- private:
-  const SceneView<Real>* scene_;
-};
+using alhazen::LinearIntersector;
 
 }  // namespace alhazen::test

@@ -1,0 +1,336 @@
+#!/usr/bin/env python3
+"""Draws the plots of a study into its folder, as PNG and SVG.
+
+usage: python/study_plots.py FOLDER
+
+FOLDER holds the study.json that `alhazen study report` wrote. A plot whose numbers were not measured is left out.
+The program carries this file within itself and runs it at the end of a report.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.ticker  # noqa: E402
+import numpy as np  # noqa: E402
+
+COLOURS = {"blue": "#0b6e8f", "orange": "#d9762b", "green": "#4c8c4a", "red": "#b5424b", "grey": "#98a4af"}
+CYCLE = [COLOURS[name] for name in ("blue", "orange", "green", "red", "grey")]
+
+
+def set_style():
+    plt.rcParams.update({
+        "font.size": 10.5, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
+        "grid.color": "#e3e8ec", "grid.linewidth": 0.8, "axes.axisbelow": True, "axes.edgecolor": "#5c6773",
+        "axes.titlesize": 11.5, "legend.frameon": False, "svg.hashsalt": "alhazen", "figure.constrained_layout.use": True,
+        "axes.prop_cycle": matplotlib.cycler(color=CYCLE),
+    })
+
+
+def short(value):
+    """Three digits that count, never with an exponent."""
+    return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
+
+
+class Study:
+    def __init__(self, folder):
+        self.folder = folder
+        self.json = json.loads((folder / "study.json").read_text(encoding="utf-8"))
+        self.tables = {table["id"]: table for table in self.json["tables"]}
+
+    def cells(self, table, column=None):
+        """The measured cells of a table, of one of its columns where that is named."""
+        return [cell for cell in self.tables.get(table, {"cells": []})["cells"]
+                if cell["status"] == "ok" and (column is None or cell["column"] == column)]
+
+    def columns(self, table):
+        return self.tables.get(table, {"columns": []})["columns"]
+
+
+def save(figure, folder, name):
+    figure.savefig(folder / f"{name}.svg", metadata={"Date": None})
+    figure.savefig(folder / f"{name}.png", dpi=150)
+    plt.close(figure)
+
+
+def error_of_speedup(cell):
+    """How far the speedup would be off at the fastest and at the slowest repeat."""
+    seconds = cell["seconds"]
+    return [cell["speedup"] - cell["speedup"] * seconds["median"] / seconds["max"],
+            cell["speedup"] * seconds["median"] / seconds["min"] - cell["speedup"]]
+
+
+def bars(axes, labels, cells, colours, unit="x"):
+    positions = np.arange(len(cells))[::-1]
+    values = [cell["speedup"] for cell in cells]
+    errors = np.array([error_of_speedup(cell) for cell in cells]).T
+    axes.barh(positions, values, color=colours, xerr=errors, error_kw={"ecolor": "#5c6773", "elinewidth": 1, "capsize": 2})
+    axes.set_yticks(positions, labels)
+    axes.grid(axis="y", visible=False)
+    wide = max(values) > 20 * min(values)
+    if wide:
+        axes.set_xscale("log")
+    for position, value, error in zip(positions, values, errors[1]):
+        axes.annotate(short(value) + unit, (value + error, position), xytext=(4, 0), textcoords="offset points", va="center")
+    axes.margins(x=0.12)
+
+
+def draw_headline(study):
+    """The best of every family, in float."""
+    processors = study.json["machine"]["processors"]
+    families = [("one core, iterative", "table1", lambda row: row.startswith("iterative"), "grey"),
+                ("one core, Embree", "engines", lambda row: row == "Embree, 1 thread", "grey"),
+                (f"OpenMP rows static, {processors} threads", "table3", lambda row: row == f"{processors} static", "blue"),
+                (f"OpenMP rows dynamic, {processors} threads", "table3", lambda row: row == f"{processors} dynamic", "blue"),
+                (None, "engines", lambda row: row.startswith("OpenMP tiles"), "blue"),
+                (None, "engines", lambda row: row.startswith("Embree tiles"), "blue"),
+                ("CUDA a thread a pixel", "table4", lambda row: True, "orange"),
+                ("CUDA chunks", "table5", lambda row: True, "orange"),
+                (None, "engines", lambda row: row.startswith("CUDA"), "orange"),
+                ("OptiX", "optix", lambda row: True, "red")]
+    labels, cells, colours = [], [], []
+    for label, table, is_member, colour in families:
+        members = [cell for cell in study.cells(table, "float") if is_member(cell["row"]) and "speedup" in cell]
+        if members:
+            best = max(members, key=lambda cell: cell["speedup"])
+            labels.append(label if label and table not in ("table4", "table5") else
+                          f"{label}, {best['row']}" if label else best["row"])
+            cells.append(best)
+            colours.append(COLOURS[colour])
+    if len(cells) < 2:
+        return
+    figure, axes = plt.subplots(figsize=(8.6, 0.9 + 0.42 * len(cells)))
+    bars(axes, labels, cells, colours)
+    axes.axvline(1, color="#5c6773", linewidth=1)
+    axes.set_xlabel("speedup over one core, float (bars: median; whiskers: fastest and slowest repeat)")
+    save(figure, study.folder, "headline")
+
+
+def draw_forms(study):
+    cells = [cell for cell in study.cells("table2") if "speedup" in cell]
+    if len(cells) < 2:
+        return
+    report = {cell["row"]: cell["report"][0]["seconds"] for cell in cells}
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 2.6))
+    names = [cell["row"] for cell in cells]
+    bars(left, names, cells, COLOURS["blue"])
+    left.set_title("here: speedup over one core")
+    positions = np.arange(len(cells))[::-1]
+    right.barh(positions, [10524 / report[name] for name in names], color=COLOURS["grey"])
+    for position, name in zip(positions, names):
+        right.annotate(f"{10524 / report[name]:.2f}x", (10524 / report[name], position), xytext=(4, 0),
+                       textcoords="offset points", va="center")
+    right.set_yticks(positions, ["" for _ in names])
+    right.grid(axis="y", visible=False)
+    right.margins(x=0.15)
+    right.set_title("the report: cuda2, 8 threads, float")
+    save(figure, study.folder, "forms")
+
+
+def draw_scaling(study):
+    columns = study.columns("table3")
+    if not study.cells("table3"):
+        return
+    processors = study.json["machine"]["processors"]
+    figure, all_axes = plt.subplots(1, len(columns), figsize=(8.6, 3.6), sharey=True)
+    for axes, column in zip(np.atleast_1d(all_axes), columns):
+        lines = {}
+        for cell in study.cells("table3", column):
+            threads, schedule = cell["row"].split()
+            lines.setdefault(schedule, []).append((int(threads), cell))
+        largest = max(threads for line in lines.values() for threads, _ in line)
+        counts = np.arange(1, largest + 1)
+        axes.plot(counts, np.minimum(counts, processors), color="#5c6773", linestyle="--", linewidth=1,
+                  label=f"ideal on {processors} processors")
+        for schedule, line in lines.items():
+            errors = np.array([error_of_speedup(cell) for _, cell in line]).T
+            axes.errorbar([threads for threads, _ in line], [cell["speedup"] for _, cell in line], yerr=errors,
+                          marker="o", markersize=4, capsize=2, linewidth=1.6, label=schedule)
+        axes.set_title(column)
+        axes.set_xlabel("threads")
+        axes.set_ylim(bottom=0)
+    np.atleast_1d(all_axes)[0].set_ylabel("speedup over one core")
+    np.atleast_1d(all_axes)[-1].legend(loc="lower right")
+    save(figure, study.folder, "scaling")
+
+
+def draw_gpu(study, table, name):
+    """Speedups of a table of the GPU, double and float beside each other."""
+    rows = [row for row in study.tables.get(table, {"rows": []})["rows"]
+            if any(cell["row"] == row for cell in study.cells(table))]
+    if not rows:
+        return
+    figure, axes = plt.subplots(figsize=(8.6, 3.2))
+    positions, width = np.arange(len(rows)), 0.38
+    for i, column in enumerate(study.columns(table)):
+        values = {cell["row"]: cell["speedup"] for cell in study.cells(table, column) if "speedup" in cell}
+        axes.bar(positions + (i - 0.5) * width, [values.get(row, 0) for row in rows], width, label=column)
+    axes.set_xticks(positions, rows)
+    axes.grid(axis="x", visible=False)
+    axes.set_ylabel("speedup over one core")
+    axes.legend()
+    save(figure, study.folder, name)
+
+
+def read_pfm(path):
+    with open(path, "rb") as file:
+        kind, size, scale = (file.readline().split() for _ in range(3))
+        width, height = (int(number) for number in size)
+        if kind != [b"Pf"]:
+            raise ValueError(f"{path} is no grey PFM")
+        order = "<" if float(scale[0]) < 0 else ">"
+        return np.frombuffer(file.read(), dtype=order + "f4").reshape(height, width)[::-1]
+
+
+def draw_figure3(study):
+    figure3 = study.json.get("figure3")
+    if not figure3:
+        return
+    naive, chunked = (read_pfm(study.folder / figure3[name]["picture"]) for name in ("naive", "chunked"))
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 4.1))
+    top = max(figure3["naive"]["largest"], figure3["chunked"]["largest"])
+    for axes, values, facts, title in ((left, naive, figure3["naive"], "a thread a pixel"),
+                                       (right, chunked, figure3["chunked"], f"{figure3['chunks']} chunks")):
+        image = axes.imshow(values, cmap="inferno", vmin=1, vmax=top, interpolation="nearest")
+        axes.set_title(f"{title}: mean {facts['mean']:.2f}, largest {facts['largest']:.2f}")
+        axes.set_xlabel(f"{facts['threads_x']} x {facts['threads_y']} threads")
+        axes.set_xticks([])
+        axes.set_yticks([])
+        for spine in axes.spines.values():
+            spine.set_visible(False)
+    figure.colorbar(image, ax=[left, right], label="mean segments of a thread's paths", shrink=0.85)
+    save(figure, study.folder, "figure3")
+
+
+def draw_balance(study):
+    cells = study.cells("balance", "float")
+    if not cells:
+        return
+    figure, axes = plt.subplots(figsize=(8.6, 2.6))
+    positions = np.arange(len(cells))[::-1]
+    values = [cell["busiest_over_mean"] for cell in cells]
+    axes.barh(positions, np.array(values) - 1, left=1, color=COLOURS["blue"])
+    for position, value in zip(positions, values):
+        axes.annotate(f"{value:.3f}", (value, position), xytext=(4, 0), textcoords="offset points", va="center")
+    axes.set_yticks(positions, [cell["row"] for cell in cells])
+    axes.grid(axis="y", visible=False)
+    axes.set_xlim(1, 1 + 1.15 * max(0.02, max(values) - 1))
+    axes.set_xlabel("busiest thread over mean, float (1: all threads end together)")
+    save(figure, study.folder, "balance")
+
+
+def draw_queries(study):
+    columns = study.columns("queries")
+    cells = study.cells("queries")
+    if not cells:
+        return
+    rows = list(dict.fromkeys(cell["row"] for cell in cells))
+    figure, axes = plt.subplots(figsize=(8.6, 2.8))
+    positions, height = np.arange(len(rows))[::-1], 0.38
+    for i, column in enumerate(columns):
+        values = {cell["row"]: cell["nanoseconds_per_ray"] for cell in study.cells("queries", column)}
+        for position, row in zip(positions, rows):
+            if row in values:
+                place = position + (0.5 - i) * height
+                axes.barh(place, values[row], height, color=CYCLE[i], label=column if row == rows[0] else None)
+                axes.annotate(short(values[row]) + " ns", (values[row], place), xytext=(4, 0), textcoords="offset points",
+                              va="center", fontsize=9)
+    axes.set_yticks(positions, rows)
+    axes.grid(axis="y", visible=False)
+    axes.margins(x=0.12)
+    axes.set_xlabel("nanoseconds a ray, one thread, shading included")
+    axes.legend(loc="lower right")
+    save(figure, study.folder, "queries")
+
+
+def draw_depth(study, table, name):
+    columns = study.columns(table)
+    if not study.cells(table):
+        return
+    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.6))
+    for column in columns:
+        cells = study.cells(table, column)
+        depths = [int(cell["row"]) for cell in cells]
+        colour, line = {"branching": ("orange", "-"), "recursive": ("green", "--")}.get(column.split()[0], ("blue", "-"))
+        style = {"marker": "o", "markersize": 4, "linewidth": 1.6, "label": column, "linestyle": line,
+                 "color": COLOURS[colour]}
+        left.plot(depths, [cell["rays_per_sample"] for cell in cells], **style)
+        right.plot(depths, [cell["nanoseconds_per_sample"] / 1000 for cell in cells], **style)
+    depths = np.arange(1, 13)
+    most = max(cell["rays_per_sample"] for cell in study.cells(table))
+    shown = depths[2.0 ** depths - 1 <= 2 * most]
+    left.plot(shown, 2.0 ** shown - 1, color="#98a4af", linestyle=":", label="all of them branch: $2^D - 1$")
+    for axes, title in ((left, "rays of a camera sample"), (right, "microseconds of a camera sample")):
+        axes.set_yscale("log")
+        axes.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+        low, high = axes.get_ylim()
+        if high < 50 * low:
+            axes.yaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
+        axes.set_xticks(depths[1::2])
+        axes.set_xlabel("D, segments at most")
+        axes.set_title(title)
+    left.legend(fontsize=9)
+    save(figure, study.folder, name)
+
+
+def draw_objects(study):
+    if not study.cells("objects"):
+        return
+    figure, axes = plt.subplots(figsize=(8.6, 3.6))
+    for column in study.columns("objects"):
+        cells = study.cells("objects", column)
+        axes.plot([int(cell["row"]) for cell in cells], [cell["nanoseconds_per_ray"] for cell in cells], marker="o",
+                  markersize=4, linewidth=1.6, label=column)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("spheres")
+    axes.set_ylabel("nanoseconds a ray")
+    axes.legend()
+    save(figure, study.folder, "objects")
+
+
+def draw_error(study):
+    figure, axes = plt.subplots(figsize=(8.6, 3.6))
+    for column in study.columns("error"):
+        cells = [cell for cell in study.cells("error", column) if "rmse" in cell]
+        axes.plot([cell["seconds"]["median"] for cell in cells], [cell["rmse"] for cell in cells], marker="o",
+                  markersize=5, linewidth=1.6, label=column)
+        for cell in cells:
+            axes.annotate(f"S = {cell['row']}", (cell["seconds"]["median"], cell["rmse"]), xytext=(5, 5),
+                          textcoords="offset points", fontsize=9, color="#5c6773")
+    if axes.lines:
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlabel("seconds")
+        axes.set_ylabel("RMSE")
+        axes.legend()
+        save(figure, study.folder, "error")
+    plt.close(figure)
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__.strip())
+    set_style()
+    study = Study(Path(sys.argv[1]))
+    draw_headline(study)
+    draw_forms(study)
+    draw_scaling(study)
+    draw_gpu(study, "table4", "blocks")
+    draw_gpu(study, "table5", "chunks")
+    draw_figure3(study)
+    draw_balance(study)
+    draw_queries(study)
+    draw_depth(study, "depth", "depth")
+    draw_depth(study, "glass", "glass")
+    draw_objects(study)
+    draw_error(study)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,16 @@
+// `alhazen study`: what each way of accelerating the same path tracer brings here, and why.
+
+#include "cli/subcommands.h"
+
+namespace alhazen {
+
+CLI::App* register_study(CLI::App& app, int& exit_code) {
+  CLI::App* study = app.add_subcommand("study", "Measure what each way of accelerating the path tracer brings here");
+  study->require_subcommand(1);
+  register_study_report(*study, exit_code);
+  register_study_tune(*study, exit_code);
+  register_study_compare(*study);
+  return study;
+}
+
+}  // namespace alhazen

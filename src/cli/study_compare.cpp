@@ -1,0 +1,77 @@
+// `alhazen study compare`: what changed between two studies, beyond noise.
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/subcommands.h"
+#include "study/cell_text.h"
+#include "study/compare.h"
+#include "study/json.h"
+
+namespace alhazen {
+
+namespace {
+
+struct StudyCompareOptions {
+  std::string a, b;
+  double threshold = 5;
+  bool json = false;
+};
+
+void print_json(const study::StudyComparison& c) {
+  nlohmann::ordered_json changes = nlohmann::ordered_json::array();
+  for (const study::Change& change : c.changes)
+    changes.push_back({{"table", change.table},
+                       {"row", change.row},
+                       {"column", change.column},
+                       {"a_nanoseconds", change.a},
+                       {"b_nanoseconds", change.b},
+                       {"ratio", change.ratio()},
+                       {"a_speedup", change.a_speedup},
+                       {"b_speedup", change.b_speedup}});
+  const nlohmann::ordered_json j{{"differences", c.differences},
+                                 {"compared", c.compared},
+                                 {"by_chance", c.by_chance},
+                                 {"changes", changes},
+                                 {"states", c.states}};
+  fmt::print("{}\n", j.dump());
+}
+
+void print_text(const study::StudyComparison& c) {
+  for (const std::string& difference : c.differences) fmt::print("of another {}\n", difference);
+  for (const study::Change& change : c.changes) {
+    const double ratio = change.ratio();
+    fmt::print("{:<10} {:<28} {:<24} {:>9} {}, {} to {} ns", change.table, change.row, change.column,
+               fmt::format("{:.3f}x", ratio > 1 ? ratio : 1 / ratio), ratio > 1 ? "slower" : "faster",
+               study::short_number(change.a), study::short_number(change.b));
+    if (change.a_speedup > 0 && change.b_speedup > 0)
+      fmt::print("; speedup {} to {}", study::times_text(change.a_speedup), study::times_text(change.b_speedup));
+    fmt::print("\n");
+  }
+  for (const std::string& state : c.states) fmt::print("{}\n", state);
+  fmt::print("{} of {} cells changed beyond noise; {} would by chance, at most\n", c.changes.size(), c.compared,
+             c.by_chance);
+}
+
+void run(const StudyCompareOptions& o) {
+  const study::StudyComparison comparison =
+      study::compare_studies(study::read_study_json(o.a), study::read_study_json(o.b), o.threshold / 100, o.a, o.b);
+  o.json ? print_json(comparison) : print_text(comparison);
+}
+
+}  // namespace
+
+void register_study_compare(CLI::App& study) {
+  CLI::App* command = study.add_subcommand("compare", "What changed between two studies, beyond noise");
+  auto o = std::make_shared<StudyCompareOptions>();
+  command->add_option("A", o->a, "a study.json")->required()->type_name("");
+  command->add_option("B", o->b, "a later one")->required()->type_name("");
+  command->add_option("--threshold", o->threshold, "Changes of less are not told (5)")
+      ->check(CLI::Range(0.0, 1000.0).description(""))
+      ->type_name("PERCENT");
+  command->add_flag("--json", o->json, "One JSON object instead of the list");
+  command->callback([o] { run(*o); });
+}
+
+}  // namespace alhazen

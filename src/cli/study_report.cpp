@@ -1,0 +1,140 @@
+// `alhazen study report`: every table and figure of the report, for what this machine has.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/subcommands.h"
+#include "scene/diagnostics.h"
+#include "study/report.h"
+
+namespace alhazen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyReportOptions {
+  study::ReportOptions report;
+  bool quick = false, full = false, quiet = false;
+  int repeats = 0;
+  int64_t samples = 0, size = 0;
+};
+
+/// scenes/spheres.pbrt of the repository that the program was built in, or of where it was installed.
+std::string find_spheres() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  std::vector<fs::path> folders{"."};
+  for (fs::path folder = program.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
+    folders.insert(folders.end(), {folder, folder / "share/alhazen"});
+  for (const fs::path& folder : folders)
+    if (const fs::path scene = folder / "scenes/spheres.pbrt"; fs::is_regular_file(scene, error))
+      return scene.lexically_normal().string();
+  throw InputError("scenes/spheres.pbrt, the report's scene, is not here: name a scene with --scene FILE");
+}
+
+void choose_scale(StudyReportOptions& o) {
+  if (o.quick && o.full) throw InputError("give --quick or --full, not both");
+  study::Scale& scale = o.report.scale;
+  scale = o.quick ? study::quick_scale() : o.full ? study::full_scale() : study::default_scale();
+  if (o.repeats > 0) scale.repeats = o.repeats;
+  if (o.samples > 0) scale.samples = o.samples;
+  if (o.size > 0) scale.width = scale.height = o.size;
+  if (o.repeats > 0 || o.samples > 0 || o.size > 0) scale.name += ", changed";
+}
+
+/// Lines on stderr: on a terminal one that is written over, elsewhere one every few seconds.
+class ReportPrinter {
+ public:
+  explicit ReportPrinter(bool quiet) : quiet_(quiet), is_terminal_(isatty(STDERR_FILENO) != 0) {}
+
+  void show(const study::Measuring& now) {
+    const bool is_due = is_terminal_ || last_ < 0 || now.seconds - last_ >= 10;
+    if (quiet_ || !is_due) return;
+    last_ = now.seconds;
+    const std::string left = now.seconds_left >= 0 ? ", about " + format_seconds(now.seconds_left) + " left" : "";
+    const std::string line =
+        fmt::format("round {} of {}: {} of {} runs{}: {}", now.round, now.rounds, now.done, now.total, left, now.trial);
+    if (is_terminal_)
+      fmt::print(stderr, "\r{:.110}\x1b[K", line);
+    else
+      fmt::print(stderr, "{}\n", line);
+    is_open_ = is_terminal_;
+  }
+
+  void say(const std::string& line) {
+    if (!quiet_) tell(line);
+  }
+
+  void tell(const std::string& line) {
+    fmt::print(stderr, "{}{}\n", is_open_ ? "\n" : "", line);
+    is_open_ = false;
+  }
+
+ private:
+  bool quiet_, is_terminal_, is_open_ = false;
+  double last_ = -1;
+};
+
+int run(StudyReportOptions& o) {
+  choose_scale(o);
+  if (o.report.scene.empty()) o.report.scene = find_spheres();
+  ReportPrinter printer(o.quiet);
+  study::ReportEvents events;
+  events.go_on = [] { return !is_interrupted(); };
+  events.stage = [&](const std::string& line) { printer.say(line); };
+  events.progress = [&](const study::Measuring& now) { printer.show(now); };
+  events.warning = [&](const std::string& line) { printer.tell("warning: " + line); };
+  catch_interrupts();
+  const study::ReportOutcome outcome = study::run_report(o.report, events);
+  std::string files;
+  for (const std::string& file : outcome.files) files += (files.empty() ? "" : ", ") + file;
+  printer.say(fmt::format("wrote {}: {}", o.report.output, files));
+  if (outcome.is_complete) return exit_done;
+  printer.tell("interrupted: what was measured is written; the same command with --resume goes on");
+  return exit_interrupted;
+}
+
+}  // namespace
+
+void register_study_report(CLI::App& study, int& exit_code) {
+  CLI::App* command = study.add_subcommand("report", "Run the report's experiments and more; write tables and a page");
+  auto o = std::make_shared<StudyReportOptions>();
+  command->add_option("-o,--output", o->report.output, "Folder to write to (study)")->type_name("DIR");
+  command->add_option("--scene", o->report.scene, "Another scene than the report's")->type_name("FILE");
+  command->add_flag("--quick", o->quick, "About 3 minutes on 2 cores; without it about 15");
+  command->add_flag("--full", o->full, "S = 1,000 and the scene's own size, as in the report: hours");
+  command->add_option("--repeats", o->repeats, "Runs of each cell")
+      ->check(CLI::Range(1, 1000).description(""))
+      ->type_name("N");
+  command
+      ->add_option(
+          "--only", o->report.only,
+          "These parts alone, with commas: " +
+              [] {
+                std::string parts;
+                for (const std::string& part : study::report_parts()) parts += (parts.empty() ? "" : ", ") + part;
+                return parts;
+              }())
+      ->delimiter(',')
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("PARTS");
+  command->add_option("--size", o->size, "Edge of the square pictures that the CPU is timed with, pixels")
+      ->check(CLI::Range(1, 10000).description(""))
+      ->type_name("N");
+  command->add_option("--spp", o->samples, "S of the pictures that the CPU is timed with")
+      ->check(CLI::Range(1, 1 << 24).description(""))
+      ->type_name("S");
+  command->add_flag("--resume", o->report.resume, "Go on with the study in the folder");
+  command->add_flag("--overwrite", o->report.overwrite, "Put this study in the place of the one in the folder");
+  command->add_flag("-q,--quiet", o->quiet, "Say nothing but warnings and errors");
+  command->callback([o, &exit_code] { exit_code = run(*o); });
+}
+
+}  // namespace alhazen

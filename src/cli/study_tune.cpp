@@ -1,0 +1,115 @@
+// `alhazen study tune`: the fastest engine for a scene, here.
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/subcommands.h"
+#include "io/read_scene.h"
+#include "render/settings.h"
+#include "study/machine.h"
+#include "study/tune.h"
+#include "study/tuned.h"
+
+namespace alhazen {
+
+namespace {
+
+struct TuneOptions {
+  std::string scene;
+  Settings settings;
+  double budget = 60;
+  bool store = false, store_default = false, quiet = false;
+};
+
+/// What `alhazen render` is to be given for that engine.
+std::string engine_options(const Settings& s) {
+  study::Work work;
+  work.settings = s;
+  work.settings.width = work.settings.height = work.settings.samples_per_pixel = 0;
+  if (s.precision == "float") work.settings.precision.clear();
+  return study::command_options(work);
+}
+
+void print_outcome(const TuneOptions& o, const study::TuneOutcome& outcome) {
+  constexpr size_t shown = 8;
+  fmt::print("{:<78} {:>10}\n", "engine", "ns/sample");
+  for (size_t i = 0; i < outcome.candidates.size() && i < shown; ++i) {
+    const study::Candidate& c = outcome.candidates[i];
+    if (c.problem.empty() && c.rounds > 0)
+      fmt::print("{:<78} {:>10.1f}{}\n", engine_options(c.work.settings), c.cost(), c.is_default ? "  (auto)" : "");
+  }
+  const study::Candidate& winner = outcome.candidates[outcome.winner];
+  fmt::print("\nalhazen render {} {}\n", o.scene, engine_options(winner.work.settings));
+}
+
+void store(const TuneOptions& o, const study::TuneOutcome& outcome, const std::string& integrator) {
+  const study::Candidate& winner = outcome.candidates[outcome.winner];
+  study::TunedEntry entry;
+  entry.machine = study::machine_key();
+  entry.scene = o.store_default ? study::any_scene : study::scene_key(o.scene);
+  entry.precision = o.settings.precision;
+  entry.integrator = integrator;
+  entry.scene_name = o.scene.substr(o.scene.find_last_of('/') + 1);
+  entry.version = version();
+  entry.date = study::today();
+  entry.nanoseconds_per_sample = winner.cost();
+  entry.engine = winner.work.settings;
+  study::store_tuned(study::tuned_path(), entry);
+  if (!o.quiet)
+    fmt::print(stderr, "stored in {}: --backend auto uses it for {}\n", study::tuned_path(),
+               o.store_default ? "every scene that has no entry of its own" : "this scene");
+}
+
+int run(TuneOptions& o) {
+  if (o.store && o.store_default) throw InputError("give --store or --store-default, not both");
+  if (o.store || o.store_default) study::read_tuned(study::tuned_path());  // a damaged file is told of before the work
+  Diagnostics diagnostics;
+  const Scene scene = read_scene(o.scene, diagnostics);
+  const RenderSettings settings = resolve_settings(o.settings, scene);
+  for (const Diagnostics::Warning& warning : diagnostics.warnings())
+    fmt::print(stderr, "warning: {}\n", warning.to_string());
+  study::TuneEvents events;
+  events.go_on = [] { return !is_interrupted(); };
+  events.round = [&](int round, size_t candidates, int64_t samples) {
+    if (!o.quiet) fmt::print(stderr, "round {}: {} engines, {} samples a pixel\n", round, candidates, samples);
+  };
+  catch_interrupts();
+  const study::TuneOutcome outcome = study::tune(scene, o.settings, o.budget, events);
+  if (!o.quiet)
+    fmt::print(stderr, "pictures of {} x {} pixels, {} in all{}\n", outcome.width, outcome.height,
+               format_seconds(outcome.seconds),
+               outcome.is_complete ? "" : "; ended before two engines were left: a larger --budget tells more");
+  print_outcome(o, outcome);
+  if (is_interrupted()) {
+    fmt::print(stderr, "interrupted: nothing is stored\n");
+    return exit_interrupted;
+  }
+  if (o.store || o.store_default) store(o, outcome, to_string(settings.integrator));
+  return exit_done;
+}
+
+}  // namespace
+
+void register_study_tune(CLI::App& study, int& exit_code) {
+  CLI::App* command = study.add_subcommand("tune", "Find the fastest engine for a scene on this machine");
+  auto o = std::make_shared<TuneOptions>();
+  command->add_option("SCENE", o->scene, "Scene (.pbrt) or mesh (.ply), also as .gz")->required()->type_name("");
+  command->add_option("--budget", o->budget, "Time to spend (60)")
+      ->check(CLI::Range(1.0, 1e6).description(""))
+      ->type_name("SECONDS");
+  command->add_flag("--store", o->store, "Keep the answer, for --backend auto and this scene");
+  command->add_flag("--store-default", o->store_default, "Keep it for every scene that has no entry of its own");
+  command->add_option("--precision", o->settings.precision, "float or double")->type_name("NAME");
+  command->add_option("--integrator", o->settings.integrator, "path, iterative, recursive or branching")
+      ->type_name("NAME");
+  command->add_option("--max-depth", o->settings.max_depth, "Bounces: a path has at most N + 1 segments")
+      ->check(CLI::Range(int64_t{0}, int64_t{1'000'000}).description(""))
+      ->type_name("N");
+  command->add_flag("-q,--quiet", o->quiet, "Say nothing but the answer, warnings and errors");
+  command->callback([o, &exit_code] { exit_code = run(*o); });
+}
+
+}  // namespace alhazen

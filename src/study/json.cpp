@@ -1,0 +1,221 @@
+#include "study/json.h"
+
+#include <cmath>
+#include <fstream>
+
+namespace alhazen::study {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json machine_json(const Machine& m) {
+  Json engines = Json::array();
+  for (const Engine& e : m.engines)
+    engines.push_back({{"name", e.name}, {"available", e.available}, {"details", e.details}, {"devices", e.devices}});
+  return {{"processor", m.processor},   {"processors", m.processors}, {"instructions", m.instructions},
+          {"memory_gib", m.memory_gib}, {"system", m.system},         {"governor", m.governor},
+          {"engines", engines}};
+}
+
+Json scale_json(const Scale& s) {
+  return {{"name", s.name},
+          {"width", s.width},
+          {"height", s.height},
+          {"samples", s.samples},
+          {"gpu_samples", s.gpu_samples},
+          {"repeats", s.repeats}};
+}
+
+Json seconds_json(const std::vector<double>& seconds) {
+  if (seconds.empty()) return nullptr;
+  const Spread spread = spread_of(seconds);
+  return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}, {"samples", seconds}};
+}
+
+Json trial_json(const Trial& t) {
+  Json j{{"key", t.key}, {"status", to_string(t.status)}};
+  if (!t.reason.empty()) j["reason"] = t.reason;
+  if (t.seconds.empty()) return j;
+  j["seconds"] = seconds_json(t.seconds);
+  j["busy_seconds"] = t.busy_seconds;
+  j["processor_shares"] = t.processor_shares;
+  if (!t.disturbed_seconds.empty()) j["disturbed_seconds"] = t.disturbed_seconds;
+  j["build_seconds"] = t.build_seconds;
+  j["width"] = t.width;
+  j["height"] = t.height;
+  j["spp"] = t.samples_per_pixel;
+  j["camera_samples"] = t.samples;
+  j["rays"] = t.rays;
+  j["shadow_rays"] = t.shadow_rays;
+  if (t.rmse >= 0) j["rmse"] = t.rmse;
+  return j;
+}
+
+Json report_json(const std::vector<ReportFigure>& figures) {
+  Json list = Json::array();
+  for (const ReportFigure& f : figures) {
+    Json j{{"machine", f.machine}, {"seconds", f.seconds > 0 ? Json(f.seconds) : Json(nullptr)}};
+    if (f.speedup > 0) j["speedup"] = f.speedup;
+    list.push_back(j);
+  }
+  return list;
+}
+
+Json cell_json(const Study& study, const Table& table, const Cell& cell) {
+  const Trial& trial = *study.find(cell.trial);
+  Json j{{"row", cell.row}, {"column", cell.column}, {"status", to_string(trial.status)}};
+  if (!trial.reason.empty()) j["reason"] = trial.reason;
+  if (!cell.note.empty()) j["note"] = cell.note;
+  j["trial"] = cell.trial;
+  if (!cell.baseline.empty()) j["baseline"] = cell.baseline;
+  if (trial.has_times()) {
+    j["seconds"] = seconds_json(trial.seconds);
+    j["spp"] = trial.samples_per_pixel;
+    if (trial.samples > 0) j["nanoseconds_per_sample"] = cost_of(trial, Measure::seconds) * 1e9;
+    if (trial.rays > 0) {
+      j["nanoseconds_per_ray"] = cost_of(trial, Measure::nanoseconds_per_ray) * 1e9;
+      j["rays_per_sample"] = static_cast<double>(trial.rays + trial.shadow_rays) / static_cast<double>(trial.samples);
+    }
+    if (const double speedup = speedup_of(study, table, cell); speedup > 0) j["speedup"] = speedup;
+    if (table.measure == Measure::load_balance) {
+      j["busiest_over_mean"] = busiest_over_mean(trial);
+      j["gini"] = gini_of_busy(trial);
+    }
+    if (trial.rmse >= 0) j["rmse"] = trial.rmse;
+  }
+  if (!cell.report.empty()) j["report"] = report_json(cell.report);
+  return j;
+}
+
+Json table_json(const Study& study, const Table& table) {
+  Json cells = Json::array();
+  for (const Cell& cell : table.cells) cells.push_back(cell_json(study, table, cell));
+  return {{"id", table.id},
+          {"title", table.title},
+          {"text", table.text},
+          {"row_title", table.row_title},
+          {"measure", to_string(table.measure)},
+          {"columns", table.columns},
+          {"rows", table.rows()},
+          {"cells", cells}};
+}
+
+Json grid_json(const ThreadGrid& grid, const std::string& file) {
+  return {{"threads_x", grid.width},
+          {"threads_y", grid.height},
+          {"mean", grid.mean()},
+          {"largest", grid.largest_mean()},
+          {"smallest", grid.smallest_mean()},
+          {"total", grid.total()},
+          {"busiest_over_mean", grid.busiest_over_mean()},
+          {"gini", gini(grid.segments)},
+          {"picture", file}};
+}
+
+Json figure3_json(const WorkPerThread& w) {
+  return {{"width", w.width},
+          {"height", w.height},
+          {"spp", w.samples_per_pixel},
+          {"chunks", std::to_string(w.chunks_x) + "x" + std::to_string(w.chunks_y)},
+          {"statistic_mean", w.statistic_mean},
+          {"naive", grid_json(w.naive, "figure3-naive.pfm")},
+          {"chunked", grid_json(w.chunked, "figure3-chunked.pfm")}};
+}
+
+}  // namespace
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json to_json(const Study& study) {
+  Json conditions = Json::array(), tables = Json::array(), trials = Json::array();
+  for (const Conditions& c : study.conditions)
+    conditions.push_back({{"seconds", c.seconds}, {"load", c.load}, {"megahertz", c.megahertz}});
+  for (const Table& table : study.tables) tables.push_back(table_json(study, table));
+  for (const Trial& trial : study.trials) trials.push_back(trial_json(trial));
+  const SceneFacts& s = study.scene;
+  Json j{{"schema", schema_name},
+         {"version", study.machine.version},
+         {"date", study.date},
+         {"complete", study.is_complete},
+         {"seconds", study.seconds},
+         {"machine", machine_json(study.machine)},
+         {"build", {{"compiler", study.machine.compiler}, {"flags", study.machine.flags}}},
+         {"scene",
+          {{"name", s.name},
+           {"hash", s.hash},
+           {"width", s.width},
+           {"height", s.height},
+           {"D", s.segments},
+           {"spheres", s.spheres},
+           {"triangles", s.triangles},
+           {"lights", s.lights}}},
+         {"scale", scale_json(study.scale)},
+         {"conditions", conditions},
+         {"tables", tables}};
+  if (study.work_per_thread.is_there()) j["figure3"] = figure3_json(study.work_per_thread);
+  j["trials"] = trials;
+  return j;
+}
+
+nlohmann::json read_study_json(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError({path}, "cannot be read: give the study.json that 'alhazen study report' wrote");
+  nlohmann::json j = nlohmann::json::parse(file, nullptr, false);
+  if (j.is_discarded()) throw InputError({path}, "this is not JSON: give the study.json of 'alhazen study report'");
+  if (!j.is_object() || j.value("schema", nlohmann::json()) != schema_name)
+    throw InputError({path}, std::string("this is no study of the schema ") + schema_name +
+                                 ": give the study.json that this version of 'alhazen study report' wrote");
+  return j;
+}
+
+namespace {
+
+/// Runs that were disturbed are made again.
+void take_undisturbed(const nlohmann::json& j, Trial& trial) {
+  const auto& seconds = j.at("seconds").at("samples");
+  const auto &busy = j.at("busy_seconds"), &shares = j.at("processor_shares");
+  for (size_t i = 0; i < seconds.size(); ++i) {
+    if (shares.at(i).get<double>() < least_share) continue;
+    trial.seconds.push_back(seconds.at(i));
+    trial.busy_seconds.push_back(busy.at(i).get<std::vector<double>>());
+    trial.processor_shares.push_back(shares.at(i));
+  }
+}
+
+}  // namespace
+
+void resume_from(const nlohmann::json& earlier, const std::string& path, Study& study) try {
+  const auto& scene = earlier.at("scene");
+  const auto& scale = earlier.at("scale");
+  if (scene.at("hash") != study.scene.hash || scale.at("name") != study.scale.name ||
+      earlier.at("machine").at("processor") != study.machine.processor ||
+      earlier.at("machine").at("processors") != study.machine.processors ||
+      earlier.at("version") != study.machine.version)
+    throw InputError({path},
+                     "this study is of another scene, scale, machine or version, and cannot be gone on with: give the "
+                     "same ones, or another --output");
+  for (const auto& j : earlier.at("trials")) {
+    const std::string key = j.at("key");
+    for (Trial& trial : study.trials) {
+      if (trial.key != key || j.at("status") != "ok") continue;
+      trial.status = TrialStatus::ok;
+      take_undisturbed(j, trial);
+      trial.build_seconds = j.at("build_seconds");
+      trial.width = j.at("width");
+      trial.height = j.at("height");
+      trial.samples_per_pixel = j.at("spp");
+      trial.samples = j.at("camera_samples");
+      trial.rays = j.at("rays");
+      trial.shadow_rays = j.at("shadow_rays");
+      trial.rmse = j.value("rmse", -1.0);
+    }
+  }
+  for (const auto& j : earlier.at("conditions"))
+    study.conditions.push_back({j.at("seconds"), j.at("load"), j.at("megahertz")});
+  study.seconds = earlier.at("seconds");
+} catch (const nlohmann::json::exception& error) {
+  throw InputError({path}, std::string("this study is damaged (") + error.what() + "): give another --output");
+}
+
+}  // namespace alhazen::study

@@ -1,0 +1,44 @@
+// Kernels of `iterative` over what the study measures the BVH of CPUs against: the report's linear scan, and a binary
+// BVH walked a ray at a time. Compiled once an instruction set, in its namespace, as those in render/kernels are.
+
+#include "core/bvh/linear.h"
+#include "render/kernels/instances.h"
+
+namespace ALHAZEN_CORE {
+
+namespace {
+
+template <class Real>
+class BinaryBvhQueries : public BvhIntersector<Real> {
+ public:
+  explicit BinaryBvhQueries(const SceneView<Real>& scene, const void*) : BvhIntersector<Real>(scene) {}
+
+  /// Many queries, one after the other (core/bvh/simd_traversal.h).
+  template <bool any_hit, class RayOf, class Limit, class Answer>
+  void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
+    for (uint32_t i = 0; i < count; ++i) {
+      Hit<Real> hit;
+      const bool found = any_hit ? this->occluded(ray(i), t_max(i)) : this->closest_hit(ray(i), t_max(i), hit);
+      answer(i, found, hit);
+    }
+  }
+
+  template <class RayOf, class Limit, class Answer>
+  void trace_coherent(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
+    trace<false>(count, ray, t_max, answer);
+  }
+};
+
+template <class Real>
+RawKernel select_queries(bool linear) {
+  return linear ? take_blocks<IntegratorKind::iterative, SobolSampler, LinearIntersector<Real>, Real>
+                : take_blocks<IntegratorKind::iterative, SobolSampler, BinaryBvhQueries<Real>, Real>;
+}
+
+}  // namespace
+
+RawKernel select_study_kernel(bool linear, bool in_double) {
+  return in_double ? select_queries<double>(linear) : select_queries<float>(linear);
+}
+
+}  // namespace ALHAZEN_CORE

@@ -1,0 +1,223 @@
+// What the report lacks: other schedules and engines, what answers rays, depth, objects, load balance, error.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "study/plan.h"
+
+namespace alhazen::study {
+
+namespace {
+
+void plan_engines(Plan& plan) {
+  Table& table =
+      plan.add(Table{"engines",
+                     "Engines and schedules that the report does not have",
+                     "Tiles of 16 x 16 pixels, Embree, and two schedules of CUDA: threads that stay and take "
+                     "samples from a queue (persistent), and a kernel a stage over queues (wavefront). "
+                     "Embree traces in float alone.",
+                     "engine",
+                     Measure::seconds,
+                     {"double", "float"},
+                     {}});
+  const auto add = [&](const std::string& row, Work work) {
+    add_cell(table, row, work.settings.precision, plan.add(work), plan.serial(work.settings.precision));
+  };
+  const int all = plan.processors();
+  for (const char* precision : {"double", "float"}) {
+    Work tiles = plan.on_cpu("openmp", precision, all);
+    tiles.settings.strategy = "tiles";
+    tiles.settings.schedule = "dynamic";
+    add(fmt::format("OpenMP tiles, {} threads", all), tiles);
+  }
+  Work embree = plan.on_cpu("embree", "float", 1);
+  embree.settings.strategy = "tiles";
+  add("Embree, 1 thread", embree);
+  embree.settings.threads = all;
+  add(fmt::format("Embree tiles, {} threads", all), embree);
+  for (const char* strategy : {"persistent", "wavefront"})
+    for (const char* precision : {"double", "float"}) {
+      Work work = plan.on_gpu("cuda", precision);
+      work.settings.strategy = strategy;
+      add(fmt::format("CUDA {}", strategy), work);
+    }
+}
+
+void plan_queries(Plan& plan) {
+  Table& table =
+      plan.add(Table{"queries",
+                     "What answers the rays",
+                     "One thread, the same paths, the time of a whole render over its rays. The linear scan is "
+                     "the report's Algorithm 5; the binary BVH is walked a ray at a time; the wide one has 8 "
+                     "children a node, all tested at once by SIMD, and is what the backends of CPUs walk. "
+                     "All are compiled for the same instruction set.",
+                     "by",
+                     Measure::nanoseconds_per_ray,
+                     {"double", "float"},
+                     {}});
+  for (const char* precision : {"double", "float"}) {
+    Work linear = plan.on_cpu("serial", precision, 1);
+    const int64_t largest = std::min(linear.settings.width ? linear.settings.width : plan.scene().width, int64_t{800});
+    linear.settings.width = linear.settings.height =
+        plan.linear_size(plan.scene().spheres + plan.scene().triangles, largest);
+    linear.settings.samples_per_pixel = 4;
+    linear.queries = Queries::linear_scan;
+    const std::string baseline = plan.add(linear);
+    Work binary = plan.on_cpu("serial", precision, 1);
+    binary.queries = Queries::binary_bvh;
+    add_cell(table, "linear scan", precision, baseline, baseline,
+             fmt::format("{0} x {0} pixels, S = 4", linear.settings.width));
+    add_cell(table, "binary BVH", precision, plan.add(binary), baseline);
+    add_cell(table, "wide BVH, SIMD", precision, plan.serial(precision), baseline);
+    if (std::string(precision) == "float") {
+      Work embree = plan.on_cpu("embree", "float", 1);
+      embree.settings.strategy = "tiles";
+      add_cell(table, "Embree", precision, plan.add(embree), baseline);
+    }
+  }
+}
+
+void plan_balance(Plan& plan) {
+  Table& table = plan.add(Table{
+      "balance",
+      fmt::format("Load balance, {} threads", plan.processors()),
+      "Time that each thread is busy, from its start to the end of its own last row or tile: the busiest over the "
+      "mean (1: all end together), and the Gini coefficient (0: all the same). Medians over the repeats.",
+      "strategy, schedule",
+      Measure::load_balance,
+      {"double", "float"},
+      {}});
+  for (const char* strategy : {"rows", "tiles"})
+    for (const char* schedule : {"static", "dynamic", "guided"})
+      for (const char* precision : {"double", "float"}) {
+        Work work = plan.on_cpu("openmp", precision, plan.processors());
+        work.settings.strategy = strategy;
+        work.settings.schedule = schedule;
+        add_cell(table, fmt::format("{} {}", strategy, schedule), precision, plan.add(work), plan.serial(precision));
+      }
+}
+
+void plan_depth(Plan& plan) {
+  Table& table =
+      plan.add(Table{"depth",
+                     "Cost against depth: O(2^D) against O(D)",
+                     "Algorithm 2 follows both rays at glass, so the rays of a path may double with every "
+                     "segment; Algorithms 3 and 5 choose one of them. One thread, float. Rays are those of a "
+                     "camera sample.",
+                     "D",
+                     Measure::seconds,
+                     {"branching (Algorithm 2)", "recursive (Algorithm 3)", "iterative (Algorithm 5)"},
+                     {}});
+  table.shows_rays = true;
+  for (int depth = 1; depth <= 12; ++depth) {
+    std::string baseline;
+    for (size_t i = table.columns.size(); i-- > 0;) {
+      Work work = plan.on_cpu("serial", "float", 1);
+      work.settings.integrator = table.columns[i].substr(0, table.columns[i].find(' '));
+      work.settings.max_depth = depth - 1;
+      work.settings.width = work.settings.height = plan.scale().depth_size;
+      work.settings.samples_per_pixel = plan.scale().depth_samples;
+      const std::string trial = plan.add(work);
+      if (baseline.empty()) baseline = trial;
+      add_cell(table, std::to_string(depth), table.columns[i], trial, baseline);
+    }
+  }
+}
+
+void plan_glass(Plan& plan) {
+  Table& table =
+      plan.add(Table{"glass",
+                     "The worst case of depth: nothing but glass",
+                     "A dense cloud of 1000 spheres of glass, from which hardly a path gets out: every segment "
+                     "of Algorithm 2 branches. One thread, float.",
+                     "D",
+                     Measure::seconds,
+                     {"branching (Algorithm 2)", "iterative (Algorithm 5)"},
+                     {}});
+  table.shows_rays = true;
+  for (int depth = 1; depth <= 12; ++depth) {
+    Work work = plan.on_cpu("serial", "float", 1);
+    work.objects = 1000;
+    work.is_glass = true;
+    work.settings.max_depth = depth - 1;
+    work.settings.width = work.settings.height = plan.scale().depth_size / 4;
+    work.settings.samples_per_pixel = plan.scale().depth_samples;
+    const std::string baseline = plan.add(work);
+    work.settings.integrator = "branching";
+    add_cell(table, std::to_string(depth), table.columns[0], plan.add(work), baseline);
+    add_cell(table, std::to_string(depth), table.columns[1], baseline, baseline);
+  }
+}
+
+void plan_objects(Plan& plan) {
+  Table& table =
+      plan.add(Table{"objects",
+                     "Cost against the number of objects: O(n) against O(log n)",
+                     "A cloud of n spheres under a white sky, radii falling with the root of n, so that paths "
+                     "stay as long. One thread, float; the time of a whole render over its rays. The linear "
+                     "scan takes smaller pictures the more objects there are, as said in its cells.",
+                     "spheres",
+                     Measure::nanoseconds_per_ray,
+                     {"linear scan", "wide BVH, SIMD", "Embree"},
+                     {}});
+  for (uint64_t count = 10; count <= 1'000'000; count *= 10) {
+    const std::string row = std::to_string(count);
+    Work work = plan.on_cpu("serial", "float", 1);
+    work.objects = count;
+    work.settings.width = work.settings.height = plan.scale().objects_size;
+    work.settings.samples_per_pixel = plan.scale().objects_samples;
+    Work linear = work;
+    linear.queries = Queries::linear_scan;
+    linear.settings.samples_per_pixel = 4;
+    linear.settings.width = linear.settings.height = plan.linear_size(count, plan.scale().objects_size);
+    const std::string baseline = plan.add(linear);
+    add_cell(table, row, table.columns[0], baseline, baseline,
+             fmt::format("{0} x {0} pixels, S = 4", linear.settings.width));
+    add_cell(table, row, table.columns[1], plan.add(work), baseline);
+    work.settings.backend = "embree";
+    work.settings.threads = 1;
+    work.settings.strategy = "tiles";
+    add_cell(table, row, table.columns[2], plan.add(work), baseline);
+  }
+}
+
+void plan_error(Plan& plan) {
+  Table& table =
+      plan.add(Table{"error",
+                     "Time to equal error",
+                     fmt::format("The report's algorithms meet light by chance; `path` also samples lights "
+                                 "(next-event estimation, weighed by multiple importance sampling). RMSE over "
+                                 "red, green and blue against {} samples a pixel of `path` with another seed; "
+                                 "{} x {} pixels, all threads, float.",
+                                 plan.scale().reference_samples, plan.scale().error_size, plan.scale().error_size),
+                     "S",
+                     Measure::error,
+                     {"iterative", "path"},
+                     {}});
+  for (int64_t samples = 4; samples <= 256; samples *= 4)
+    for (const std::string& integrator : table.columns) {
+      Work work = plan.on_cpu("openmp", "float", plan.processors());
+      work.settings.strategy = "tiles";
+      work.settings.schedule = "dynamic";
+      work.settings.integrator = integrator;
+      work.settings.width = work.settings.height = plan.scale().error_size;
+      work.settings.samples_per_pixel = samples;
+      work.is_compared = true;
+      add_cell(table, std::to_string(samples), integrator, plan.add(work), "");
+    }
+}
+
+}  // namespace
+
+void plan_beyond(Plan& plan) {
+  plan_engines(plan);
+  plan_queries(plan);
+  plan_balance(plan);
+  plan_depth(plan);
+  plan_glass(plan);
+  plan_objects(plan);
+  plan_error(plan);
+}
+
+}  // namespace alhazen::study

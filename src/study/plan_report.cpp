@@ -1,0 +1,142 @@
+// Tables 1 to 5 of the report and its measurement of OptiX.
+
+#include <fmt/format.h>
+
+#include "study/plan.h"
+
+namespace alhazen::study {
+
+namespace {
+
+const char* const precisions[] = {"double", "float"};
+
+const char* const comparable =
+    "The report's speedups may be compared with those here, its seconds may not: they are of other machines, another "
+    "scene file and S = 1,000.";
+
+void plan_table1(Plan& plan) {
+  Table& table = plan.add(Table{"table1",
+                                "Table 1: one core",
+                                "The serial algorithm. The report's serial program calls itself (Algorithm 3); "
+                                "speedups of all tables are over the loop of Algorithm 5 in the same precision, which "
+                                "every engine here runs, so that they are those of the engine alone. What compares "
+                                "with the report is double against float.",
+                                "algorithm",
+                                Measure::seconds,
+                                {"double", "float"},
+                                {}});
+  for (const char* integrator : {"iterative", "recursive"})
+    for (const char* precision : precisions) {
+      Work work = plan.on_cpu("serial", precision, 1);
+      work.settings.integrator = integrator;
+      const bool is_loop = work.settings.integrator == "iterative";
+      add_cell(table, is_loop ? "iterative (Algorithm 5)" : "recursive (Algorithm 3)", precision, plan.add(work),
+               plan.serial(precision));
+    }
+}
+
+void plan_table2(Plan& plan) {
+  Table& table = plan.add(Table{
+      "table2",
+      fmt::format("Table 2: four forms of OpenMP, {} threads", plan.processors()),
+      "Which loops run in parallel: rows, rows and columns joined, rows and the sum over samples, that sum alone. "
+      "Schedule: dynamic. The report ran 8 threads on cuda2; what compares is the order of the four.",
+      "form",
+      Measure::seconds,
+      {"float"},
+      {}});
+  const std::pair<const char*, const char*> forms[] = {{"rows", "rows (simple)"},
+                                                       {"collapse", "collapse"},
+                                                       {"rows+reduction", "rows+reduction"},
+                                                       {"reduction", "reduction"}};
+  for (const auto& [strategy, row] : forms) {
+    Work work = plan.on_cpu("openmp", "float", plan.processors());
+    work.settings.strategy = strategy;
+    work.settings.schedule = "dynamic";
+    add_cell(table, row, "float", plan.add(work), plan.serial("float"));
+  }
+}
+
+void plan_table3(Plan& plan) {
+  Table& table =
+      plan.add(Table{"table3",
+                     "Table 3: threads and schedules of OpenMP",
+                     std::string("Rows in parallel (Algorithm 4). The report has no guided schedule. ") + comparable,
+                     "threads, schedule",
+                     Measure::seconds,
+                     {"double", "float"},
+                     {}});
+  for (const int threads : plan.thread_counts())
+    for (const char* schedule : {"static", "dynamic", "guided"})
+      for (const char* precision : precisions) {
+        Work work = plan.on_cpu("openmp", precision, threads);
+        work.settings.strategy = "rows";
+        work.settings.schedule = schedule;
+        const bool crowded = threads > plan.processors();
+        add_cell(table, fmt::format("{} {}", threads, schedule), precision, plan.add(work), plan.serial(precision),
+                 crowded ? fmt::format("more threads than the {} processors here", plan.processors()) : "");
+      }
+}
+
+void plan_table4(Plan& plan) {
+  Table& table = plan.add(Table{"table4",
+                                "Table 4: CUDA, one thread a pixel",
+                                std::string("Algorithm 6 by size of block. ") + comparable,
+                                "block",
+                                Measure::seconds,
+                                {"double", "float"},
+                                {}});
+  for (const char* block : {"8x8", "16x16", "16x32", "32x32"})
+    for (const char* precision : precisions) {
+      Work work = plan.on_gpu("cuda", precision);
+      work.settings.strategy = "pixel";
+      work.settings.block = block;
+      add_cell(table, block, precision, plan.add(work), plan.serial(precision));
+    }
+}
+
+void plan_table5(Plan& plan) {
+  Table& table = plan.add(Table{"table5",
+                                "Table 5: CUDA, one thread for several chunks",
+                                std::string("Algorithm 7 by size of block and number of chunks. ") + comparable,
+                                "block, chunks",
+                                Measure::seconds,
+                                {"double", "float"},
+                                {}});
+  for (const char* block : {"8x8", "16x16"})
+    for (const char* chunk : {"1x1", "2x2", "4x4", "5x5"})
+      for (const char* precision : precisions) {
+        Work work = plan.on_gpu("cuda", precision);
+        work.settings.strategy = "chunk";
+        work.settings.block = block;
+        work.settings.chunk = chunk;
+        add_cell(table, fmt::format("{}, {}", block, chunk), precision, plan.add(work), plan.serial(precision));
+      }
+}
+
+void plan_optix(Plan& plan) {
+  Table& table =
+      plan.add(Table{"optix",
+                     "OptiX: rays traced by RT cores",
+                     "The report needed 2 s with OptiX 6.5 on cuda2 and calls it 65 times as fast as its best "
+                     "CUDA program there. Its OptiX program is another one, after NVIDIA's samples; here it is "
+                     "the same light transport.",
+                     "engine",
+                     Measure::seconds,
+                     {"float"},
+                     {}});
+  add_cell(table, "OptiX", "float", plan.add(plan.on_gpu("optix", "float")), plan.serial("float"));
+}
+
+}  // namespace
+
+void plan_report(Plan& plan) {
+  plan_table1(plan);
+  plan_table2(plan);
+  plan_table3(plan);
+  plan_table4(plan);
+  plan_table5(plan);
+  plan_optix(plan);
+}
+
+}  // namespace alhazen::study

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+namespace alhazen::study {
+
+/// The text of python/study_plots.py (src/study/plot_script.cpp.in).
+std::string_view plot_script();
+
+}  // namespace alhazen::study

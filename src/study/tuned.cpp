@@ -1,0 +1,176 @@
+#include "study/tuned.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "study/machine.h"
+#include "study/write.h"
+
+namespace alhazen::study {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* tuned_schema = "alhazen-tuned-1";
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+Json engine_json(const Settings& s) {
+  return {{"backend", s.backend}, {"strategy", s.strategy}, {"schedule", s.schedule},
+          {"threads", s.threads}, {"block", s.block},       {"chunk", s.chunk}};
+}
+
+Json entry_json(const TunedEntry& e) {
+  return {{"machine", e.machine},
+          {"scene", e.scene},
+          {"precision", e.precision},
+          {"integrator", e.integrator},
+          {"engine", engine_json(e.engine)},
+          {"scene_name", e.scene_name},
+          {"version", e.version},
+          {"date", e.date},
+          {"nanoseconds_per_sample", e.nanoseconds_per_sample}};
+}
+
+TunedEntry entry_of(const Json& j) {
+  TunedEntry e;
+  e.machine = j.at("machine");
+  e.scene = j.at("scene");
+  e.precision = j.at("precision");
+  e.integrator = j.at("integrator");
+  e.scene_name = j.at("scene_name");
+  e.version = j.at("version");
+  e.date = j.at("date");
+  e.nanoseconds_per_sample = j.at("nanoseconds_per_sample");
+  const Json& engine = j.at("engine");
+  e.engine.backend = engine.at("backend");
+  e.engine.strategy = engine.at("strategy");
+  e.engine.schedule = engine.at("schedule");
+  e.engine.threads = engine.at("threads");
+  e.engine.block = engine.at("block");
+  e.engine.chunk = engine.at("chunk");
+  return e;
+}
+
+bool is_for_the_same(const TunedEntry& a, const TunedEntry& b) {
+  return a.machine == b.machine && a.scene == b.scene && a.precision == b.precision && a.integrator == b.integrator;
+}
+
+/// Whether the user left the whole choice of an engine open.
+bool is_open(const Settings& s) {
+  return s.backend == "auto" && (s.strategy.empty() || s.strategy == "auto") && s.schedule.empty() && s.threads == 0 &&
+         s.device.empty() && s.block.empty() && s.chunk.empty();
+}
+
+std::optional<TunedEntry> find_tuned(const std::string& path, const Settings& asked, const std::string& integrator,
+                                     const std::string& scene_path) {
+  const std::vector<TunedEntry> entries = read_tuned(path);
+  if (entries.empty()) return std::nullopt;
+  TunedEntry wanted;
+  wanted.machine = machine_key();
+  wanted.precision = asked.precision;
+  wanted.integrator = integrator;
+  for (const std::string& scene : {scene_key(scene_path), std::string(any_scene)}) {
+    wanted.scene = scene;
+    for (const TunedEntry& entry : entries)
+      if (is_for_the_same(entry, wanted)) return entry;
+  }
+  return std::nullopt;
+}
+
+Settings with_engine(Settings settings, const Settings& engine) {
+  settings.backend = engine.backend;
+  settings.strategy = engine.strategy;
+  settings.schedule = engine.schedule;
+  settings.threads = engine.threads;
+  settings.block = engine.block;
+  settings.chunk = engine.chunk;
+  return settings;
+}
+
+}  // namespace
+
+std::string tuned_path() {
+  if (const char* path = std::getenv("ALHAZEN_TUNED")) return path;
+  const std::string config = variable("XDG_CONFIG_HOME"), home = variable("HOME");
+  if (!config.empty()) return (fs::path(config) / "alhazen/tuned.json").string();
+  return home.empty() ? "" : (fs::path(home) / ".config/alhazen/tuned.json").string();
+}
+
+std::string machine_key() {
+  const Machine machine = this_machine();
+  return fmt::format("{}, {} processors", machine.processor, machine.processors);
+}
+
+std::string scene_key(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return {};
+  uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
+  char buffer[65536];
+  while (file.read(buffer, sizeof(buffer)), file.gcount() > 0)
+    for (std::streamsize i = 0; i < file.gcount(); ++i)
+      hash = (hash ^ static_cast<uint8_t>(buffer[i])) * 0x100000001b3u;
+  return fmt::format("{:016x}", hash);
+}
+
+std::vector<TunedEntry> read_tuned(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (path.empty() || !file) return {};
+  const char* const advice = ": remove it, or tune again with 'alhazen study tune SCENE --store'";
+  try {
+    const Json j = Json::parse(file);
+    if (j.at("schema") != tuned_schema) throw InputError({path}, std::string("this is of another version") + advice);
+    std::vector<TunedEntry> entries;
+    for (const Json& entry : j.at("entries")) entries.push_back(entry_of(entry));
+    return entries;
+  } catch (const nlohmann::json::exception&) {
+    throw InputError({path}, std::string("the file of tuned engines is damaged") + advice);
+  }
+}
+
+void store_tuned(const std::string& path, const TunedEntry& entry) {
+  if (path.empty())
+    throw InputError("there is no place for the file of tuned engines: name one in the variable ALHAZEN_TUNED");
+  std::vector<TunedEntry> entries = read_tuned(path);
+  std::erase_if(entries, [&](const TunedEntry& other) { return is_for_the_same(other, entry); });
+  entries.push_back(entry);
+  Json list = Json::array();
+  for (const TunedEntry& each : entries) list.push_back(entry_json(each));
+  std::error_code error;
+  if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, error);
+  if (error) throw RenderError(path + ": the folder of the file of tuned engines cannot be made: " + error.message());
+  write_text(path, Json{{"schema", tuned_schema}, {"entries", list}}.dump(1) + "\n");
+}
+
+RenderSettings resolve_with_tuned(const Settings& asked, const Scene& scene, const std::string& scene_path,
+                                  Diagnostics& diagnostics) {
+  const RenderSettings usual = resolve_settings(asked, scene);
+  if (!is_open(asked)) return usual;
+  const std::string path = tuned_path();
+  try {
+    const std::optional<TunedEntry> entry = find_tuned(path, asked, to_string(usual.integrator), scene_path);
+    if (!entry) return usual;
+    if (entry->version != version()) {
+      diagnostics.warn({path}, "the engine tuned for this scene is of version " + entry->version +
+                                   " and is not used: tune again with 'alhazen study tune SCENE --store'");
+      return usual;
+    }
+    return resolve_settings(with_engine(asked, entry->engine), scene);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    diagnostics.warn({message.find(path) == std::string::npos ? path : ""},
+                     "no tuned engine is used: " + message.substr(0, message.find('\n')));
+    return usual;
+  }
+}
+
+}  // namespace alhazen::study

@@ -1,0 +1,53 @@
+#include "study/write.h"
+
+#include <bit>
+#include <filesystem>
+
+#include "io/images/atomic_file.h"
+#include "study/json.h"
+#include "study/plots.h"
+
+namespace alhazen::study {
+
+namespace {
+
+std::string in_folder(const std::string& folder, const std::string& name) {
+  return (std::filesystem::path(folder) / name).string();
+}
+
+}  // namespace
+
+void write_text(const std::string& path, const std::string& text) {
+  AtomicFile file(path);
+  file.write(text.data(), text.size());
+  file.commit();
+}
+
+void write_grey_pfm(const std::string& path, int width, int height, const std::vector<float>& values) {
+  const char* scale = std::endian::native == std::endian::little ? "-1.0" : "1.0";
+  const std::string header = "Pf\n" + std::to_string(width) + " " + std::to_string(height) + "\n" + scale + "\n";
+  AtomicFile file(path);
+  file.write(header.data(), header.size());
+  const size_t columns = static_cast<size_t>(width);
+  for (size_t y = static_cast<size_t>(height); y-- > 0;)
+    file.write(values.data() + y * columns, columns * sizeof(float));
+  file.commit();
+}
+
+void write_json(const Study& study, const std::string& folder) {
+  write_text(in_folder(folder, "study.json"), to_json(study).dump(1) + "\n");
+}
+
+std::vector<std::string> write_study(const Study& study, const std::string& folder,
+                                     const std::function<void(const std::string&)>& warning) {
+  write_json(study, folder);
+  write_text(in_folder(folder, "tables.csv"), csv_of(study));
+  write_text(in_folder(folder, "tables.md"), markdown_of(study));
+  std::vector<std::string> files{"study.json", "tables.csv", "tables.md"};
+  if (const std::string problem = draw_plots(folder); !problem.empty()) warning(problem);
+  write_text(in_folder(folder, "index.html"), html_of(study, folder));
+  files.push_back("index.html");
+  return files;
+}
+
+}  // namespace alhazen::study

@@ -1,0 +1,30 @@
+#pragma once
+
+// The files of a study's folder.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "io/images/image.h"
+#include "study/study.h"
+
+namespace alhazen::study {
+
+/// Writes whole or not at all. Throws RenderError.
+void write_text(const std::string& path, const std::string& text);
+/// One value a pixel, rows from the top down, as PFM.
+void write_grey_pfm(const std::string& path, int width, int height, const std::vector<float>& values);
+
+/// study.json alone.
+void write_json(const Study& study, const std::string& folder);
+/// study.json, tables.csv, tables.md, plots where they can be drawn, index.html. The names of the files.
+std::vector<std::string> write_study(const Study& study, const std::string& folder,
+                                     const std::function<void(const std::string&)>& warning);
+
+std::string csv_of(const Study& study);
+std::string markdown_of(const Study& study);
+/// The page; `folder` holds the pictures that it is to contain.
+std::string html_of(const Study& study, const std::string& folder);
+
+}  // namespace alhazen::study

@@ -1,0 +1,258 @@
+// alhazen study report, compare.
+
+#include <cmath>
+#include <map>
+
+#include "cli/study_fixture.h"
+
+namespace alhazen::testing {
+
+namespace {
+
+using StudyReport = StudyCommand;
+
+/// The trials of a study by their keys.
+std::map<std::string, nlohmann::json> trials_of(const nlohmann::json& study) {
+  std::map<std::string, nlohmann::json> trials;
+  for (const nlohmann::json& trial : study["trials"]) trials[trial["key"]] = trial;
+  return trials;
+}
+
+double cost_of(const nlohmann::json& trial, const char* unit) {
+  const double units = unit == std::string("rays") ? trial["rays"].get<double>() + trial["shadow_rays"].get<double>()
+                                                   : trial[unit].get<double>();
+  std::vector<double> seconds = trial["seconds"]["samples"];
+  std::sort(seconds.begin(), seconds.end());
+  const size_t n = seconds.size();
+  return (n % 2 == 1 ? seconds[n / 2] : (seconds[n / 2 - 1] + seconds[n / 2]) / 2) / units;
+}
+
+/// 0.0123, 0.512, 12.3, 4533: three digits that count, as tables have them.
+std::string three_digits(double value) {
+  const int digits = value >= 100  ? 0
+                     : value >= 10 ? 1
+                     : value >= 1  ? 2
+                                   : 2 - static_cast<int>(std::floor(std::log10(value)));
+  char buffer[32];
+  std::snprintf(buffer, sizeof(buffer), "%.*f", digits, value);
+  return buffer;
+}
+
+TEST_F(StudyReport, SpeedupsOfAllTablesAreThoseOfTheTimes) {
+  without_plots();
+  const CommandResult result =
+      report({"--output", "out", "--only", "table1,table2,table3,table4,optix,engines,queries,balance"});
+  ASSERT_EQ(result.exit_code, 0) << result.everything();
+  const nlohmann::json study = json("out/study.json");
+  EXPECT_EQ(study["schema"], "alhazen-study-1");
+  EXPECT_EQ(study["complete"], true);
+  const auto trials = trials_of(study);
+  const std::string markdown = text("out/tables.md"), csv = text("out/tables.csv"), page = text("out/index.html");
+  size_t speedups = 0, rows = 0;
+  for (const nlohmann::json& table : study["tables"])
+    for (const nlohmann::json& cell : table["cells"]) {
+      ++rows;
+      if (cell["status"] != "ok") {
+        EXPECT_FALSE(cell.value("reason", "").empty()) << cell;
+        EXPECT_NE(markdown.find(cell["reason"].get<std::string>()), std::string::npos);
+        continue;
+      }
+      const nlohmann::json& trial = trials.at(cell["trial"]);
+      EXPECT_EQ(trial["seconds"]["samples"].size(), 2u);
+      ASSERT_TRUE(cell.contains("speedup")) << cell;
+      const char* unit = table["measure"] == "nanoseconds per ray" ? "rays" : "camera_samples";
+      const double expected = cost_of(trials.at(cell["baseline"]), unit) / cost_of(trial, unit);
+      EXPECT_NEAR(cell["speedup"].get<double>(), expected, 1e-9 * expected) << cell;
+      EXPECT_NE(markdown.find("| " + three_digits(expected) + "x |"), std::string::npos) << cell;
+      EXPECT_NE(page.find(">" + three_digits(expected) + "x</span>"), std::string::npos) << cell;
+      ++speedups;
+    }
+  EXPECT_GT(speedups, 30u);
+  EXPECT_EQ(lines_of(csv).size(), rows + 1);
+  for (const char* id : {"table1", "table2", "table3", "balance"}) {
+    const auto table = std::find_if(study["tables"].begin(), study["tables"].end(),
+                                    [&](const nlohmann::json& t) { return t["id"] == id; });
+    ASSERT_NE(table, study["tables"].end());
+    for (const nlohmann::json& cell : (*table)["cells"]) EXPECT_EQ(cell["status"], "ok") << cell;
+  }
+}
+
+TEST_F(StudyReport, Figure3KeepsTheWorkAndLevelsIt) {
+  without_plots();
+  folder_.write_text("scene.pbrt", std::string("Film \"rgb\" \"integer xresolution\" 90 \"integer yresolution\" 70\n"
+                                               "LookAt 0 1 4  0 0.6 0  0 1 0\nCamera \"perspective\" \"float fov\" 50\n"
+                                               "Integrator \"path\" \"integer maxdepth\" 9\nWorldBegin\n"
+                                               "Shape \"sphere\" \"float radius\" 0.6\n"
+                                               "Material \"dielectric\"\nTranslate 1 0 0.6\n"
+                                               "Shape \"sphere\" \"float radius\" 0.5\nTranslate -1 -1000.6 0\n"
+                                               "Material \"diffuse\"\nShape \"sphere\" \"float radius\" 1000\n"));
+  const CommandResult result = report({"--output", "out", "--only", "figure2,figure3"});
+  ASSERT_EQ(result.exit_code, 0) << result.everything();
+  const nlohmann::json figure = json("out/study.json")["figure3"];
+  EXPECT_EQ(image("out/figure2.png").width, 90);
+  const Image naive = image("out/figure3-naive.pfm"), chunked = image("out/figure3-chunked.pfm");
+  EXPECT_EQ(naive.width, 90);
+  EXPECT_EQ(chunked.width, 23);
+  EXPECT_EQ(chunked.height, 18);
+  double sum = 0, largest = 0;
+  for (const float value : naive.planes[0]) {
+    sum += static_cast<double>(value);
+    largest = std::max(largest, static_cast<double>(value));
+  }
+  const double mean = sum / (90 * 70);
+  EXPECT_NEAR(mean, figure["statistic_mean"].get<double>(), 1e-5 * mean);
+  EXPECT_NEAR(mean, figure["naive"]["mean"].get<double>(), 1e-5 * mean);
+  EXPECT_NEAR(largest, figure["naive"]["largest"].get<double>(), 1e-5);
+  EXPECT_NEAR(figure["naive"]["total"].get<double>(), figure["chunked"]["total"].get<double>(), 1e-6 * sum);
+  EXPECT_NEAR(figure["chunked"]["mean"].get<double>(), mean, 1e-5 * mean);
+  EXPECT_GT(figure["naive"]["largest"].get<double>(), 1.5 * figure["chunked"]["largest"].get<double>());
+  EXPECT_GT(figure["naive"]["gini"].get<double>(), figure["chunked"]["gini"].get<double>());
+}
+
+/// The report's own scene: the finding of its Figure 3, in small.
+TEST_F(StudyReport, Figure3OfTheSpheres) {
+  without_plots();
+  const CommandResult result = run({"study", "report", "--quick", "--scene", ALHAZEN_SOURCE_DIR "/scenes/spheres.pbrt",
+                                    "--only", "figure3", "--output", "out"});
+  ASSERT_EQ(result.exit_code, 0) << result.everything();
+  const nlohmann::json figure = json("out/study.json")["figure3"];
+  EXPECT_NEAR(figure["naive"]["mean"].get<double>(), 2.40, 0.01);
+  EXPECT_GT(figure["naive"]["largest"].get<double>(), 9);
+  EXPECT_LT(figure["chunked"]["largest"].get<double>(), 3.5);
+}
+
+TEST_F(StudyReport, RefusesWhatItCannotDo) {
+  without_plots();
+  ASSERT_EQ(report({"--output", "out", "--only", "table1", "-q"}).exit_code, 0);
+  const std::string before = text("out/study.json");
+  const std::vector<std::vector<std::string>> cases{
+      {"--output", "out", "--only", "table1"},                            // there is a study
+      {"--output", "out", "--resume", "--overwrite"},                     //
+      {"--output", "other", "--resume"},                                  // there is none
+      {"--output", "other", "--only", "table9"},                          //
+      {"--output", "scene.pbrt"},                                         // no folder
+      {"--output", "other", "--full"},                                    // with --quick
+      {"--output", "other", "--scene", "missing.pbrt"},                   //
+      {"--output", "other", "--repeats", "0"},                            //
+      {"--output", "out", "--only", "table1", "--resume", "--spp", "x"},  //
+  };
+  for (const std::vector<std::string>& arguments : cases) {
+    const CommandResult result = report(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.everything();
+    EXPECT_FALSE(result.err.empty());
+  }
+  EXPECT_EQ(text("out/study.json"), before);
+  EXPECT_FALSE(exists("other"));
+  folder_.write_text("out/study.json", "{\"schema\": \"alhazen-study-1\"}");
+  EXPECT_EQ(report({"--output", "out", "--only", "table1", "--resume"}).exit_code, 2);
+}
+
+TEST_F(StudyReport, InterruptedItKeepsWhatItHasAndGoesOn) {
+  without_plots();
+  const std::vector<std::string> arguments{"--output", "out", "--only", "table1,table3"};
+  CommandOptions options;
+  options.signal_when = [](const std::string& err) { return err.find("round 1 of") != std::string::npos ? SIGINT : 0; };
+  const CommandResult interrupted = report(arguments, options, "150");
+  EXPECT_EQ(interrupted.exit_code, 130) << interrupted.everything();
+  const nlohmann::json first = json("out/study.json");
+  EXPECT_EQ(first["complete"], false);
+  EXPECT_NE(text("out/tables.md").find("not run"), std::string::npos);
+  std::vector<std::string> again = arguments;
+  again.emplace_back("--resume");
+  const CommandResult resumed = report(again, {}, "150");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.everything();
+  const nlohmann::json second = json("out/study.json");
+  EXPECT_EQ(second["complete"], true);
+  const auto before = trials_of(first);
+  for (const auto& [key, trial] : trials_of(second)) {
+    EXPECT_EQ(trial["seconds"]["samples"].size(), 2u) << key;
+    if (before.at(key).contains("seconds") && before.at(key)["processor_shares"][0] >= 0.9) {
+      EXPECT_EQ(trial["seconds"]["samples"][0], before.at(key)["seconds"]["samples"][0]) << key;
+    }
+  }
+}
+
+TEST_F(StudyReport, WithoutPythonThereIsAllButPlots) {
+  without_plots();
+  const CommandResult result = report({"--output", "out", "--only", "table2,figure3"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("python3-matplotlib"), std::string::npos) << result.err;
+  EXPECT_FALSE(exists("out/figure3.png"));
+  for (const char* file : {"study.json", "tables.csv", "tables.md", "index.html", "figure3-naive.pfm"})
+    EXPECT_TRUE(exists(std::string("out/") + file)) << file;
+}
+
+bool has_matplotlib() {
+  for (const char* python : {"/usr/bin/python3"})
+    if (run_command({python, "-c", "import matplotlib"}).exit_code == 0) return true;
+  return false;
+}
+
+std::string chromium() {
+  for (const char* path : {"/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"})
+    if (std::filesystem::exists(path)) return path;
+  return {};
+}
+
+size_t count(const std::string& text, const std::string& part) {
+  size_t found = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+/// Plots of every kind are drawn and within the page, which asks for nothing from elsewhere.
+TEST_F(StudyReport, ThePageHoldsItsPlots) {
+  if (!has_matplotlib()) GTEST_SKIP() << "there is no Python with matplotlib here";
+  const CommandResult result =
+      report({"--output", "out", "--only", "table2,table3,engines,queries,balance,figure2,figure3"});
+  ASSERT_EQ(result.exit_code, 0) << result.everything();
+  EXPECT_EQ(result.err.find("no plots"), std::string::npos) << result.err;
+  for (const char* plot : {"headline", "forms", "scaling", "queries", "balance", "figure3"})
+    for (const char* extension : {".png", ".svg"}) EXPECT_TRUE(exists("out/" + std::string(plot) + extension)) << plot;
+  const std::string page = text("out/index.html");
+  EXPECT_EQ(count(page, "<img "), 7u);
+  EXPECT_EQ(count(page, "src=\"data:"), 7u);
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+  EXPECT_EQ(page.find("url("), std::string::npos);
+
+  const std::string browser = chromium();
+  if (browser.empty()) GTEST_SKIP() << "there is no Chromium here to open the page with";
+  // A script that says of every picture whether it could be shown.
+  folder_.write_text("out/checked.html", page +
+                                             "<script>addEventListener('load', () => document.title = 'shown ' + "
+                                             "[...document.images].filter(i => i.naturalWidth > 0).length)</script>");
+  const CommandResult opened =
+      run_command({browser, "--headless", "--no-sandbox", "--disable-gpu", "--user-data-dir=" + folder_.file("browser"),
+                   "--enable-logging=stderr", "--dump-dom", "file://" + folder_.file("out/checked.html")});
+  EXPECT_EQ(opened.exit_code, 0) << opened.err;
+  EXPECT_NE(opened.out.find("<title>shown 7</title>"), std::string::npos) << opened.out.substr(0, 300);
+  EXPECT_EQ(opened.err.find("CONSOLE"), std::string::npos) << opened.err;
+}
+
+TEST_F(StudyReport, TwoCanBeCompared) {
+  without_plots();
+  ASSERT_EQ(report({"--output", "a", "--only", "table1", "-q"}).exit_code, 0);
+  const CommandResult same = run({"study", "compare", "a/study.json", "a/study.json"});
+  EXPECT_EQ(same.exit_code, 0) << same.everything();
+  EXPECT_NE(same.out.find("0 of 4 cells"), std::string::npos) << same.out;
+  nlohmann::json slower = json("a/study.json");
+  for (nlohmann::json& table : slower["tables"])
+    for (nlohmann::json& cell : table["cells"]) {
+      if (cell["row"] != "recursive (Algorithm 3)" || cell["column"] != "float") continue;
+      for (const char* key : {"median", "min", "max"}) cell["seconds"][key] = 100 * cell["seconds"][key].get<double>();
+      cell["nanoseconds_per_sample"] = 100 * cell["nanoseconds_per_sample"].get<double>();
+    }
+  slower["version"] = "another";
+  folder_.write_text("b.json", slower.dump());
+  const nlohmann::json j = only_json(run({"study", "compare", "a/study.json", "b.json", "--json"}).out);
+  EXPECT_EQ(j["compared"], 4);
+  ASSERT_EQ(j["changes"].size(), 1u);
+  EXPECT_NEAR(j["changes"][0]["ratio"].get<double>(), 100, 1e-6);
+  EXPECT_EQ(j["differences"].size(), 1u);
+  EXPECT_EQ(run({"study", "compare", "a/study.json", "missing.json"}).exit_code, 2);
+  EXPECT_EQ(run({"study", "compare", "a/study.json", "scene.pbrt"}).exit_code, 2);
+}
+
+}  // namespace
+
+}  // namespace alhazen::testing

@@ -1,0 +1,128 @@
+// alhazen study tune, and what --backend auto makes of it.
+
+#include "cli/study_fixture.h"
+
+namespace alhazen::testing {
+
+namespace {
+
+class StudyTune : public StudyCommand {
+ protected:
+  /// The statistics of a render of the small scene.
+  nlohmann::json statistics(const std::vector<std::string>& arguments = {}) const {
+    std::vector<std::string> all{"-o", "a.png", "--spp", "4", "-q", "--stats=json"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const CommandResult result = render(all);
+    EXPECT_EQ(result.exit_code, 0) << result.everything();
+    EXPECT_EQ(result.err, "");
+    return only_json(result.out);
+  }
+
+  /// Puts another engine in the place of the one that was found.
+  void store_engine(const nlohmann::json& engine) const {
+    nlohmann::json file = json("config/tuned.json");
+    file["entries"][0]["engine"].update(engine);
+    folder_.write_text("config/tuned.json", file.dump());
+  }
+};
+
+TEST_F(StudyTune, PrintsACommandThatRenders) {
+  const CommandResult result = run({"study", "tune", "scene.pbrt", "--budget", "3"});
+  ASSERT_EQ(result.exit_code, 0) << result.everything();
+  EXPECT_LT(result.seconds, 30);
+  EXPECT_FALSE(exists("config/tuned.json"));
+  const std::string command = lines_of(result.out).back();
+  ASSERT_EQ(command.find("alhazen render scene.pbrt --backend "), 0u) << result.out;
+  std::vector<std::string> words;
+  std::string word;
+  for (const char c : command.substr(std::string("alhazen render scene.pbrt ").size()) + " ") {
+    if (c != ' ') {
+      word += c;
+      continue;
+    }
+    words.push_back(word);
+    word.clear();
+  }
+  words.insert(words.end(), {"--spp", "4", "-o", "tuned.png"});
+  EXPECT_EQ(render(words).exit_code, 0) << command;
+}
+
+TEST_F(StudyTune, WhatIsStoredIsUsedByAutoAlone) {
+  ASSERT_EQ(run({"study", "tune", "scene.pbrt", "--budget", "2", "--store", "-q"}).exit_code, 0);
+  store_engine({{"backend", "openmp"}, {"strategy", "collapse"}, {"schedule", "guided"}, {"threads", 3}});
+  nlohmann::json j = statistics();
+  EXPECT_EQ(j["strategy"], "collapse");
+  EXPECT_EQ(j["schedule"], "guided");
+  EXPECT_EQ(j["threads"], 3);
+  EXPECT_EQ(statistics({"--backend", "serial"})["backend"], "serial");
+  EXPECT_EQ(statistics({"--threads", "2"})["strategy"], "tiles");
+  EXPECT_EQ(statistics({"--precision", "double"})["strategy"], "tiles");  // another key
+  EXPECT_EQ(statistics({"--integrator", "iterative"})["strategy"], "tiles");
+  folder_.write_text("scene.pbrt", cornell_box(24) + "# another file\n");
+  EXPECT_NE(statistics()["strategy"], "collapse");
+}
+
+TEST_F(StudyTune, ADefaultIsForEveryScene) {
+  ASSERT_EQ(run({"study", "tune", "scene.pbrt", "--budget", "2", "--store-default", "-q"}).exit_code, 0);
+  store_engine({{"backend", "openmp"}, {"strategy", "rows"}, {"schedule", "static"}, {"threads", 2}});
+  folder_.write_text("scene.pbrt", cornell_box(24) + "# another file\n");
+  EXPECT_EQ(statistics()["strategy"], "rows");
+  const Bytes before = read_file(folder_.file("config/tuned.json"));
+  ASSERT_EQ(run({"study", "tune", "scene.pbrt", "--budget", "2", "--store", "-q"}).exit_code, 0);
+  EXPECT_EQ(json("config/tuned.json")["entries"].size(), 2u);
+  EXPECT_NE(read_file(folder_.file("config/tuned.json")), before);
+}
+
+/// What is wrong with the file never keeps a picture from being made: there is one warning.
+TEST_F(StudyTune, ABrokenOrStaleFileIsOneWarning) {
+  ASSERT_EQ(run({"study", "tune", "scene.pbrt", "--budget", "2", "--store", "-q"}).exit_code, 0);
+  const std::string good = text("config/tuned.json");
+  nlohmann::json stale = nlohmann::json::parse(good), gone = stale, wrong = stale;
+  stale["entries"][0]["version"] = "0.0.1";
+  gone["entries"][0]["engine"]["backend"] = "abacus";
+  wrong["entries"][0]["engine"]["schedule"] = "never";
+  const std::string texts[] = {"",         "{",          "[]",        "{\"schema\": \"alhazen-tuned-1\"}",
+                               "\xff\xfe", stale.dump(), gone.dump(), wrong.dump()};
+  for (const std::string& text : texts) {
+    folder_.write_text("config/tuned.json", text);
+    const CommandResult result = render({"-o", "a.png", "--spp", "4", "-q"});
+    EXPECT_EQ(result.exit_code, 0) << text << result.everything();
+    const std::vector<std::string> lines = lines_of(result.err);
+    ASSERT_EQ(lines.size(), 1u) << text << result.err;
+    EXPECT_EQ(lines[0].find("warning: "), 0u);
+    EXPECT_NE(lines[0].find("tuned.json"), std::string::npos) << lines[0];
+  }
+  EXPECT_EQ(run({"study", "tune", "scene.pbrt", "--budget", "2"}).exit_code, 0);
+  folder_.write_text("config/tuned.json", "{");
+  const CommandResult store = run({"study", "tune", "scene.pbrt", "--budget", "2", "--store"});
+  EXPECT_EQ(store.exit_code, 2) << store.everything();
+  EXPECT_EQ(text("config/tuned.json"), "{");
+}
+
+TEST_F(StudyTune, TheFileLiesWhereTheVariablesSay) {
+  unsetenv("ALHAZEN_TUNED");
+  set("XDG_CONFIG_HOME", folder_.file("xdg"));
+  EXPECT_EQ(run({"study", "tune", "scene.pbrt", "--budget", "2", "--store", "-q"}).exit_code, 0);
+  EXPECT_TRUE(exists("xdg/alhazen/tuned.json"));
+  unsetenv("XDG_CONFIG_HOME");
+  set("ALHAZEN_TUNED", "");
+  EXPECT_EQ(run({"study", "tune", "scene.pbrt", "--budget", "2", "--store", "-q"}).exit_code, 2);
+}
+
+TEST_F(StudyTune, RefusesBadInput) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"missing.pbrt"},
+                                             {"scene.pbrt", "--budget", "0"},
+                                             {"scene.pbrt", "--precision", "half"},
+                                             {"scene.pbrt", "--store", "--store-default"},
+                                             {}}) {
+    std::vector<std::string> all{"study", "tune"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    EXPECT_EQ(run(all).exit_code, 2);
+  }
+  EXPECT_EQ(run({"study"}).exit_code, 2);
+}
+
+}  // namespace
+
+}  // namespace alhazen::testing
