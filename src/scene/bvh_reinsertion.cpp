@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// Each round looks at this share of the nodes, those of the largest boxes.
+/// One in so many nodes is looked at in each round, those of the largest boxes.
 constexpr size_t share = 20;
 constexpr int rounds = 3;
 /// Below this many nodes there is little to gain.
@@ -52,19 +52,11 @@ class Reinsertion {
   }
 
   void run(int threads) {
-    std::vector<uint32_t> candidates(nodes_.size() - 1);
+    const std::vector<uint32_t> candidates = largest_nodes();
+    std::vector<Move<Real>> moves(candidates.size());
     for (int round = 0; round < rounds; ++round) {
-      for (uint32_t i = 0; i < candidates.size(); ++i) candidates[i] = i + 1;
-      const size_t count = std::max<size_t>(candidates.size() / share, std::min<size_t>(candidates.size(), 64));
-      const auto larger_first = [&](uint32_t a, uint32_t b) {
-        const Real area_a = area_of(nodes_[a]), area_b = area_of(nodes_[b]);
-        return area_a > area_b || (area_a == area_b && a < b);
-      };
-      std::nth_element(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count - 1),
-                       candidates.end(), larger_first);
-      std::vector<Move<Real>> moves(count);
 #pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
-      for (size_t i = 0; i < count; ++i) moves[i] = best_move(candidates[i]);
+      for (size_t i = 0; i < candidates.size(); ++i) moves[i] = best_move(candidates[i]);
       std::sort(moves.begin(), moves.end(), [](const Move<Real>& a, const Move<Real>& b) {
         return a.gain > b.gain || (a.gain == b.gain && a.from < b.from);
       });
@@ -73,6 +65,22 @@ class Reinsertion {
   }
 
  private:
+  std::vector<uint32_t> largest_nodes() const {
+    struct Sized {
+      Real area;
+      uint32_t node;
+    };
+    std::vector<Sized> all(nodes_.size() - 1);
+    for (uint32_t i = 0; i < all.size(); ++i) all[i] = {area_of(nodes_[i + 1]), i + 1};
+    const size_t count = std::max<size_t>(all.size() / share, std::min<size_t>(all.size(), 64));
+    std::nth_element(
+        all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count - 1), all.end(),
+        [](const Sized& a, const Sized& b) { return a.area > b.area || (a.area == b.area && a.node < b.node); });
+    std::vector<uint32_t> largest(count);
+    for (size_t i = 0; i < count; ++i) largest[i] = all[i].node;
+    return largest;
+  }
+
   void set_parent_of_children(uint32_t node) { parents_[nodes_[node].first] = parents_[nodes_[node].first + 1] = node; }
 
   /// Where the subtree would be put best: beside which node. Branch and bound over the rest of the tree, from the
