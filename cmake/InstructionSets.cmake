@@ -5,7 +5,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND ALHAZEN_INSTRUCTION_SETS avx2 avx512)
 endif()
 set(ALHAZEN_FLAGS_avx2 -march=x86-64-v3)
-set(ALHAZEN_FLAGS_avx512 -march=x86-64-v4 -mprefer-vector-width=256)
+set(ALHAZEN_FLAGS_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
 
 function(alhazen_compile_for target set)
   target_compile_definitions(${target} PRIVATE ALHAZEN_ISA=${set})

@@ -113,7 +113,7 @@ class alignas(64) SimdWalk {
   ALHAZEN_INLINE void start(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max) {
     ray_ = &ray;
     box_ = box_ray(ray);
-    sheared_ = shear_ray(ray);
+    sheared_ = scene.triangle_blocks_count > 0 ? shear_ray(ray) : ShearedRay<Real>{};
     hit_ = no_hit_before(t_max);
     t_max_ = simd_limit(t_max);
     height_ = 0;
