@@ -29,14 +29,15 @@ def run(options):
 
 
 def groups_of(report):
-    """{group: {engine: (milliseconds of each repeat, rays or None, bytes a triangle or None)}}"""
+    """{group: {engine: (milliseconds of each repeat, number of rays or None, bytes a triangle or None)}}"""
     groups = {}
     for entry in report["benchmarks"]:
         if entry["run_type"] != "iteration":
             continue
         name = entry["run_name"].removesuffix("/real_time").removesuffix("/manual_time")
         group, engine = name.rsplit("/", 1)
-        line = groups.setdefault(group, {}).setdefault(engine, ([], entry.get("rays"), entry.get("bytes a triangle")))
+        rays = entry["rays"] * entry["real_time"] / 1e3 if "rays" in entry else None
+        line = groups.setdefault(group, {}).setdefault(engine, ([], rays, entry.get("bytes a triangle")))
         line[0].append(entry["real_time"])
     return groups
 
@@ -60,11 +61,11 @@ def main():
     print(row.format("what", "engine", "median ms (min to max)", "Mrays/s", "ratio"))
     if options.markdown:
         print("|---|---|---|---|---|")
-    for group, engines in groups_of(report).items():
+    for group, engines in sorted(groups_of(report).items()):
         embree = engines.get("float embree")
-        for engine, (times, rays, memory) in engines.items():
+        for engine, (times, rays, memory) in sorted(engines.items(), key=lambda line: line[0].split(" ")[::-1]):
             median = statistics.median(times)
-            speed = f"{rays / 1e6:.2f}" if rays else f"{memory:.0f} B/tri" if memory else ""
+            speed = f"{rays / median / 1e3:.1f}" if rays else f"{memory:.0f} B/tri" if memory else ""
             ratio = f"{statistics.median(embree[0]) / median:.2f}" if embree else ""
             print(row.format(group, engine, f"{median:.1f} ({min(times):.1f} to {max(times):.1f})", speed, ratio))
 

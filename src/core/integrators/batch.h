@@ -110,7 +110,7 @@ class PathBatch {
   }
 
   void shade_all() {
-    constexpr uint32_t ahead = 4;
+    constexpr uint32_t ahead = 8;
     const auto prefetch = [&](uint32_t i) {
       const Lane& lane = lanes_[active_[i]];
       if (lane.has_met) prefetch_vertices(scene_, lane.hit.primitive);
