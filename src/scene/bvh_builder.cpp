@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cstdlib>
-#include <memory>
-#include <new>
 
 #include "core/simd/lanes.h"
+#include "scene/large_array.h"
 
 namespace alhazen {
 
@@ -129,21 +127,17 @@ struct Split {
   int bin = 0;    ///< the first bin of the right side
 };
 
-struct FreeMemory {
-  void operator()(void* p) const { std::free(p); }
-};
-
 template <class Real>
 class Builder {
  public:
   Builder(std::span<const Bounds3<Real>> boxes, const BvhOptions& options)
-      : options_(options), references_(new Reference<Real>[boxes.size()]), count_(static_cast<uint32_t>(boxes.size())) {
+      : options_(options),
+        references_(boxes.size()),
+        nodes_(2 * boxes.size()),
+        count_(static_cast<uint32_t>(boxes.size())) {
     team_ = count_ < task_size ? 1 : options.threads > 0 ? options.threads : omp_get_max_threads();
 #pragma omp parallel for num_threads(team_)
     for (uint32_t i = 0; i < count_; ++i) references_[i] = {boxes[i].low, i, boxes[i].high, 0};
-    // Pages of the upper bound 2 n - 1 are touched only as far as nodes are made.
-    nodes_.reset(static_cast<BvhNode<Real>*>(std::calloc(2 * size_t{count_}, sizeof(BvhNode<Real>))));
-    if (!nodes_) throw std::bad_alloc();
   }
 
   BvhTree<Real> build() {
@@ -153,7 +147,7 @@ class Builder {
     BvhTree<Real> tree;
     tree.order.resize(count_);
     for (uint32_t i = 0; i < count_; ++i) tree.order[i] = references_[i].index;
-    references_.reset();
+    references_.clear();
     tree.nodes.reserve(next_node_);
     tree.nodes.emplace_back();
     number_depth_first(0, 0, tree.nodes);
@@ -244,7 +238,7 @@ class Builder {
   }
 
   uint32_t partition(uint32_t begin, uint32_t end, const Binning<Real>& binning, const Split& split) {
-    Reference<Real>* const first = references_.get();
+    Reference<Real>* const first = references_.begin();
     const auto middle = std::partition(first + begin, first + end, [&](const Reference<Real>& reference) {
       return binning.bin_of(reference, split.axis) < split.bin;
     });
@@ -253,7 +247,7 @@ class Builder {
 
   uint32_t halve(uint32_t begin, uint32_t end, int axis) {
     const uint32_t middle = begin + (end - begin) / 2;
-    Reference<Real>* const first = references_.get();
+    Reference<Real>* const first = references_.begin();
     std::nth_element(first + begin, first + middle, first + end,
                      [&](const Reference<Real>& a, const Reference<Real>& b) {
                        const Real ca = a.center()[axis], cb = b.center()[axis];
@@ -267,7 +261,7 @@ class Builder {
     const bool parallel = count >= parallel_binning_size;
     const RangeBounds<Real> range = parallel ? parallel_bounds(begin, end) : bounds_of(begin, end);
     const Bounds3<Real> boxes = range.boxes.bounds(), centers = range.centers.bounds();
-    BvhNode<Real>& node = nodes_.get()[node_index];
+    BvhNode<Real>& node = nodes_[node_index];
     node.corners[0] = boxes.low;
     node.corners[1] = boxes.high;
     const Binning<Real> binning(centers, bins_for(count));
@@ -299,7 +293,7 @@ class Builder {
 
   /// Threads number nodes in the order in which they come; this makes the order that of the tree alone.
   void number_depth_first(uint32_t from, uint32_t to, std::vector<BvhNode<Real>>& out) const {
-    BvhNode<Real> node = nodes_.get()[from];
+    BvhNode<Real> node = nodes_[from];
     const uint32_t children = node.first;
     if (node.count == 0) {
       node.first = static_cast<uint32_t>(out.size());
@@ -312,10 +306,10 @@ class Builder {
   }
 
   BvhOptions options_;
-  std::unique_ptr<Reference<Real>[]> references_;
+  LargeArray<Reference<Real>> references_;
+  LargeArray<BvhNode<Real>> nodes_;  ///< as many as there can be, 2 n - 1
   uint32_t count_;
   int team_;
-  std::unique_ptr<BvhNode<Real>, FreeMemory> nodes_;
   std::atomic<uint32_t> next_node_{1};
 };
 

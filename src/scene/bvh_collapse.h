@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/bvh/node.h"
+#include "scene/large_array.h"
 
 namespace alhazen {
 
@@ -25,8 +26,12 @@ class BvhCollapse {
   /// `boxes` are those of the primitives in the order of the leaves.
   BvhCollapse(std::span<const BvhNode<Real>> nodes, std::span<const Bounds3<Real>> boxes, const LeafCost& leaf_cost,
               int threads)
-      : source_(nodes), boxes_(boxes), leaf_cost_(leaf_cost), threads_(threads) {
-    binary_.reserve(2 * boxes.size());
+      : source_(nodes),
+        boxes_(boxes),
+        leaf_cost_(leaf_cost),
+        threads_(threads),
+        binary_(2 * boxes.size()),
+        choices_(2 * boxes.size()) {
     add_node(0);
     choose();
   }
@@ -70,15 +75,15 @@ class BvhCollapse {
   void add_node(uint32_t source) {
     const BvhNode<Real>& node = source_[source];
     if (node.count > 0) return add_range(node.first, node.count);
-    const uint32_t own = static_cast<uint32_t>(binary_.size());
-    binary_.emplace_back();
+    const uint32_t own = binary_count_++;
+    binary_[own] = {};
     add_node(node.first);
     join(own, [&] { add_node(node.first + 1); });
   }
 
   void add_range(uint32_t first, uint32_t count) {
-    const uint32_t own = static_cast<uint32_t>(binary_.size());
-    binary_.emplace_back();
+    const uint32_t own = binary_count_++;
+    binary_[own] = {};
     if (count == 1 || leaf_cost_(first, count) < std::numeric_limits<float>::infinity()) {
       BinaryNode& node = binary_[own];
       node.first = first;
@@ -92,7 +97,7 @@ class BvhCollapse {
 
   template <class AddRight>
   void join(uint32_t own, const AddRight& add_right) {
-    const uint32_t right = static_cast<uint32_t>(binary_.size());
+    const uint32_t right = binary_count_;
     add_right();
     BinaryNode& node = binary_[own];
     const BinaryNode &l = binary_[own + 1], &r = binary_[right];
@@ -106,10 +111,9 @@ class BvhCollapse {
   /// The nodes below a node stand behind it without gaps: subtrees of some size are chosen for side by side, then the
   /// few nodes above them.
   void choose() {
-    choices_.resize(binary_.size());
     std::vector<uint32_t> above;
     std::vector<std::pair<uint32_t, uint32_t>> subtrees;
-    std::vector<std::pair<uint32_t, uint32_t>> pending{{0u, static_cast<uint32_t>(binary_.size())}};
+    std::vector<std::pair<uint32_t, uint32_t>> pending{{0u, binary_count_}};
     constexpr uint32_t subtree_size = 1u << 15;
     while (!pending.empty()) {
       const auto [begin, end] = pending.back();
@@ -131,7 +135,7 @@ class BvhCollapse {
 
   void choose_for(uint32_t index) {
     const BinaryNode& node = binary_[index];
-    Choices& c = choices_[index];
+    Choices& c = choices_[index] = {};
     const float half_area = static_cast<float>(node.box.half_area());
     const float area = half_area < 1e30f ? half_area : 1e30f;
     const bool is_leaf = node.right == no_child;
@@ -178,8 +182,9 @@ class BvhCollapse {
   std::span<const Bounds3<Real>> boxes_;
   const LeafCost& leaf_cost_;
   int threads_;
-  std::vector<BinaryNode> binary_;
-  std::vector<Choices> choices_;
+  LargeArray<BinaryNode> binary_;
+  uint32_t binary_count_ = 0;
+  LargeArray<Choices> choices_;
 };
 
 }  // namespace alhazen

@@ -5,15 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/large_array.h"
+
 namespace alhazen {
 
 namespace {
 
 /// One in so many nodes is looked at in each round, those of the largest boxes.
 constexpr size_t share = 20;
-constexpr int rounds = 3;
+constexpr int rounds = 2;
 /// Below this many nodes there is little to gain.
 constexpr size_t fewest_nodes = 8;
+/// Below this many it is not worth waking other threads.
+constexpr size_t fewest_shared_nodes = 8192;
 /// A search ends after so many nodes, where boxes overlap so much that bounds rule nothing out.
 constexpr int most_visits = 4096;
 
@@ -52,7 +56,7 @@ class Reinsertion {
   }
 
   void run(int threads) {
-    const std::vector<uint32_t> candidates = largest_nodes();
+    const std::vector<uint32_t> candidates = largest_nodes(threads);
     std::vector<Move<Real>> moves(candidates.size());
     for (int round = 0; round < rounds; ++round) {
 #pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
@@ -65,12 +69,13 @@ class Reinsertion {
   }
 
  private:
-  std::vector<uint32_t> largest_nodes() const {
+  std::vector<uint32_t> largest_nodes(int threads) const {
     struct Sized {
       Real area;
       uint32_t node;
     };
-    std::vector<Sized> all(nodes_.size() - 1);
+    LargeArray<Sized> all(nodes_.size() - 1);
+#pragma omp parallel for num_threads(threads)
     for (uint32_t i = 0; i < all.size(); ++i) all[i] = {area_of(nodes_[i + 1]), i + 1};
     const size_t count = std::max<size_t>(all.size() / share, std::min<size_t>(all.size(), 64));
     std::nth_element(
@@ -94,7 +99,8 @@ class Reinsertion {
     if (parents_[from] == 0) return best;  // its parent is the root, which stays
     const Bounds3<Real> box = box_of(nodes_[from]);
     const Real area = box.half_area();
-    std::vector<Place> stack;
+    thread_local std::vector<Place> stack;
+    stack.clear();
     uint32_t pivot = parents_[from], side = sibling_of(from);
     Bounds3<Real> without = box_of(nodes_[side]);  // the pivot's box once the subtree is gone
     Real gain = area_of(nodes_[pivot]);
@@ -221,7 +227,8 @@ template <class Real>
 void reinsert_subtrees(BvhTree<Real>& tree, int threads) {
   if (tree.nodes.size() < fewest_nodes || !std::isfinite(area_of(tree.nodes[0]))) return;
   std::vector<BvhNode<Real>> nodes = tree.nodes;
-  Reinsertion<Real>(nodes).run(threads > 0 ? threads : omp_get_max_threads());
+  const int team = threads > 0 ? threads : omp_get_max_threads();
+  Reinsertion<Real>(nodes).run(nodes.size() < fewest_shared_nodes ? 1 : team);
   Renumbering<Real> renumbering(nodes, tree.order);
   if (renumbering.run()) tree = std::move(renumbering.tree());
 }

@@ -282,9 +282,9 @@ class Flattener {
     order_primitives(tree.order);
     out_.nodes = std::move(tree.nodes);
     if (trees.wide || trees.simd) {
-      std::vector<Bounds3<Real>> ordered;
-      ordered.reserve(tree.order.size());
-      for (const uint32_t i : tree.order) ordered.push_back(boxes[i]);
+      std::vector<Bounds3<Real>> ordered(tree.order.size());
+#pragma omp parallel for if (ordered.size() > 65'536)
+      for (size_t i = 0; i < ordered.size(); ++i) ordered[i] = boxes[tree.order[i]];
       std::vector<Bounds3<Real>>().swap(boxes);
       if constexpr (sizeof(Real) == sizeof(float))
         if (trees.wide) add_wide_bvh(ordered);

@@ -24,19 +24,19 @@ std::array<uint32_t, 8> octant_slots(const Vec3<Real> (&offsets)[8], uint32_t co
       cost[c][slot] = std::isnan(sum) ? 0 : sum;  // of boxes beyond all bounds: it must not upset the order
     }
   std::array<uint32_t, 8> slots{};
-  uint32_t placed = 0, used = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    uint32_t best_child = 8, best_slot = 0;
+  uint32_t left = (1u << count) - 1, used = 0;
+  while (left != 0) {
+    uint32_t best_child = 0, best_slot = 8;
     for (uint32_t c = 0; c < count; ++c) {
-      if (placed >> c & 1) continue;
+      if (!(left >> c & 1)) continue;
       for (uint32_t slot = 0; slot < 8; ++slot)
-        if (!(used >> slot & 1) && (best_child == 8 || cost[c][slot] < cost[best_child][best_slot])) {
+        if (!(used >> slot & 1) && (best_slot == 8 || cost[c][slot] < cost[best_child][best_slot])) {
           best_child = c;
           best_slot = slot;
         }
     }
     slots[best_child] = best_slot;
-    placed |= 1u << best_child;
+    left &= ~(1u << best_child);
     used |= 1u << best_slot;
   }
   return slots;

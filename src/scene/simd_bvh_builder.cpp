@@ -195,7 +195,8 @@ class SimdBuilder {
 template <class Real>
 void build_simd_bvh(std::span<const BvhNode<Real>> tree, std::span<const Bounds3<Real>> boxes, int threads,
                     SceneArrays<Real>& scene) {
-  const int team = threads > 0 ? threads : omp_get_max_threads();
+  constexpr size_t fewest_shared_nodes = 8192;  // below, it is not worth waking other threads
+  const int team = tree.size() < fewest_shared_nodes ? 1 : threads > 0 ? threads : omp_get_max_threads();
   if (!tree.empty()) SimdBuilder<Real>(tree, boxes, team, scene).run();
 }
 
