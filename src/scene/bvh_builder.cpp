@@ -277,6 +277,7 @@ class Builder {
     if (split.axis < 0 && count <= options_.max_leaf) {
       node.first = begin;
       node.count = static_cast<uint16_t>(count);
+      node.axis = 0;
       return;
     }
     const int axis = split.axis < 0 ? max_axis(centers.diagonal()) : split.axis;
