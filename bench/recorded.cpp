@@ -33,9 +33,12 @@ struct Recorder {
   }
 };
 
-std::string knot_text() {
+std::string mesh_file() {
   const char* mesh = std::getenv("ALHAZEN_BENCH_MESH");
-  const std::string file = mesh ? mesh : ALHAZEN_SOURCE_DIR "/scenes/knot.ply.gz";
+  return mesh ? mesh : ALHAZEN_SOURCE_DIR "/scenes/knot.ply.gz";
+}
+
+std::string knot_text() {
   return R"(Integrator "path" "integer maxdepth" 8
 Scale -1 1 1
 LookAt 0.8 4.7 10.8  0.1 1.35 0  0 1 0
@@ -55,13 +58,14 @@ Translate 0 2.1 -0.6
 Rotate 14 0 1 0
 Rotate -16 1 0 0
 Shape "plymesh" "string filename" ")" +
-         file + "\"\n";
+         mesh_file() + "\"\n";
 }
 
 }  // namespace
 
 Scene read_bench_scene(const std::string& name) {
   Diagnostics diagnostics;
+  if (name == "mesh") return read_scene(mesh_file(), diagnostics);
   if (name == "knot") return parse_pbrt(knot_text(), "knot.pbrt", "", diagnostics);
   return read_scene(ALHAZEN_SOURCE_DIR "/scenes/" + name + ".pbrt", diagnostics);
 }

@@ -24,6 +24,7 @@ enum RaySet { primary, bounce, shuffled, shadow };
 inline constexpr const char* bench_scenes[] = {"weekend", "cornell", "knot"};
 inline constexpr uint32_t bench_width = 480, bench_height = 160, bench_samples = 16, bench_segments = 9;
 
+/// One of these, or `mesh`: the mesh of `knot` alone.
 Scene read_bench_scene(const std::string& name);
 
 template <class Real>

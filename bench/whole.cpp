@@ -55,8 +55,10 @@ void build_ours(benchmark::State& state, const std::string& scene) {
 
 #if defined(ALHAZEN_WITH_EMBREE)
 void build_embree(benchmark::State& state, const std::string& scene) {
-  const Recorded<float>& recorded = Recorded<float>::of(scene);
-  for (auto _ : state) PlainEmbree(recorded.flat.view, processors());
+  Diagnostics diagnostics;
+  const FlatScene<float> flat =
+      flatten<float>(read_bench_scene(scene), FlattenOptions{64, 64, processors(), {.binary = false}}, diagnostics);
+  for (auto _ : state) PlainEmbree(flat.view, processors());
 }
 #endif
 
@@ -67,17 +69,19 @@ const bool is_registered = [] {
     benchmark::RegisterBenchmark(("whole/" + scene + "/double path").c_str(), render<double>, scene)
         ->Unit(benchmark::kMillisecond);
   }
-  benchmark::RegisterBenchmark("build/knot/float ours", build_ours<float>, "knot")
-      ->Unit(benchmark::kMillisecond)
-      ->UseManualTime();
-  benchmark::RegisterBenchmark("build/knot/double ours", build_ours<double>, "knot")
-      ->Unit(benchmark::kMillisecond)
-      ->UseManualTime();
+  for (const std::string scene : {"knot", "mesh"}) {
+    benchmark::RegisterBenchmark(("build/" + scene + "/float ours").c_str(), build_ours<float>, scene)
+        ->Unit(benchmark::kMillisecond)
+        ->UseManualTime();
+    benchmark::RegisterBenchmark(("build/" + scene + "/double ours").c_str(), build_ours<double>, scene)
+        ->Unit(benchmark::kMillisecond)
+        ->UseManualTime();
 #if defined(ALHAZEN_WITH_EMBREE)
-  benchmark::RegisterBenchmark("build/knot/float embree", build_embree, "knot")
-      ->Unit(benchmark::kMillisecond)
-      ->UseRealTime();
+    benchmark::RegisterBenchmark(("build/" + scene + "/float embree").c_str(), build_embree, scene)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
 #endif
+  }
   return true;
 }();
 
