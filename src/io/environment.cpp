@@ -47,15 +47,21 @@ std::string environment_fault(const ImageTexels& map) {
 
 double upward_irradiance(const ImageTexels& map) {
   const SphereMapping mapping = map.width == map.height ? SphereMapping::octahedral : SphereMapping::equirectangular;
-  const double texel_area = 1.0 / map.width / map.height;
+  // Small maps are integrated at several points a texel, since the horizon cuts through texels.
+  const int parts = std::max(1, 512 / map.height);
+  const double width = static_cast<double>(map.width) * parts, height = static_cast<double>(map.height) * parts;
+  const auto weight = [&](int x, int y) {
+    const Vec3d d = direction_of_square(mapping, Vec2d{(x + 0.5) / width, (y + 0.5) / height});
+    return d.z > 0 ? d.z * solid_angle_of_square(mapping, d) / (width * height) : 0;
+  };
   double sum = 0;
   const float* texel = map.floats.data();
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x, texel += 3) {
-      const Vec3d d = direction_of_square(mapping, Vec2d{(x + 0.5) / map.width, (y + 0.5) / map.height});
-      if (d.z <= 0) continue;
+      double texel_weight = 0;
+      for (int i = 0; i < parts * parts; ++i) texel_weight += weight(x * parts + i % parts, y * parts + i / parts);
       const Vec3d colour{static_cast<double>(texel[0]), static_cast<double>(texel[1]), static_cast<double>(texel[2])};
-      sum += luminance(colour) * d.z * solid_angle_of_square(mapping, d) * texel_area;
+      sum += luminance(colour) * texel_weight;
     }
   return sum;
 }

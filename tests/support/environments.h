@@ -64,6 +64,12 @@ inline Scene lit_by(Scene scene, ImageTexels map, const Frame<double>& axes = ma
   return scene;
 }
 
+/// Nothing but a map.
+inline Scene map_alone(ImageTexels map, const Frame<double>& axes = map_as_world, double scale = 1) {
+  Scene scene;
+  return lit_by(std::move(scene), std::move(map), axes, scale);
+}
+
 /// Integral over the sphere of `value(direction)` by the midpoints of side x side equal areas.
 template <class Value>
 double integral_over_sphere(int side, const Value& value) {

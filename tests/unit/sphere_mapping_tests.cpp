@@ -82,7 +82,7 @@ TYPED_TEST(SphereMappings, LookUpsAreContinuous) {
   for (const int width : {16, 32}) {
     const ImageTexels map = sun_map(width, 16, 2);
     for (const Frame<double>& axes : {map_as_world, map_askew()}) {
-      const FlatScene<Real> scene = flat_scene<Real>(lit_by({}, map, axes));
+      const FlatScene<Real> scene = flat_scene<Real>(map_alone(map, axes));
       const EnvironmentRecord<Real>& record = scene.view.environments[0];
       ImageTexels copy = map;
       for (int y = 0; y < 16; ++y)
@@ -110,7 +110,7 @@ TYPED_TEST(SphereMappings, NotANumber) {
   using Real = TypeParam;
   const Real nan = std::numeric_limits<Real>::quiet_NaN();
   for (const int width : {4, 8}) {
-    const FlatScene<Real> scene = flat_scene<Real>(lit_by({}, even_map(width, 4, 1)));
+    const FlatScene<Real> scene = flat_scene<Real>(map_alone(even_map(width, 4, 1)));
     for (const Vec3<Real>& d : {Vec3<Real>{nan, 0, 1}, Vec3<Real>{0, nan, 0}, Vec3<Real>{nan, nan, nan}}) {
       EXPECT_TRUE(is_zero(evaluate_environment(scene.view, scene.view.environments[0], d)));
       EXPECT_EQ(pdf_environment(scene.view, scene.view.environments[0], d), Real(0));
