@@ -89,7 +89,7 @@ TYPED_TEST(EnvironmentSampling, RadianceOverDensityIsTheIntegral) {
   for (const MapCase& c : cases) {
     const FlatScene<Real> scene = flat_scene<Real>(map_alone(c.map, c.axes));
     const EnvironmentRecord<Real>& map = scene.view.environments[0];
-    const double expected = integral_over_sphere(2048, [&](const Vec3d& d) {
+    const double expected = integral_over_sphere(1024, [&](const Vec3d& d) {
       return static_cast<double>(evaluate_environment(scene.view, map, convert<Real>(d)).y);
     });
     Moments moments;
@@ -181,7 +181,7 @@ TYPED_TEST(EnvironmentSampling, IntegratorsAgree) {
             << moments[j].standard_error();
     // Next-event estimation is what finds a sun.
     EXPECT_LT(moments[3].standard_error(), 0.7 * moments[2].standard_error());
-    EXPECT_LT(moments[2].standard_error(), 0.01 * moments[2].mean()) << "the test is blunt";
+    EXPECT_LT(moments[2].standard_error(), (is_sanitized ? 0.06 : 0.01) * moments[2].mean()) << "the test is blunt";
   }
 }
 
@@ -199,7 +199,7 @@ TYPED_TEST(EnvironmentSampling, IrradianceOfAPlane) {
   for (const MapCase& c : map_cases()) {
     const FlatScene<Real> scene = flat_scene<Real>(lit_by(described_scene(plane), c.map, c.axes));
     const EnvironmentRecord<Real>& map = scene.view.environments[0];
-    const double irradiance = integral_over_sphere(2048, [&](const Vec3d& d) {
+    const double irradiance = integral_over_sphere(1024, [&](const Vec3d& d) {
       const Vec3d radiance = convert<double>(evaluate_environment(scene.view, map, convert<Real>(d)));
       return luminance(radiance) * std::max(d.z, 0.0);
     });
