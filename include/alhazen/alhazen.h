@@ -31,6 +31,9 @@ struct Settings {
   std::string device;               ///< cuda, optix: number of the GPU, or all; cuda: host, the same kernels on the CPU
   std::string block;                ///< cuda, pixel and chunk: threads of a block, WxH
   std::string chunk;                ///< cuda, chunk: chunks in each direction, WxH
+  /// Map of the whole sphere that replaces the infinite lights of the scene: twice as wide as high (equirectangular) or
+  /// square (equal-area octahedral). Its top is towards +y, its middle towards -z.
+  std::string environment;
   int64_t samples_per_pixel = 0;
   int64_t max_depth = -1;         ///< bounces: a path has at most max_depth + 1 segments
   int64_t width = 0, height = 0;  ///< pixels

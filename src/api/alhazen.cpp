@@ -1,5 +1,6 @@
 #include "alhazen/alhazen.h"
 
+#include "io/environment.h"
 #include "io/read_scene.h"
 #include "render/renderer.h"
 
@@ -14,6 +15,7 @@ const float* Picture::plane(const std::string& channel) const {
 Picture render(const std::string& scene_file, const Settings& settings, const ProgressFunction& progress) {
   Diagnostics diagnostics;
   Scene scene = read_scene(scene_file, diagnostics);
+  if (!settings.environment.empty()) use_environment(scene, settings.environment);
   const RenderSettings resolved = resolve_settings(settings, scene);
   const Rendering rendering = render_scene(std::move(scene), resolved, 0, RenderEvents{progress, {}}, diagnostics);
   const ImageSource source = rendering.source();

@@ -11,6 +11,7 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/subcommands.h"
+#include "io/environment.h"
 #include "io/read_scene.h"
 #include "render/renderer.h"
 #include "study/tuned.h"
@@ -129,6 +130,7 @@ int run(RenderOptions& options) {
   Diagnostics diagnostics;
   const auto start = std::chrono::steady_clock::now();
   Scene scene = read_scene(options.scene, diagnostics);
+  if (!options.settings.environment.empty()) use_environment(scene, options.settings.environment);
   const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene);
@@ -182,6 +184,12 @@ void add_picture_options(CLI::App& command, RenderOptions& o) {
       .add_option("--integrator", o.settings.integrator,
                   "path (next-event estimation), or emission by chance: iterative, recursive, branching")
       ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--environment", o.settings.environment,
+                  "Light the scene by this map (EXR, HDR, ...) instead of by its infinite lights: 2:1 "
+                  "(equirectangular) or square (octahedral), +y up, its middle towards -z")
+      ->type_name("FILE")
       ->group(group);
   command.add_option("--sampler", o.settings.sampler, "sobol or independent")->type_name("NAME")->group(group);
   command.add_option("--seed", o.seed, "Another number, other noise")->type_name("N")->group(group);

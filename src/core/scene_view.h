@@ -45,6 +45,8 @@ namespace ALHAZEN_CORE {
   ARRAY(Real, srgb_decode_table)                       \
   ARRAY(uint8_t, noise_permutation)                    \
   ARRAY(LightRecord<Real>, lights)                     \
+  ARRAY(EnvironmentRecord<Real>, environments)         \
+  ARRAY(Real, environment_cdf)                         \
   ARRAY(Real, light_cdf)                               \
   ARRAY(Real, filter_cdf)
 

@@ -3,11 +3,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/flatten_environment.h"
+
 namespace alhazen {
 
 namespace {
 
-bool is_at_infinity(LightKind kind) { return kind == LightKind::distant || kind == LightKind::constant_infinite; }
+bool is_at_infinity(LightKind kind) {
+  return kind == LightKind::distant || kind == LightKind::constant_infinite || kind == LightKind::environment;
+}
 
 /// Emitted power, W, by luminance; of lights at infinity the irradiance, W / m^2, that they make.
 template <class Real>
@@ -23,6 +27,7 @@ double light_weight(const LightRecord<Real>& light, double area) {
     case LightKind::distant:
       return amount;
     case LightKind::constant_infinite:
+    case LightKind::environment:
       return amount * std::numbers::pi;
     default:
       return amount * std::numbers::pi * area * (light.two_sided ? 2 : 1);
@@ -34,7 +39,7 @@ double cos_degrees(double angle) { return std::cos(angle * std::numbers::pi / 18
 }  // namespace
 
 template <class Real>
-void add_described_lights(const Scene& scene, SceneArrays<Real>& out, SceneView<Real>& view) {
+void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>& view) {
   Vec3d background{};
   for (const Light& light : scene.lights) {
     if (!is_finite(light.radiance) || !is_finite(light.position) || !is_finite(light.direction))
@@ -46,6 +51,9 @@ void add_described_lights(const Scene& scene, SceneArrays<Real>& out, SceneView<
     switch (light.type) {
       case LightType::constant_infinite:
         background += light.radiance;
+        continue;
+      case LightType::environment:
+        add_environment(light, scene, out);
         continue;
       case LightType::point:
         record.kind = LightKind::point;
@@ -91,8 +99,8 @@ void assign_light_probabilities(const std::vector<double>& areas, SceneArrays<Re
   }
 }
 
-template void add_described_lights(const Scene&, SceneArrays<float>&, SceneView<float>&);
-template void add_described_lights(const Scene&, SceneArrays<double>&, SceneView<double>&);
+template void add_described_lights(Scene&, SceneArrays<float>&, SceneView<float>&);
+template void add_described_lights(Scene&, SceneArrays<double>&, SceneView<double>&);
 template void assign_light_probabilities(const std::vector<double>&, SceneArrays<float>&);
 template void assign_light_probabilities(const std::vector<double>&, SceneArrays<double>&);
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/math/frame.h"
 #include "core/math/vec.h"
 #include "core/sampling/any_sampler.h"
 #include "core/textures/kinds.h"
@@ -126,6 +127,7 @@ struct Instance {
 
 enum class LightType {
   constant_infinite,  ///< `radiance` from every direction
+  environment,        ///< `radiance` is a factor on the map `environment`, from every direction
   point,              ///< `radiance` is intensity, W / sr, at `position`
   distant,            ///< `radiance` is irradiance at normal incidence, W / m^2, travelling along `direction`
   spot,               ///< as point, about `direction`, falling off from `cone_falloff_start` to `cone_angle`
@@ -134,10 +136,12 @@ enum class LightType {
 struct Light {
   LightType type = LightType::constant_infinite;
   Vec3d radiance;
-  Vec3d position;             ///< world space
-  Vec3d direction{0, 0, 1};   ///< world space, unit length, the way the light travels
-  double cone_angle = 30;     ///< spot: degrees from the axis to darkness
-  double falloff_start = 25;  ///< spot: degrees from the axis to where the falloff begins
+  Vec3d position;                                       ///< world space
+  Vec3d direction{0, 0, 1};                             ///< world space, unit length, the way the light travels
+  double cone_angle = 30;                               ///< spot: degrees from the axis to darkness
+  double falloff_start = 25;                            ///< spot: degrees from the axis to where the falloff begins
+  uint32_t environment = no_index;                      ///< index into Scene::environments
+  Frame<double> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< environment: x, y, z of the map in world space, orthonormal
   SourceLocation where;
 };
 
@@ -194,6 +198,9 @@ struct Scene {
   std::vector<ShapeGroup> groups{1};
   std::vector<Instance> instances;
   std::vector<Light> lights;
+  /// Maps of lights, of floats that are finite and not negative: square ones are equal-area octahedral, those twice as
+  /// wide as high equirectangular (core/lights/sphere_mapping.h). Each belongs to one light.
+  std::vector<ImageTexels> environments;
 };
 
 }  // namespace alhazen

@@ -44,7 +44,7 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--spp",        "--max-depth", "--maxdepth", "--size",    "--crop",     "--cropwindow", "--pixelbounds",
       "--integrator", "--sampler",   "--seed",     "--backend", "--strategy", "--schedule",   "--threads",
       "--nthreads",   "--precision", "--progress", "--quiet",   "--verbose",  "--stats",      "--time-limit",
-      "--checkpoint", "--resume",    "--device",   "--block",   "--chunk",    "--denoise"};
+      "--checkpoint", "--resume",    "--device",   "--block",   "--chunk",    "--denoise",    "--environment"};
   const CommandResult help = run({"render", "--help"});
   EXPECT_EQ(help.exit_code, 0);
   std::set<std::string> named;

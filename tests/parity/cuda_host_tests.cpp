@@ -59,6 +59,15 @@ INSTANTIATE_TEST_SUITE_P(Parity, CudaOnHost,
                                             ::testing::Values("path", "iterative"),
                                             ::testing::Values("sobol", "independent")));
 
+TEST(CudaOnHostLights, EnvironmentMaps) {
+  for (const std::string precision : {"float", "double"})
+    for (const std::string integrator : {"path", "iterative"}) {
+      Settings serial = serial_settings(precision);
+      serial.integrator = integrator;
+      expect_serial_bits(parity_scene("environments"), serial);
+    }
+}
+
 TEST(CudaOnHostSizes, OnePixel) {
   Settings serial = serial_settings("float");
   serial.width = serial.height = 1;

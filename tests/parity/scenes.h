@@ -1,9 +1,10 @@
 #pragma once
 
-// The two scenes of the parity tests, read once.
+// The scenes of the parity tests, read once.
 
 #include "io/images/image.h"
 #include "support/bits.h"
+#include "support/environments.h"
 #include "support/scene_files.h"
 #include "support/temporary_folder.h"
 
@@ -19,10 +20,31 @@ inline Scene read_spheres() {
   return scene_of(many_spheres(parity_width, parity_height, folder.file("photo.png")));
 }
 
+/// Under two maps and a constant light, in a picture of the same size.
+inline Scene read_environments() {
+  Scene scene = scene_of(R"(LookAt 0 -5 2  0 0 0.4  0 0 1
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 20 "integer yresolution" 17
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.1 0.2 0.3 ]
+Shape "trianglemesh" "point3 P" [ -9 -9 0  9 -9 0  9 9 0  -9 9 0 ] "integer indices" [ 0 1 2 0 2 3 ]
+Material "conductor" "rgb reflectance" [ 0.9 0.8 0.7 ] "float roughness" 0.1
+AttributeBegin Translate -0.7 0 0.6 Shape "sphere" "float radius" 0.6 AttributeEnd
+Material "dielectric" "float eta" 1.5
+AttributeBegin Translate 0.7 0 0.6 Shape "sphere" "float radius" 0.6 AttributeEnd
+)");
+  scene = test::lit_by(std::move(scene), test::sun_map(32, 16, 200));
+  return test::lit_by(std::move(scene), test::lamps_map(16, 16), test::map_askew());
+}
+
 inline const Scene& parity_scene(const std::string& name) {
   if (name == "cornell") {
     static const Scene cornell = scene_of(cornell_box(parity_height));
     return cornell;
+  }
+  if (name == "environments") {
+    static const Scene environments = read_environments();
+    return environments;
   }
   static const Scene spheres = read_spheres();
   return spheres;

@@ -95,9 +95,20 @@ INSTANTIATE_TEST_SUITE_P(Parity, EveryKernel,
                                             ::testing::Values("path", "iterative", "recursive", "branching"),
                                             ::testing::Values("sobol", "independent")));
 
+TEST(Parity, EnvironmentMapsByEveryStrategy) {
+  for (const std::string precision : {"float", "double"})
+    for (const std::string integrator : {"path", "iterative", "recursive", "branching"}) {
+      Settings serial = serial_settings(precision);
+      serial.integrator = integrator;
+      const Expected expected(parity_scene("environments"), serial);
+      for (const std::string& strategy : strategies)
+        expect_same(parity_scene("environments"), expected, strategy, "dynamic,1", 2);
+    }
+}
+
 TEST(Parity, TheSceneShowsEverythingThatItIsMadeFor) {
   // Pictures that are black would be the same bits as well.
-  for (const std::string scene : {"cornell", "spheres"}) {
+  for (const std::string scene : {"cornell", "spheres", "environments"}) {
     const Outcome outcome = render_bits(parity_scene(scene), serial_settings("float"));
     const size_t width = static_cast<size_t>(outcome.width), row = width * outcome.channels.size();
     for (size_t c = 0; c < outcome.channels.size(); ++c) {

@@ -126,12 +126,5 @@ TEST(PbrtTextures, ImagesAreReadOnceForEachUse) {
   EXPECT_EQ(grey.floats, (std::vector<float>{0.5f, 0.5f, 0.5f, 1, 1, 1}));
 }
 
-TEST(PbrtTextures, PicturesOfTheSkyBecomeTheirMean) {
-  const Parsed p =
-      parse_world("LightSource \"infinite\" \"string filename\" \"p.pfm\" \"float scale\" 2", folder_with_picture());
-  EXPECT_TRUE(p.warned("mean colour"));
-  expect_near(p.scene.lights.at(0).radiance, {1.25, 1.5, 1.75}, 1e-6);
-}
-
 }  // namespace
 }  // namespace alhazen::test

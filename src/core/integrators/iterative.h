@@ -18,7 +18,7 @@ struct IterativeState {
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void leave_scene(const SceneView<Real>& scene, const IterativeState<Real>& path,
                                         Record& record) {
-  record.radiance += path.throughput * scene.background;
+  record.radiance += path.throughput * background_radiance(scene, path.ray.direction);
 }
 
 /// Gathers and scatters where the path met a surface. False when it ends there. `light` is not asked for any.

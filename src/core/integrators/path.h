@@ -26,8 +26,15 @@ ALHAZEN_HD ALHAZEN_HOT Real chance_weight(const PathState<Real>& path, Real ligh
 
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void leave_scene(const SceneView<Real>& scene, const PathState<Real>& path, Record& record) {
-  if (is_zero(scene.background)) return;
-  record.radiance += path.throughput * scene.background * chance_weight(path, pdf_background(scene));
+  if (!is_zero(scene.background))
+    record.radiance += path.throughput * scene.background * chance_weight(path, pdf_background(scene));
+  for (uint32_t i = 0; i < scene.environments_count; ++i) {
+    const EnvironmentRecord<Real>& map = scene.environments[i];
+    const Vec3<Real> radiance = evaluate_environment(scene, map, path.ray.direction);
+    if (is_zero(radiance)) continue;
+    const Real pdf = path.is_specular ? Real(0) : pdf_environment_light(scene, map, path.ray.direction);
+    record.radiance += path.throughput * radiance * chance_weight(path, pdf);
+  }
 }
 
 template <class Real, class Record>

@@ -3,6 +3,7 @@
 // Lights: choosing one by power, sampling a direction towards it, and the density of that for a ray that found a light
 // by itself. All densities are over solid angle at the reference point, the probability of the choice included.
 
+#include "core/lights/environment.h"
 #include "core/sampling/discrete.h"
 #include "core/sampling/warp.h"
 #include "core/shapes/interaction.h"
@@ -131,6 +132,13 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light(const SceneView<Real>& sce
       s.radiance = light.radiance;
       s.pdf = pdf_uniform_sphere<Real>;
       break;
+    case LightKind::environment: {
+      const EnvironmentSample<Real> e = sample_environment(scene, scene.environments[light.primitive], u);
+      s.direction = e.direction;
+      s.radiance = e.radiance;
+      s.pdf = e.pdf;
+      break;
+    }
   }
   s.pdf *= light.pmf;
   return s;
@@ -161,11 +169,27 @@ ALHAZEN_HD ALHAZEN_HOT Real pdf_light(const SceneView<Real>& scene, const LightR
   }
 }
 
-/// The same for a ray that left the scene.
+/// The same for a ray that left the scene, by way of the constant infinite light.
 template <class Real>
 ALHAZEN_HD Real pdf_background(const SceneView<Real>& scene) {
   return scene.background_light == no_light ? Real(0)
                                             : scene.lights[scene.background_light].pmf * pdf_uniform_sphere<Real>;
+}
+
+/// The same by way of an environment map, for a ray along `direction`.
+template <class Real>
+ALHAZEN_HD Real pdf_environment_light(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
+                                      const Vec3<Real>& direction) {
+  return scene.lights[map.light].pmf * pdf_environment(scene, map, direction);
+}
+
+/// Radiance of all lights at infinity that a ray along `direction` meets where it leaves the scene.
+template <class Real>
+ALHAZEN_HD Vec3<Real> background_radiance(const SceneView<Real>& scene, const Vec3<Real>& direction) {
+  Vec3<Real> radiance = scene.background;
+  for (uint32_t i = 0; i < scene.environments_count; ++i)
+    radiance += evaluate_environment(scene, scene.environments[i], direction);
+  return radiance;
 }
 
 }  // namespace ALHAZEN_CORE

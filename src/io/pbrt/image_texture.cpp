@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "io/images/image.h"
@@ -110,22 +109,6 @@ void read_image_texture(Build& build, ParameterList& list, bool is_float, Textur
   texture.invert = list.boolean("invert", false);
   list.ignore({"maxanisotropy"});
   texture.image = image_index(build, list, read_encoding(build, list), is_float);
-}
-
-Vec3d mean_of_sphere(const ImageTexels& image) {
-  const ByteDecoder decode(image.srgb);
-  const bool equal_area = image.width == image.height;
-  Vec3d sum;
-  double weights = 0;
-  for (int y = 0; y < image.height; ++y) {
-    const double weight = equal_area ? 1 : std::sin(std::numbers::pi * (y + 0.5) / image.height);
-    for (int x = 0; x < image.width; ++x) {
-      const size_t index = static_cast<size_t>(y) * static_cast<size_t>(image.width) + static_cast<size_t>(x);
-      sum += texel(image, decode, index) * weight;
-    }
-    weights += weight * image.width;
-  }
-  return weights > 0 ? sum / weights : sum;
 }
 
 }  // namespace alhazen::pbrt

@@ -6,9 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/images/texture.h"
+#include "io/environment.h"
 #include "io/pbrt/colours.h"
-#include "io/pbrt/image_texture.h"
 #include "io/pbrt/nearest.h"
 
 namespace alhazen::pbrt {
@@ -74,25 +73,54 @@ Light read_spot(Build& build, ParameterList& list) {
   return light;
 }
 
-Light read_infinite(Build& build, ParameterList& list) {
+/// Where the map's axes come to lie in world space, made orthonormal.
+Frame<double> map_axes(Build& build, const ParameterList& list) {
+  const Transform& transform = build.state.ctm_start;
+  const Vec3d x = transform.direction({1, 0, 0}), y = transform.direction({0, 1, 0});
+  const Vec3d z = normalize(transform.direction({0, 0, 1}));
+  double scale = 1;
+  if (!transform.is_similarity(scale))
+    build.warn(list.place(),
+               "the transform of an infinite light stretches its picture; only what it does to the "
+               "picture's z axis, and the turn about that, is used");
+  const Vec3d across = normalize(x - z * dot(x, z));
+  const Vec3d up = cross(z, across);
+  return {across, dot(up, y) < 0 ? -up : up, z};
+}
+
+/// An infinite light whose radiance is that of a picture.
+Light read_environment_light(Build& build, ParameterList& list, const std::string& name) {
+  if (list.has("L")) fail(list.place_of("filename"), "an infinite light takes either \"L\" or \"filename\", not both");
+  ImageTexels map = read_environment(build.existing_file(list.place_of("filename"), name));
+  const std::string fault = environment_fault(map);
+  if (!fault.empty()) fail(list.place_of("filename"), "\"" + name + "\" cannot light the scene: " + fault);
   Light light;
-  const std::string name = list.string("filename", "");
-  if (!name.empty() && list.has("L"))
-    fail(list.place_of("filename"), "an infinite light takes either \"L\" or \"filename\", not both");
-  light.radiance = emitted_colour(build, list, "L");
-  double illuminance_of_unit = pi;  // of a hemisphere of radiance 1
-  if (!name.empty()) {
-    const std::string path = build.existing_file(list.place_of("filename"), name);
-    const Vec3d mean = mean_of_sphere(read_texture(path, TextureEncoding::automatic));
-    build.warn(list.place_of("filename"), "the picture \"" + name +
-                                              "\" of an infinite light is not supported; a "
-                                              "constant sky of its mean colour is used");
-    light.radiance = light.radiance * mean;
-    illuminance_of_unit *= luminance(mean);
-  }
+  light.type = LightType::environment;
+  double scale = list.number("scale", 1);
+  if (!(scale >= 0)) fail(list.place_of("scale"), "\"scale\" of a picture must not be below 0");
   const double illuminance = list.number("illuminance", -1);
-  if (illuminance > 0 && illuminance_of_unit > 0) light.radiance *= illuminance / illuminance_of_unit;
-  list.ignore({"portal"});
+  if (illuminance > 0) {
+    const double irradiance = upward_irradiance(map);
+    if (!(irradiance > 0))
+      fail(list.place_of("illuminance"), "the upper half of \"" + name + "\" is black: leave out \"illuminance\"");
+    scale *= illuminance / irradiance;
+  }
+  light.radiance = splat(scale);
+  light.axes = map_axes(build, list);
+  light.environment = static_cast<uint32_t>(build.scene.environments.size());
+  build.scene.environments.push_back(std::move(map));
+  return light;
+}
+
+Light read_infinite(Build& build, ParameterList& list) {
+  if (list.has("portal"))
+    build.warn(list.place_of("portal"), "the portal of an infinite light is not used; light is sampled from all of it");
+  const std::string name = list.string("filename", "");
+  if (!name.empty()) return read_environment_light(build, list, name);
+  Light light;
+  light.radiance = emitted_colour(build, list, "L");
+  const double illuminance = list.number("illuminance", -1);
+  if (illuminance > 0) light.radiance *= illuminance / pi;  // of a hemisphere of radiance 1
   return light;
 }
 
