@@ -13,7 +13,7 @@ int main(int argc, char** argv) try {
 
   alhazen::Settings settings;
   settings.width = settings.height = 100;
-  settings.samples_per_pixel = 16;
+  settings.samples_per_pixel = 1024;
   settings.aovs = {"depth"};
 
   const alhazen::Picture picture = alhazen::render(argv[1], settings, [&](const alhazen::Progress& progress) {
