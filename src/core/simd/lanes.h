@@ -2,7 +2,7 @@
 
 // The one SIMD type: some numbers side by side, made of as many registers as the instruction set needs for them. The
 // arithmetic is GCC's vector extensions, whose operators round as those of single numbers do; intrinsics are kept for
-// what they lack. Compiled once an instruction set (render/kernels.h); not for GPUs.
+// what they lack. Compiled once an instruction set (render/kernels/); not for GPUs.
 
 #include <cmath>
 #include <cstdint>
