@@ -1,7 +1,9 @@
 # The instruction sets that sample kernels are compiled for, each in a namespace of its name (core/math/platform.h).
 
 set(ALHAZEN_INSTRUCTION_SETS baseline)
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+if(ALHAZEN_BASELINE_ONLY)
+  add_compile_definitions(ALHAZEN_BASELINE_ONLY)
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND ALHAZEN_INSTRUCTION_SETS avx2 avx512)
 endif()
 set(ALHAZEN_FLAGS_avx2 -march=x86-64-v3)

@@ -8,7 +8,7 @@ namespace alhazen {
   RawKernel select_double_kernel(uint32_t integrator, uint32_t sampler); \
   }
 ALHAZEN_DECLARE_KERNELS(baseline)
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
 ALHAZEN_DECLARE_KERNELS(avx2)
 ALHAZEN_DECLARE_KERNELS(avx512)
 #endif
@@ -17,7 +17,7 @@ namespace {
 
 std::vector<InstructionSet> find_instruction_sets() {
   std::vector<InstructionSet> sets{InstructionSet::baseline};
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
   __builtin_cpu_init();
   if (__builtin_cpu_supports("x86-64-v3")) sets.push_back(InstructionSet::avx2);
   if (__builtin_cpu_supports("x86-64-v4")) sets.push_back(InstructionSet::avx512);

@@ -22,11 +22,11 @@ const std::vector<InstructionSet>& instruction_sets();
 std::string to_string(InstructionSet set);
 
 /// The function called `name` of the namespace of an instruction set, for dispatch.
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
 #define ALHAZEN_KERNEL_OF(set, name) \
   ((set) == InstructionSet::avx512 ? avx512::name : (set) == InstructionSet::avx2 ? avx2::name : baseline::name)
 #else
-#define ALHAZEN_KERNEL_OF(set, name) baseline::name
+#define ALHAZEN_KERNEL_OF(set, name) ((void)(set), baseline::name)
 #endif
 
 /// Takes blocks of samples. A kernel was compiled in a namespace of its instruction set, whose types are these with

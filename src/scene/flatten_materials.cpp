@@ -127,8 +127,13 @@ class TextureBuilder {
         node.parameters = {static_cast<Real>(texture.roughness), static_cast<Real>(texture.noise_scale),
                            static_cast<Real>(texture.variation)};
         break;
+      case TextureKind::channel:
+        node.octaves = static_cast<uint32_t>(std::clamp(texture.channel, 0, 2));
+        break;
       case TextureKind::scale:
       case TextureKind::mix:
+      case TextureKind::vertex_colour:
+      case TextureKind::vertex_alpha:
         break;
     }
     out_.textures.push_back(node);
@@ -162,6 +167,12 @@ MaterialRecord<Real> material_record(const Material& material, TextureBuilder<Re
         record.k = textures.range(material.k);
       }
       break;
+    case MaterialType::principled:
+      record.kind = MaterialKind::diffuse;
+      record.reflectance = material.principled.base_colour == no_index
+                               ? textures.constant(1)
+                               : textures.range(material.principled.base_colour);
+      return record;
     case MaterialType::dielectric:
       record.kind = MaterialKind::dielectric;
       if (!(material.ior > 0) || !std::isfinite(material.ior))

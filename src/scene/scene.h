@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,12 +32,13 @@ struct MovingTransform {
 /// Texels of one picture. Rows run from the top of the picture down.
 struct ImageTexels {
   int width = 0, height = 0;
-  /// Three channels a texel either way. `bytes` are sRGB-encoded or linear as `srgb` says; `floats` are linear.
-  /// Exactly one of the two holds width * height * 3 values.
+  /// `bytes` are sRGB-encoded or linear as `srgb` says; `floats` are linear.
+  /// Exactly one of the two holds width * height * channels values.
   std::vector<uint8_t> bytes;
   std::vector<float> floats;
   bool srgb = true;
   std::string name;  ///< the file it came from
+  int channels = 3;  ///< red, green, blue; 1: a scalar, which textures have in all three channels
 };
 
 /// A texture is a node over other textures. A scalar texture holds its value in all three channels.
@@ -46,14 +48,19 @@ struct Texture {
   Vec3d value{1, 1, 1};  ///< constant
   /// Inputs, indices into Scene::textures. checkerboard: even, odd. scale: factor, factor. mix: at 0, at 1, amount.
   std::array<uint32_t, 3> inputs{no_index, no_index, no_index};
-  /// Two-dimensional mapping: (s, t) = uv_scale * (u, v) + uv_offset.
+  /// Two-dimensional mapping: (s, t) = uv_scale * (u, v) + uv_offset, turned by uv_rotation before the offset:
+  /// s = c * us - r * vs + offset, t = r * us + c * vs + offset with c, r cosine and sine (counter-clockwise).
   Vec2d uv_scale{1, 1}, uv_offset{0, 0};
-  uint32_t image = no_index;  ///< image: index into Scene::images
-  WrapMode wrap = WrapMode::repeat;
-  bool nearest = false;       ///< image: nearest texel instead of bilinear
-  double image_scale = 1;     ///< image: factor on the value
-  bool invert = false;        ///< image: 1 - value, after the factor
-  bool solid_checks = false;  ///< checkerboard in three dimensions instead of over uv
+  double uv_rotation = 0;            ///< degrees
+  int uv_set = 0;                    ///< 0: Mesh::uvs, 1: Mesh::second_uvs
+  uint32_t image = no_index;         ///< image: index into Scene::images
+  WrapMode wrap = WrapMode::repeat;  ///< along s
+  std::optional<WrapMode> wrap_t;    ///< along t, where it is another
+  int channel = 0;                   ///< channel: which of inputs[0]
+  bool nearest = false;              ///< image: nearest texel instead of bilinear
+  double image_scale = 1;            ///< image: factor on the value
+  bool invert = false;               ///< image: 1 - value, after the factor
+  bool solid_checks = false;         ///< checkerboard in three dimensions instead of over uv
   /// Solid textures (noise, solid checkerboard): from world space to the space of the texture.
   Transform texture_from_world;
   int octaves = 8;         ///< fbm, wrinkled, marble
@@ -66,6 +73,38 @@ enum class MaterialType {
   diffuse,     ///< Lambert
   conductor,   ///< smooth or GGX-rough, Fresnel of (eta, k), or coloured by `reflectance` alone
   dielectric,  ///< smooth or GGX-rough
+  principled,  ///< what `Material::principled` says
+};
+
+/// Inputs of the principled material, which glTF's metallic-roughness model and its extensions map to. All are
+/// textures; an absent one has the value given. Roughnesses are perceptual: alpha = roughness^2.
+struct Principled {
+  uint32_t base_colour = no_index;            ///< (1, 1, 1)
+  uint32_t metallic = no_index;               ///< scalar, 0
+  uint32_t roughness = no_index;              ///< scalar, 1
+  uint32_t specular = no_index;               ///< scalar, 1: factor on the dielectric's reflection
+  uint32_t specular_colour = no_index;        ///< (1, 1, 1): factor on it at normal incidence
+  uint32_t transmission = no_index;           ///< scalar, 0: share of what the base does not reflect that is refracted
+  uint32_t clearcoat = no_index;              ///< scalar, 0
+  uint32_t clearcoat_roughness = no_index;    ///< scalar, 0
+  uint32_t clearcoat_normal_map = no_index;   ///< as Material::normal_map
+  uint32_t sheen_colour = no_index;           ///< (0, 0, 0)
+  uint32_t sheen_roughness = no_index;        ///< scalar, 0
+  uint32_t iridescence = no_index;            ///< scalar, 0
+  uint32_t iridescence_thickness = no_index;  ///< scalar, nanometres, 400
+  uint32_t anisotropy = no_index;             ///< scalar, 0: alpha along the tangent is lerp(alpha, 1, anisotropy^2)
+  /// From the tangent counter-clockwise: (cos, sin) of an angle to be added, encoded as 0.5 + 0.5 * x in red and green.
+  uint32_t anisotropy_direction = no_index;
+  double anisotropy_rotation = 0;  ///< degrees
+  double iridescence_ior = 1.3;
+  double clearcoat_normal_scale = 1;
+  double ior = 1.5;
+  double dispersion = 0;  ///< 20 / Abbe number
+  /// Transmission without refraction: the surface is a thin sheet. Else it bounds a volume that absorbs.
+  bool thin = true;
+  /// What is left of white light after `attenuation_distance`, scene units; infinite: nothing is absorbed.
+  Vec3d attenuation_colour{1, 1, 1};
+  double attenuation_distance = std::numeric_limits<double>::infinity();
 };
 
 struct Material {
@@ -78,6 +117,13 @@ struct Material {
   uint32_t roughness_u = no_index;  ///< scalar textures, absent = smooth
   uint32_t roughness_v = no_index;
   bool remap_roughness = true;  ///< alpha = sqrt(roughness) as pbrt-v4 has it, instead of alpha = roughness
+  Principled principled;        ///< principled
+  /// Of every kind of material. alpha: scalar texture, the share of rays that the surface stops. normal_map: texture of
+  /// normals in tangent space, encoded as 0.5 + 0.5 * n, z away from the surface.
+  uint32_t alpha = no_index;
+  uint32_t normal_map = no_index;
+  double normal_scale = 1;   ///< factor on x and y of what the normal map says
+  bool double_sided = true;  ///< false: seen from behind it is not there
 };
 
 /// A triangle mesh in object space. Indices come in threes. Normals and uvs are per vertex or absent (empty).
@@ -86,7 +132,11 @@ struct Mesh {
   std::vector<uint32_t> indices;
   std::vector<Vec3f> normals;
   std::vector<Vec2f> uvs;
-  std::string name;  ///< the file it came from, for messages
+  std::vector<Vec2f> second_uvs;
+  /// Per vertex or absent: towards increasing u, and in the last 1 or -1, the handedness of normal, tangent, bitangent.
+  std::vector<std::array<float, 4>> tangents;
+  std::vector<std::array<float, 4>> colours;  ///< linear red, green, blue and alpha, per vertex or absent
+  std::string name;                           ///< the file it came from, for messages
 
   size_t triangle_count() const { return indices.size() / 3; }
 };
@@ -95,6 +145,7 @@ struct Mesh {
 struct Emission {
   Vec3d radiance;
   bool two_sided = false;
+  uint32_t texture = no_index;  ///< factor on the radiance; absent: 1
 };
 
 enum class ShapeType { sphere, mesh };

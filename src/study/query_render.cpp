@@ -13,7 +13,7 @@ namespace alhazen {
   RawKernel select_study_kernel(bool linear, bool in_double); \
   }
 ALHAZEN_DECLARE_STUDY_KERNEL(baseline)
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
 ALHAZEN_DECLARE_STUDY_KERNEL(avx2)
 ALHAZEN_DECLARE_STUDY_KERNEL(avx512)
 #endif

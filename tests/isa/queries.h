@@ -12,7 +12,7 @@ namespace alhazen {
   test::AnswerQueries select_answers(test::Way way, bool any_hit, bool is_double); \
   }
 ALHAZEN_DECLARE_ANSWERS(baseline)
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
 ALHAZEN_DECLARE_ANSWERS(avx2)
 ALHAZEN_DECLARE_ANSWERS(avx512)
 #endif

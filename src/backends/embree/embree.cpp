@@ -13,7 +13,7 @@ namespace alhazen {
 namespace baseline {
 RawKernel select_embree_kernel(uint32_t integrator, uint32_t sampler);
 }
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
 namespace avx2 {
 RawKernel select_embree_kernel(uint32_t integrator, uint32_t sampler);
 }

@@ -43,6 +43,11 @@ ALHAZEN_HD Vec3<Real> fetch_texel(const SceneView<Real>& scene, const ImageRecor
         x %= width, y %= height;
         x += x < 0 ? width : 0, y += y < 0 ? height : 0;
         break;
+      case WrapMode::mirror:
+        x %= 2 * width, y %= 2 * height;
+        x += x < 0 ? 2 * width : 0, y += y < 0 ? 2 * height : 0;
+        x = x < width ? x : 2 * width - 1 - x, y = y < height ? y : 2 * height - 1 - y;
+        break;
     }
   }
   const uint64_t texel = image.first + 3 * (static_cast<uint64_t>(y) * image.width + static_cast<uint64_t>(x));
@@ -138,12 +143,20 @@ ALHAZEN_HD Vec3<Real> evaluate_texture_node(const SceneView<Real>& scene, const 
       return inputs[0] * inputs[1];
     case TextureKind::mix:
       return inputs[0] * (splat(Real(1)) - inputs[2]) + inputs[1] * inputs[2];
+    case TextureKind::channel:
+      return splat(inputs[0][static_cast<int>(node.octaves)]);
+    case TextureKind::vertex_colour:
+    case TextureKind::vertex_alpha:
+      return splat(Real(1));
   }
   return {};
 }
 
 ALHAZEN_HD constexpr uint32_t texture_input_count(TextureKind kind) {
-  return kind == TextureKind::mix ? 3 : kind == TextureKind::scale || kind == TextureKind::checkerboard ? 2 : 0;
+  return kind == TextureKind::mix                                          ? 3
+         : kind == TextureKind::scale || kind == TextureKind::checkerboard ? 2
+         : kind == TextureKind::channel                                    ? 1
+                                                                           : 0;
 }
 
 template <class Real>
