@@ -48,6 +48,8 @@ namespace ALHAZEN_CORE {
   ARRAY(EnvironmentRecord<Real>, environments)         \
   ARRAY(Real, environment_cdf)                         \
   ARRAY(Real, light_cdf)                               \
+  ARRAY(LightTreeNode, light_tree)                     \
+  ARRAY(LightPictureRecord<Real>, light_pictures)      \
   ARRAY(Real, filter_cdf)
 
 template <class Real>
@@ -62,6 +64,7 @@ struct SceneView {
   FilterRecord<Real> filter;
   Vec3<Real> background{};               ///< radiance of the constant infinite light
   uint32_t background_light = no_light;  ///< its index in `lights`
+  Real light_tree_share = 0;             ///< probability that a light is chosen by the tree instead of by light_cdf
   Real exposure = 1;                     ///< factor on recorded radiance
 };
 

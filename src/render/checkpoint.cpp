@@ -73,6 +73,7 @@ void add_records(Hasher& h, const LightRecord<Real>* lights, uint32_t count) {
     h.add(uint64_t{static_cast<uint32_t>(light->kind)});
     h.add(uint64_t{light->primitive});
     h.add(uint64_t{light->two_sided});
+    for (const uint32_t value : {light->trail, light->texture.first, light->texture.count}) h.add(uint64_t{value});
     for (const Vec3<Real>& v : {light->radiance, light->position, light->direction}) h.add_bytes(&v, sizeof(v));
     for (const Real value : {light->pmf, light->cos_outer, light->cos_inner}) h.add(static_cast<double>(value));
   }
@@ -98,6 +99,7 @@ uint64_t scene_fingerprint(const FlatScene<Real>& scene) {
   h.add_bytes(&v.filter, sizeof(v.filter));
   h.add_bytes(&v.background, sizeof(v.background));
   h.add_bytes(&v.exposure, sizeof(v.exposure));
+  h.add_bytes(&v.light_tree_share, sizeof(v.light_tree_share));
   return h.value();
 }
 

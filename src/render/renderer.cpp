@@ -263,7 +263,7 @@ Rendering render_scene(Scene&& scene, const RenderSettings& settings, double loa
   if (settings.integrator != IntegratorKind::path)
     for (const Light& light : scene.lights)
       if (light.type != LightType::constant_infinite && light.type != LightType::environment)
-        diagnostics.warn(light.where, "point, spot and distant lights cannot be met by chance: the integrator '" +
+        diagnostics.warn(light.where, "lights without size cannot be met by chance: the integrator '" +
                                           to_string(settings.integrator) + "' does not show them; 'path' does");
   Rendering rendering =
       settings.precision == Precision::single

@@ -9,6 +9,7 @@
 #include "scene/bvh_builder.h"
 #include "scene/bvh_reinsertion.h"
 #include "scene/flatten_camera.h"
+#include "scene/flatten_emission.h"
 #include "scene/flatten_lights.h"
 #include "scene/flatten_materials.h"
 #include "scene/simd_bvh_builder.h"
@@ -36,13 +37,13 @@ class Flattener {
     FlatScene<Real> flat;
     flatten_camera(scene_, width_, height_, out_, flat.view, diagnostics_);
     for (const Material& material : scene_.materials) needs_uv_.push_back(material_needs_uv(scene_, material));
-    flatten_materials(scene_, out_);
-    add_described_lights(scene_, out_, flat.view);
-    light_areas_.assign(out_.lights.size(), 0);
+    emission_textures_ = flatten_materials(scene_, out_);
+    add_described_lights(scene_, out_, flat.view, light_measures_);
     place_shapes();
+    weigh_emission_textures(out_, light_measures_);
     warn_of_dropped_triangles();
     build_tree(flat);
-    assign_light_probabilities(light_areas_, out_);
+    assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
     flat.statistics.triangles = out_.triangles.size();
     flat.statistics.spheres = out_.spheres.size() + out_.moving_spheres.size();
     flat.statistics.lights = out_.lights.size();
@@ -124,8 +125,9 @@ class Flattener {
     light.primitive = static_cast<uint32_t>(primitive);
     light.radiance = convert<Real>(emission.radiance);
     light.two_sided = emission.two_sided ? 1 : 0;
+    if (emission.texture != no_index) light.texture = emission_textures_.at(emission.texture);
     out_.lights.push_back(light);
-    light_areas_.push_back(area);
+    light_measures_.push_back(area);
     return static_cast<uint32_t>(out_.lights.size() - 1);
   }
 
@@ -170,7 +172,8 @@ class Flattener {
   }
 
   uint32_t sphere_frame(const Shape& shape, const Transform& world_from_object) {
-    if (shape.material == no_index || !needs_uv_[shape.material]) return no_sphere_frame;
+    const bool shines_by_texture = shape.emission && shape.emission->texture != no_index;
+    if (!shines_by_texture && (shape.material == no_index || !needs_uv_[shape.material])) return no_sphere_frame;
     const auto axis = [&](const Vec3d& a) { return convert<Real>(normalize(world_from_object.direction(a))); };
     out_.sphere_frames.push_back({axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})});
     return static_cast<uint32_t>(out_.sphere_frames.size() - 1);
@@ -362,7 +365,8 @@ class Flattener {
   int64_t width_ = 0, height_ = 0;
   SceneArrays<Real> out_;
   std::vector<bool> needs_uv_;
-  std::vector<double> light_areas_;
+  std::vector<TextureRange> emission_textures_;  ///< by texture
+  std::vector<double> light_measures_;           ///< by light, see assign_light_probabilities
   size_t without_area_ = 0;
   SourceLocation without_area_place_;
 };

@@ -2,19 +2,26 @@
 
 // The part of flattening that gives each light its probability.
 
+#include <vector>
+
 #include "scene/scene.h"
 #include "scene/scene_arrays.h"
 
 namespace alhazen {
 
-/// Appends the lights of the description (not those that are shapes) to out.lights and sets the background of `view`.
-/// Constant infinite lights are summed into one. The texels of maps are freed as they are placed.
+/// Appends the lights of the description (not those that are shapes) to out.lights, with their measures, and sets the
+/// background of `view`. Constant infinite lights are summed into one. The texels of maps are freed as they are placed.
 template <class Real>
-void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>& view);
+void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>& view, std::vector<double>& measures);
 
-/// Gives every light its probability: half for those at infinity where there are both kinds, within each half by power.
-/// `areas` are the areas of the lights that are shapes, by index; others are not looked at.
+/// Gives every light its probability: half for those at infinity where there are both kinds, within each half by power;
+/// those of finite distance by a light tree where `sampling` asks for one. `measures`, by light: the area of shapes
+/// times the mean of their texture, the integral of pictures over all directions; of other kinds it is not looked at.
 template <class Real>
-void assign_light_probabilities(const std::vector<double>& areas, SceneArrays<Real>& out);
+void assign_light_probabilities(const std::vector<double>& measures, LightSampling sampling, SceneArrays<Real>& out,
+                                SceneView<Real>& view);
+
+/// A light tree is built for more lights of finite distance than that.
+inline constexpr size_t most_lights_without_tree = 4;
 
 }  // namespace alhazen

@@ -203,15 +203,23 @@ bool material_needs_uv(const Scene& scene, const Material& material) {
 }
 
 template <class Real>
-void flatten_materials(Scene& scene, SceneArrays<Real>& out) {
+std::vector<TextureRange> flatten_materials(Scene& scene, SceneArrays<Real>& out) {
   add_srgb_table(out);
   out.noise_permutation.assign(perlin_permutation, perlin_permutation + 256);
   TextureBuilder<Real> textures(scene, out);
   for (const Material& material : scene.materials) out.materials.push_back(material_record(material, textures));
   out.materials.push_back(material_record(Material{}, textures));
+  std::vector<TextureRange> emission(scene.textures.size());
+  for (const ShapeGroup& group : scene.groups)
+    for (const Shape& shape : group.shapes) {
+      if (!shape.emission || shape.emission->texture == no_index) continue;
+      if (shape.emission->texture >= emission.size()) throw InputError(shape.where, "the emission names no texture");
+      emission[shape.emission->texture] = textures.range(shape.emission->texture);
+    }
+  return emission;
 }
 
-template void flatten_materials(Scene&, SceneArrays<float>&);
-template void flatten_materials(Scene&, SceneArrays<double>&);
+template std::vector<TextureRange> flatten_materials(Scene&, SceneArrays<float>&);
+template std::vector<TextureRange> flatten_materials(Scene&, SceneArrays<double>&);
 
 }  // namespace alhazen

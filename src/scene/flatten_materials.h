@@ -2,15 +2,18 @@
 
 // The part of flattening that turns images, textures and materials into records.
 
+#include <vector>
+
 #include "scene/scene.h"
 #include "scene/scene_arrays.h"
 
 namespace alhazen {
 
 /// Fills images, texels, texture programs and materials of `out`; frees the texels of `scene`. A material is added at
-/// the end for shapes that name none; its index is scene.materials.size().
+/// the end for shapes that name none; its index is scene.materials.size(). Returns the programs of the textures that
+/// shapes shine by, by index into scene.textures.
 template <class Real>
-void flatten_materials(Scene& scene, SceneArrays<Real>& out);
+std::vector<TextureRange> flatten_materials(Scene& scene, SceneArrays<Real>& out);
 
 /// Whether any texture of the material looks at uv.
 bool material_needs_uv(const Scene& scene, const Material& material);

@@ -182,6 +182,8 @@ enum class LightType {
   point,              ///< `radiance` is intensity, W / sr, at `position`
   distant,            ///< `radiance` is irradiance at normal incidence, W / m^2, travelling along `direction`
   spot,               ///< as point, about `direction`, falling off from `cone_falloff_start` to `cone_angle`
+  goniometric,        ///< as point, times `picture`, a square equal-area octahedral one, whose axes are `axes`
+  projection,         ///< as point, times `picture`, thrown along z of `axes`; x is to the right of it, y up
 };
 
 struct Light {
@@ -194,6 +196,15 @@ struct Light {
   uint32_t environment = no_index;                      ///< index into Scene::environments
   Frame<double> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< environment: x, y, z of the map in world space, orthonormal
   SourceLocation where;
+  uint32_t picture = no_index;  ///< index into Scene::light_pictures
+  double fov = 90;              ///< projection: degrees over the shorter side of the picture
+};
+
+/// How `path` chooses one of several lights of finite distance.
+enum class LightSampling {
+  automatic,  ///< by a light tree where there are more than a few
+  power,      ///< by their power alone
+  tree,       ///< by a light tree
 };
 
 struct Camera {
@@ -252,6 +263,9 @@ struct Scene {
   /// Maps of lights, of floats that are finite and not negative: square ones are equal-area octahedral, those twice as
   /// wide as high equirectangular (core/lights/sphere_mapping.h). Each belongs to one light.
   std::vector<ImageTexels> environments;
+  /// Pictures of goniometric and projection lights, of floats that are finite and not negative, three a texel.
+  std::vector<ImageTexels> light_pictures;
+  LightSampling light_sampling = LightSampling::automatic;
 };
 
 }  // namespace alhazen

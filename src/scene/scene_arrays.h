@@ -19,6 +19,17 @@ struct SceneArrays {
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY
 
+  /// What has been filled so far, for the functions of the core; arrays that grow leave it behind.
+  SceneView<Real> view() const {
+    SceneView<Real> view;
+#define ALHAZEN_ARRAY(type, name) \
+  view.name = name.data();        \
+  view.name##_count = static_cast<uint32_t>(std::min<size_t>(name.size(), 0xffffffffu));
+    ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+    return view;
+  }
+
   /// Bytes of the arena, each array starting on a multiple of the alignment.
   size_t arena_bytes() const {
     size_t bytes = 0;

@@ -5,6 +5,7 @@
 #include "io/images/image.h"
 #include "support/bits.h"
 #include "support/environments.h"
+#include "support/light_scenes.h"
 #include "support/scene_files.h"
 #include "support/temporary_folder.h"
 
@@ -37,6 +38,24 @@ AttributeBegin Translate 0.7 0 0.6 Shape "sphere" "float radius" 0.6 AttributeEn
   return test::lit_by(std::move(scene), test::lamps_map(16, 16), test::map_askew());
 }
 
+/// Lights of every kind, textured ones and pictures among them, chosen by a light tree.
+inline Scene read_lights() {
+  Scene scene = test::with_emission_texture(scene_of(R"(Film "rgb" "integer xresolution" 20 "integer yresolution" 17
+)" + test::room_of_lights(40, true, 0.4) + R"(LightSource "infinite" "rgb L" [ 0.1 0.2 0.3 ]
+LightSource "distant" "point3 from" [ 1 2 3 ])"));
+  for (const LightType type : {LightType::goniometric, LightType::projection}) {
+    Light light;
+    light.type = type;
+    light.radiance = splat(0.5);
+    light.position = {0.5, 1, -2};
+    light.axes = test::map_askew();
+    light.picture = static_cast<uint32_t>(scene.light_pictures.size());
+    scene.light_pictures.push_back(test::sun_map(8, 8, 3));
+    scene.lights.push_back(light);
+  }
+  return scene;
+}
+
 inline const Scene& parity_scene(const std::string& name) {
   if (name == "cornell") {
     static const Scene cornell = scene_of(cornell_box(parity_height));
@@ -45,6 +64,10 @@ inline const Scene& parity_scene(const std::string& name) {
   if (name == "environments") {
     static const Scene environments = read_environments();
     return environments;
+  }
+  if (name == "lights") {
+    static const Scene lights = read_lights();
+    return lights;
   }
   static const Scene spheres = read_spheres();
   return spheres;

@@ -95,20 +95,23 @@ INSTANTIATE_TEST_SUITE_P(Parity, EveryKernel,
                                             ::testing::Values("path", "iterative", "recursive", "branching"),
                                             ::testing::Values("sobol", "independent")));
 
-TEST(Parity, EnvironmentMapsByEveryStrategy) {
+void expect_same_by_every_strategy(const std::string& scene) {
   for (const std::string precision : {"float", "double"})
     for (const std::string integrator : {"path", "iterative", "recursive", "branching"}) {
       Settings serial = serial_settings(precision);
       serial.integrator = integrator;
-      const Expected expected(parity_scene("environments"), serial);
+      const Expected expected(parity_scene(scene), serial);
       for (const std::string& strategy : strategies)
-        expect_same(parity_scene("environments"), expected, strategy, "dynamic,1", 2);
+        expect_same(parity_scene(scene), expected, strategy, "dynamic,1", 2);
     }
 }
 
+TEST(Parity, EnvironmentMapsByEveryStrategy) { expect_same_by_every_strategy("environments"); }
+TEST(Parity, ManyLightsByEveryStrategy) { expect_same_by_every_strategy("lights"); }
+
 TEST(Parity, TheSceneShowsEverythingThatItIsMadeFor) {
   // Pictures that are black would be the same bits as well.
-  for (const std::string scene : {"cornell", "spheres", "environments"}) {
+  for (const std::string scene : {"cornell", "spheres", "environments", "lights"}) {
     const Outcome outcome = render_bits(parity_scene(scene), serial_settings("float"));
     const size_t width = static_cast<size_t>(outcome.width), row = width * outcome.channels.size();
     for (size_t c = 0; c < outcome.channels.size(); ++c) {

@@ -44,7 +44,8 @@ TYPED_TEST(EnvironmentSampling, DirectionsFollowTheDensity) {
     DirectionHistogram histogram(has_lamps ? c.axes : map_as_world, pi<double>);
     Random random(1);
     for (size_t i = 0; i < effort(1'000'000); ++i) {
-      const LightSample<Real> s = sample_light(scene.view, Vec3<Real>{}, Real(0), Real(0), random.uniform_2d<Real>());
+      const LightSample<Real> s =
+          sample_light(scene.view, Vec3<Real>{}, Vec3<Real>{}, Real(0), Real(0), random.uniform_2d<Real>());
       if (s.pdf > 0)
         histogram.add(convert<double>(s.direction));
       else

@@ -8,6 +8,7 @@
 
 #include "support/effort.h"
 #include "support/flat_scenes.h"
+#include "support/light_scenes.h"
 #include "support/reals.h"
 #include "support/render_pixels.h"
 #include "support/scenes.h"
@@ -20,7 +21,7 @@ constexpr size_t blocks = blocks_a_side * blocks_a_side;
 constexpr size_t integrators = std::size(all_integrators);
 constexpr size_t pairs = integrators * (integrators - 1) / 2;
 /// Scenes, samplers, precisions, pairs; every block and the whole picture.
-constexpr size_t cases = 2 * 2 * 2 * pairs * (blocks + 1);
+constexpr size_t cases = 4 * 2 * 2 * pairs * (blocks + 1);
 
 /// Over pictures of different seeds, the moments of each block's mean, and in the end of the picture's.
 using BlockMoments = std::array<Moments, blocks + 1>;
@@ -38,8 +39,7 @@ void add_picture(const SceneView<Real>& scene, const Take& take, BlockMoments& m
 }
 
 template <class Real>
-void check_agreement(const std::string& text, SamplerType sampler) {
-  const FlatScene<Real> scene = flat_scene_of<Real>(film_of(side, side) + text);
+void check_agreement(const FlatScene<Real>& scene, SamplerType sampler) {
   std::array<BlockMoments, integrators> moments;
   for (size_t i = 0; i < integrators; ++i)
     for (uint32_t picture = 0; picture < effort(32); ++picture) {
@@ -58,6 +58,11 @@ void check_agreement(const std::string& text, SamplerType sampler) {
 }
 
 template <class Real>
+void check_agreement(const std::string& text, SamplerType sampler) {
+  check_agreement(flat_scene_of<Real>(film_of(side, side) + text), sampler);
+}
+
+template <class Real>
 class IntegratorsAgree : public ::testing::Test {};
 TYPED_TEST_SUITE(IntegratorsAgree, Reals);
 
@@ -68,6 +73,18 @@ TYPED_TEST(IntegratorsAgree, CornellBoxIndependent) {
 TYPED_TEST(IntegratorsAgree, GlassSobol) { check_agreement<TypeParam>(furnace_of_glass, SamplerType::sobol); }
 TYPED_TEST(IntegratorsAgree, GlassIndependent) {
   check_agreement<TypeParam>(furnace_of_glass, SamplerType::independent);
+}
+
+/// Lights that are textured, by power (two of them) and by the tree.
+TYPED_TEST(IntegratorsAgree, TexturedLamp) {
+  check_agreement(flat_scene<TypeParam>(with_emission_texture(described_scene(film_of(side, side) + cornell_box))),
+                  SamplerType::sobol);
+}
+TYPED_TEST(IntegratorsAgree, ManyTexturedLights) {
+  const FlatScene<TypeParam> scene = flat_scene<TypeParam>(
+      with_emission_texture(described_scene(film_of(side, side) + room_of_lights(40, false, 1.2))));
+  ASSERT_GT(scene.view.light_tree_count, 0u);
+  check_agreement(scene, SamplerType::independent);
 }
 
 }  // namespace

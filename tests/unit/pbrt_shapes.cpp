@@ -239,15 +239,5 @@ TEST(PbrtLights, Infinite) {
   expect_near(p.scene.lights[1].radiance, splat(10 / pi));
 }
 
-TEST(PbrtLights, UnsupportedKindsAreReplaced) {
-  const Parsed p = parse_world(
-      "LightSource \"goniometric\" \"string filename\" \"x.exr\" \"rgb I\" [ 2 2 2 ]\n"
-      "LightSource \"projection\" \"string filename\" \"x.exr\" \"float fov\" 60");
-  EXPECT_EQ(p.scene.lights[0].type, LightType::point);
-  EXPECT_EQ(p.scene.lights[1].type, LightType::spot);
-  EXPECT_EQ(p.scene.lights[1].cone_angle, 30);
-  EXPECT_EQ(p.diagnostics.warnings().size(), 2u);
-}
-
 }  // namespace
 }  // namespace alhazen::test

@@ -16,6 +16,7 @@ struct PathState {
   Real eta_scale = 1;       ///< product of eta^2 over refractions, undone for roulette
   uint32_t vertex = 0;      ///< how many surfaces it met so far
   bool is_specular = true;  ///< lights could not have been sampled for this ray
+  Vec3<Real> light_side{};  ///< what `side_of_light` says of the last surface, where there is a light tree
 };
 
 /// Weight of light that the ray found by chance, against sampling it with density `light_pdf`.
@@ -30,10 +31,9 @@ ALHAZEN_HD ALHAZEN_HOT void leave_scene(const SceneView<Real>& scene, const Path
     record.radiance += path.throughput * scene.background * chance_weight(path, pdf_background(scene));
   for (uint32_t i = 0; i < scene.environments_count; ++i) {
     const EnvironmentRecord<Real>& map = scene.environments[i];
-    const Vec3<Real> radiance = evaluate_environment(scene, map, path.ray.direction);
-    if (is_zero(radiance)) continue;
-    const Real pdf = path.is_specular ? Real(0) : pdf_environment_light(scene, map, path.ray.direction);
-    record.radiance += path.throughput * radiance * chance_weight(path, pdf);
+    const EnvironmentSample<Real> met = meet_environment(scene, map, path.ray.direction, !path.is_specular);
+    if (is_zero(met.radiance)) continue;
+    record.radiance += path.throughput * met.radiance * chance_weight(path, scene.lights[map.light].pmf * met.pdf);
   }
 }
 
@@ -42,8 +42,9 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
                                             const Hit<Real>& hit, const ShadingPoint<Real>& point, Record& record) {
   const Vec3<Real> emission = surface_emission(scene, point);
   if (is_zero(emission)) return;
-  const Real light_pdf =
-      path.is_specular ? Real(0) : pdf_light(scene, scene.lights[point.light], path.ray, hit, point.si);
+  const Real light_pdf = path.is_specular
+                             ? Real(0)
+                             : pdf_light(scene, scene.lights[point.light], path.ray, hit, point.si, path.light_side);
   record.radiance += path.throughput * emission * chance_weight(path, light_pdf);
 }
 
@@ -81,6 +82,7 @@ ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler
     ++record.shadow_rays;
     light(direct.shadow, path.throughput * direct.radiance);
   }
+  if (scene.light_tree_count > 0) path.light_side = side_of_light(point);
   return continue_path(sampler, point, path);
 }
 

@@ -36,8 +36,19 @@ ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point(const SceneView<Real>& s
 /// Radiance that the surface itself sends back along the ray.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> surface_emission(const SceneView<Real>& scene, const ShadingPoint<Real>& point) {
-  return point.light == no_light ? Vec3<Real>{}
-                                 : emitted_radiance(scene.lights[point.light], point.si.normal, point.wo);
+  if (point.light == no_light) return {};
+  const LightRecord<Real>& light = scene.lights[point.light];
+  const Vec3<Real> radiance = emitted_radiance(light, point.si.normal, point.wo);
+  if (light.texture.count == 0 || is_zero(radiance)) return radiance;
+  return radiance * emission_factor(scene, light, point_of_emission(point.si));
+}
+
+/// The side of the surface that light must come from to be scattered back along the ray: its normal; zero where the
+/// surface may let light through.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> side_of_light(const ShadingPoint<Real>& point) {
+  if (point.bsdf.kind != MaterialKind::diffuse && point.bsdf.kind != MaterialKind::conductor) return {};
+  return face_forward(point.si.normal, point.wo);
 }
 
 /// Whether `wi` lies on the same side of the shading normal as of the surface: interpolated normals alone would let
@@ -97,10 +108,10 @@ ALHAZEN_HD ALHAZEN_HOT DirectLight<Real> direct_light(const SceneView<Real>& sce
                                                       const ShadingPoint<Real>& point) {
   DirectLight<Real> direct;
   if (scene.lights_count == 0 || point.bsdf.is_specular()) return direct;
-  const LightSample<Real> light =
-      sample_light(scene, point.si.position, point.si.time,
-                   scene.lights_count > 1 ? sampler.template get_1d<Real>(dimensions.light_choice()) : Real(0),
-                   sampler.template get_2d<Real>(dimensions.light_point()));
+  const LightSample<Real> light = sample_light(
+      scene, point.si.position, scene.light_tree_count > 0 ? side_of_light(point) : Vec3<Real>{}, point.si.time,
+      scene.lights_count > 1 ? sampler.template get_1d<Real>(dimensions.light_choice()) : Real(0),
+      sampler.template get_2d<Real>(dimensions.light_point()));
   if (!(light.pdf > 0) || is_zero(light.radiance) || !is_on_one_side(point, light.direction)) return direct;
   const BsdfValue<Real> f = evaluate_bsdf(point.bsdf, point.wo, light.direction);
   if (is_zero(f.value)) return direct;

@@ -82,20 +82,38 @@ ALHAZEN_HD EnvironmentSample<Real> sample_environment(const SceneView<Real>& sce
   return s;
 }
 
-/// Density with which `sample_environment` returns unit `direction`.
+/// Density with which `sample_environment` returns the direction that is `local` to the map and lies at `uv`.
 template <class Real>
-ALHAZEN_HD Real pdf_environment(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
-                                const Vec3<Real>& direction) {
-  const Vec3<Real> local = map.axes.to_local(direction);
+ALHAZEN_HD Real pdf_environment_at(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
+                                   const Vec3<Real>& local, const Vec2<Real>& uv) {
   const Real solid_angle = solid_angle_of_square(map.mapping, local);
   if (!(solid_angle > 0)) return 0;
-  const Vec2<Real> uv = square_of_direction(map.mapping, local);
   if (!(uv.x >= 0 && uv.y >= 0)) return 0;
   const uint32_t column = static_cast<uint32_t>(uv.x * static_cast<Real>(map.width));
   const uint32_t row = static_cast<uint32_t>(uv.y * static_cast<Real>(map.height));
   return environment_square_pdf(scene, map, row < map.height ? row : map.height - 1,
                                 column < map.width ? column : map.width - 1) /
          solid_angle;
+}
+
+/// Density with which `sample_environment` returns unit `direction`.
+template <class Real>
+ALHAZEN_HD Real pdf_environment(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
+                                const Vec3<Real>& direction) {
+  const Vec3<Real> local = map.axes.to_local(direction);
+  return pdf_environment_at(scene, map, local, square_of_direction(map.mapping, local));
+}
+
+/// What a ray along unit `direction` meets where it leaves the scene: the map's radiance and, where `wants_pdf` says
+/// so, its density. Both look at the same place of the map, which is found once.
+template <class Real>
+ALHAZEN_HD EnvironmentSample<Real> meet_environment(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
+                                                    const Vec3<Real>& direction, bool wants_pdf) {
+  const Vec3<Real> local = map.axes.to_local(direction);
+  const Vec2<Real> uv = square_of_direction(map.mapping, local);
+  EnvironmentSample<Real> s{direction, lookup_environment(scene, map, uv), 0};
+  if (wants_pdf && !is_zero(s.radiance)) s.pdf = pdf_environment_at(scene, map, local, uv);
+  return s;
 }
 
 }  // namespace ALHAZEN_CORE

@@ -1,12 +1,16 @@
 #pragma once
 
-// Lights: choosing one by power, sampling a direction towards it, and the density of that for a ray that found a light
-// by itself. All densities are over solid angle at the reference point, the probability of the choice included.
+// Lights: choosing one, by power or by the light tree, sampling a direction towards it, and the density of that for a
+// ray that found a light by itself. All densities are over solid angle at the reference point, the probability of the
+// choice included.
 
 #include "core/lights/environment.h"
+#include "core/lights/light_tree.h"
+#include "core/lights/picture_light.h"
 #include "core/sampling/discrete.h"
 #include "core/sampling/warp.h"
 #include "core/shapes/interaction.h"
+#include "core/textures/texture.h"
 
 namespace ALHAZEN_CORE {
 
@@ -25,6 +29,40 @@ template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> emitted_radiance(const LightRecord<Real>& light, const Vec3<Real>& front_normal,
                                                    const Vec3<Real>& towards) {
   return light.two_sided || dot(front_normal, towards) > 0 ? light.radiance : Vec3<Real>{};
+}
+
+/// Where on a surface that shines its texture is looked up.
+template <class Real>
+ALHAZEN_HD TexturePoint<Real> point_of_emission(const SurfaceInteraction<Real>& si) {
+  return {si.position, si.uv};
+}
+
+/// Factor of the light's texture on its radiance.
+template <class Real>
+ALHAZEN_HD Vec3<Real> emission_factor(const SceneView<Real>& scene, const LightRecord<Real>& light,
+                                      const TexturePoint<Real>& at) {
+  return max(evaluate_texture(scene, light.texture, at), Vec3<Real>{});
+}
+
+/// The same at a point of a triangle, by the weights of its second and third vertex.
+template <class Real>
+ALHAZEN_HD Vec3<Real> triangle_emission_factor(const SceneView<Real>& scene, const LightRecord<Real>& light, Real b1,
+                                               Real b2) {
+  const Hit<Real> hit{0, b1, b2, PrimitiveId(PrimitiveKind::triangle, light.primitive)};
+  return emission_factor(scene, light, point_of_emission(triangle_interaction(scene, hit)));
+}
+
+/// The same at a point of a sphere.
+template <class Real>
+ALHAZEN_HD Vec3<Real> sphere_emission_factor(const SceneView<Real>& scene, const LightRecord<Real>& light,
+                                             uint32_t frame, const Vec3<Real>& outward, const Vec3<Real>& point) {
+  TexturePoint<Real> at{};
+  at.position = point;
+  if (frame != no_sphere_frame) {
+    const SphereFrame<Real>& axes = scene.sphere_frames[frame];
+    at.uv = sphere_uv(Vec3<Real>{dot(outward, axes.x), dot(outward, axes.y), dot(outward, axes.z)});
+  }
+  return emission_factor(scene, light, at);
 }
 
 template <class Real>
@@ -48,6 +86,7 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_triangle_light(const SceneView<R
   if (!(cos_area > 0)) return s;
   s.pdf = distance_squared / cos_area;
   s.radiance = emitted_radiance(light, s.normal, -s.direction);
+  if (light.texture.count > 0) s.radiance = s.radiance * triangle_emission_factor(scene, light, b.y, 1 - b.x - b.y);
   s.is_finite = true;
   return s;
 }
@@ -55,8 +94,8 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_triangle_light(const SceneView<R
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_sphere_light(const SceneView<Real>& scene,
                                                              const LightRecord<Real>& light, const Vec3<Real>& center,
-                                                             Real radius, uint32_t surface, const Vec3<Real>& reference,
-                                                             const Vec2<Real>& u) {
+                                                             Real radius, uint32_t surface, uint32_t frame,
+                                                             const Vec3<Real>& reference, const Vec2<Real>& u) {
   LightSample<Real> s;
   Vec3<Real> outward;
   s.direction = sample_sphere(center, radius, reference, u, outward, s.pdf);
@@ -64,6 +103,7 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_sphere_light(const SceneView<Rea
   s.point_error = (abs(center) + splat(radius)) * rounding_bound<Real>(8);
   s.normal = scene.surfaces[surface].flip_normal ? -outward : outward;
   s.radiance = emitted_radiance(light, s.normal, -s.direction);
+  if (light.texture.count > 0) s.radiance = s.radiance * sphere_emission_factor(scene, light, frame, outward, s.point);
   s.is_finite = true;
   return s;
 }
@@ -78,7 +118,8 @@ ALHAZEN_HD Real spot_falloff(const LightRecord<Real>& light, Real cos_angle) {
 }
 
 template <class Real>
-ALHAZEN_HD LightSample<Real> sample_point_light(const LightRecord<Real>& light, const Vec3<Real>& reference) {
+ALHAZEN_HD LightSample<Real> sample_point_light(const SceneView<Real>& scene, const LightRecord<Real>& light,
+                                                const Vec3<Real>& reference) {
   LightSample<Real> s;
   const Vec3<Real> to_light = light.position - reference;
   const Real distance_squared = length_squared(to_light);
@@ -87,6 +128,9 @@ ALHAZEN_HD LightSample<Real> sample_point_light(const LightRecord<Real>& light, 
   const Real falloff =
       light.kind == LightKind::spot ? spot_falloff(light, -dot(s.direction, light.direction)) : Real(1);
   s.radiance = light.radiance * (falloff / distance_squared);
+  if (light.kind == LightKind::goniometric || light.kind == LightKind::projection)
+    s.radiance = s.radiance * light_picture_factor(scene, scene.light_pictures[light.primitive],
+                                                   light.kind == LightKind::goniometric, -s.direction);
   s.pdf = 1;
   s.is_delta = true;
   s.is_finite = true;
@@ -94,32 +138,62 @@ ALHAZEN_HD LightSample<Real> sample_point_light(const LightRecord<Real>& light, 
   return s;
 }
 
-/// One light, chosen by `u_choice`, towards a point of it.
+/// One of the lights by a number. `normal` is that of the side of the surface which light must come from, zero: any.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT LightChoice<Real> choose_light(const SceneView<Real>& scene, const Vec3<Real>& reference,
+                                                      const Vec3<Real>& normal, Real u) {
+  if (scene.light_tree_count > 0) {
+    const Real share = scene.light_tree_share;
+    if (u < share) {
+      LightChoice<Real> choice =
+          sample_light_tree(scene, reference, normal, smaller(u / share, one_minus_epsilon<Real>));
+      choice.pmf *= share;
+      return choice;
+    }
+    u = smaller((u - share) / (1 - share), one_minus_epsilon<Real>);
+  }
+  const uint32_t i = scene.lights_count == 1 ? 0 : sample_cdf(scene.light_cdf, scene.light_cdf_count - 1, u);
+  return {i, scene.lights[i].pmf};
+}
+
+/// The probability that `choose_light` chooses this light, which is a shape.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Real pmf_of_shape(const SceneView<Real>& scene, const LightRecord<Real>& light,
+                                         const Vec3<Real>& reference, const Vec3<Real>& normal) {
+  if (scene.light_tree_count == 0 || light.pmf == 0) return light.pmf;
+  return scene.light_tree_share * pmf_of_light_tree(scene, light.trail, reference, normal);
+}
+
+/// One light, chosen by `u_choice`, towards a point of it. `normal` as for `choose_light`.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light(const SceneView<Real>& scene, const Vec3<Real>& reference,
-                                                      Real time, Real u_choice, const Vec2<Real>& u) {
+                                                      const Vec3<Real>& normal, Real time, Real u_choice,
+                                                      const Vec2<Real>& u) {
   LightSample<Real> s;
   if (scene.lights_count == 0) return s;
-  const LightRecord<Real>& light =
-      scene.lights[scene.lights_count == 1 ? 0 : sample_cdf(scene.light_cdf, scene.lights_count, u_choice)];
+  const LightChoice<Real> choice = choose_light(scene, reference, normal, u_choice);
+  if (!(choice.pmf > 0)) return s;
+  const LightRecord<Real>& light = scene.lights[choice.light];
   switch (light.kind) {
     case LightKind::triangle:
       s = sample_triangle_light(scene, light, reference, u);
       break;
     case LightKind::sphere: {
       const SphereRecord<Real>& sphere = scene.spheres[light.primitive];
-      s = sample_sphere_light(scene, light, sphere.center, sphere.radius, sphere.surface, reference, u);
+      s = sample_sphere_light(scene, light, sphere.center, sphere.radius, sphere.surface, sphere.frame, reference, u);
       break;
     }
     case LightKind::moving_sphere: {
       const MovingSphereRecord<Real>& sphere = scene.moving_spheres[light.primitive];
       s = sample_sphere_light(scene, light, sphere.center + sphere.motion * time, sphere.radius, sphere.surface,
-                              reference, u);
+                              sphere.frame, reference, u);
       break;
     }
     case LightKind::point:
     case LightKind::spot:
-      s = sample_point_light(light, reference);
+    case LightKind::goniometric:
+    case LightKind::projection:
+      s = sample_point_light(scene, light, reference);
       break;
     case LightKind::distant:
       s.direction = -light.direction;
@@ -140,29 +214,30 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light(const SceneView<Real>& sce
       break;
     }
   }
-  s.pdf *= light.pmf;
+  s.pdf *= choice.pmf;
   return s;
 }
 
-/// Density with which `sample_light` at the origin of `ray` returns its direction by way of the emissive surface that
-/// the ray met.
+/// Density with which `sample_light` at the origin of `ray`, and with `normal`, returns its direction by way of the
+/// emissive surface that the ray met.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Real pdf_light(const SceneView<Real>& scene, const LightRecord<Real>& light,
-                                      const Ray<Real>& ray, const Hit<Real>& hit, const SurfaceInteraction<Real>& si) {
+                                      const Ray<Real>& ray, const Hit<Real>& hit, const SurfaceInteraction<Real>& si,
+                                      const Vec3<Real>& normal) {
+  const Real pmf = pmf_of_shape(scene, light, ray.origin, normal);
   switch (light.kind) {
     case LightKind::triangle: {
       const Real area = Real(0.5) * length(triangle_cross(scene, scene.triangles[light.primitive]));
       const Real cos_area = abs_dot(si.normal, ray.direction) * area;
-      return cos_area > 0 ? light.pmf * hit.t * hit.t / cos_area : 0;
+      return cos_area > 0 ? pmf * hit.t * hit.t / cos_area : 0;
     }
     case LightKind::sphere: {
       const SphereRecord<Real>& s = scene.spheres[light.primitive];
-      return light.pmf * pdf_sphere(s.center, s.radius, ray.origin, ray.direction, hit.t, si.normal);
+      return pmf * pdf_sphere(s.center, s.radius, ray.origin, ray.direction, hit.t, si.normal);
     }
     case LightKind::moving_sphere: {
       const MovingSphereRecord<Real>& s = scene.moving_spheres[light.primitive];
-      return light.pmf *
-             pdf_sphere(s.center + s.motion * ray.time, s.radius, ray.origin, ray.direction, hit.t, si.normal);
+      return pmf * pdf_sphere(s.center + s.motion * ray.time, s.radius, ray.origin, ray.direction, hit.t, si.normal);
     }
     default:
       return 0;

@@ -8,6 +8,7 @@
 #include "core/math/frame.h"
 #include "core/math/vec.h"
 #include "core/shapes/records.h"
+#include "core/textures/record.h"
 
 namespace ALHAZEN_CORE {
 
@@ -19,20 +20,51 @@ enum class LightKind : uint32_t {
   spot,
   distant,
   constant_infinite,
-  environment
+  environment,
+  goniometric,  ///< a point light whose intensity is that of a picture of all directions
+  projection    ///< a point light that throws a picture
 };
 
 template <class Real>
 struct LightRecord {
   LightKind kind;
-  uint32_t primitive;   ///< shapes and environment: index into the array of that kind
+  uint32_t primitive;   ///< shapes, environment, pictures: index into the array of that kind
   Vec3<Real> radiance;  ///< radiance; point and spot: intensity; distant: irradiance at normal incidence;
                         ///< environment: mean over all directions
   uint32_t two_sided;   ///< shapes: emits on both sides
-  Real pmf;             ///< probability that this light is chosen
+  uint32_t trail;       ///< where it stands in the light tree: bit i says which child is its way at depth i
+  Real pmf;             ///< probability that this light is chosen, by power where there is a light tree; 0: met by
+                        ///< chance alone
   Vec3<Real> position;
   Vec3<Real> direction;       ///< the way the light travels, unit length
   Real cos_outer, cos_inner;  ///< spot: cosines where the light ends and where the falloff begins
+  TextureRange texture;       ///< shapes: factor on the radiance
+};
+
+/// A group of lights, or one of them, as seen from afar: a sphere that holds them, a cone that holds their normals,
+/// what they emit (Estevez, Kulla 2018). Children lie side by side. In float whatever the precision of the scene.
+struct LightTreeNode {
+  Vec3<float> centre;
+  float radius;
+  Vec3<float> axis;
+  float cos_normals;   ///< of the angle about the axis that holds the normals
+  float cos_emission;  ///< of the angle about a normal that holds what is emitted, at most a right one
+  float power;
+  uint32_t index;  ///< of the first child, or of the light
+  uint32_t flags;
+
+  static constexpr uint32_t is_leaf = 1, is_two_sided = 2;
+};
+inline constexpr uint32_t most_light_tree_depth = 32;
+
+/// The picture of a light without size. Texels lie as an image's in texel_floats, linear.
+template <class Real>
+struct LightPictureRecord {
+  uint64_t first_texel;
+  uint32_t width, height;
+  Frame<Real> axes;  ///< goniometric: of the octahedral mapping; projection: right, up and the way it is thrown
+  Real half_width, half_height;  ///< projection: of the picture at distance 1
+  Real unused;                   ///< so that no byte of the record is left undefined
 };
 
 /// A map's texels lie as an image's in texel_floats, linear. Its distribution lies in environment_cdf: height + 1

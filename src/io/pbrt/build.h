@@ -23,6 +23,8 @@ struct AreaLight {
   bool two_sided = false;
   double power = 0;  ///< watts of the whole shape, where over 0: scales `radiance` by the area of each
   Place place;
+  uint32_t texture = no_index;  ///< of its picture
+  double picture_mean = 1;      ///< luminance, over all of the picture
 };
 
 /// The directives that `Attribute` sets defaults for.

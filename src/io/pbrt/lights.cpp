@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "io/environment.h"
+#include "io/images/image.h"
+#include "io/images/texture.h"
 #include "io/pbrt/colours.h"
 #include "io/pbrt/nearest.h"
 
@@ -73,7 +75,7 @@ Light read_spot(Build& build, ParameterList& list) {
   return light;
 }
 
-/// Where the map's axes come to lie in world space, made orthonormal.
+/// Where the axes of a light's picture come to lie in world space, made orthonormal.
 Frame<double> map_axes(Build& build, const ParameterList& list) {
   const Transform& transform = build.state.ctm_start;
   const Vec3d x = transform.direction({1, 0, 0}), y = transform.direction({0, 1, 0});
@@ -81,7 +83,7 @@ Frame<double> map_axes(Build& build, const ParameterList& list) {
   double scale = 1;
   if (!transform.is_similarity(scale))
     build.warn(list.place(),
-               "the transform of an infinite light stretches its picture; only what it does to the "
+               "the transform of the light stretches its picture; only what it does to the "
                "picture's z axis, and the turn about that, is used");
   const Vec3d across = normalize(x - z * dot(x, z));
   const Vec3d up = cross(z, across);
@@ -124,27 +126,108 @@ Light read_infinite(Build& build, ParameterList& list) {
   return light;
 }
 
-Light read_goniometric(Build& build, ParameterList& list) {
-  build.warn_replaced(list, "a point light without its distribution is used instead");
-  list.ignore({"filename"});
-  return read_point(build, list);
+/// The picture of a light without size, in linear floats, as its luminance by the mean of the channels where `is_grey`.
+ImageTexels read_light_picture(Build& build, ParameterList& list, const std::string& name, bool is_grey) {
+  const Place& place = list.place_of("filename");
+  ImageTexels picture = read_environment(build.existing_file(place, name));
+  for (size_t i = 0; i + 2 < picture.floats.size(); i += 3) {
+    float* t = &picture.floats[i];
+    if (!std::isfinite(t[0] + t[1] + t[2]))
+      fail(place, "\"" + name + "\" cannot be a light: it holds values that are infinite or not a number");
+    if (is_grey) t[0] = t[1] = t[2] = (t[0] + t[1] + t[2]) / 3;
+  }
+  return picture;
 }
 
-/// A spot light about the same axis that covers the projected square; its picture is taken as white.
-Light read_projection(Build& build, ParameterList& list) {
-  build.warn_replaced(list, "a white spot light of its field of view is used instead");
-  list.ignore({"filename"});
+void add_light_picture(Build& build, Light& light, ImageTexels picture) {
+  light.picture = static_cast<uint32_t>(build.scene.light_pictures.size());
+  build.scene.light_pictures.push_back(std::move(picture));
+}
+
+/// The sum of `weight(x, y)` times the luminance over all texels.
+template <class Weight>
+double weighted_luminance(const ImageTexels& picture, const Weight& weight) {
+  double sum = 0;
+  const float* t = picture.floats.data();
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x, t += 3)
+      sum += weight(x, y) *
+             luminance(Vec3d{static_cast<double>(t[0]), static_cast<double>(t[1]), static_cast<double>(t[2])});
+  return sum;
+}
+
+/// `power` shared out over the picture, whose integral over solid angle is `measure`.
+double picture_power_factor(ParameterList& list, double measure) {
+  if (list.number("power", -1) > 0 && !(measure > 0))
+    fail(list.place_of("power"), "the picture of " + list.directive() + " is black: leave out \"power\"");
+  return power_factor(list, measure);
+}
+
+Light read_goniometric(Build& build, ParameterList& list) {
+  const std::string name = list.string("filename", "");
+  if (name.empty()) {
+    build.warn(list.place(), list.directive() + " has no \"filename\"; it shines alike in all directions");
+    return read_point(build, list);
+  }
+  ImageTexels picture = read_light_picture(build, list, name, true);
+  if (picture.width != picture.height)
+    fail(list.place_of("filename"),
+         "\"" + name + "\" has " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
+             " pixels; the picture of a goniometric light is square (equal-area octahedral)");
   Light light;
-  light.type = LightType::spot;
-  light.cone_angle = list.number("fov", 90) / 2;
-  if (!(light.cone_angle > 0 && light.cone_angle < 90))
-    fail(list.place_of("fov"), "\"fov\" must be over 0 and under 180 degrees");
-  light.falloff_start = light.cone_angle;
-  const double solid_angle = 2 * pi * (1 - std::cos(light.cone_angle * pi / 180));
-  light.radiance = splat(list.number("scale", 1) * power_factor(list, solid_angle));
+  light.type = LightType::goniometric;
+  const double texels = static_cast<double>(picture.width) * picture.height;
+  const double mean = weighted_luminance(picture, [](int, int) { return 1; }) / texels;
+  light.radiance = emitted_colour(build, list, "I") * picture_power_factor(list, 4 * pi * mean);
   light.position = build.state.ctm_start.point({});
-  light.direction = direction_of_light(build, list, {}, {0, 0, 1});
+  // The picture's z is the light's y: the format turns it so that pictures stand upright.
+  const Frame<double> axes = map_axes(build, list);
+  light.axes = {axes.tangent, axes.normal, axes.bitangent};
+  add_light_picture(build, light, std::move(picture));
   return light;
+}
+
+Light read_projection(Build& build, ParameterList& list) {
+  const std::string name = list.string("filename", "");
+  if (name.empty()) fail(list.place(), list.directive() + " needs a \"filename\": the picture that it throws");
+  Light light;
+  light.type = LightType::projection;
+  light.fov = list.number("fov", 90);
+  if (!(light.fov > 0 && light.fov < 180)) fail(list.place_of("fov"), "\"fov\" must be over 0 and under 180 degrees");
+  ImageTexels picture = read_light_picture(build, list, name, false);
+  const double half = std::tan(light.fov * pi / 360), texel = 2 * half / std::min(picture.width, picture.height);
+  const double measure = weighted_luminance(picture, [&](int x, int y) {
+    const double px = (x + 0.5 - picture.width / 2.0) * texel, py = (y + 0.5 - picture.height / 2.0) * texel;
+    return texel * texel / std::pow(1 + px * px + py * py, 1.5);
+  });
+  light.radiance = splat(list.number("scale", 1) * picture_power_factor(list, measure));
+  light.position = build.state.ctm_start.point({});
+  light.axes = map_axes(build, list);
+  add_light_picture(build, light, std::move(picture));
+  return light;
+}
+
+/// The picture of an area light as a texture, which goes on with its edge.
+void read_emission_picture(Build& build, ParameterList& list, const std::string& name, AreaLight& light) {
+  const Place& place = list.place_of("filename");
+  const std::string path = build.existing_file(place, name);
+  const auto [entry, is_new] =
+      build.images_by_key.try_emplace({path, static_cast<int>(TextureEncoding::automatic), false}, 0u);
+  if (is_new) {
+    entry->second = static_cast<uint32_t>(build.scene.images.size());
+    build.scene.images.push_back(read_texture(path, TextureEncoding::automatic));
+  }
+  const ImageTexels picture = read_light_picture(build, list, name, false);
+  light.picture_mean =
+      weighted_luminance(picture, [](int, int) { return 1; }) / (static_cast<double>(picture.width) * picture.height);
+  if (light.power > 0 && !(light.picture_mean > 0)) fail(place, "\"" + name + "\" is black: leave out \"power\"");
+  Texture texture;
+  texture.name = name;
+  texture.kind = TextureKind::image;
+  texture.wrap = WrapMode::clamp;
+  texture.image = entry->second;
+  light.texture = static_cast<uint32_t>(build.scene.textures.size());
+  build.scene.textures.push_back(std::move(texture));
 }
 
 using LightReader = Light (*)(Build&, ParameterList&);
@@ -184,7 +267,7 @@ void set_area_light(Build& build, const std::string& kind, ParameterList& list) 
   const std::string name = list.string("filename", "");
   if (!name.empty() && list.has("L"))
     fail(list.place_of("filename"), "an area light takes either \"L\" or \"filename\", not both");
-  if (!name.empty()) build.warn(list.place_of("filename"), "pictures of area lights are not supported; white is used");
+  if (!name.empty()) read_emission_picture(build, list, name, light);
   light.radiance = emitted_colour(build, list, "L");
   if (!is_finite(light.radiance)) fail(list.place(), list.directive() + ": its emission is too large");
   list.reject_unknown();

@@ -105,6 +105,21 @@ void set_sampler(Build& build, const std::string& kind, ParameterList& list) {
   list.reject_unknown();
 }
 
+namespace {
+
+/// "power" and "bvh" are done as asked for; "uniform" and "exhaustive" are left to what suits the scene.
+void set_light_sampler(Build& build, ParameterList& list) {
+  const std::string sampler = list.string("lightsampler", "");
+  if (sampler == "power")
+    build.scene.light_sampling = LightSampling::power;
+  else if (sampler == "bvh")
+    build.scene.light_sampling = LightSampling::tree;
+  else if (!sampler.empty() && sampler != "uniform" && sampler != "exhaustive")
+    fail(list.place_of("lightsampler"), "unknown light sampler \"" + sampler + "\"; use bvh, power or uniform");
+}
+
+}  // namespace
+
 void set_integrator(Build& build, const std::string& kind, ParameterList& list) {
   const IntegratorReplacement& replacement = known_kind(integrators, "integrator", kind, list);
   if (replacement.difference) build.warn_replaced(list, replacement.difference);
@@ -114,10 +129,10 @@ void set_integrator(Build& build, const std::string& kind, ParameterList& list) 
   if (list.boolean("regularize", false))
     build.warn(list.place_of("regularize"), "\"regularize\" is not supported; it is left out");
   // How pbrt computes a picture has many settings; none of them changes the picture that is sought.
-  list.ignore({"lightsampler", "samplelights", "samplebsdf", "visualizestrategies", "visualizeweights",
-               "bootstrapsamples", "chains", "mutationsperpixel", "largestepprobability", "sigma",
-               "photonsperiteration", "radius", "seed", "cossample", "maxdistance", "function", "filename", "skipbad",
-               "imagefilename"});
+  set_light_sampler(build, list);
+  list.ignore({"samplelights", "samplebsdf", "visualizestrategies", "visualizeweights", "bootstrapsamples", "chains",
+               "mutationsperpixel", "largestepprobability", "sigma", "photonsperiteration", "radius", "seed",
+               "cossample", "maxdistance", "function", "filename", "skipbad", "imagefilename"});
   list.reject_unknown();
 }
 

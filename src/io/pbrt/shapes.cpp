@@ -147,11 +147,11 @@ std::optional<Emission> emission_of(Build& build, const Shape& shape) {
     build.warn(light.place, "area lights of objects that are instanced are not supported; they do not shine");
     return {};
   }
-  Emission emission{light.radiance, light.two_sided};
+  Emission emission{light.radiance, light.two_sided, light.texture};
   if (light.power > 0) {
     const double area = world_area(build, shape);
     if (!(area > 0)) fail(light.place, "\"power\" cannot be shared out over a shape without area");
-    emission.radiance *= light.power / ((light.two_sided ? 2 : 1) * pi * area);
+    emission.radiance *= light.power / ((light.two_sided ? 2 : 1) * pi * area * light.picture_mean);
     if (!is_finite(emission.radiance)) fail(light.place, "\"power\" is too large for the area of the shape");
   }
   return emission;

@@ -19,6 +19,7 @@ inline constexpr uint32_t warp_lanes = 32;
   ARRAY(Real, direction_x) ARRAY(Real, direction_y) ARRAY(Real, direction_z) ARRAY(Real, time)                         \
   ARRAY(Real, throughput_x) ARRAY(Real, throughput_y) ARRAY(Real, throughput_z)                                        \
   ARRAY(Real, bsdf_pdf) ARRAY(Real, eta_scale) ARRAY(uint32_t, vertex)                                                 \
+  ARRAY(Real, light_side_x) ARRAY(Real, light_side_y) ARRAY(Real, light_side_z)                                        \
   ARRAY(Real, radiance_x) ARRAY(Real, radiance_y) ARRAY(Real, radiance_z)                                              \
   ARRAY(uint32_t, segments) ARRAY(uint32_t, shadow_rays)                                                               \
   ARRAY(Real, filter_weight) ARRAY(uint32_t, item) ARRAY(uint32_t, taken)                                              \
@@ -77,6 +78,7 @@ struct Slots {
     path.is_specular = vertex[s] & 1;
     path.bsdf_pdf = bsdf_pdf[s];
     path.eta_scale = eta_scale[s];
+    path.light_side = {light_side_x[s], light_side_y[s], light_side_z[s]};
   }
   ALHAZEN_HD void store(uint32_t s, const PathState<Real>& path) const {
     set_ray(s, path.ray);
@@ -84,6 +86,7 @@ struct Slots {
     vertex[s] = path.vertex << 1 | (path.is_specular ? 1u : 0u);
     bsdf_pdf[s] = path.bsdf_pdf;
     eta_scale[s] = path.eta_scale;
+    light_side_x[s] = path.light_side.x, light_side_y[s] = path.light_side.y, light_side_z[s] = path.light_side.z;
   }
   ALHAZEN_HD void load(uint32_t s, PathRecord<Real>& record) const {
     record.radiance = {radiance_x[s], radiance_y[s], radiance_z[s]};

@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""Error at equal time of two ways to find light, as Markdown tables (docs/results/lights.md).
+
+  light-study.py lights        a room of 1 to 100000 lights: the light tree against a choice by power alone
+  light-study.py scenes DIR    `path` against `iterative` on scenes of DIR, the folder of test scenes
+  light-study.py sky MAP       sampling an environment map against meeting it by chance
+
+The error of a picture falls as 1 / sqrt(samples), so of two ways at the same number of samples the mean squared error
+times the seconds says which is better at equal time: their ratio is how many times as long the worse one has to run.
+"""
+
+import argparse
+import json
+import pathlib
+import random
+import subprocess
+import tempfile
+
+FLOOR = """Material "diffuse" "rgb reflectance" [ 0.7 0.7 0.7 ]
+Shape "trianglemesh" "point3 P" [ -5 0 -5  5 0 -5  5 0 5  -5 0 5 ] "integer indices" [ 0 2 1 0 3 2 ]
+Shape "trianglemesh" "point3 P" [ -5 0 5  5 0 5  5 4 5  -5 4 5 ] "integer indices" [ 0 2 1 0 3 2 ]
+Shape "trianglemesh" "point3 P" [ -5 0 -5  -5 0 5  -5 4 5  -5 4 -5 ] "integer indices" [ 0 2 1 0 3 2 ]
+Shape "trianglemesh" "point3 P" [ 5 0 -5  5 0 5  5 4 5  5 4 -5 ] "integer indices" [ 0 1 2 0 2 3 ]
+AttributeBegin Translate -1.5 0.8 1 Shape "sphere" "float radius" 0.8 AttributeEnd
+AttributeBegin Material "conductor" "rgb reflectance" [ 0.9 0.8 0.6 ] "float roughness" 0.1
+Translate 1.5 0.8 0 Shape "sphere" "float radius" 0.8 AttributeEnd
+"""
+
+
+def room(count: int, sampler: str) -> str:
+    """A room with that many small lamps, triangles that face anywhere, of the same power together."""
+    rng = random.Random(count)
+    size = 0.5 / count**0.5
+    points = []
+    for _ in range(count):
+        p = [rng.uniform(-4.5, 4.5), rng.uniform(0.5, 3.8), rng.uniform(-4.5, 4.5)]
+        for _ in range(3):
+            points += [x + rng.uniform(-size, size) for x in p]
+    head = f"""LookAt 0 2 -10  0 1.6 0  0 1 0
+Camera "perspective" "float fov" 45
+Film "rgb" "integer xresolution" 160 "integer yresolution" 90
+Sampler "independent" "integer pixelsamples" 16
+Integrator "path" "integer maxdepth" 3 "string lightsampler" "{sampler}"
+WorldBegin
+"""
+    lamps = 'AreaLightSource "diffuse" "rgb L" [ 60 50 40 ] "bool twosided" true\nShape "trianglemesh" "point3 P" [ '
+    lamps += " ".join(f"{x:.6f}" for x in points) + ' ] "integer indices" [ '
+    lamps += " ".join(str(i) for i in range(3 * count)) + " ]\n"
+    return head + FLOOR + lamps
+
+
+class Study:
+    def __init__(self, options):
+        self.options = options
+        self.folder = tempfile.TemporaryDirectory()
+
+    def path(self, name: str) -> str:
+        return str(pathlib.Path(self.folder.name) / name)
+
+    def render(self, scene: str, output: str, samples: int, extra: list[str]) -> float:
+        """Seconds that the samples took."""
+        command = [self.options.alhazen, "render", scene, "-o", output, "--exr-type", "float", "--spp", str(samples)]
+        command += ["--stats=json", "-q", *extra]
+        if self.options.threads:
+            command += ["-t", str(self.options.threads)]
+        result = subprocess.run(command, check=True, capture_output=True, text=True)
+        return json.loads(result.stdout)["render_seconds"]
+
+    def error(self, a: str, b: str) -> float:
+        result = subprocess.run([self.options.alhazen, "compare", "--json", a, b], capture_output=True, text=True)
+        return json.loads(result.stdout)[self.options.metric]
+
+    def contest(self, name: str, ways: dict[str, tuple[str, list[str]]], samples: int, reference: int) -> None:
+        """`ways`: scene and options by name; the reference is made by the first."""
+        first, options = next(iter(ways.values()))
+        self.render(first, self.path("reference.exr"), reference, ["--seed", "99", *options])
+        cells, costs = [], []
+        for scene, options in ways.values():
+            errors, seconds = [], []
+            for seed in range(1, self.options.repeats + 1):
+                seconds.append(self.render(scene, self.path("picture.exr"), samples, ["--seed", str(seed), *options]))
+                errors.append(self.error(self.path("picture.exr"), self.path("reference.exr")))
+            error, time = sum(errors) / len(errors), min(seconds)
+            cells += [f"{error:.3g}", f"{time:.2f}"]
+            costs.append(error * time)
+        print(f"| {name} | " + " | ".join(cells) + f" | {costs[1] / costs[0]:.3g} |", flush=True)
+
+
+def header(first: str, a: str, b: str) -> None:
+    print(f"| {first} | error, {a} | s, {a} | error, {b} | s, {b} | {b} takes ... times as long |")
+    print("|---|---|---|---|---|---|")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("study", choices=["lights", "scenes", "sky"])
+    parser.add_argument("folder", nargs="?")
+    parser.add_argument("--alhazen", default="build/release/bin/alhazen")
+    parser.add_argument("--threads", type=int, default=0)
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--samples", type=int, default=16)
+    parser.add_argument("--reference", type=int, default=1024, help="samples a pixel of the reference")
+    parser.add_argument("--metric", default="relmse", help="what `alhazen compare --json` calls the error")
+    parser.add_argument("--size", default="160x90")
+    options = parser.parse_args()
+    study = Study(options)
+    size = ["--size", options.size]
+    if options.study == "lights":
+        header("lights", "tree", "power")
+        for count in (1, 3, 10, 30, 1000, 100_000):
+            ways = {}
+            for sampler in ("bvh", "power"):
+                path = study.path(f"{sampler}-{count}.pbrt")
+                pathlib.Path(path).write_text(room(count, sampler))
+                ways[sampler] = (path, size)
+            study.contest(str(count), ways, options.samples, options.reference)
+    elif options.study == "sky":
+        header("scene", "sampled", "by chance")
+        path = study.path("sky.pbrt")
+        pathlib.Path(path).write_text(room(1, "power").replace("60 50 40", "0 0 0"))
+        extra = [*size, "--environment", options.folder]
+        ways = {"path": (path, extra), "iterative": (path, [*extra, "--integrator", "iterative"])}
+        study.contest("sky", ways, options.samples, options.reference)
+    else:
+        header("scene", "path", "iterative")
+        folder = pathlib.Path(options.folder)
+        many = study.path("many.pbrt")
+        pathlib.Path(many).write_text(room(1000, "bvh"))
+        sky = study.path("sky.pbrt")
+        pathlib.Path(sky).write_text(room(1, "power").replace("60 50 40", "0 0 0"))
+        hdr = folder / "hdr/grace_latlong/grace_latlong.exr"
+        scenes = {
+            "cornell-box": (str(next(folder.glob("pbrt/cornell-box/**/*.pbrt"))), ["--size", "96x96"]),
+            "veach-bidir": (str(next(folder.glob("pbrt/veach-bidir/**/*.pbrt"))), ["--size", "128x72"]),
+            "room under grace_latlong": (sky, [*size, "--environment", str(hdr)]),
+            "room of 1000 lights": (many, size),
+        }
+        for name, (scene, extra) in scenes.items():
+            ways = {"path": (scene, extra), "iterative": (scene, [*extra, "--integrator", "iterative"])}
+            study.contest(name, ways, options.samples, options.reference)
+
+
+if __name__ == "__main__":
+    main()

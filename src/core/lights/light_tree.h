@@ -1,0 +1,108 @@
+#pragma once
+
+// Choosing one of many lights by what they may send to a point: a walk down a tree of lights, at each node by the
+// importance of its two children (Estevez, Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree
+// Splitting"; PBR 4th ed., 12.6.3).
+
+#include "core/scene_view.h"
+
+namespace ALHAZEN_CORE {
+
+/// Sine and cosine of an angle within [0, pi].
+template <class Real>
+struct AngleOfCone {
+  Real sine, cosine;
+};
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT AngleOfCone<Real> angle_of_cosine(Real cosine) {
+  return {safe_sqrt(1 - cosine * cosine), cosine};
+}
+
+/// a - b, but not below 0.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT AngleOfCone<Real> clamped_difference(const AngleOfCone<Real>& a, const AngleOfCone<Real>& b) {
+  if (a.cosine > b.cosine) return {0, 1};
+  return {a.sine * b.cosine - a.cosine * b.sine, a.cosine * b.cosine + a.sine * b.sine};
+}
+
+/// Bound, up to a factor that all nodes share, on what the node sends to `point`: over the whole of its sphere, for
+/// whichever of the normals in its cone. `normal` is that of the side which light must come from; zero: any side. 0
+/// only where nothing can arrive, up to rounding.
+template <class Real>
+ALHAZEN_HD Real light_importance(const LightTreeNode& node, const Vec3<Real>& point, const Vec3<Real>& normal) {
+  const Vec3<Real> way = point - convert<Real>(node.centre);
+  const Real distance_squared = length_squared(way);
+  const Real radius_squared = sqr(static_cast<Real>(node.radius));
+  const Real power = static_cast<Real>(node.power);
+  // From within the sphere light may come from anywhere.
+  if (distance_squared <= radius_squared) return radius_squared > 0 ? power / radius_squared : Real(0);
+  const Vec3<Real> outgoing = way * (1 / std::sqrt(distance_squared));
+  const Real sin2_sphere = radius_squared / distance_squared;
+  const AngleOfCone<Real> sphere{std::sqrt(sin2_sphere), safe_sqrt(1 - sin2_sphere)};
+  const Real along_axis = clamp(dot(convert<Real>(node.axis), outgoing), Real(-1), Real(1));
+  const AngleOfCone<Real> from_axis =
+      angle_of_cosine(node.flags & LightTreeNode::is_two_sided ? std::abs(along_axis) : along_axis);
+  const AngleOfCone<Real> normals = angle_of_cosine(static_cast<Real>(node.cos_normals));
+  const Real cos_least = clamped_difference(clamped_difference(from_axis, normals), sphere).cosine;
+  if (!(cos_least > static_cast<Real>(node.cos_emission))) return 0;
+  Real importance = power * cos_least / distance_squared;
+  if (!is_zero(normal)) {
+    const AngleOfCone<Real> incident = angle_of_cosine(clamp(-dot(outgoing, normal), Real(-1), Real(1)));
+    importance *= clamped_difference(incident, sphere).cosine;
+  }
+  return importance > 0 ? importance : Real(0);
+}
+
+/// The probability that of the children at `first` the first is chosen; below 0 where neither can matter.
+template <class Real>
+ALHAZEN_HD Real first_child_probability(const SceneView<Real>& scene, uint32_t first, const Vec3<Real>& point,
+                                        const Vec3<Real>& normal) {
+  const Real a = light_importance(scene.light_tree[first], point, normal);
+  const Real b = light_importance(scene.light_tree[first + 1], point, normal);
+  return a + b > 0 ? a / (a + b) : Real(-1);
+}
+
+template <class Real>
+struct LightChoice {
+  uint32_t light = no_light;
+  Real pmf = 0;
+};
+
+/// One light of the tree for `point`. No light: none of them can matter.
+template <class Real>
+ALHAZEN_HD LightChoice<Real> sample_light_tree(const SceneView<Real>& scene, const Vec3<Real>& point,
+                                               const Vec3<Real>& normal, Real u) {
+  const LightTreeNode* node = scene.light_tree;
+  Real pmf = 1;
+  while (!(node->flags & LightTreeNode::is_leaf)) {
+    const Real p = first_child_probability(scene, node->index, point, normal);
+    if (p < 0) return {};
+    const bool second = u >= p;
+    // What is left of the number is used again further down.
+    u = second ? (u - p) / (1 - p) : u / p;
+    u = u < one_minus_epsilon<Real> ? u : one_minus_epsilon<Real>;
+    pmf *= second ? 1 - p : p;
+    node = scene.light_tree + node->index + (second ? 1 : 0);
+  }
+  return {node->index, pmf};
+}
+
+/// The probability that `sample_light_tree` chooses the light that stands at `trail`.
+template <class Real>
+ALHAZEN_HD Real pmf_of_light_tree(const SceneView<Real>& scene, uint32_t trail, const Vec3<Real>& point,
+                                  const Vec3<Real>& normal) {
+  const LightTreeNode* node = scene.light_tree;
+  Real pmf = 1;
+  for (; !(node->flags & LightTreeNode::is_leaf); trail >>= 1) {
+    const Real p = first_child_probability(scene, node->index, point, normal);
+    const bool second = trail & 1;
+    const Real share = second ? 1 - p : p;
+    if (p < 0 || !(share > 0)) return 0;
+    pmf *= share;
+    node = scene.light_tree + node->index + (second ? 1 : 0);
+  }
+  return pmf;
+}
+
+}  // namespace ALHAZEN_CORE
