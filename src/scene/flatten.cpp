@@ -327,8 +327,8 @@ class Flattener {
   int64_t width_ = 0, height_ = 0;
   SceneArrays<Real> out_;
   std::vector<bool> needs_uv_;
-  std::vector<bool> is_object_;  ///< by group
-  std::vector<uint32_t> uses_;   ///< by mesh: placements to come
+  std::vector<bool> is_object_;                  ///< by group
+  std::vector<uint32_t> uses_;                   ///< by mesh: placements to come
   std::vector<TextureRange> emission_textures_;  ///< by texture
   std::vector<double> light_measures_;           ///< by light, see assign_light_probabilities
   size_t without_area_ = 0;

@@ -135,10 +135,11 @@ LightTreeNode node_of(const LightBounds& b, const Vec3d& centre, double radius) 
   const double moved = 4e-7 * max_component(abs(centre));
   node.radius = radius > 0 ? static_cast<float>(radius * (1 + 1e-6) + moved) : 0.0f;
   node.axis = convert<float>(b.normals.axis);
+  node.sin_normals = static_cast<float>(std::sin(b.normals.angle));
   node.cos_normals = static_cast<float>(std::cos(b.normals.angle));
   node.cos_emission = b.emission >= pi_ / 2 ? 0.0f : static_cast<float>(std::cos(b.emission));
   node.power = static_cast<float>(b.power);
-  node.flags = b.two_sided ? LightTreeNode::is_two_sided : 0;
+  node.bits = b.two_sided ? LightTreeNode::two_sided : 0;
   return node;
 }
 
@@ -187,8 +188,7 @@ class TreeBuilder {
     Item* items = &items_[first];
     if (count == 1) {
       nodes_[node] = node_of(items->bounds, items->centre, items->radius);
-      nodes_[node].index = items->light;
-      nodes_[node].flags |= LightTreeNode::is_leaf;
+      nodes_[node].bits |= items->light << 2 | LightTreeNode::leaf;
       trails_[items->light] = trail;
       return items->bounds;
     }
@@ -211,7 +211,7 @@ class TreeBuilder {
     }
     a.extend(b);
     nodes_[node] = node_of(a, a.box.center(), length(a.box.diagonal()) / 2);
-    nodes_[node].index = descendants;
+    nodes_[node].bits |= descendants << 2;
     return a;
   }
 

@@ -154,8 +154,8 @@ TYPED_TEST(LightTree, TexturesCountForThePower) {
   const FlatScene<Real> flat = flat_scene<Real>(std::move(scene));
   const SceneView<Real>& view = flat.view;
   ASSERT_EQ(view.lights_count, 6u);
-  for (uint32_t i = 0; i < 6; ++i)
-    EXPECT_NEAR(static_cast<double>(view.lights[i].pmf), std::array{0.0, 1.0 / 6, 1.0 / 3}[i / 2], 1e-6);
+  const std::array<double, 3> expected{0.0, 1.0 / 6, 1.0 / 3};
+  for (uint32_t i = 0; i < 6; ++i) EXPECT_NEAR(static_cast<double>(view.lights[i].pmf), expected[i / 2], 1e-6);
 }
 
 }  // namespace

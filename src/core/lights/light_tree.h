@@ -19,6 +19,12 @@ ALHAZEN_HD ALHAZEN_HOT AngleOfCone<Real> angle_of_cosine(Real cosine) {
   return {safe_sqrt(1 - cosine * cosine), cosine};
 }
 
+/// Of an angle up to a right one.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT AngleOfCone<Real> angle_of_sine(Real sine) {
+  return {sine, safe_sqrt(1 - sine * sine)};
+}
+
 /// a - b, but not below 0.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT AngleOfCone<Real> clamped_difference(const AngleOfCone<Real>& a, const AngleOfCone<Real>& b) {
@@ -37,16 +43,18 @@ ALHAZEN_HD Real light_importance(const LightTreeNode& node, const Vec3<Real>& po
   const Real power = static_cast<Real>(node.power);
   // From within the sphere light may come from anywhere.
   if (distance_squared <= radius_squared) return radius_squared > 0 ? power / radius_squared : Real(0);
-  const Vec3<Real> outgoing = way * (1 / std::sqrt(distance_squared));
-  const Real sin2_sphere = radius_squared / distance_squared;
-  const AngleOfCone<Real> sphere{std::sqrt(sin2_sphere), safe_sqrt(1 - sin2_sphere)};
-  const Real along_axis = clamp(dot(convert<Real>(node.axis), outgoing), Real(-1), Real(1));
-  const AngleOfCone<Real> from_axis =
-      angle_of_cosine(node.flags & LightTreeNode::is_two_sided ? std::abs(along_axis) : along_axis);
-  const AngleOfCone<Real> normals = angle_of_cosine(static_cast<Real>(node.cos_normals));
-  const Real cos_least = clamped_difference(clamped_difference(from_axis, normals), sphere).cosine;
-  if (!(cos_least > static_cast<Real>(node.cos_emission))) return 0;
-  Real importance = power * cos_least / distance_squared;
+  const Real per_distance = 1 / std::sqrt(distance_squared);
+  const Vec3<Real> outgoing = way * per_distance;
+  const AngleOfCone<Real> sphere = angle_of_sine(static_cast<Real>(node.radius) * per_distance);
+  Real importance = power * sqr(per_distance);
+  if (node.cos_normals > -1) {
+    const Real along_axis = clamp(dot(convert<Real>(node.axis), outgoing), Real(-1), Real(1));
+    const AngleOfCone<Real> from_axis = angle_of_cosine(node.is_two_sided() ? std::abs(along_axis) : along_axis);
+    const AngleOfCone<Real> normals{static_cast<Real>(node.sin_normals), static_cast<Real>(node.cos_normals)};
+    const Real cos_least = clamped_difference(clamped_difference(from_axis, normals), sphere).cosine;
+    if (!(cos_least > static_cast<Real>(node.cos_emission))) return 0;
+    importance *= cos_least;
+  }
   if (!is_zero(normal)) {
     const AngleOfCone<Real> incident = angle_of_cosine(clamp(-dot(outgoing, normal), Real(-1), Real(1)));
     importance *= clamped_difference(incident, sphere).cosine;
@@ -75,17 +83,17 @@ ALHAZEN_HD LightChoice<Real> sample_light_tree(const SceneView<Real>& scene, con
                                                const Vec3<Real>& normal, Real u) {
   const LightTreeNode* node = scene.light_tree;
   Real pmf = 1;
-  while (!(node->flags & LightTreeNode::is_leaf)) {
-    const Real p = first_child_probability(scene, node->index, point, normal);
+  while (!node->is_leaf()) {
+    const Real p = first_child_probability(scene, node->index(), point, normal);
     if (p < 0) return {};
     const bool second = u >= p;
     // What is left of the number is used again further down.
     u = second ? (u - p) / (1 - p) : u / p;
     u = u < one_minus_epsilon<Real> ? u : one_minus_epsilon<Real>;
     pmf *= second ? 1 - p : p;
-    node = scene.light_tree + node->index + (second ? 1 : 0);
+    node = scene.light_tree + node->index() + (second ? 1 : 0);
   }
-  return {node->index, pmf};
+  return {node->index(), pmf};
 }
 
 /// The probability that `sample_light_tree` chooses the light that stands at `trail`.
@@ -94,13 +102,13 @@ ALHAZEN_HD Real pmf_of_light_tree(const SceneView<Real>& scene, uint32_t trail, 
                                   const Vec3<Real>& normal) {
   const LightTreeNode* node = scene.light_tree;
   Real pmf = 1;
-  for (; !(node->flags & LightTreeNode::is_leaf); trail >>= 1) {
-    const Real p = first_child_probability(scene, node->index, point, normal);
+  for (; !node->is_leaf(); trail >>= 1) {
+    const Real p = first_child_probability(scene, node->index(), point, normal);
     const bool second = trail & 1;
     const Real share = second ? 1 - p : p;
     if (p < 0 || !(share > 0)) return 0;
     pmf *= share;
-    node = scene.light_tree + node->index + (second ? 1 : 0);
+    node = scene.light_tree + node->index() + (second ? 1 : 0);
   }
   return pmf;
 }

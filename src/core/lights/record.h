@@ -47,13 +47,15 @@ struct LightTreeNode {
   Vec3<float> centre;
   float radius;
   Vec3<float> axis;
-  float cos_normals;   ///< of the angle about the axis that holds the normals
-  float cos_emission;  ///< of the angle about a normal that holds what is emitted, at most a right one
+  float sin_normals, cos_normals;  ///< of the angle about the axis that holds the normals
+  float cos_emission;              ///< of the angle about a normal that holds what is emitted, at most a right one
   float power;
-  uint32_t index;  ///< of the first child, or of the light
-  uint32_t flags;
+  uint32_t bits;  ///< index of the first child or of the light, times 4; and the two flags
 
-  static constexpr uint32_t is_leaf = 1, is_two_sided = 2;
+  static constexpr uint32_t leaf = 1, two_sided = 2;
+  ALHAZEN_HD bool is_leaf() const { return bits & leaf; }
+  ALHAZEN_HD bool is_two_sided() const { return bits & two_sided; }
+  ALHAZEN_HD uint32_t index() const { return bits >> 2; }
 };
 inline constexpr uint32_t most_light_tree_depth = 32;
 
