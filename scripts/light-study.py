@@ -129,18 +129,16 @@ def main() -> None:
     elif options.study == "sky":
         header("scene", "sampled", "by chance")
         path = study.path("sky.pbrt")
-        pathlib.Path(path).write_text(room(1, "power").replace("600 500 400", "0 0 0"))
-        extra = [*size, "--environment", options.folder]
-        ways = {"path": (path, extra), "iterative": (path, [*extra, "--integrator", "iterative"])}
-        study.contest("sky", ways, options.samples, options.reference)
+        pathlib.Path(path).write_text(open_room(str(pathlib.Path(options.folder).resolve())))
+        ways = {"path": (path, size), "iterative": (path, [*size, "--integrator", "iterative"])}
+        study.contest(pathlib.Path(options.folder).stem, ways, options.samples, options.reference)
     else:
         header("scene", "path", "iterative")
         folder = pathlib.Path(options.folder)
         many = study.path("many.pbrt")
         pathlib.Path(many).write_text(room(1000, "bvh"))
         sky = study.path("sky.pbrt")
-        pathlib.Path(sky).write_text(room(1, "power").replace("600 500 400", "0 0 0"))
-        hdr = folder / "hdr/grace_latlong/grace_latlong.exr"
+        pathlib.Path(sky).write_text(open_room(str((folder / "hdr/grace_latlong/grace_latlong.exr").resolve())))
         scenes = {
             "cornell-box": (str(next(folder.glob("pbrt/cornell-box/**/*.pbrt"))), ["--size", "96x96"]),
             "veach-bidir": (str(next(folder.glob("pbrt/veach-bidir/**/*.pbrt"))), ["--size", "128x72"]),
