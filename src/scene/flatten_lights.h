@@ -22,6 +22,6 @@ void assign_light_probabilities(const std::vector<double>& measures, LightSampli
                                 SceneView<Real>& view);
 
 /// A light tree is built for more lights of finite distance than that.
-inline constexpr size_t most_lights_without_tree = 4;
+inline constexpr size_t most_lights_without_tree = 2;
 
 }  // namespace alhazen

@@ -146,7 +146,8 @@ TYPED_TEST(LightSampling, LightsWithoutSizeAreSampledSurely) {
 /// Probabilities sum to 1, the cumulative ones agree with them, and each light comes up as often as it should.
 TYPED_TEST(LightSampling, Probabilities) {
   using Real = TypeParam;
-  const FlatScene<Real> scene = flat_scene_of<Real>(several + R"(
+  const FlatScene<Real> scene =
+      flat_scene_of<Real>("Integrator \"path\" \"string lightsampler\" \"power\" " + several + R"(
       LightSource "point" "rgb I" [1 2 3]
       LightSource "spot" "rgb I" [3 2 1]
       LightSource "distant" "rgb L" [1 1 1]
