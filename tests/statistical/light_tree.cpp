@@ -35,6 +35,19 @@ double pmf_of(const SceneView<Real>& scene, uint32_t light, const Vec3<Real>& po
   return static_cast<double>(pmf_of_light_tree(scene, scene.lights[light].trail, point, normal));
 }
 
+/// The probability that the walk from `node` ends where neither child can matter, so that nothing is chosen.
+template <class Real>
+double pmf_of_nothing(const SceneView<Real>& scene, const LightTreeNode& node, const Vec3<Real>& point,
+                      const Vec3<Real>& normal) {
+  if (node.is_leaf()) return 0;
+  const Real p = first_child_probability(scene, node.index(), point, normal);
+  if (p < 0) return 1;
+  const double first = static_cast<double>(p), second = static_cast<double>(1 - p);
+  const LightTreeNode* children = scene.light_tree + node.index();
+  return (first > 0 ? first * pmf_of_nothing(scene, children[0], point, normal) : 0) +
+         (second > 0 ? second * pmf_of_nothing(scene, children[1], point, normal) : 0);
+}
+
 const std::string sky = R"(LightSource "infinite" "rgb L" [ 0.1 0.1 0.1 ] LightSource "distant")";
 
 TYPED_TEST(LightTree, ProbabilitiesSumToOne) {
@@ -45,7 +58,7 @@ TYPED_TEST(LightTree, ProbabilitiesSumToOne) {
     ASSERT_EQ(scene.view.lights_count, static_cast<uint32_t>(count) + 2);
     ASSERT_EQ(scene.view.light_tree_share, Real(0.5));
     for_points<Real>(20, [&](const Vec3<Real>& point, const Vec3<Real>& normal) {
-      double sum = 0;
+      double sum = pmf_of_nothing(scene.view, scene.view.light_tree[0], point, normal);
       for (uint32_t i = 0; i < scene.view.lights_count; ++i) {
         const LightKind kind = scene.view.lights[i].kind;
         if (kind != LightKind::distant && kind != LightKind::constant_infinite)
@@ -67,8 +80,11 @@ TYPED_TEST(LightTree, LightsComeUpAsOftenAsTheyShould) {
     Random random(9);
     for (int i = 0; i < samples; ++i) {
       const LightChoice<Real> choice = choose_light(view, point, normal, random.uniform<Real>());
-      ASSERT_NE(choice.light, no_light);
-      const bool in_tree = choice.light >= 2 && view.lights[choice.light].kind != LightKind::constant_infinite &&
+      if (choice.light == no_light) {
+        ++observed.back();
+        continue;
+      }
+      const bool in_tree = view.lights[choice.light].kind != LightKind::constant_infinite &&
                            view.lights[choice.light].kind != LightKind::distant;
       const double pmf = in_tree ? 0.5 * pmf_of(view, choice.light, point, normal)
                                  : static_cast<double>(view.lights[choice.light].pmf);
@@ -81,7 +97,7 @@ TYPED_TEST(LightTree, LightsComeUpAsOftenAsTheyShould) {
       const double pmf = in_tree ? 0.5 * pmf_of(view, i, point, normal) : static_cast<double>(view.lights[i].pmf);
       expected.push_back(pmf * samples);
     }
-    expected.push_back(0);
+    expected.push_back(0.5 * samples * pmf_of_nothing(view, view.light_tree[0], point, normal));
     EXPECT_GT(chi_squared_test(observed, expected).p_value, sidak(0.01, 2 * points));
   });
 }
