@@ -131,7 +131,7 @@ TYPED_TEST(LightTree, LightsThatNoPlaneParts) {
   std::string same, line;
   for (int i = 0; i < 300; ++i) {
     same += "LightSource \"point\" \"point3 from\" [ 1 2 3 ]\n";
-    line += "LightSource \"point\" \"point3 from\" [ " + std::to_string(std::pow(1.2, i)) + " 0 0 ]\n";
+    line += "LightSource \"point\" \"point3 from\" [ " + std::to_string(std::pow(1.12, i)) + " 0 0 ]\n";
   }
   for (const std::string& lights : {same, line}) {
     const FlatScene<Real> scene = flat_scene_of<Real>("WorldBegin " + lights);
