@@ -88,7 +88,8 @@ TEST_F(PbrtLightPictures, PowerIsAllThatIsSent) {
     const double sent = integral_over_sphere(600, [&](const Vec3d& d) {
       return luminance(sample_light(scene.view, d, Vec3d{}, 0.0, 0.0, Vec2d{0.5, 0.5}).radiance);
     });
-    EXPECT_NEAR(sent, 10, 0.35) << light;  // the edges between texels are not straight in angle
+    // Of a picture of few texels, interpolation between them moves light to where it counts otherwise.
+    EXPECT_NEAR(sent, 10, light.find("even") != std::string::npos ? 0.1 : 0.6) << light;
   }
 }
 
@@ -130,7 +131,7 @@ TEST_F(PbrtLightPictures, Errors) {
        {Case{goniometric + "\"no.exr\"", "2:27", "there is no file"},
         {goniometric + "\"corner.exr\"", "2:27", "square"},
         {goniometric + "\"endless.exr\"", "2:27", "infinite"},
-        {goniometric + "\"dark.exr\" \"float power\" 3", "2:54", "black"},
+        {goniometric + "\"dark.exr\" \"float power\" 3", "2:56", "black"},
         {projection, "2:1", "filename"},
         {projection + "\"string filename\" \"even.exr\" \"float fov\" 180", "2:55", "fov"},
         {"AreaLightSource \"diffuse\" \"string filename\" \"no.exr\"", "2:27", "there is no file"},
