@@ -58,7 +58,7 @@ struct SceneView {
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY
 
-  CameraRecord<Real> camera;
+  CameraRecord<Real> camera{};
   FilterRecord<Real> filter;
   Vec3<Real> background{};               ///< radiance of the constant infinite light
   uint32_t background_light = no_light;  ///< its index in `lights`
