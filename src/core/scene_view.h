@@ -32,6 +32,9 @@ namespace ALHAZEN_CORE {
   ARRAY(Vec3<Real>, positions)                         \
   ARRAY(Vec3<Real>, normals)                           \
   ARRAY(Vec2<Real>, uvs)                               \
+  ARRAY(AttributesRecord, vertex_attributes)           \
+  ARRAY(VertexColour, vertex_colours)                  \
+  ARRAY(VertexTangent, vertex_tangents)                \
   ARRAY(SphereRecord<Real>, spheres)                   \
   ARRAY(MovingSphereRecord<Real>, moving_spheres)      \
   ARRAY(SphereFrame<Real>, sphere_frames)              \

@@ -18,11 +18,13 @@ struct FlattenOptions {
   int64_t width = 0, height = 0;  ///< 0: as the scene says
   int threads = 0;                ///< for the BVH; 0: as OpenMP has it
   Trees trees;
+  uint64_t texture_budget = 0;  ///< bytes that pictures may take; 0: any
 };
 
 /// Takes the description apart as it goes, so that meshes are not held twice.
 /// Throws InputError for what cannot be rendered: indices out of range, coordinates that are not finite, radii that are
-/// not positive, too many primitives. Warns of what is left out: triangles of no area, motion of meshes and cameras.
+/// not positive, too many primitives. Warns of what is left out: triangles of no area, motion of meshes and cameras, detail of
+/// pictures.
 template <class Real>
 FlatScene<Real> flatten(Scene&& scene, const FlattenOptions& options, Diagnostics& diagnostics);
 

@@ -44,7 +44,8 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--spp",        "--max-depth", "--maxdepth", "--size",    "--crop",     "--cropwindow", "--pixelbounds",
       "--integrator", "--sampler",   "--seed",     "--backend", "--strategy", "--schedule",   "--threads",
       "--nthreads",   "--precision", "--progress", "--quiet",   "--verbose",  "--stats",      "--time-limit",
-      "--checkpoint", "--resume",    "--device",   "--block",   "--chunk",    "--denoise",    "--environment"};
+      "--checkpoint", "--resume",    "--device",   "--block",   "--chunk",    "--denoise",    "--environment",
+      "--texture-budget"};
   const CommandResult help = run({"render", "--help"});
   EXPECT_EQ(help.exit_code, 0);
   std::set<std::string> named;

@@ -61,9 +61,10 @@ ALHAZEN_HD void other_camera_ray(const CameraRecord<Real>& camera, const Vec2<Re
     origin = {x, y, 0};
     direction = {0, 0, 1};
     if (camera.lens_radius > 0) {
-      const Vec2<Real> lens = sample_disk(u_lens) * camera.lens_radius;
-      origin += Vec3<Real>{lens.x, lens.y, 0};
-      direction = {-lens.x, -lens.y, camera.focal_distance};
+      const Vec2<Real> lens = sample_disk(u_lens);
+      const Vec3<Real> aside{lens.x * camera.lens_radius, lens.y * camera.lens_radius, 0};
+      origin += aside;
+      direction = direction * camera.focal_distance - aside;
     }
     return;
   }

@@ -28,7 +28,7 @@ ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point(const SceneView<Real>& s
   point.wo = -ray.direction;
   const SurfaceRecord& surface = scene.surfaces[point.si.surface];
   point.light = surface.light;
-  point.bsdf = make_bsdf(scene, scene.materials[surface.material], TexturePoint<Real>{point.si.position, point.si.uv},
+  point.bsdf = make_bsdf(scene, scene.materials[surface.material], texture_point(point.si, hit),
                          consistent_shading_normal(point.si, point.wo));
   return point;
 }
