@@ -23,8 +23,8 @@ struct FlattenOptions {
 
 /// Takes the description apart as it goes, so that meshes are not held twice.
 /// Throws InputError for what cannot be rendered: indices out of range, coordinates that are not finite, radii that are
-/// not positive, too many primitives. Warns of what is left out: triangles of no area, motion of meshes and cameras, detail of
-/// pictures.
+/// not positive, too many primitives. Warns of what is left out: triangles of no area, motion of meshes and cameras,
+/// detail of pictures.
 template <class Real>
 FlatScene<Real> flatten(Scene&& scene, const FlattenOptions& options, Diagnostics& diagnostics);
 

@@ -51,8 +51,8 @@ std::vector<Taps> taps_of(int from, int to) {
     const double low = i * ratio, high = (i + 1) * ratio;
     t.first = static_cast<int>(low);
     for (int k = t.first; k < from && k < high - 1e-9 && t.count < 4; ++k)
-      t.weight[t.count++] =
-          static_cast<float>((std::min(high, static_cast<double>(k + 1)) - std::max(low, static_cast<double>(k))) / ratio);
+      t.weight[t.count++] = static_cast<float>(
+          (std::min(high, static_cast<double>(k + 1)) - std::max(low, static_cast<double>(k))) / ratio);
   }
   return taps;
 }
@@ -115,8 +115,8 @@ void reduce_grey(ImageTexels& image) {
 }  // namespace
 
 ImageTexels halved(const ImageTexels& image) {
-  ImageTexels half{std::max(image.width / 2, 1), std::max(image.height / 2, 1), {}, {}, image.srgb, image.name,
-                   image.channels};
+  ImageTexels half{
+      std::max(image.width / 2, 1), std::max(image.height / 2, 1), {}, {}, image.srgb, image.name, image.channels};
   if (!image.floats.empty()) {
     half.floats.resize(values_of(half));
     take_means(
@@ -143,9 +143,9 @@ void fit_images(Scene& scene, uint64_t budget, Diagnostics& diagnostics) {
   if (before <= budget) return;
   std::vector<bool> was_halved(scene.images.size());
   while (total() > budget) {
-    const auto largest = std::max_element(
-        scene.images.begin(), scene.images.end(),
-        [](const ImageTexels& a, const ImageTexels& b) { return bytes_of(a) < bytes_of(b); });
+    const auto largest =
+        std::max_element(scene.images.begin(), scene.images.end(),
+                         [](const ImageTexels& a, const ImageTexels& b) { return bytes_of(a) < bytes_of(b); });
     if (largest->width <= 1 && largest->height <= 1) break;
     *largest = halved(*largest);
     was_halved[static_cast<size_t>(largest - scene.images.begin())] = true;

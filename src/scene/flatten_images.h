@@ -15,8 +15,8 @@ namespace alhazen {
 /// values, over the area that it stands for.
 ImageTexels halved(const ImageTexels& image);
 
-/// Halves the largest pictures, by bytes, until all of them with their pyramids take at most `budget` bytes, and says so
-/// in one warning. 0: no limit.
+/// Halves the largest pictures, by bytes, until all of them with their pyramids take at most `budget` bytes, and says
+/// so in one warning. 0: no limit.
 void fit_images(Scene& scene, uint64_t budget, Diagnostics& diagnostics);
 
 /// Texels of all pictures of the scene, which are freed there, and records of them: one for each picture and each way

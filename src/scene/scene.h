@@ -68,7 +68,8 @@ struct Texture {
   double roughness = 0.5;  ///< fbm, wrinkled, marble: factor on the amplitude for each octave
   double noise_scale = 1;  ///< marble: factor on the point
   double variation = 0.2;  ///< marble: how far the noise displaces the veins
-  /// image, checkerboard, coordinates, dots: what (s, t) is made of. planar: the first two rows of `texture_from_world`.
+  /// image, checkerboard, coordinates, dots: what (s, t) is made of. planar: the first two rows of
+  /// `texture_from_world`.
   TextureMappingKind mapping = TextureMappingKind::uv;
   Vec3d direction{0, 1, 0};  ///< direction_mix: unit length, world space
 };

@@ -18,7 +18,8 @@ struct CameraRecord {
   Real x_scale, x_offset, y_scale, y_offset;
   Real lens_radius, focal_distance;
   Real world_from_camera[3][4];
-  /// What a quarter of a pixel sees: its solid angle in the middle of the picture; orthographic: its area in world space.
+  /// What a quarter of a pixel sees: its solid angle in the middle of the picture; orthographic: its area in world
+  /// space.
   Real footprint;
   Real inverse_scale;  ///< of the length that camera space's z axis has in world space
   CameraKind kind;
@@ -31,8 +32,8 @@ ALHAZEN_HD Vec3<Real> camera_axis(const CameraRecord<Real>& camera) {
 }
 
 /// The area, world space, that a quarter of a pixel covers of a surface at `position` with the unit normal `normal`, as
-/// the camera would see it with nothing in between. A quarter, since pixels are sampled more than once. Of surfaces that
-/// are seen from the edge it is bounded.
+/// the camera would see it with nothing in between. A quarter, since pixels are sampled more than once. Of surfaces
+/// that are seen from the edge it is bounded.
 template <class Real>
 ALHAZEN_HD Real pixel_footprint(const CameraRecord<Real>& camera, const Vec3<Real>& position,
                                 const Vec3<Real>& normal) {
@@ -75,8 +76,7 @@ ALHAZEN_HD void other_camera_ray(const CameraRecord<Real>& camera, const Vec2<Re
     if (at.x < 0 || at.x > 1) at = {at.x < 0 ? -at.x : 2 - at.x, 1 - at.y};
     if (at.y < 0 || at.y > 1) at = {1 - at.x, at.y < 0 ? -at.y : 2 - at.y};
   }
-  const Vec3<Real> d =
-      direction_of_square(equal_area ? SphereMapping::octahedral : SphereMapping::equirectangular, at);
+  const Vec3<Real> d = direction_of_square(equal_area ? SphereMapping::octahedral : SphereMapping::equirectangular, at);
   direction = {d.x, d.z, d.y};
 }
 

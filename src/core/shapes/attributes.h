@@ -65,7 +65,8 @@ ALHAZEN_HD MeshTangent<Real> mesh_tangent(const SceneView<Real>& scene, const Hi
   MeshTangent<Real> tangent;
   for (int i = 0; i < 3; ++i) {
     const VertexTangent& t = scene.vertex_tangents[v[i] + attributes->tangent_offset];
-    tangent.direction += Vec3<Real>{static_cast<Real>(t.x), static_cast<Real>(t.y), static_cast<Real>(t.z)} * weights[i];
+    tangent.direction +=
+        Vec3<Real>{static_cast<Real>(t.x), static_cast<Real>(t.y), static_cast<Real>(t.z)} * weights[i];
     // That of the first corner: corners of a triangle have the same.
     if (i == 0) tangent.handedness = static_cast<Real>(t.handedness);
   }
@@ -131,7 +132,8 @@ ALHAZEN_HD Real uv_density(const SceneView<Real>& scene, const Hit<Real>& hit, c
   const bool has_second = attributes && attributes->second_uv_offset != no_offset;
   for (int i = 0; i < 3; ++i)
     uv[i] = has_second ? scene.uvs[v[i] + attributes->second_uv_offset] : vertex_uv(scene, surface, v, i);
-  const Real twice_uv_area = std::abs((uv[1].x - uv[0].x) * (uv[2].y - uv[0].y) - (uv[1].y - uv[0].y) * (uv[2].x - uv[0].x));
+  const Real twice_uv_area =
+      std::abs((uv[1].x - uv[0].x) * (uv[2].y - uv[0].y) - (uv[1].y - uv[0].y) * (uv[2].x - uv[0].x));
   return twice_uv_area / length(triangle_cross(scene, triangle));
 }
 

@@ -66,8 +66,8 @@ ALHAZEN_HD inline float coarse_log2(float x) {
   return static_cast<float>(bits >> 23) - 127 + (__builtin_bit_cast(float, (bits & 0x7fffffu) | 0x3f800000u) - 1);
 }
 
-/// Where in the pyramid a texel is as large as what a quarter of a pixel sees, by area, so that of surfaces seen from the
-/// edge the detail along the other direction is kept. Not above 0: nothing is minified.
+/// Where in the pyramid a texel is as large as what a quarter of a pixel sees, by area, so that of surfaces seen from
+/// the edge the detail along the other direction is kept. Not above 0: nothing is minified.
 template <class Real>
 ALHAZEN_HD float pyramid_level(const SceneView<Real>& scene, const ImageRecord& image, const TextureMapping<Real>& m,
                                const TexturePoint<Real>& at) {

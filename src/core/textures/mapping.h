@@ -50,8 +50,7 @@ ALHAZEN_HD Vec2<Real> map_texture(const SceneView<Real>& scene, const TextureMap
 template <class Real>
 ALHAZEN_HD Real density_of_uv(const SceneView<Real>& scene, const TextureMapping<Real>& m,
                               const TexturePoint<Real>& at) {
-  const Real determinant =
-      std::abs(m.st_of_uv[0][0] * m.st_of_uv[1][1] - m.st_of_uv[0][1] * m.st_of_uv[1][0]);
+  const Real determinant = std::abs(m.st_of_uv[0][0] * m.st_of_uv[1][1] - m.st_of_uv[0][1] * m.st_of_uv[1][0]);
   return determinant * uv_density(scene, at.hit, at.normal, m.uv_set);
 }
 

@@ -67,9 +67,7 @@ template <class Real>
 ALHAZEN_HD bool is_inside_dot(const uint8_t* permutation, const Vec2<Real>& st) {
   constexpr Real radius = Real(0.35), most_shift = Real(0.5) - radius;
   const Real s = std::floor(st.x + Real(0.5)), t = std::floor(st.y + Real(0.5));
-  const auto noise = [&](Real ds, Real dt) {
-    return perlin_noise(permutation, Vec3<Real>{s + ds, t + dt, Real(0.5)});
-  };
+  const auto noise = [&](Real ds, Real dt) { return perlin_noise(permutation, Vec3<Real>{s + ds, t + dt, Real(0.5)}); };
   if (!(noise(Real(0.5), Real(0.5)) > 0)) return false;
   const Real ds = st.x - (s + most_shift * noise(Real(1.5), Real(2.8)));
   const Real dt = st.y - (t + most_shift * noise(Real(4.5), Real(9.8)));

@@ -45,7 +45,7 @@ struct ImageRecord {
   uint64_t first;
   uint32_t width, height;
   uint32_t is_float;
-  uint32_t is_srgb;  ///< bytes only: decode by srgb_decode_table
+  uint32_t is_srgb;         ///< bytes only: decode by srgb_decode_table
   uint32_t wrap_s, wrap_t;  ///< WrapMode
   uint32_t nearest;         ///< 1: nearest texel, 0: bilinear
   uint32_t channels;        ///< 1 or 3

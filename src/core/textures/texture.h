@@ -6,7 +6,6 @@
 #include "core/textures/image.h"
 #include "core/textures/noise.h"
 
-
 namespace ALHAZEN_CORE {
 
 template <class Real>
@@ -93,8 +92,7 @@ ALHAZEN_HD Vec3<Real> evaluate_texture_node(const SceneView<Real>& scene, const 
                  ? inputs[0]
                  : inputs[1];
     case TextureKind::windy:
-      return splat(
-          windy_waves(scene.noise_permutation, map_solid(scene.texture_mappings[node.mapping], at.position)));
+      return splat(windy_waves(scene.noise_permutation, map_solid(scene.texture_mappings[node.mapping], at.position)));
     case TextureKind::direction_mix:
       return lerp(inputs[1], inputs[0], abs_dot(at.normal, node.parameters));
   }

@@ -56,7 +56,8 @@ std::vector<Station> stations_of(const Curve& curve) {
       const double t = static_cast<double>(k) / pieces;
       Station station{bezier(p, t), bezier_derivative(p, t), (static_cast<double>(i) + t) / count};
       // Where control points coincide the derivative vanishes; the chord to the side stands for it.
-      if (!(length_squared(station.tangent) > 0)) station.tangent = bezier(p, std::min(t + 0.01, 1.0)) - bezier(p, std::max(t - 0.01, 0.0));
+      if (!(length_squared(station.tangent) > 0))
+        station.tangent = bezier(p, std::min(t + 0.01, 1.0)) - bezier(p, std::max(t - 0.01, 0.0));
       const double size = length(station.tangent);
       if (!(size > 0) || !std::isfinite(size)) continue;
       station.tangent = station.tangent / size;
@@ -141,7 +142,9 @@ Mesh strip(const std::vector<Station>& stations, const Curve& curve) {
 }
 
 /// Raised to degree 3.
-Segment raised(const Vec3d& a, const Vec3d& b, const Vec3d& c) { return {a, lerp(a, b, 2.0 / 3), lerp(b, c, 1.0 / 3), c}; }
+Segment raised(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  return {a, lerp(a, b, 2.0 / 3), lerp(b, c, 1.0 / 3), c};
+}
 
 /// The segment of uniform B-spline control points from `p`, by its blossom.
 Segment segment_of_spline(const Vec3d* p, int degree) {
@@ -161,8 +164,9 @@ std::vector<Segment> read_segments(ParameterList& list) {
   const size_t order = static_cast<size_t>(degree), count = points.size();
   const bool is_bezier = basis == "bezier";
   if (count < order + 1 || (is_bezier && (count - 1) % order != 0))
-    fail(place, "\"P\" has " + std::to_string(count) + " points; a curve of degree " + std::to_string(degree) + " and basis " +
-                    basis + " takes " + std::to_string(degree + 1) + (is_bezier ? " and " + std::to_string(degree) + " more for each further segment" : " or more"));
+    fail(place, "\"P\" has " + std::to_string(count) + " points; a curve of degree " + std::to_string(degree) +
+                    " and basis " + basis + " takes " + std::to_string(degree + 1) +
+                    (is_bezier ? " and " + std::to_string(degree) + " more for each further segment" : " or more"));
   std::vector<Segment> segments;
   for (size_t i = 0; i + order < count; i += is_bezier ? order : 1) {
     const Vec3d* p = points.data() + i;

@@ -102,8 +102,7 @@ void read_orthographic(Build&, ParameterList& list, Camera& camera) {
 void read_spherical(Build&, ParameterList& list, Camera& camera) {
   const std::string mapping = list.string("mapping", "equalarea");
   if (mapping != "equalarea" && mapping != "equirectangular")
-    fail(list.place_of("mapping"),
-         "unknown mapping of a camera \"" + mapping + "\"; use equalarea or equirectangular");
+    fail(list.place_of("mapping"), "unknown mapping of a camera \"" + mapping + "\"; use equalarea or equirectangular");
   camera.type = mapping == "equalarea" ? CameraType::equal_area : CameraType::equirectangular;
   list.ignore({"frameaspectratio", "screenwindow", "lensradius", "focaldistance"});
 }
@@ -220,7 +219,8 @@ void set_camera(Build& build, const std::string& kind, ParameterList& list) {
 }
 
 double realistic_fov(const Build& build) {
-  const double width = static_cast<double>(build.scene.film.width), height = static_cast<double>(build.scene.film.height);
+  const double width = static_cast<double>(build.scene.film.width),
+               height = static_cast<double>(build.scene.film.height);
   const double shorter = build.film_diagonal * std::min(width, height) / std::hypot(width, height);
   return 2 * std::atan(shorter / (2 * *build.lens_image_distance)) * 180 / std::numbers::pi;
 }
