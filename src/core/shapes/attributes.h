@@ -49,9 +49,24 @@ ALHAZEN_HD ColourAndAlpha<Real> mesh_colour(const SceneView<Real>& scene, const 
   return sum;
 }
 
+/// From the space of the positions to the world, where the hit is within an instance.
+template <class Real>
+ALHAZEN_HD Vec3<Real> direction_in_world(const SceneView<Real>& scene, const Hit<Real>& hit, const Vec3<Real>& v) {
+  return hit.instance == no_instance ? v : transform_direction(scene.instances[hit.instance].world_from_object, v);
+}
+
+/// Whether the way to the world turns right-handed into left-handed.
+template <class Real>
+ALHAZEN_HD bool is_mirrored(const SceneView<Real>& scene, const Hit<Real>& hit) {
+  if (hit.instance == no_instance) return false;
+  const auto& m = scene.instances[hit.instance].world_from_object;
+  const auto column = [&](int j) { return Vec3<Real>{m[0][j], m[1][j], m[2][j]}; };
+  return dot(cross(column(0), column(1)), column(2)) < 0;
+}
+
 template <class Real>
 struct MeshTangent {
-  Vec3<Real> direction{};  ///< in the space of the positions, not of unit length
+  Vec3<Real> direction{};  ///< world space, not of unit length
   Real handedness = 0;     ///< of normal, tangent, bitangent; 0: the mesh has no tangents
 };
 
@@ -70,6 +85,8 @@ ALHAZEN_HD MeshTangent<Real> mesh_tangent(const SceneView<Real>& scene, const Hi
     // That of the first corner: corners of a triangle have the same.
     if (i == 0) tangent.handedness = static_cast<Real>(t.handedness);
   }
+  tangent.direction = direction_in_world(scene, hit, tangent.direction);
+  if (is_mirrored(scene, hit)) tangent.handedness = -tangent.handedness;
   return tangent;
 }
 
@@ -85,7 +102,8 @@ ALHAZEN_HD Vec3<Real> triangle_dpdu(const SceneView<Real>& scene, const Hit<Real
   const Real dv1 = uv1.y - uv0.y, dv2 = uv2.y - uv0.y;
   const Real determinant = (uv1.x - uv0.x) * dv2 - dv1 * (uv2.x - uv0.x);
   if (!(std::abs(determinant) > std::numeric_limits<Real>::min())) return {};
-  return ((scene.positions[v[1]] - p0) * dv2 - (scene.positions[v[2]] - p0) * dv1) * (1 / determinant);
+  const Vec3<Real> along = (scene.positions[v[1]] - p0) * dv2 - (scene.positions[v[2]] - p0) * dv1;
+  return direction_in_world(scene, hit, along * (1 / determinant));
 }
 
 /// The direction in which u increases, unit length, by the tangents of the mesh or else by its uvs; zero where neither
@@ -108,7 +126,7 @@ ALHAZEN_HD Vec3<Real> surface_tangent(const SceneView<Real>& scene, const Hit<Re
   return size > 0 ? along * (1 / size) : Vec3<Real>{};
 }
 
-/// Area of (u, v) of set `uv_set` for an area of the surface, both in the space of the positions. 0: unknown.
+/// Area of (u, v) of set `uv_set` for an area of the surface, world space. 0: unknown.
 template <class Real>
 ALHAZEN_HD Real uv_density(const SceneView<Real>& scene, const Hit<Real>& hit, const Vec3<Real>& normal,
                            uint32_t uv_set) {
@@ -134,7 +152,10 @@ ALHAZEN_HD Real uv_density(const SceneView<Real>& scene, const Hit<Real>& hit, c
     uv[i] = has_second ? scene.uvs[v[i] + attributes->second_uv_offset] : vertex_uv(scene, surface, v, i);
   const Real twice_uv_area =
       std::abs((uv[1].x - uv[0].x) * (uv[2].y - uv[0].y) - (uv[1].y - uv[0].y) * (uv[2].x - uv[0].x));
-  return twice_uv_area / length(triangle_cross(scene, triangle));
+  const Vec3<Real> p0 = scene.positions[v[0]];
+  const Vec3<Real> e1 = direction_in_world(scene, hit, scene.positions[v[1]] - p0);
+  const Vec3<Real> e2 = direction_in_world(scene, hit, scene.positions[v[2]] - p0);
+  return twice_uv_area / length(cross(e1, e2));
 }
 
 }  // namespace ALHAZEN_CORE
