@@ -51,6 +51,7 @@ std::vector<Station> stations_of(const Curve& curve) {
   const double count = static_cast<double>(curve.segments.size());
   for (size_t i = 0; i < curve.segments.size(); ++i) {
     const Segment& p = curve.segments[i];
+    if (p[0] == p[1] && p[1] == p[2] && p[2] == p[3]) continue;
     const uint32_t pieces = pieces_of(p, std::max(curve.width0, curve.width1));
     for (uint32_t k = i == 0 ? 0 : 1; k <= pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
