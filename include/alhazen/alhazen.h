@@ -48,6 +48,8 @@ struct Settings {
   std::string checkpoint;  ///< file to save the state in, and to go on from with `resume`
   double checkpoint_seconds = 60;
   bool resume = false;
+  /// MiB that the pictures of textures may take; larger ones are halved until they fit. 0: no limit.
+  int64_t texture_budget = 16384;
 };
 
 struct Progress {

@@ -275,6 +275,12 @@ void add_running_options(CLI::App& command, RenderOptions& o) {
       ->check(within(0.0, 1e9))
       ->type_name("SECONDS")
       ->group(group);
+  command
+      .add_option("--texture-budget", o.settings.texture_budget,
+                  "Halve the largest pictures of textures until all fit; 0: no limit (16384)")
+      ->check(within(0, 1 << 30))
+      ->type_name("MIB")
+      ->group(group);
   command.add_option("--checkpoint", o.checkpoint, "Save the state every so many seconds (60)")
       ->type_name("FILE[,SECONDS]")
       ->group(group);

@@ -32,6 +32,9 @@ namespace ALHAZEN_CORE {
   ARRAY(Vec3<Real>, positions)                         \
   ARRAY(Vec3<Real>, normals)                           \
   ARRAY(Vec2<Real>, uvs)                               \
+  ARRAY(AttributesRecord, vertex_attributes)           \
+  ARRAY(VertexColour, vertex_colours)                  \
+  ARRAY(VertexTangent, vertex_tangents)                \
   ARRAY(SphereRecord<Real>, spheres)                   \
   ARRAY(MovingSphereRecord<Real>, moving_spheres)      \
   ARRAY(SphereFrame<Real>, sphere_frames)              \
@@ -63,7 +66,7 @@ struct SceneView {
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY
 
-  CameraRecord<Real> camera;
+  CameraRecord<Real> camera{};
   FilterRecord<Real> filter;
   Vec3<Real> background{};               ///< radiance of the constant infinite light
   uint32_t background_light = no_light;  ///< its index in `lights`

@@ -179,9 +179,9 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   std::future<void> started =
       std::async(is_on_gpu ? std::launch::async : std::launch::deferred, [&] { backend->start(settings); });
   const int build_threads = is_on_gpu ? 0 : settings.threads;
-  const FlatScene<Real> flat = flatten<Real>(
-      std::move(scene), FlattenOptions{settings.width, settings.height, build_threads, backend->wanted_trees(settings)},
-      diagnostics);
+  FlattenOptions options{settings.width, settings.height, build_threads, backend->wanted_trees(settings)};
+  options.texture_budget = settings.texture_budget;
+  const FlatScene<Real> flat = flatten<Real>(std::move(scene), options, diagnostics);
   started.get();
   statistics.scene_sizes = flat.statistics;
   statistics.load_seconds = load_seconds + seconds_since(start) - flat.statistics.build_seconds;

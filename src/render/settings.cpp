@@ -192,6 +192,8 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   if (!(asked.checkpoint_seconds >= 0)) throw InputError("the time between checkpoints must not be negative");
   s.checkpoint_seconds = asked.checkpoint_seconds;
   if (!s.checkpoint.empty()) check_checkpoint(s.checkpoint);
+  s.texture_budget =
+      static_cast<uint64_t>(in_range(asked.texture_budget, 0, int64_t{1} << 30, "the budget of textures")) << 20;
   s.resume = asked.resume;
   if (s.resume && s.checkpoint.empty()) throw InputError("to resume, name the file to go on from: --checkpoint FILE");
   resolve_denoiser(asked.denoiser, s);

@@ -64,6 +64,7 @@ struct RenderSettings {
   std::string checkpoint;
   double checkpoint_seconds = 60;
   bool resume = false;
+  uint64_t texture_budget = 0;  ///< bytes; 0: no limit
 };
 
 /// Joins `asked` with `scene`. Throws InputError that names the setting and what it may be.

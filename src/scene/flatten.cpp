@@ -7,6 +7,7 @@
 #include "core/shapes/interaction.h"
 #include "scene/flatten_camera.h"
 #include "scene/flatten_emission.h"
+#include "scene/flatten_images.h"
 #include "scene/flatten_lights.h"
 #include "scene/flatten_materials.h"
 #include "scene/flatten_trees.h"
@@ -33,6 +34,7 @@ class Flattener {
     FlatScene<Real> flat;
     flatten_camera(scene_, width_, height_, out_, flat.view, diagnostics_);
     for (const Material& material : scene_.materials) needs_uv_.push_back(material_needs_uv(scene_, material));
+    fit_images(scene_, options_.texture_budget, diagnostics_);
     emission_textures_ = flatten_materials(scene_, out_);
     add_described_lights(scene_, out_, flat.view, light_measures_);
     place_shapes();
@@ -163,7 +165,7 @@ class Flattener {
         triangles += mesh.triangle_count();
         vertices += mesh.positions.size();
         normals += mesh.normals.size();
-        uvs += mesh.uvs.size();
+        uvs += mesh.uvs.size() + mesh.second_uvs.size();
       }
     };
     count(world);
@@ -241,8 +243,9 @@ class Flattener {
     return shape.material;
   }
 
-  uint32_t add_surface(const Shape& shape, uint32_t light, uint32_t normal_offset, uint32_t uv_offset, bool flip) {
-    out_.surfaces.push_back({material_of(shape), light, normal_offset, uv_offset, flip ? 1u : 0u});
+  uint32_t add_surface(const Shape& shape, uint32_t light, uint32_t normal_offset, uint32_t uv_offset, bool flip,
+                       uint32_t attributes = no_offset) {
+    out_.surfaces.push_back({material_of(shape), light, normal_offset, uv_offset, flip ? 1u : 0u, attributes});
     return static_cast<uint32_t>(out_.surfaces.size() - 1);
   }
 
@@ -309,9 +312,11 @@ class Flattener {
       if (index >= vertices)
         throw InputError(shape.where, "vertex index " + std::to_string(index) + " is out of range: the mesh has " +
                                           std::to_string(vertices) + " vertices");
-    if ((!mesh.normals.empty() && mesh.normals.size() != vertices) ||
-        (!mesh.uvs.empty() && mesh.uvs.size() != vertices))
+    const auto fits = [&](const auto& values) { return values.empty() || values.size() == vertices; };
+    if (!fits(mesh.normals) || !fits(mesh.uvs))
       throw InputError(shape.where, "the mesh has another number of normals or uvs than of vertices");
+    if (!fits(mesh.second_uvs) || !fits(mesh.colours) || !fits(mesh.tangents))
+      throw InputError(shape.where, "the mesh has another number of second uvs, colours or tangents than of vertices");
   }
 
   void place_mesh(const Placement& p, const Mesh& mesh) {
@@ -339,12 +344,34 @@ class Flattener {
     // With shading normals the front is theirs; without, that of the winding in object space.
     const bool flip =
         mesh.normals.empty() ? p.reverse_orientation != transform.swaps_handedness() : p.reverse_orientation;
-    add_triangles(shape, mesh, base, normal_offset, uv_offset, flip);
+    add_triangles(shape, mesh, base, normal_offset, uv_offset, flip, add_attributes(mesh, transform, base));
+  }
+
+  /// What the mesh has at its vertices beside normals and uvs.
+  uint32_t add_attributes(const Mesh& mesh, const Transform& transform, uint32_t base) {
+    if (mesh.second_uvs.empty() && mesh.colours.empty() && mesh.tangents.empty()) return no_offset;
+    const auto offset_to = [&](const auto& values, size_t count) {
+      return values.empty() ? no_offset : static_cast<uint32_t>(count) - base;
+    };
+    const AttributesRecord record{offset_to(mesh.second_uvs, out_.uvs.size()),
+                                  offset_to(mesh.colours, out_.vertex_colours.size()),
+                                  offset_to(mesh.tangents, out_.vertex_tangents.size())};
+    for (const Vec2f& uv : mesh.second_uvs) out_.uvs.push_back({static_cast<Real>(uv.x), static_cast<Real>(uv.y)});
+    for (const auto& c : mesh.colours) out_.vertex_colours.push_back({c[0], c[1], c[2], c[3]});
+    for (const auto& t : mesh.tangents) {
+      const Vec3d along = transform.direction(convert<double>(Vec3f{t[0], t[1], t[2]}));
+      const double size = length(along);
+      const Vec3f unit = size > 0 ? convert<float>(along / size) : Vec3f{};
+      const float handedness = (t[3] < 0) != transform.swaps_handedness() ? -1.0f : 1.0f;
+      out_.vertex_tangents.push_back({unit.x, unit.y, unit.z, handedness});
+    }
+    out_.vertex_attributes.push_back(record);
+    return static_cast<uint32_t>(out_.vertex_attributes.size() - 1);
   }
 
   void add_triangles(const Shape& shape, const Mesh& mesh, uint32_t base, uint32_t normal_offset, uint32_t uv_offset,
-                     bool flip) {
-    const uint32_t shared = emits(shape) ? 0 : add_surface(shape, no_light, normal_offset, uv_offset, flip);
+                     bool flip, uint32_t attributes) {
+    const uint32_t shared = emits(shape) ? 0 : add_surface(shape, no_light, normal_offset, uv_offset, flip, attributes);
     size_t without_area = 0;
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       TriangleRecord triangle{{base + mesh.indices[i], base + mesh.indices[i + 1], base + mesh.indices[i + 2]}, shared};
@@ -358,7 +385,7 @@ class Flattener {
       if (emits(shape)) {
         const uint32_t light = add_light(*shape.emission, LightKind::triangle, out_.triangles.size(),
                                          0.5 * static_cast<double>(twice_area));
-        triangle.surface = add_surface(shape, light, normal_offset, uv_offset, flip);
+        triangle.surface = add_surface(shape, light, normal_offset, uv_offset, flip, attributes);
       }
       out_.triangles.push_back(triangle);
     }

@@ -20,11 +20,13 @@ struct FlattenOptions {
   Trees trees;
   /// Instances that all together come to no more triangles than this are copied into the world, which is walked faster.
   uint64_t most_copied_triangles = 1u << 17;
+  uint64_t texture_budget = 0;  ///< bytes that pictures may take; 0: any
 };
 
 /// Takes the description apart as it goes, so that meshes are not held twice.
 /// Throws InputError for what cannot be rendered: indices out of range, coordinates that are not finite, radii that are
-/// not positive, too many primitives. Warns of what is left out: triangles of no area, motion of meshes and cameras.
+/// not positive, too many primitives. Warns of what is left out: triangles of no area, motion of meshes and cameras,
+/// detail of pictures.
 template <class Real>
 FlatScene<Real> flatten(Scene&& scene, const FlattenOptions& options, Diagnostics& diagnostics);
 

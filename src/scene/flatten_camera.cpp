@@ -70,6 +70,20 @@ FilterRecord<Real> filter_record(const Filter& filter, std::vector<Real>& table)
   return record;
 }
 
+CameraKind kind_of(CameraType type) {
+  switch (type) {
+    case CameraType::perspective:
+      return CameraKind::perspective;
+    case CameraType::orthographic:
+      return CameraKind::orthographic;
+    case CameraType::equirectangular:
+      return CameraKind::equirectangular;
+    case CameraType::equal_area:
+      return CameraKind::equal_area;
+  }
+  return CameraKind::perspective;
+}
+
 }  // namespace
 
 double filter_value(const Filter& filter, double x, double radius) {
@@ -99,8 +113,15 @@ void flatten_camera(const Scene& scene, int64_t width, int64_t height, SceneArra
   std::array<double, 4> window = aspect > 1 ? std::array<double, 4>{-aspect, aspect, -1, 1}
                                             : std::array<double, 4>{-1, 1, -1 / aspect, 1 / aspect};
   if (camera.screen_window) window = *camera.screen_window;
-  const double scale = std::tan(camera.fov * std::numbers::pi / 360);
+  double scale = std::tan(camera.fov * std::numbers::pi / 360);
   CameraRecord<Real>& record = view.camera;
+  record.kind = kind_of(camera.type);
+  if (camera.type == CameraType::orthographic) scale = 1;
+  const bool sees_all = camera.type == CameraType::equirectangular || camera.type == CameraType::equal_area;
+  if (sees_all) {
+    scale = 1;
+    window = {0, 1, 1, 0};
+  }
   record.x_scale = static_cast<Real>((window[1] - window[0]) * scale / static_cast<double>(width));
   record.x_offset = static_cast<Real>(window[0] * scale);
   record.y_scale = static_cast<Real>(-(window[3] - window[2]) * scale / static_cast<double>(height));
@@ -110,6 +131,12 @@ void flatten_camera(const Scene& scene, int64_t width, int64_t height, SceneArra
   const Matrix4& m = camera.world_from_camera.start.matrix();
   for (size_t i = 0; i < 3; ++i)
     for (size_t j = 0; j < 4; ++j) record.world_from_camera[i][j] = static_cast<Real>(m[i][j] / m[3][3]);
+  const double axis = std::sqrt(m[0][2] * m[0][2] + m[1][2] * m[1][2] + m[2][2] * m[2][2]) / std::abs(m[3][3]);
+  record.inverse_scale = static_cast<Real>(1 / axis);
+  const double pixel = std::abs((window[1] - window[0]) * (window[3] - window[2])) * scale * scale /
+                       (static_cast<double>(width) * static_cast<double>(height));
+  const double unit = sees_all ? 4 * std::numbers::pi : camera.type == CameraType::orthographic ? axis * axis : 1;
+  record.footprint = static_cast<Real>(pixel * unit / 4);
   view.filter = filter_record(scene.filter, out.filter_cdf);
   view.exposure = static_cast<Real>(scene.film.exposure);
 }

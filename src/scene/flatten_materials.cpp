@@ -1,10 +1,11 @@
 #include "scene/flatten_materials.h"
 
 #include <cmath>
-#include <numeric>
+#include <numbers>
 #include <string>
 
 #include "core/textures/texture.h"
+#include "scene/flatten_images.h"
 
 namespace alhazen {
 
@@ -34,11 +35,11 @@ void add_srgb_table(SceneArrays<Real>& out) {
   for (int i = 0; i < 256; ++i) out.srgb_decode_table.push_back(static_cast<Real>(i / 255.0));
 }
 
-/// One record for each image and each way that textures look it up.
+/// The programs of textures, with what they look up.
 template <class Real>
 class TextureBuilder {
  public:
-  TextureBuilder(Scene& scene, SceneArrays<Real>& out) : scene_(scene), out_(out) { add_texels(); }
+  TextureBuilder(Scene& scene, SceneArrays<Real>& out) : scene_(scene), out_(out), images_(scene, out) {}
 
   /// The program of texture `root`; the same range when it is asked for again.
   TextureRange range(uint32_t root) {
@@ -60,36 +61,15 @@ class TextureBuilder {
   }
 
  private:
-  void add_texels() {
-    for (ImageTexels& image : scene_.images) {
-      const size_t values = static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * 3;
-      const bool is_float = !image.floats.empty();
-      if (values == 0 || (is_float ? image.floats.size() : image.bytes.size()) != values)
-        throw InputError({image.name}, "the picture does not hold width * height * 3 values");
-      first_texel_.push_back(is_float ? out_.texel_floats.size() : out_.texel_bytes.size());
-      is_float_.push_back(is_float);
-      out_.texel_bytes.insert(out_.texel_bytes.end(), image.bytes.begin(), image.bytes.end());
-      out_.texel_floats.insert(out_.texel_floats.end(), image.floats.begin(), image.floats.end());
-      std::vector<uint8_t>().swap(image.bytes);
-      std::vector<float>().swap(image.floats);
-    }
-  }
-
-  uint32_t add_image(const Texture& texture) {
-    if (texture.image >= scene_.images.size())
-      throw InputError("texture '" + texture.name + "': image index is out of range");
-    const ImageTexels& image = scene_.images[texture.image];
-    out_.images.push_back({first_texel_[texture.image], static_cast<uint32_t>(image.width),
-                           static_cast<uint32_t>(image.height), is_float_[texture.image] ? 1u : 0u,
-                           image.srgb ? 1u : 0u, static_cast<uint32_t>(texture.wrap), texture.nearest ? 1u : 0u});
-    return static_cast<uint32_t>(out_.images.size() - 1);
-  }
-
   uint32_t add_mapping(const Texture& texture) {
-    TextureMapping<Real> mapping{static_cast<Real>(texture.uv_scale.x),
-                                 static_cast<Real>(texture.uv_scale.y),
-                                 static_cast<Real>(texture.uv_offset.x),
-                                 static_cast<Real>(texture.uv_offset.y),
+    const double turn = texture.uv_rotation * std::numbers::pi / 180;
+    const double c = texture.uv_rotation == 0 ? 1 : std::cos(turn), r = texture.uv_rotation == 0 ? 0 : std::sin(turn);
+    const Vec2d scale = texture.uv_scale, offset = texture.uv_offset;
+    const auto real = [](double value) { return static_cast<Real>(value); };
+    TextureMapping<Real> mapping{{{real(c * scale.x), real(-r * scale.y), real(offset.x)},
+                                  {real(r * scale.x), real(c * scale.y), real(offset.y)}},
+                                 texture.mapping,
+                                 texture.uv_set == 1 ? 1u : 0u,
                                  {}};
     for (size_t i = 0; i < 3; ++i)
       for (size_t j = 0; j < 4; ++j)
@@ -117,7 +97,7 @@ class TextureBuilder {
         break;
       case TextureKind::image:
         node.mapping = add_mapping(texture);
-        node.image = add_image(texture);
+        node.image = images_.record(texture);
         node.parameters = {static_cast<Real>(texture.image_scale), texture.invert ? Real(1) : Real(0), 0};
         break;
       case TextureKind::fbm:
@@ -129,6 +109,14 @@ class TextureBuilder {
         break;
       case TextureKind::channel:
         node.octaves = static_cast<uint32_t>(std::clamp(texture.channel, 0, 2));
+        break;
+      case TextureKind::coordinates:
+      case TextureKind::dots:
+      case TextureKind::windy:
+        node.mapping = add_mapping(texture);
+        break;
+      case TextureKind::direction_mix:
+        node.parameters = convert<Real>(normalize(texture.direction));
         break;
       case TextureKind::scale:
       case TextureKind::mix:
@@ -142,8 +130,7 @@ class TextureBuilder {
   Scene& scene_;
   SceneArrays<Real>& out_;
   std::vector<TextureRange> ranges_;
-  std::vector<uint64_t> first_texel_;
-  std::vector<bool> is_float_;
+  ImageBuilder<Real> images_;
 };
 
 template <class Real>
@@ -186,8 +173,10 @@ MaterialRecord<Real> material_record(const Material& material, TextureBuilder<Re
 bool texture_needs_uv(const Scene& scene, uint32_t index, int nesting) {
   if (index >= scene.textures.size() || nesting > 64) return false;
   const Texture& texture = scene.textures[index];
-  if (texture.kind == TextureKind::image || (texture.kind == TextureKind::checkerboard && !texture.solid_checks))
-    return true;
+  const bool is_flat = texture.kind == TextureKind::image || texture.kind == TextureKind::coordinates ||
+                       texture.kind == TextureKind::dots ||
+                       (texture.kind == TextureKind::checkerboard && !texture.solid_checks);
+  if (is_flat && texture.mapping == TextureMappingKind::uv) return true;
   for (const uint32_t input : texture.inputs)
     if (texture_needs_uv(scene, input, nesting + 1)) return true;
   return false;

@@ -47,6 +47,7 @@ struct Texture {
   TextureKind kind = TextureKind::constant;
   Vec3d value{1, 1, 1};  ///< constant
   /// Inputs, indices into Scene::textures. checkerboard: even, odd. scale: factor, factor. mix: at 0, at 1, amount.
+  /// dots: inside, outside. direction_mix: where the normal is along `direction`, across it.
   std::array<uint32_t, 3> inputs{no_index, no_index, no_index};
   /// Two-dimensional mapping: (s, t) = uv_scale * (u, v) + uv_offset, turned by uv_rotation before the offset:
   /// s = c * us - r * vs + offset, t = r * us + c * vs + offset with c, r cosine and sine (counter-clockwise).
@@ -67,6 +68,10 @@ struct Texture {
   double roughness = 0.5;  ///< fbm, wrinkled, marble: factor on the amplitude for each octave
   double noise_scale = 1;  ///< marble: factor on the point
   double variation = 0.2;  ///< marble: how far the noise displaces the veins
+  /// image, checkerboard, coordinates, dots: what (s, t) is made of. planar: the first two rows of
+  /// `texture_from_world`.
+  TextureMappingKind mapping = TextureMappingKind::uv;
+  Vec3d direction{0, 1, 0};  ///< direction_mix: unit length, world space
 };
 
 enum class MaterialType {
@@ -207,16 +212,25 @@ enum class LightSampling {
   tree,       ///< by a light tree
 };
 
+enum class CameraType {
+  perspective,
+  orthographic,     ///< rays go along z; the screen window is in units of camera space
+  equirectangular,  ///< the whole sphere about the camera: as pbrt's spherical camera, y is up
+  equal_area        ///< the same by the octahedral mapping
+};
+
 struct Camera {
   /// Camera space as in pbrt: x right, y up, z into the scene.
   MovingTransform world_from_camera;
-  double fov = 90;  ///< degrees over the shorter axis of the picture (of the screen window [-1, 1])
-  /// x0, x1, y0, y1 on the plane at distance 1 / tan(fov / 2); absent: [-1, 1] over the shorter axis.
+  double fov = 90;  ///< perspective: degrees over the shorter axis of the picture (of the screen window [-1, 1])
+  /// x0, x1, y0, y1 on the plane at distance 1 / tan(fov / 2), of orthographic cameras in camera space; absent: [-1, 1]
+  /// over the shorter axis.
   std::optional<std::array<double, 4>> screen_window;
   std::optional<double> frame_aspect_ratio;
   double lens_radius = 0;
   double focal_distance = 1e6;
   double shutter_open = 0, shutter_close = 1;
+  CameraType type = CameraType::perspective;
 };
 
 struct FilmSettings {

@@ -40,11 +40,12 @@ bool is_same(const Image& a, const Image& b) {
 
 TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
   const std::set<std::string> tested{
-      "--help",       "--output",    "--outfile",  "--aov",     "--exr-type", "--exposure",   "--tone-map",
-      "--spp",        "--max-depth", "--maxdepth", "--size",    "--crop",     "--cropwindow", "--pixelbounds",
-      "--integrator", "--sampler",   "--seed",     "--backend", "--strategy", "--schedule",   "--threads",
-      "--nthreads",   "--precision", "--progress", "--quiet",   "--verbose",  "--stats",      "--time-limit",
-      "--checkpoint", "--resume",    "--device",   "--block",   "--chunk",    "--denoise",    "--environment"};
+      "--help",       "--output",      "--outfile",    "--aov",        "--exr-type",    "--exposure",
+      "--tone-map",   "--spp",         "--max-depth",  "--maxdepth",   "--size",        "--crop",
+      "--cropwindow", "--pixelbounds", "--integrator", "--sampler",    "--seed",        "--backend",
+      "--strategy",   "--schedule",    "--threads",    "--nthreads",   "--precision",   "--progress",
+      "--quiet",      "--verbose",     "--stats",      "--time-limit", "--checkpoint",  "--resume",
+      "--device",     "--block",       "--chunk",      "--denoise",    "--environment", "--texture-budget"};
   const CommandResult help = run({"render", "--help"});
   EXPECT_EQ(help.exit_code, 0);
   std::set<std::string> named;

@@ -90,6 +90,79 @@ TYPED_TEST(CameraOf, LensFocuses) {
   }
 }
 
+/// Parallel rays that start on the screen window; with a lens they cross on the plane of focus.
+TYPED_TEST(CameraOf, Orthographic) {
+  using Real = TypeParam;
+  const std::string camera = "LookAt 1 2 3  1 2 8  0 1 0\nCamera \"orthographic\" ";
+  const auto scene = flat_scene_of<Real>(film_of(200, 100) + camera + sky);
+  for (const double x : {0.0, 50.0, 200.0}) {
+    const Ray<Real> ray = ray_through(scene, x, 25);
+    expect_along(ray.direction, {0, 0, 1});
+    EXPECT_NEAR(length(convert<double>(ray.origin) - Vec3d{1 + x / 50 - 2, 2.5, 3}), 0, 1e-6);
+  }
+  const auto window = flat_scene_of<Real>(film_of(100, 100) + camera + "\"float screenwindow\" [ 0 10 -5 0 ]\n" + sky);
+  EXPECT_NEAR(length(convert<double>(ray_through(window, 0, 0).origin) - Vec3d{1, 2, 3}), 0, 1e-6);
+  EXPECT_NEAR(length(convert<double>(ray_through(window, 100, 100).origin) - Vec3d{11, -3, 3}), 0, 1e-6);
+  const auto lens = flat_scene_of<Real>(film_of(100, 100) + "Camera \"orthographic\" \"float lensradius\" 0.5 " +
+                                        "\"float focaldistance\" 4\n" + sky);
+  Random random(1);
+  for (int i = 0; i < 100; ++i) {
+    const Ray<Real> ray = ray_through(lens, 75, 50, random.uniform_2d<double>());
+    EXPECT_LE(length(convert<double>(ray.origin) - Vec3d{0.5, 0, 0}), 0.5 + 1e-6);
+    const Vec3d crossing = convert<double>(ray.origin + ray.direction * (Real(4) / ray.direction.z));
+    EXPECT_NEAR(length(crossing - Vec3d{0.5, 0, 4}), 0, 1e-5);
+  }
+}
+
+/// y is up; the left edge and the right one look along +x, and a quarter of the width further along +z.
+TYPED_TEST(CameraOf, Equirectangular) {
+  const auto scene = flat_scene_of<TypeParam>(film_of(200, 100) +
+                                              "Camera \"spherical\" \"string mapping\" \"equirectangular\"\n" + sky);
+  expect_along(ray_through(scene, 0, 50).direction, {1, 0, 0});
+  expect_along(ray_through(scene, 50, 50).direction, {0, 0, 1});
+  expect_along(ray_through(scene, 100, 50).direction, {-1, 0, 0});
+  expect_along(ray_through(scene, 37, 0).direction, {0, 1, 0});
+  expect_along(ray_through(scene, 50, 25).direction, {0, 1, 1});
+}
+
+/// The middle of the square looks up, the middles of its sides along the axes of the horizon, the corners down.
+TYPED_TEST(CameraOf, EqualArea) {
+  const auto scene = flat_scene_of<TypeParam>(film_of(100, 100) + "Camera \"spherical\"\n" + sky);
+  expect_along(ray_through(scene, 50, 50).direction, {0, 1, 0});
+  expect_along(ray_through(scene, 100, 50).direction, {1, 0, 0});
+  expect_along(ray_through(scene, 50, 100).direction, {0, 0, 1});
+  expect_along(ray_through(scene, 0, 0).direction, {0, -1, 0});
+  // Past an edge the square goes on, turned round.
+  expect_along(ray_through(scene, 103, 30).direction, convert<double>(ray_through(scene, 97, 70).direction));
+  // Equal areas: half of the pixels look up, a quarter above 30 degrees.
+  int above = 0, high = 0;
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < 100; ++x) {
+      const double up = static_cast<double>(ray_through(scene, x + 0.5, y + 0.5).direction.y);
+      above += up > 0;
+      high += up > 0.5;
+    }
+  EXPECT_NEAR(above, 5000, 120);
+  EXPECT_NEAR(high, 2500, 120);
+}
+
+/// A quarter of what lies between the rays of a pixel, whatever the scale of camera space.
+TYPED_TEST(CameraOf, FootprintOfAPixel) {
+  for (const char* scale : {"", "Scale 3 3 3\n"}) {
+    const auto scene =
+        flat_scene_of<TypeParam>(film_of(100, 100) + scale + "Camera \"perspective\" \"float fov\" 90\n" + sky);
+    const auto footprint = [&](const Vec3d& at, const Vec3d& normal) {
+      return static_cast<double>(
+          pixel_footprint(scene.view.camera, convert<TypeParam>(at), convert<TypeParam>(normalize(normal))));
+    };
+    // On the plane z = 10 pixels are 0.2 wide, in the middle and at the edge.
+    EXPECT_NEAR(footprint({0, 0, 10}, {0, 0, -1}), 0.01, 1e-6);
+    EXPECT_NEAR(footprint({7, -4, 10}, {0, 0, 1}), 0.01, 1e-6);
+    EXPECT_NEAR(footprint({0, 0, 10}, {0, 1, 1}), 0.01 * std::sqrt(2), 1e-6);
+    EXPECT_NEAR(footprint({0, 0, 10}, {0, 1, 0}), 0.16, 1e-6);
+  }
+}
+
 /// Also where the filter has negative parts, whose samples count against the others.
 TYPED_TEST(CameraOf, EveryFilterKeepsAConstantPicture) {
   for (const char* filter : {"box", "triangle", "gaussian", "mitchell", "sinc"}) {

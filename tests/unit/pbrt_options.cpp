@@ -1,8 +1,10 @@
 #include <zlib.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
+#include "core/math/scalar.h"
 #include "unit/pbrt_support.h"
 
 namespace alhazen::test {
@@ -65,9 +67,41 @@ TEST(PbrtOptions, Camera) {
   EXPECT_EQ(camera.shutter_close, 0.75);
 }
 
-TEST(PbrtOptions, OtherCamerasBecomePerspective) {
+TEST(PbrtOptions, OtherCameras) {
   const Parsed p = parse_options("Camera \"spherical\" \"string mapping\" \"equirectangular\"");
-  EXPECT_TRUE(p.warned("Camera \"spherical\" is not supported"));
+  EXPECT_EQ(p.scene.camera.type, CameraType::equirectangular);
+  EXPECT_EQ(parse_options("Camera \"spherical\"").scene.camera.type, CameraType::equal_area);
+  const Parsed orthographic = parse_options(
+      "Camera \"orthographic\" \"float screenwindow\" [ -1 2 -3 4 ] \"float lensradius\" 0.5 \"float focaldistance\" "
+      "2");
+  EXPECT_EQ(orthographic.scene.camera.type, CameraType::orthographic);
+  EXPECT_EQ(*orthographic.scene.camera.screen_window, (std::array<double, 4>{-1, 2, -3, 4}));
+  EXPECT_EQ(orthographic.scene.camera.lens_radius, 0.5);
+  EXPECT_EQ(orthographic.scene.camera.focal_distance, 2);
+  for (const Parsed* parsed : {&p, &orthographic}) EXPECT_FALSE(parsed->warned("Camera"));
+}
+
+/// A thin biconvex lens: 1 / f = (1.5 - 1) (1 / 50 + 1 / 50), so f = 50 mm; behind it an aperture stop.
+TEST(PbrtOptions, RealisticCameraHasTheFieldOfViewOfItsLens) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "pbrt_lens";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "lens.dat") << "# radius thickness eta diameter\n50 0 1.5 20\n-50 0 1 20\n0 40 0 10\n";
+  std::ofstream(folder / "bad.dat") << "50 0 1.5 20 7\n";
+  const std::string film =
+      "Film \"rgb\" \"integer xresolution\" 300 \"integer yresolution\" 400 \"float diagonal\" 50\n";
+  const Parsed p = parse(film +
+                             "Camera \"realistic\" \"string lensfile\" \"lens.dat\" \"float focusdistance\" 1 "
+                             "\"float aperturediameter\" 10\nWorldBegin",
+                         folder.string());
+  EXPECT_TRUE(p.warned("Camera \"realistic\""));
+  const double image_distance = 50 * 1000.0 / 950;
+  EXPECT_NEAR(p.scene.camera.fov, 2 * std::atan(15 / image_distance) * 180 / pi<double>, 1e-9);
+  EXPECT_EQ(p.scene.camera.lens_radius, 0.005);
+  EXPECT_EQ(p.scene.camera.focal_distance, 1);
+  EXPECT_NEAR(p.scene.film.exposure, pi<double> * 25 / (image_distance * image_distance), 1e-12);
+  EXPECT_NE(
+      error_of("Camera \"realistic\" \"string lensfile\" \"bad.dat\"\nWorldBegin", folder.string()).find("bad.dat"),
+      std::string::npos);
 }
 
 TEST(PbrtOptions, Filters) {

@@ -162,10 +162,56 @@ TEST(PbrtShapes, LoopSubdivisionKeepsAFlatSheetFlat) {
   for (const Vec3f& n : mesh_of(p).normals) EXPECT_EQ(n, (Vec3f{0, 0, 1}));
 }
 
-TEST(PbrtShapes, CurvesAreLeftOut) {
-  const Parsed p = parse_world("Shape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 2 0 0 3 0 0 ] \"float width\" 1");
-  EXPECT_TRUE(shapes(p).empty());
-  EXPECT_TRUE(p.warned("Shape \"curve\" is not supported"));
+/// A tube has the area of the cone frustum around it: 2 pi * the mean radius * the slanted length.
+TEST(PbrtShapes, StraightCurveIsATube) {
+  const Parsed p = parse_world(
+      "Shape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 2 0 0 3 0 0 ] \"string type\" \"cylinder\" "
+      "\"float width0\" 0.4 \"float width1\" 0.2");
+  const Mesh& mesh = mesh_of(p);
+  EXPECT_NEAR(area_of(mesh), pi * (0.2 + 0.1) * std::hypot(3, 0.1), 0.01);
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Vec3d& q = mesh.positions[i];
+    EXPECT_NEAR(std::hypot(q.y, q.z), 0.2 - q.x / 30, 0.01);
+    EXPECT_GT(q.y * static_cast<double>(mesh.normals[i].y) + q.z * static_cast<double>(mesh.normals[i].z), 0.09);
+    EXPECT_NEAR(static_cast<double>(mesh.uvs[i].x), q.x / 3, 1e-6);
+  }
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const Vec3d a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]],
+                c = mesh.positions[mesh.indices[i + 2]];
+    Vec3d outward = a + b + c;
+    outward.x = 0;
+    EXPECT_GT(dot(cross(b - a, c - a), outward), 0) << "wound counter-clockwise as seen from outside";
+  }
+}
+
+/// A quarter of a circle of radius 1, which a cubic follows to 0.03 %, as a ribbon that stands on it.
+TEST(PbrtShapes, RibbonHasItsAreaAndNormals) {
+  const Parsed p = parse_world(
+      "Shape \"curve\" \"string type\" \"ribbon\" \"point3 P\" [ 1 0 0  1 0.5522847 0  0.5522847 1 0  0 1 0 ] "
+      "\"normal3 N\" [ 0 0 1  0 0 1 ] \"float width\" 0.1");
+  const Mesh& mesh = mesh_of(p);
+  EXPECT_NEAR(area_of(mesh), 0.1 * pi / 2, 1e-3);
+  for (const Vec3f& n : mesh.normals) EXPECT_NEAR(static_cast<double>(n.z), 1, 1e-6);
+  EXPECT_NE(error_of("WorldBegin Shape \"curve\" \"string type\" \"ribbon\" \"point3 P\" [ 0 0 0 1 0 0 2 0 0 3 0 0 ]")
+                .find("\"N\""),
+            std::string::npos);
+}
+
+/// The curve of a uniform B-spline begins at (p0 + 4 p1 + p2) / 6, of degree 2 at (p0 + p1) / 2.
+TEST(PbrtShapes, SplinesAndDegrees) {
+  const auto first_point = [](const std::string& parameters) {
+    const Parsed p = parse_world("Shape \"curve\" \"string type\" \"ribbon\" \"float width\" 0.01 " + parameters);
+    return (mesh_of(p).positions[0] + mesh_of(p).positions[1]) / 2;
+  };
+  const std::string points = "\"point3 P\" [ 0 0 0  6 0 0  6 12 0  0 12 0  0 0 0 ] ";
+  expect_near(first_point(points + "\"string basis\" \"bspline\" \"normal3 N\" [ 0 0 1 0 0 1 0 0 1 ]"), {5, 2, 0},
+              1e-9);
+  expect_near(first_point(points + "\"string basis\" \"bspline\" \"integer degree\" 2 "
+                                   "\"normal3 N\" [ 0 0 1 0 0 1 0 0 1 0 0 1 ]"),
+              {3, 0, 0}, 1e-9);
+  expect_near(first_point(points + "\"integer degree\" 2 \"normal3 N\" [ 0 0 1 0 0 1 0 0 1 ]"), {0, 0, 0}, 1e-9);
+  EXPECT_NE(error_of("WorldBegin Shape \"curve\" " + points).find("\"P\" has 5 points"), std::string::npos);
+  EXPECT_TRUE(shapes(parse_world("Shape \"curve\" \"point3 P\" [ 1 1 1 1 1 1 1 1 1 1 1 1 ]")).empty());
 }
 
 TEST(PbrtShapes, Alpha) {

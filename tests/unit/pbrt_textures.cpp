@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/textures/texture.h"
+#include "scene/flatten_materials.h"
 #include "unit/pbrt_support.h"
 
 namespace alhazen::test {
@@ -81,20 +83,56 @@ TEST(PbrtTextures, Noise) {
   EXPECT_EQ(named(p, "m").variation, 0.1);
 }
 
-TEST(PbrtTextures, UnsupportedKindsBecomeConstants) {
+TEST(PbrtTextures, RarerKinds) {
   const Parsed p = parse_world(
-      "Texture \"b\" \"float\" \"bilerp\" \"float v00\" 1 Texture \"d\" \"spectrum\" \"dots\"\n"
-      "Texture \"p\" \"spectrum\" \"ptex\" \"string filename\" \"x\" Texture \"w\" \"float\" \"windy\"\n"
-      "Texture \"x\" \"float\" \"directionmix\" \"vector3 dir\" [ 1 0 0 ]");
-  expect_near(named(p, "b").value, {0.75, 0.75, 0.75});
-  expect_near(named(p, "d").value, {0.5, 0.5, 0.5});
-  for (const char* kind : {"bilerp", "dots", "ptex", "windy", "directionmix"}) EXPECT_TRUE(p.warned(kind)) << kind;
+      "Texture \"d\" \"spectrum\" \"dots\" \"rgb inside\" [ 1 0 0 ] \"float uscale\" 5\n"
+      "Texture \"w\" \"float\" \"windy\"\n"
+      "Rotate 90 0 0 1 Texture \"x\" \"float\" \"directionmix\" \"vector3 dir\" [ 2 0 0 ]");
+  EXPECT_EQ(named(p, "d").kind, TextureKind::dots);
+  EXPECT_EQ(named(p, "d").uv_scale.x, 5);
+  expect_near(constant_of(p, named(p, "d").inputs[0]), {1, 0, 0});
+  EXPECT_EQ(named(p, "w").kind, TextureKind::windy);
+  EXPECT_EQ(named(p, "x").kind, TextureKind::direction_mix);
+  expect_near(named(p, "x").direction, {0, 1, 0});
+  for (const char* kind : {"dots", "windy", "directionmix"}) EXPECT_FALSE(p.warned(kind)) << kind;
+  EXPECT_NE(error_of("WorldBegin Texture \"p\" \"spectrum\" \"ptex\" \"string filename\" \"x\"").find("ptex"),
+            std::string::npos);
 }
 
-TEST(PbrtTextures, OtherMappingsAreWarnedOf) {
-  const Parsed p =
-      parse_world("Texture \"c\" \"float\" \"checkerboard\" \"string mapping\" \"planar\" \"vector3 v1\" [ 1 0 0 ]");
-  EXPECT_TRUE(p.warned("mapping \"planar\""));
+/// (1 - s) (1 - t) v00 + (1 - s) t v01 + s (1 - t) v10 + s t v11.
+TEST(PbrtTextures, BilinearInterpolationOfFourValues) {
+  Parsed p = parse_world(
+      "Texture \"b\" \"float\" \"bilerp\" \"float v00\" 1 \"float v01\" 2 \"float v10\" 4 \"float v11\" 8\n"
+      "Material \"diffuse\" Shape \"sphere\"");
+  Material material;
+  material.reflectance = static_cast<uint32_t>(&named(p, "b") - p.scene.textures.data());
+  p.scene.materials.assign(1, material);
+  SceneArrays<double> arrays;
+  flatten_materials(p.scene, arrays);
+  FlatScene<double> flat;
+  arrays.move_into(flat);
+  const auto at = [&](double u, double v) {
+    return evaluate_texture(flat.view, flat.view.materials[0].reflectance, TexturePoint<double>{{}, {u, v}}).x;
+  };
+  EXPECT_NEAR(at(0, 0), 1, 1e-12);
+  EXPECT_NEAR(at(0, 1), 2, 1e-12);
+  EXPECT_NEAR(at(1, 0), 4, 1e-12);
+  EXPECT_NEAR(at(1, 1), 8, 1e-12);
+  EXPECT_NEAR(at(0.25, 0.5), 0.375 + 0.75 + 0.5 + 1, 1e-12);
+}
+
+TEST(PbrtTextures, Mappings) {
+  const Parsed p = parse_world(
+      "Translate 1 0 0\nTexture \"c\" \"float\" \"checkerboard\" \"string mapping\" \"planar\" "
+      "\"vector3 v1\" [ 0 2 0 ] \"vector3 v2\" [ 0 0 3 ] \"float udelta\" 0.5\n"
+      "Texture \"s\" \"float\" \"dots\" \"string mapping\" \"spherical\"\n"
+      "Texture \"y\" \"float\" \"checkerboard\" \"string mapping\" \"cylindrical\"");
+  EXPECT_EQ(named(p, "c").mapping, TextureMappingKind::planar);
+  expect_near(named(p, "c").texture_from_world.point({5, 1, 2}), {2.5, 6, 0});
+  EXPECT_EQ(named(p, "s").mapping, TextureMappingKind::spherical);
+  expect_near(named(p, "s").texture_from_world.point({1, 0, 0}), {0, 0, 0});
+  EXPECT_EQ(named(p, "y").mapping, TextureMappingKind::cylindrical);
+  EXPECT_TRUE(p.diagnostics.warnings().size() <= 1) << "only that there is nothing to see";
 }
 
 /// A picture of 2 x 1 texels in PFM: linear floats, so nothing is lost.
@@ -123,7 +161,8 @@ TEST(PbrtTextures, ImagesAreReadOnceForEachUse) {
   EXPECT_TRUE(named(p, "b").invert);
   EXPECT_EQ(named(p, "b").wrap, WrapMode::repeat);
   const ImageTexels& grey = p.scene.images[named(p, "c").image];
-  EXPECT_EQ(grey.floats, (std::vector<float>{0.5f, 0.5f, 0.5f, 1, 1, 1}));
+  EXPECT_EQ(grey.floats, (std::vector<float>{0.5f, 1}));
+  EXPECT_EQ(grey.channels, 1);
 }
 
 }  // namespace

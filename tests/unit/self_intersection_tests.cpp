@@ -20,7 +20,7 @@ struct OnePrimitive {
   Vec3<Real> positions[3];
   TriangleRecord triangle{{0, 1, 2}, 0};
   SphereRecord<Real> sphere{{}, 0, 0, no_sphere_frame};
-  SurfaceRecord surface{0, no_light, no_offset, no_offset, 0};
+  SurfaceRecord surface{0, no_light, no_offset, no_offset, 0, no_offset};
   PrimitiveId primitive;
 
   SceneView<Real> view() const {

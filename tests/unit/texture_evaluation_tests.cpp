@@ -34,6 +34,10 @@ class Textures {
         flat_.view, flat_.view.materials[texture].reflectance,
         TexturePoint<Real>{convert<Real>(position), {static_cast<Real>(uv.x), static_cast<Real>(uv.y)}}));
   }
+  Vec3d with_normal(uint32_t texture, const Vec3d& normal) const {
+    return convert<double>(evaluate_texture(flat_.view, flat_.view.materials[texture].reflectance,
+                                            TexturePoint<Real>{{}, {}, convert<Real>(normal)}));
+  }
   double at_uv(uint32_t texture, double u, double v) const { return at(texture, {}, {u, v}).x; }
   const uint8_t* noise_permutation() const { return flat_.view.noise_permutation; }
 
@@ -173,6 +177,111 @@ TYPED_TEST(TextureEvaluation, FloatTexelsAreLinear) {
   const Textures<TypeParam> t({image_texture(WrapMode::repeat, true)}, {image});
   EXPECT_EQ(t.at(0, {}, {0.25, 0.5}), (Vec3d{0.5, 1.5, 7.25}));
   EXPECT_EQ(t.at(0, {}, {0.75, 0.5}), (Vec3d{100, 200, 300}));
+}
+
+/// (s, t) = (2 u, v) turned counter-clockwise by 90 degrees, then moved: (-v + 0.25, 2 u + 0.5).
+TYPED_TEST(TextureEvaluation, UvAreScaledThenTurnedThenMoved) {
+  Texture turned = of_kind(TextureKind::coordinates);
+  turned.uv_scale = {2, 1};
+  turned.uv_offset = {0.25, 0.5};
+  turned.uv_rotation = 90;
+  Texture slanted = of_kind(TextureKind::coordinates);
+  slanted.uv_rotation = 30;
+  const Textures<TypeParam> t({turned, slanted});
+  const Vec3d st = t.at(0, {}, {0.3, 0.1});
+  EXPECT_NEAR(st.x, 0.15, rounding<TypeParam>);
+  EXPECT_NEAR(st.y, 1.1, rounding<TypeParam>);
+  EXPECT_NEAR(t.at(1, {}, {1, 0}).x, std::sqrt(0.75), rounding<TypeParam>);
+  EXPECT_NEAR(t.at(1, {}, {1, 0}).y, 0.5, rounding<TypeParam>);
+  EXPECT_NEAR(t.at(1, {}, {0, 1}).x, -0.5, rounding<TypeParam>);
+}
+
+/// s is mirrored, t clamped.
+TYPED_TEST(TextureEvaluation, WrapModesOfTheTwoAxes) {
+  Texture texture = image_texture(WrapMode::mirror, true);
+  texture.wrap_t = WrapMode::clamp;
+  const Textures<TypeParam> t({texture, image_texture(WrapMode::mirror, true)}, {two_by_two(false)});
+  const double tolerance = rounding<TypeParam>;
+  EXPECT_NEAR(t.at_uv(0, 0.8, 0.1), 0.8, tolerance);
+  EXPECT_NEAR(t.at_uv(0, 1.2, 0.1), 0.8, tolerance);
+  EXPECT_NEAR(t.at_uv(0, 1.8, 0.1), 0.4, tolerance);
+  EXPECT_NEAR(t.at_uv(0, -0.2, 0.1), 0.4, tolerance);
+  EXPECT_NEAR(t.at_uv(0, -0.8, 0.1), 0.8, tolerance);
+  EXPECT_NEAR(t.at_uv(0, 0.8, 7.1), 0.2, tolerance);
+  EXPECT_NEAR(t.at_uv(1, 0.8, 1.1), 0.2, tolerance);
+  EXPECT_NEAR(t.at_uv(1, 0.8, 1.9), 0.8, tolerance);
+}
+
+TYPED_TEST(TextureEvaluation, OneChannelAndChannelsOfThree) {
+  ImageTexels image;
+  image.width = image.height = 1;
+  image.floats = {0.25f, 0.5f, 0.75f};
+  ImageTexels grey = image;
+  grey.channels = 1;
+  grey.floats = {0.625f};
+  Texture second = image_texture(WrapMode::repeat, false);
+  second.image = 1;
+  Texture blue = over(TextureKind::channel, {0, no_index, no_index});
+  blue.channel = 2;
+  const Textures<TypeParam> t({image_texture(WrapMode::repeat, false), second, blue}, {image, grey});
+  EXPECT_EQ(t.at(1, {}), splat(0.625));
+  EXPECT_EQ(t.at(2, {}), splat(0.75));
+  ImageTexels wrong = image;
+  wrong.channels = 2;
+  EXPECT_THROW(Textures<TypeParam>({image_texture(WrapMode::repeat, false)}, {wrong}), InputError);
+}
+
+TYPED_TEST(TextureEvaluation, MappingsThatLookAtThePosition) {
+  Texture spherical = of_kind(TextureKind::coordinates);
+  spherical.mapping = TextureMappingKind::spherical;
+  spherical.texture_from_world = Transform::translate({-1, 0, 0});
+  Texture cylindrical = spherical, planar = spherical;
+  cylindrical.mapping = TextureMappingKind::cylindrical;
+  planar.mapping = TextureMappingKind::planar;
+  const Textures<TypeParam> t({spherical, cylindrical, planar});
+  const double tolerance = rounding<TypeParam>;
+  EXPECT_NEAR(length(t.at(0, {1, 0, 3}) - Vec3d{0, 0, 0}), 0, tolerance);       // the north pole
+  EXPECT_NEAR(length(t.at(0, {1, 2, 0}) - Vec3d{0.5, 0.25, 0}), 0, tolerance);  // +y
+  EXPECT_NEAR(length(t.at(0, {1, -2, 0}) - Vec3d{0.5, 0.75, 0}), 0, tolerance);
+  EXPECT_NEAR(length(t.at(1, {1, 2, 7}) - Vec3d{0.75, 7, 0}), 0, tolerance);
+  EXPECT_NEAR(length(t.at(1, {3, 0, 7}) - Vec3d{0.5, 7, 0}), 0, tolerance);
+  EXPECT_NEAR(length(t.at(2, {3, 5, 7}) - Vec3d{2, 5, 0}), 0, tolerance);
+}
+
+TYPED_TEST(TextureEvaluation, DirectionMixFollowsTheNormal) {
+  Texture mix = over(TextureKind::direction_mix, {0, 1, no_index});
+  mix.direction = {0, 2, 0};
+  const Textures<TypeParam> t({constant(1), constant(0.25), mix});
+  const auto facing = [&](const Vec3d& normal) { return t.with_normal(2, normal).x; };
+  EXPECT_NEAR(facing({0, 1, 0}), 1, rounding<TypeParam>);
+  EXPECT_NEAR(facing({0, -1, 0}), 1, rounding<TypeParam>);
+  EXPECT_NEAR(facing({1, 0, 0}), 0.25, rounding<TypeParam>);
+  EXPECT_NEAR(facing({0.8, 0.6, 0}), 0.6 + 0.4 * 0.25, rounding<TypeParam>);
+}
+
+/// By the formula: a cell has a dot where noise at its middle is positive, and then near its middle.
+TYPED_TEST(TextureEvaluation, DotsLieInTheCellsThatNoiseChooses) {
+  const Textures<TypeParam> t({constant(1), constant(0), over(TextureKind::dots, {0, 1, no_index})});
+  int dots = 0;
+  for (int i = 0; i < 20; ++i)
+    for (int j = 0; j < 20; ++j) {
+      const bool has_dot = perlin_noise(t.noise_permutation(), Vec3<double>{i + 0.5, j + 0.5, 0.5}) > 0;
+      dots += has_dot;
+      // The dot's middle is at most 0.15 off that of the cell, its radius is 0.35.
+      EXPECT_EQ(t.at_uv(2, i + 0.01, j + 0.01), has_dot ? 1 : 0) << i << " " << j;
+      EXPECT_EQ(t.at_uv(2, i + 0.499, j + 0.499), 0);
+    }
+  EXPECT_GT(dots, 100);
+  EXPECT_LT(dots, 300);
+}
+
+TYPED_TEST(TextureEvaluation, WindyIsTheProductOfTwoNoises) {
+  const Textures<TypeParam> t({of_kind(TextureKind::windy)});
+  for (const Vec3d& p : {Vec3d{1.3, 2.7, 0.4}, Vec3d{-7.1, 3.3, 9.8}}) {
+    const double strength = octave_noise(t.noise_permutation(), p * 0.1, 0.5, 3u, false);
+    const double waves = octave_noise(t.noise_permutation(), p, 0.5, 6u, false);
+    EXPECT_NEAR(t.at(0, p).x, std::abs(strength) * waves, by_precision<TypeParam>(1e-5, 1e-12));
+  }
 }
 
 TYPED_TEST(TextureEvaluation, ScaleAndMixNest) {

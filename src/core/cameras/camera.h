@@ -1,20 +1,84 @@
 #pragma once
 
-// The perspective camera with a thin lens.
+// Cameras: perspective and orthographic with a thin lens, and those that see the whole sphere.
 
+#include "core/lights/sphere_mapping.h"
 #include "core/math/ray.h"
 #include "core/math/vec.h"
 #include "core/sampling/warp.h"
 
 namespace ALHAZEN_CORE {
 
+enum class CameraKind : uint32_t { perspective, orthographic, equirectangular, equal_area };
+
 template <class Real>
 struct CameraRecord {
   /// From raster (pixels, y down) to the plane z = 1 of camera space: x = x_scale * px + x_offset, and y likewise.
+  /// orthographic: to the plane z = 0. Cameras of the whole sphere: to [0, 1], y down.
   Real x_scale, x_offset, y_scale, y_offset;
   Real lens_radius, focal_distance;
   Real world_from_camera[3][4];
+  /// What a quarter of a pixel sees: its solid angle in the middle of the picture; orthographic: its area in world
+  /// space.
+  Real footprint;
+  Real inverse_scale;  ///< of the length that camera space's z axis has in world space
+  CameraKind kind;
 };
+
+template <class Real>
+ALHAZEN_HD Vec3<Real> camera_axis(const CameraRecord<Real>& camera) {
+  const auto& m = camera.world_from_camera;
+  return Vec3<Real>{m[0][2], m[1][2], m[2][2]} * camera.inverse_scale;
+}
+
+/// The area, world space, that a quarter of a pixel covers of a surface at `position` with the unit normal `normal`, as
+/// the camera would see it with nothing in between. A quarter, since pixels are sampled more than once. Of surfaces
+/// that are seen from the edge it is bounded.
+template <class Real>
+ALHAZEN_HD Real pixel_footprint(const CameraRecord<Real>& camera, const Vec3<Real>& position,
+                                const Vec3<Real>& normal) {
+  constexpr Real least_cosine = Real(1.0 / 16);
+  const Vec3<Real> axis = camera_axis(camera);
+  if (camera.kind == CameraKind::orthographic)
+    return camera.footprint / larger(std::abs(dot(normal, axis)), least_cosine);
+  const auto& m = camera.world_from_camera;
+  const Vec3<Real> way = position - Vec3<Real>{m[0][3], m[1][3], m[2][3]};
+  const Real squared = length_squared(way), distance = std::sqrt(squared);
+  // The cosine times the distance.
+  const Real facing = larger(std::abs(dot(normal, way)), least_cosine * distance);
+  if (!(facing > 0)) return 0;
+  if (camera.kind != CameraKind::perspective) return camera.footprint * squared * distance / facing;
+  // A pixel away from the middle has a smaller solid angle, by the cube of the cosine to the axis.
+  const Real depth = std::abs(dot(axis, way));
+  return camera.footprint * depth * depth * depth / facing;
+}
+
+/// The rays of cameras that are not perspective, in camera space. pbrt's spherical cameras have y up.
+template <class Real>
+ALHAZEN_HD void other_camera_ray(const CameraRecord<Real>& camera, const Vec2<Real>& film, const Vec2<Real>& u_lens,
+                                 Vec3<Real>& origin, Vec3<Real>& direction) {
+  const Real x = camera.x_scale * film.x + camera.x_offset, y = camera.y_scale * film.y + camera.y_offset;
+  if (camera.kind == CameraKind::orthographic) {
+    origin = {x, y, 0};
+    direction = {0, 0, 1};
+    if (camera.lens_radius > 0) {
+      const Vec2<Real> lens = sample_disk(u_lens);
+      const Vec3<Real> aside{lens.x * camera.lens_radius, lens.y * camera.lens_radius, 0};
+      origin += aside;
+      direction = direction * camera.focal_distance - aside;
+    }
+    return;
+  }
+  const bool equal_area = camera.kind == CameraKind::equal_area;
+  Vec2<Real> at{x, y};
+  if (equal_area) {
+    // Filters reach past the edge, where the square goes on turned round.
+    if (at.x < 0 || at.x > 1) at = {at.x < 0 ? -at.x : 2 - at.x, 1 - at.y};
+    if (at.y < 0 || at.y > 1) at = {1 - at.x, at.y < 0 ? -at.y : 2 - at.y};
+  }
+  const Vec3<Real> d = direction_of_square(equal_area ? SphereMapping::octahedral : SphereMapping::equirectangular, at);
+  direction = {d.x, d.z, d.y};
+}
 
 /// The ray through raster position `film` (pixels; the first pixel's centre is at 0.5, 0.5).
 template <class Real>
@@ -22,7 +86,9 @@ ALHAZEN_HD ALHAZEN_HOT Ray<Real> camera_ray(const CameraRecord<Real>& camera, co
                                             const Vec2<Real>& u_lens, Real time) {
   Vec3<Real> origin{};
   Vec3<Real> direction{camera.x_scale * film.x + camera.x_offset, camera.y_scale * film.y + camera.y_offset, 1};
-  if (camera.lens_radius > 0) {
+  if (camera.kind != CameraKind::perspective) {
+    other_camera_ray(camera, film, u_lens, origin, direction);
+  } else if (camera.lens_radius > 0) {
     const Vec2<Real> lens = sample_disk(u_lens);
     origin = {lens.x * camera.lens_radius, lens.y * camera.lens_radius, 0};
     direction = direction * camera.focal_distance - origin;

@@ -17,7 +17,7 @@ ALHAZEN_HD Vec3<Real> cast_ray_branching(const SceneView<Real>& scene, const Int
   if (!intersector.closest_hit(ray, infinity<Real>, hit)) return background_radiance(scene, ray.direction);
   const ShadingPoint<Real> point = shading_point(scene, ray, hit);
   if (segment == 0) record_first_hit(point, hit, record);
-  Vec3<Real> radiance = surface_emission(scene, point);
+  Vec3<Real> radiance = surface_emission(scene, hit, point);
   const VertexDimensions dimensions(segment);
 
   const auto follow = [&](const BsdfSample<Real>& s, const Sampler& numbers, Real rate) {

@@ -27,7 +27,7 @@ ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler
                                      const Hit<Real>& hit, IterativeState<Real>& path, Record& record, const Light&) {
   const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
   if (path.vertex == 0) record_first_hit(point, hit, record);
-  record.radiance += path.throughput * surface_emission(scene, point);
+  record.radiance += path.throughput * surface_emission(scene, hit, point);
   if (path.vertex + 1 >= max_segments) return false;
   const BsdfSample<Real> s = scatter(point, sampler, VertexDimensions(path.vertex));
   if (!(s.pdf > 0) || is_zero(s.weight)) return false;

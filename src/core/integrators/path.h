@@ -40,7 +40,7 @@ ALHAZEN_HD ALHAZEN_HOT void leave_scene(const SceneView<Real>& scene, const Path
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const PathState<Real>& path,
                                             const Hit<Real>& hit, const ShadingPoint<Real>& point, Record& record) {
-  const Vec3<Real> emission = surface_emission(scene, point);
+  const Vec3<Real> emission = surface_emission(scene, hit, point);
   if (is_zero(emission)) return;
   const Real light_pdf = path.is_specular
                              ? Real(0)

@@ -17,7 +17,7 @@ ALHAZEN_HD Vec3<Real> cast_ray_recursive(const SceneView<Real>& scene, const Int
   if (!intersector.closest_hit(ray, infinity<Real>, hit)) return background_radiance(scene, ray.direction);
   const ShadingPoint<Real> point = shading_point(scene, ray, hit);
   if (segment == 0) record_first_hit(point, hit, record);
-  const Vec3<Real> emission = surface_emission(scene, point);
+  const Vec3<Real> emission = surface_emission(scene, hit, point);
   const BsdfSample<Real> s = scatter(point, sampler, VertexDimensions(segment));
   if (!(s.pdf > 0) || is_zero(s.weight)) return emission;
   return emission + s.weight * cast_ray_recursive(scene, intersector, sampler, spawn_ray(point.si, s.direction),

@@ -28,19 +28,20 @@ ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point(const SceneView<Real>& s
   point.wo = -ray.direction;
   const SurfaceRecord& surface = scene.surfaces[point.si.surface];
   point.light = surface.light;
-  point.bsdf = make_bsdf(scene, scene.materials[surface.material], TexturePoint<Real>{point.si.position, point.si.uv},
+  point.bsdf = make_bsdf(scene, scene.materials[surface.material], texture_point(point.si, hit),
                          consistent_shading_normal(point.si, point.wo));
   return point;
 }
 
 /// Radiance that the surface itself sends back along the ray.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT Vec3<Real> surface_emission(const SceneView<Real>& scene, const ShadingPoint<Real>& point) {
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> surface_emission(const SceneView<Real>& scene, const Hit<Real>& hit,
+                                                   const ShadingPoint<Real>& point) {
   if (point.light == no_light) return {};
   const LightRecord<Real>& light = scene.lights[point.light];
   const Vec3<Real> radiance = emitted_radiance(light, point.si.normal, point.wo);
   if (light.texture.count == 0 || is_zero(radiance)) return radiance;
-  return radiance * emission_factor(scene, light, point_of_emission(point.si));
+  return radiance * emission_factor(scene, light, point_of_emission(point.si, hit));
 }
 
 /// The side of the surface that light must come from to be scattered back along the ray: its normal; zero where the

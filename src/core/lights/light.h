@@ -31,10 +31,11 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> emitted_radiance(const LightRecord<Real>& ligh
   return light.two_sided || dot(front_normal, towards) > 0 ? light.radiance : Vec3<Real>{};
 }
 
-/// Where on a surface that shines its texture is looked up.
+/// Where on a surface that shines its texture is looked up: in full detail, whoever asks, so that what is sampled is
+/// what is met.
 template <class Real>
-ALHAZEN_HD TexturePoint<Real> point_of_emission(const SurfaceInteraction<Real>& si) {
-  return {si.position, si.uv};
+ALHAZEN_HD TexturePoint<Real> point_of_emission(const SurfaceInteraction<Real>& si, const Hit<Real>& hit) {
+  return {si.position, si.uv, {}, hit};
 }
 
 /// Factor of the light's texture on its radiance.
@@ -49,7 +50,7 @@ template <class Real>
 ALHAZEN_HD Vec3<Real> triangle_emission_factor(const SceneView<Real>& scene, const LightRecord<Real>& light, Real b1,
                                                Real b2) {
   const Hit<Real> hit{0, b1, b2, PrimitiveId(PrimitiveKind::triangle, light.primitive)};
-  return emission_factor(scene, light, point_of_emission(triangle_interaction(scene, hit)));
+  return emission_factor(scene, light, point_of_emission(triangle_interaction(scene, hit), hit));
 }
 
 /// The same at a point of a sphere.

@@ -95,6 +95,25 @@ struct SurfaceRecord {
   uint32_t normal_offset;  ///< added to the vertex index modulo 2^32; no_offset: no shading normals
   uint32_t uv_offset;      ///< the same for uvs
   uint32_t flip_normal;    ///< 1: the normal is against the winding (triangles) or inward (spheres)
+  uint32_t attributes;     ///< index into vertex_attributes, or no_offset
+};
+
+/// Where a mesh has what few meshes have, as SurfaceRecord has it of normals. no_offset: not at all.
+struct AttributesRecord {
+  uint32_t second_uv_offset;  ///< into uvs
+  uint32_t colour_offset;
+  uint32_t tangent_offset;
+};
+
+/// Linear.
+struct VertexColour {
+  float red, green, blue, alpha;
+};
+
+/// In the space of the positions, unit length; `handedness` is 1 where normal, tangent and bitangent are right-handed,
+/// -1 where they are left-handed.
+struct VertexTangent {
+  float x, y, z, handedness;
 };
 
 /// Where a ray met a primitive. b1 and b2 are the barycentric weights of vertices 1 and 2; spheres leave them 0.

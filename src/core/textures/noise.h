@@ -54,4 +54,24 @@ ALHAZEN_HD Real octave_noise(const uint8_t* permutation, Vec3<Real> p, Real roug
   return sum;
 }
 
+/// Waves whose height goes with the strength of a wind that changes more slowly over space.
+template <class Real>
+ALHAZEN_HD Real windy_waves(const uint8_t* permutation, const Vec3<Real>& p) {
+  const Real strength = octave_noise(permutation, p * Real(0.1), Real(0.5), 3, false);
+  return std::abs(strength) * octave_noise(permutation, p, Real(0.5), 6, false);
+}
+
+/// Whether (s, t) lies within a disc of radius 0.35. About half of the cells, whose middles are the integers, have one,
+/// which noise shifts within its cell (PBR 3rd ed., 10.5.1).
+template <class Real>
+ALHAZEN_HD bool is_inside_dot(const uint8_t* permutation, const Vec2<Real>& st) {
+  constexpr Real radius = Real(0.35), most_shift = Real(0.5) - radius;
+  const Real s = std::floor(st.x + Real(0.5)), t = std::floor(st.y + Real(0.5));
+  const auto noise = [&](Real ds, Real dt) { return perlin_noise(permutation, Vec3<Real>{s + ds, t + dt, Real(0.5)}); };
+  if (!(noise(Real(0.5), Real(0.5)) > 0)) return false;
+  const Real ds = st.x - (s + most_shift * noise(Real(1.5), Real(2.8)));
+  const Real dt = st.y - (t + most_shift * noise(Real(4.5), Real(9.8)));
+  return ds * ds + dt * dt < radius * radius;
+}
+
 }  // namespace ALHAZEN_CORE

@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "io/pbrt/options.h"
 #include "io/pbrt/shapes.h"
 
 namespace alhazen::pbrt {
@@ -86,8 +87,9 @@ Scene Build::finish() {
     diagnostics.warn(where, "the scene has no shapes and no lights; the picture will be black");
   else if (!any_emission)
     diagnostics.warn(where, "the scene has no lights; the picture will be black");
+  if (lens_image_distance) scene.camera.fov = realistic_fov(*this);
   const double shutter = scene.camera.shutter_close - scene.camera.shutter_open;
-  scene.film.exposure = exposure_time.value_or(shutter) * iso / 100;
+  scene.film.exposure = exposure_time.value_or(shutter) * iso / 100 * lens_exposure;
   return std::move(scene);
 }
 

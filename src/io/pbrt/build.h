@@ -77,6 +77,10 @@ struct Build {
 
   double iso = 100;
   std::optional<double> exposure_time;  ///< seconds; absent: as long as the shutter is open
+  double film_diagonal = 35;            ///< millimetres
+  /// Of a realistic camera: from its lens to the film, millimetres. Its field of view follows from the film.
+  std::optional<double> lens_image_distance;
+  double lens_exposure = 1;  ///< what the lens lets onto the film: the solid angle of its opening
 
   void warn(const Place& place, const std::string& message) { diagnostics.warn(place.location(), message); }
   /// `directive` is not done by this reader; `instead` says what it does.

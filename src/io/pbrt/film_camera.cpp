@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <sstream>
 
 #include "io/pbrt/options.h"
 
@@ -59,12 +63,113 @@ void read_sensor(Build& build, ParameterList& list) {
   const std::string sensor = list.string("sensor", "cie1931");
   if (sensor != "cie1931")
     build.warn(list.place_of("sensor"),
-               "the sensor \"" + sensor + "\" is not supported; the picture is in linear sRGB");
+               "the sensor \"" + sensor + "\" is not supported; the picture is as bright, in linear sRGB");
   if (list.number("whitebalance", 0) != 0)
     build.warn(list.place_of("whitebalance"), "\"whitebalance\" is not supported; it is left out");
   if (list.has("maxcomponentvalue"))
     build.warn(list.place_of("maxcomponentvalue"), "\"maxcomponentvalue\" is not supported; samples are not clamped");
 }
+
+void read_window(ParameterList& list, Camera& camera) {
+  if (list.has("frameaspectratio")) camera.frame_aspect_ratio = list.positive("frameaspectratio", 1);
+  if (!list.has("screenwindow")) return;
+  const Place place = list.place_of("screenwindow");
+  const Numbers window = list.take_numbers("screenwindow");
+  if (window.size() != 4) fail(place, "\"screenwindow\" takes four values: x0 x1 y0 y1");
+  if (window[0] == window[1] || window[2] == window[3]) fail(place, "\"screenwindow\" has no area");
+  camera.screen_window = {window[0], window[1], window[2], window[3]};
+}
+
+void read_lens(ParameterList& list, Camera& camera) {
+  camera.lens_radius = list.number("lensradius", 0);
+  if (camera.lens_radius < 0) fail(list.place_of("lensradius"), "\"lensradius\" cannot be negative");
+  camera.focal_distance = list.positive("focaldistance", 1e6);
+}
+
+void read_perspective(Build&, ParameterList& list, Camera& camera) {
+  camera.fov = list.number("fov", 90);
+  if (!(camera.fov > 0 && camera.fov < 180)) fail(list.place_of("fov"), "\"fov\" must be over 0 and under 180 degrees");
+  read_window(list, camera);
+  read_lens(list, camera);
+}
+
+void read_orthographic(Build&, ParameterList& list, Camera& camera) {
+  camera.type = CameraType::orthographic;
+  read_window(list, camera);
+  read_lens(list, camera);
+}
+
+void read_spherical(Build&, ParameterList& list, Camera& camera) {
+  const std::string mapping = list.string("mapping", "equalarea");
+  if (mapping != "equalarea" && mapping != "equirectangular")
+    fail(list.place_of("mapping"), "unknown mapping of a camera \"" + mapping + "\"; use equalarea or equirectangular");
+  camera.type = mapping == "equalarea" ? CameraType::equal_area : CameraType::equirectangular;
+  list.ignore({"frameaspectratio", "screenwindow", "lensradius", "focaldistance"});
+}
+
+/// The numbers of a lens file: four an interface, from the front of the lens to the film: radius of curvature and
+/// distance to the next in millimetres, index of refraction behind it, diameter.
+std::vector<double> read_lens_file(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<double> values;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    for (std::string word; words >> word;) {
+      size_t used = 0;
+      double value = 0;
+      try {
+        value = std::stod(word, &used);
+      } catch (const std::exception&) {
+        used = 0;
+      }
+      if (used != word.size() || !std::isfinite(value))
+        throw InputError({path}, "a lens file holds numbers, four an interface, not '" + word + "'");
+      values.push_back(value);
+    }
+  }
+  if (values.empty() || values.size() % 4 != 0)
+    throw InputError({path}, "a lens file holds four numbers an interface: radius, thickness, index, diameter");
+  return values;
+}
+
+/// Of a ray near the axis that comes in along it, through all interfaces (an aperture stop has radius 0).
+double focal_length(const std::vector<double>& lens) {
+  double height = 1, slope = 0, index = 1;
+  for (size_t i = 0; i < lens.size(); i += 4) {
+    const double radius = lens[i], behind = lens[i + 2] > 0 ? lens[i + 2] : 1;
+    if (radius != 0) {
+      slope = (index * slope - height * (behind - index) / radius) / behind;
+      index = behind;
+    }
+    height += lens[i + 1] * slope;
+  }
+  return slope == 0 ? 0 : -1 / (slope * index);
+}
+
+void read_realistic(Build& build, ParameterList& list, Camera& camera) {
+  build.warn_replaced(list, "a perspective camera with the focal length of its lens is used instead");
+  const double distance = list.positive("focusdistance", 10);
+  if (list.has("lensfile")) {
+    const double f =
+        focal_length(read_lens_file(build.existing_file(list.place_of("lensfile"), list.string("lensfile", ""))));
+    // Where the thin lens of that focal length has the picture; millimetres, of scenes in metres.
+    if (f > 0 && 1000 * distance > f) build.lens_image_distance = f * 1000 * distance / (1000 * distance - f);
+  }
+  const double diameter = list.positive("aperturediameter", 1);
+  camera.lens_radius = diameter / 2000;
+  if (build.lens_image_distance) {
+    const double ratio = diameter / (2 * *build.lens_image_distance);
+    build.lens_exposure = std::numbers::pi * ratio * ratio;
+  }
+  camera.focal_distance = distance;
+  list.ignore({"aperture", "simpleweighting", "frameaspectratio", "screenwindow", "scale"});
+}
+
+using CameraReader = void (*)(Build&, ParameterList&, Camera&);
+const std::map<std::string, CameraReader> camera_readers{{"perspective", read_perspective},
+                                                         {"orthographic", read_orthographic},
+                                                         {"spherical", read_spherical},
+                                                         {"realistic", read_realistic}};
 
 }  // namespace
 
@@ -89,40 +194,35 @@ void set_film(Build& build, const std::string& kind, ParameterList& list) {
   read_sensor(build, list);
   if (build.state.rgb_space != "srgb")
     build.warn(list.place(), "the picture is written in linear sRGB, not in the colour space of the film");
-  list.ignore({"diagonal", "savefp16", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"});
+  build.film_diagonal = list.positive("diagonal", 35);
+  list.ignore({"savefp16", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"});
   list.reject_unknown();
   build.scene.film = film;
 }
 
 void set_camera(Build& build, const std::string& kind, ParameterList& list) {
+  const auto reader = camera_readers.find(kind);
+  if (reader == camera_readers.end())
+    fail(list.place(), "unknown camera \"" + kind + "\"; use perspective, orthographic, spherical or realistic");
   Camera camera;
   camera.world_from_camera = {build.state.ctm_start.inverse(), build.state.ctm_end.inverse()};
   build.coordinate_systems["camera"] = camera.world_from_camera;
-  if (kind == "orthographic" || kind == "spherical" || kind == "realistic") {
-    build.warn_replaced(list, "a perspective camera is used instead");
-    list.ignore_all();
-  } else if (kind != "perspective") {
-    fail(list.place(), "unknown camera \"" + kind + "\"; use perspective");
-  }
-  camera.fov = list.number("fov", 90);
-  if (!(camera.fov > 0 && camera.fov < 180)) fail(list.place_of("fov"), "\"fov\" must be over 0 and under 180 degrees");
-  if (list.has("frameaspectratio")) camera.frame_aspect_ratio = list.positive("frameaspectratio", 1);
-  if (list.has("screenwindow")) {
-    const Place place = list.place_of("screenwindow");
-    const Numbers window = list.take_numbers("screenwindow");
-    if (window.size() != 4) fail(place, "\"screenwindow\" takes four values: x0 x1 y0 y1");
-    if (window[0] == window[1] || window[2] == window[3]) fail(place, "\"screenwindow\" has no area");
-    camera.screen_window = {window[0], window[1], window[2], window[3]};
-  }
-  camera.lens_radius = list.number("lensradius", 0);
-  if (camera.lens_radius < 0) fail(list.place_of("lensradius"), "\"lensradius\" cannot be negative");
-  camera.focal_distance = list.positive("focaldistance", 1e6);
+  build.lens_image_distance.reset();
+  build.lens_exposure = 1;
+  reader->second(build, list, camera);
   camera.shutter_open = list.number("shutteropen", 0);
   camera.shutter_close = list.number("shutterclose", 1);
   if (!(camera.shutter_open < camera.shutter_close))
     fail(list.place_of("shutterclose"), "\"shutterclose\" must be later than \"shutteropen\", or no light is recorded");
   list.reject_unknown();
   build.scene.camera = camera;
+}
+
+double realistic_fov(const Build& build) {
+  const double width = static_cast<double>(build.scene.film.width),
+               height = static_cast<double>(build.scene.film.height);
+  const double shorter = build.film_diagonal * std::min(width, height) / std::hypot(width, height);
+  return 2 * std::atan(shorter / (2 * *build.lens_image_distance)) * 180 / std::numbers::pi;
 }
 
 }  // namespace alhazen::pbrt

@@ -45,12 +45,12 @@ void make_grey(ImageTexels& image) {
   if (image.floats.empty() ? is_grey(image.bytes) : is_grey(image.floats)) return;
   const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
   const ByteDecoder decode(image.srgb);
-  std::vector<float> grey(3 * count);
+  std::vector<float> grey(count);
   for (size_t i = 0; i < count; ++i) {
     const Vec3d colour = texel(image, decode, i);
-    const auto mean = static_cast<float>((colour.x + colour.y + colour.z) / 3);
-    grey[3 * i] = grey[3 * i + 1] = grey[3 * i + 2] = mean;
+    grey[i] = static_cast<float>((colour.x + colour.y + colour.z) / 3);
   }
+  image.channels = 1;
   image.bytes = {};
   image.floats = std::move(grey);
 }
@@ -77,7 +77,7 @@ WrapMode read_wrap(Build& build, ParameterList& list) {
   return WrapMode::clamp;
 }
 
-/// Filters over more than one texel differ in how they resample only; bilinear stands for all of them.
+/// All filters but the first are interpolated, also between sizes of the picture where it is seen from afar.
 bool read_nearest(ParameterList& list) {
   const std::string filter = list.string("filter", "bilinear");
   if (filter == "point") return true;

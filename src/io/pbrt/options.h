@@ -10,6 +10,8 @@
 namespace alhazen::pbrt {
 
 void set_camera(Build& build, const std::string& kind, ParameterList& list);
+/// Degrees over the shorter side of the film, of the realistic camera that was read.
+double realistic_fov(const Build& build);
 void set_film(Build& build, const std::string& kind, ParameterList& list);
 void set_filter(Build& build, const std::string& kind, ParameterList& list);
 void set_sampler(Build& build, const std::string& kind, ParameterList& list);

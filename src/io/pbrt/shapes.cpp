@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/pbrt/curves.h"
 #include "io/pbrt/materials.h"
 #include "io/pbrt/meshes.h"
 #include "io/pbrt/nearest.h"
@@ -104,13 +105,6 @@ void read_as_mesh(Build& build, ParameterList& list, Shape& shape) {
   become_mesh(shape, read(build, list));
 }
 
-/// Curves have no replacement: a mesh of index no_index is left out.
-void skip_curve(Build& build, ParameterList& list, Shape& shape) {
-  build.warn_replaced(list, "curves are left out");
-  list.ignore_all();
-  become_mesh(shape, no_index);
-}
-
 using ShapeReader = void (*)(Build&, ParameterList&, Shape&);
 const std::map<std::string, ShapeReader> readers{{"sphere", read_sphere},
                                                  {"cylinder", read_cylinder},
@@ -119,7 +113,7 @@ const std::map<std::string, ShapeReader> readers{{"sphere", read_sphere},
                                                  {"bilinearmesh", read_as_mesh<read_bilinear_mesh>},
                                                  {"plymesh", read_as_mesh<read_ply_mesh>},
                                                  {"loopsubdiv", read_as_mesh<read_loop_subdivision>},
-                                                 {"curve", skip_curve}};
+                                                 {"curve", read_as_mesh<read_curve>}};
 
 /// Area in world space, at the start of the shutter.
 double world_area(const Build& build, const Shape& shape) {

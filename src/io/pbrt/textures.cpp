@@ -24,17 +24,41 @@ struct TextureRequest {
   }
 };
 
-void read_uv_mapping(const TextureRequest& request, Texture& texture) {
+/// The first two rows of a planar mapping are the vectors that (s, t) go along.
+Transform planar_mapping(ParameterList& list, const Transform& texture_from_world) {
+  const Vec3d v1 = list.point("v1", {1, 0, 0}), v2 = list.point("v2", {0, 1, 0});
+  Matrix4 rows = texture_from_world.matrix();
+  const Matrix4 old = rows;
+  for (size_t j = 0; j < 4; ++j) {
+    rows[0][j] = v1.x * old[0][j] + v1.y * old[1][j] + v1.z * old[2][j];
+    rows[1][j] = v2.x * old[0][j] + v2.y * old[1][j] + v2.z * old[2][j];
+    rows[2][j] = 0;
+  }
+  rows[0][3] += list.number("udelta", 0);
+  rows[1][3] += list.number("vdelta", 0);
+  return Transform(rows, rows);
+}
+
+/// The mappings of pbrt-v4 to two dimensions. Each takes the parameters that it has a use for.
+void read_mapping(const TextureRequest& request, Texture& texture) {
   ParameterList& list = request.list;
   const std::string mapping = list.string("mapping", "uv");
-  if (mapping == "spherical" || mapping == "cylindrical" || mapping == "planar")
-    request.build.warn(list.place_of("mapping"),
-                       "the texture mapping \"" + mapping + "\" is not supported; uv is used");
-  else if (mapping != "uv")
-    fail(list.place_of("mapping"), "unknown texture mapping \"" + mapping + "\"; use uv");
-  list.ignore({"v1", "v2"});
-  texture.uv_scale = {list.number("uscale", 1), list.number("vscale", 1)};
-  texture.uv_offset = {list.number("udelta", 0), list.number("vdelta", 0)};
+  texture.texture_from_world = request.build.state.ctm_start.inverse();
+  if (mapping == "spherical") {
+    texture.mapping = TextureMappingKind::spherical;
+  } else if (mapping == "cylindrical") {
+    texture.mapping = TextureMappingKind::cylindrical;
+  } else if (mapping == "planar") {
+    texture.mapping = TextureMappingKind::planar;
+    texture.texture_from_world = planar_mapping(list, texture.texture_from_world);
+  } else if (mapping == "uv") {
+    texture.uv_scale = {list.number("uscale", 1), list.number("vscale", 1)};
+    texture.uv_offset = {list.number("udelta", 0), list.number("vdelta", 0)};
+  } else {
+    fail(list.place_of("mapping"),
+         "unknown texture mapping \"" + mapping + "\"; use uv, spherical, cylindrical or planar");
+  }
+  list.ignore({"v1", "v2", "uscale", "vscale", "udelta", "vdelta"});
 }
 
 void read_world_mapping(const TextureRequest& request, Texture& texture) {
@@ -76,7 +100,7 @@ void read_checkerboard(const TextureRequest& request, Texture& texture) {
   if (texture.solid_checks)
     read_world_mapping(request, texture);
   else
-    read_uv_mapping(request, texture);
+    read_mapping(request, texture);
   texture.inputs[0] = request.input("tex1", 1);
   texture.inputs[1] = request.input("tex2", 0);
 }
@@ -99,43 +123,65 @@ void read_marble(const TextureRequest& request, Texture& texture) {
 }
 
 void read_image(const TextureRequest& request, Texture& texture) {
-  read_uv_mapping(request, texture);
+  read_mapping(request, texture);
   read_image_texture(request.build, request.list, request.is_float, texture);
 }
 
-/// For kinds that vary between their inputs: the mean of those. A textured input counts as 0.5.
-void replace_by_mean(const TextureRequest& request, Texture& texture,
-                     const std::vector<std::pair<std::string_view, double>>& inputs) {
-  const double weight = 1 / static_cast<double>(inputs.size());
-  texture.value = {};
-  for (const auto& [name, fallback] : inputs) {
-    const Parameter* parameter = request.list.find(name);
-    Vec3d value = splat(0.5);
-    const bool is_textured = parameter && parameter->type == ParameterType::texture;
-    if (!is_textured && request.is_float)
-      value = splat(request.list.number(name, fallback));
-    else if (!is_textured)
-      value = colour(request.build, request.list, name, ColourUse::unbounded, splat(fallback));
-    texture.value += value * weight;
-  }
-  request.list.ignore_all();
-  request.build.warn_replaced(request.list, "a constant of its mean is used instead");
+uint32_t add_node(Build& build, Texture texture) {
+  build.scene.textures.push_back(std::move(texture));
+  return static_cast<uint32_t>(build.scene.textures.size() - 1);
 }
 
+uint32_t add_mix(Build& build, uint32_t at_0, uint32_t at_1, uint32_t amount) {
+  Texture mix;
+  mix.kind = TextureKind::mix;
+  mix.inputs = {at_0, at_1, amount};
+  return add_node(build, mix);
+}
+
+/// Mixes of mixes, by the coordinates of the mapping.
 void read_bilerp(const TextureRequest& request, Texture& texture) {
-  replace_by_mean(request, texture, {{"v00", 0}, {"v01", 1}, {"v10", 0}, {"v11", 1}});
+  Build& build = request.build;
+  Texture coordinates;
+  coordinates.kind = TextureKind::coordinates;
+  read_mapping(request, coordinates);
+  const uint32_t st = add_node(build, coordinates);
+  Texture channel;
+  channel.kind = TextureKind::channel;
+  channel.inputs[0] = st;
+  const uint32_t s = add_node(build, channel);
+  channel.channel = 1;
+  const uint32_t t = add_node(build, channel);
+  const uint32_t v00 = request.input("v00", 0), v01 = request.input("v01", 1);
+  const uint32_t v10 = request.input("v10", 0), v11 = request.input("v11", 1);
+  texture.kind = TextureKind::mix;
+  texture.inputs = {add_mix(build, v00, v10, s), add_mix(build, v01, v11, s), t};
 }
+
 void read_direction_mix(const TextureRequest& request, Texture& texture) {
-  replace_by_mean(request, texture, {{"tex1", 0}, {"tex2", 1}});
+  texture.kind = TextureKind::direction_mix;
+  texture.inputs[0] = request.input("tex1", 0);
+  texture.inputs[1] = request.input("tex2", 1);
+  const Vec3d direction = request.build.state.ctm_start.direction(request.list.point("dir", {0, 1, 0}));
+  if (!(length_squared(direction) > 0) || !is_finite(direction))
+    fail(request.list.place_of("dir"), "\"dir\" must have a length above 0");
+  texture.direction = normalize(direction);
 }
+
 void read_dots(const TextureRequest& request, Texture& texture) {
-  replace_by_mean(request, texture, {{"inside", 1}, {"outside", 0}});
+  texture.kind = TextureKind::dots;
+  read_mapping(request, texture);
+  texture.inputs[0] = request.input("inside", 1);
+  texture.inputs[1] = request.input("outside", 0);
 }
-/// Neither has inputs to take a mean of.
-void read_unknown_values(const TextureRequest& request, Texture& texture) {
-  texture.value = splat(0.5);
-  request.list.ignore_all();
-  request.build.warn_replaced(request.list, "a constant 0.5 is used instead");
+
+void read_windy(const TextureRequest& request, Texture& texture) {
+  texture.kind = TextureKind::windy;
+  read_world_mapping(request, texture);
+}
+
+void read_ptex(const TextureRequest& request, Texture&) {
+  fail(request.list.place(), "textures of kind \"ptex\" cannot be read; use an \"imagemap\" over uv instead");
 }
 
 using TextureReader = void (*)(const TextureRequest&, Texture&);
@@ -150,8 +196,8 @@ const std::map<std::string, TextureReader> readers{{"constant", read_constant},
                                                    {"bilerp", read_bilerp},
                                                    {"dots", read_dots},
                                                    {"directionmix", read_direction_mix},
-                                                   {"windy", read_unknown_values},
-                                                   {"ptex", read_unknown_values}};
+                                                   {"windy", read_windy},
+                                                   {"ptex", read_ptex}};
 
 std::vector<std::string> names_of(const std::map<std::string, uint32_t>& textures) {
   std::vector<std::string> names;

@@ -1,0 +1,161 @@
+#pragma once
+
+// What meshes have at their vertices beside normals and uv, looked up for those who ask.
+
+#include "core/scene_view.h"
+#include "core/shapes/interaction.h"
+
+namespace ALHAZEN_CORE {
+
+/// Of the mesh that was met; null where it has none of these, or where it was no mesh.
+template <class Real>
+ALHAZEN_HD const AttributesRecord* attributes_of(const SceneView<Real>& scene, const Hit<Real>& hit) {
+  if (hit.primitive.is_none() || hit.primitive.kind() != PrimitiveKind::triangle) return nullptr;
+  const uint32_t index = scene.surfaces[scene.triangles[hit.primitive.index()].surface].attributes;
+  return index == no_offset ? nullptr : scene.vertex_attributes + index;
+}
+
+/// The second uv at the hit, or `uv` where there is no second set.
+template <class Real>
+ALHAZEN_HD Vec2<Real> second_uv(const SceneView<Real>& scene, const Hit<Real>& hit, const Vec2<Real>& uv) {
+  const AttributesRecord* attributes = attributes_of(scene, hit);
+  if (!attributes || attributes->second_uv_offset == no_offset) return uv;
+  const uint32_t* v = scene.triangles[hit.primitive.index()].vertex;
+  const auto at = [&](int i) { return scene.uvs[v[i] + attributes->second_uv_offset]; };
+  const Vec2<Real> uv0 = at(0), uv1 = at(1), uv2 = at(2);
+  const Real b0 = 1 - hit.b1 - hit.b2;
+  return {uv0.x * b0 + uv1.x * hit.b1 + uv2.x * hit.b2, uv0.y * b0 + uv1.y * hit.b1 + uv2.y * hit.b2};
+}
+
+template <class Real>
+struct ColourAndAlpha {
+  Vec3<Real> rgb = splat(Real(1));
+  Real alpha = 1;
+};
+
+/// White and opaque where the mesh has no colours.
+template <class Real>
+ALHAZEN_HD ColourAndAlpha<Real> mesh_colour(const SceneView<Real>& scene, const Hit<Real>& hit) {
+  const AttributesRecord* attributes = attributes_of(scene, hit);
+  if (!attributes || attributes->colour_offset == no_offset) return {};
+  const uint32_t* v = scene.triangles[hit.primitive.index()].vertex;
+  const Real weights[3] = {1 - hit.b1 - hit.b2, hit.b1, hit.b2};
+  ColourAndAlpha<Real> sum{{}, 0};
+  for (int i = 0; i < 3; ++i) {
+    const VertexColour& c = scene.vertex_colours[v[i] + attributes->colour_offset];
+    sum.rgb += Vec3<Real>{static_cast<Real>(c.red), static_cast<Real>(c.green), static_cast<Real>(c.blue)} * weights[i];
+    sum.alpha += static_cast<Real>(c.alpha) * weights[i];
+  }
+  return sum;
+}
+
+/// From the space of the positions to the world, where the hit is within an instance.
+template <class Real>
+ALHAZEN_HD Vec3<Real> direction_in_world(const SceneView<Real>& scene, const Hit<Real>& hit, const Vec3<Real>& v) {
+  return hit.instance == no_instance ? v : transform_direction(scene.instances[hit.instance].world_from_object, v);
+}
+
+/// Whether the way to the world turns right-handed into left-handed.
+template <class Real>
+ALHAZEN_HD bool is_mirrored(const SceneView<Real>& scene, const Hit<Real>& hit) {
+  if (hit.instance == no_instance) return false;
+  const auto& m = scene.instances[hit.instance].world_from_object;
+  const auto column = [&](int j) { return Vec3<Real>{m[0][j], m[1][j], m[2][j]}; };
+  return dot(cross(column(0), column(1)), column(2)) < 0;
+}
+
+template <class Real>
+struct MeshTangent {
+  Vec3<Real> direction{};  ///< world space, not of unit length
+  Real handedness = 0;     ///< of normal, tangent, bitangent; 0: the mesh has no tangents
+};
+
+/// The tangent that the mesh brings along.
+template <class Real>
+ALHAZEN_HD MeshTangent<Real> mesh_tangent(const SceneView<Real>& scene, const Hit<Real>& hit) {
+  const AttributesRecord* attributes = attributes_of(scene, hit);
+  if (!attributes || attributes->tangent_offset == no_offset) return {};
+  const uint32_t* v = scene.triangles[hit.primitive.index()].vertex;
+  const Real weights[3] = {1 - hit.b1 - hit.b2, hit.b1, hit.b2};
+  MeshTangent<Real> tangent;
+  for (int i = 0; i < 3; ++i) {
+    const VertexTangent& t = scene.vertex_tangents[v[i] + attributes->tangent_offset];
+    tangent.direction +=
+        Vec3<Real>{static_cast<Real>(t.x), static_cast<Real>(t.y), static_cast<Real>(t.z)} * weights[i];
+    // That of the first corner: corners of a triangle have the same.
+    if (i == 0) tangent.handedness = static_cast<Real>(t.handedness);
+  }
+  tangent.direction = direction_in_world(scene, hit, tangent.direction);
+  if (is_mirrored(scene, hit)) tangent.handedness = -tangent.handedness;
+  return tangent;
+}
+
+/// Derivative of the position by u; zero where the uvs do not say.
+template <class Real>
+ALHAZEN_HD Vec3<Real> triangle_dpdu(const SceneView<Real>& scene, const Hit<Real>& hit) {
+  const TriangleRecord& triangle = scene.triangles[hit.primitive.index()];
+  const SurfaceRecord& surface = scene.surfaces[triangle.surface];
+  const uint32_t* v = triangle.vertex;
+  const Vec2<Real> uv0 = vertex_uv(scene, surface, v, 0), uv1 = vertex_uv(scene, surface, v, 1),
+                   uv2 = vertex_uv(scene, surface, v, 2);
+  const Vec3<Real> p0 = scene.positions[v[0]];
+  const Real dv1 = uv1.y - uv0.y, dv2 = uv2.y - uv0.y;
+  const Real determinant = (uv1.x - uv0.x) * dv2 - dv1 * (uv2.x - uv0.x);
+  if (!(std::abs(determinant) > std::numeric_limits<Real>::min())) return {};
+  const Vec3<Real> along = (scene.positions[v[1]] - p0) * dv2 - (scene.positions[v[2]] - p0) * dv1;
+  return direction_in_world(scene, hit, along * (1 / determinant));
+}
+
+/// The direction in which u increases, unit length, by the tangents of the mesh or else by its uvs; zero where neither
+/// says. Not made perpendicular to any normal. Spheres: round the polar axis.
+template <class Real>
+ALHAZEN_HD Vec3<Real> surface_tangent(const SceneView<Real>& scene, const Hit<Real>& hit, const Vec3<Real>& normal) {
+  Vec3<Real> along{};
+  if (hit.primitive.kind() != PrimitiveKind::triangle) {
+    const bool moves = hit.primitive.kind() == PrimitiveKind::moving_sphere;
+    const uint32_t index = hit.primitive.index();
+    const uint32_t frame = moves ? scene.moving_spheres[index].frame : scene.spheres[index].frame;
+    const uint32_t surface = moves ? scene.moving_spheres[index].surface : scene.spheres[index].surface;
+    if (frame == no_sphere_frame) return {};
+    along = cross(scene.sphere_frames[frame].z, scene.surfaces[surface].flip_normal ? -normal : normal);
+  } else {
+    const MeshTangent<Real> tangent = mesh_tangent(scene, hit);
+    along = tangent.handedness != 0 ? tangent.direction : triangle_dpdu(scene, hit);
+  }
+  const Real size = length(along);
+  return size > 0 ? along * (1 / size) : Vec3<Real>{};
+}
+
+/// Area of (u, v) of set `uv_set` for an area of the surface, world space. 0: unknown.
+template <class Real>
+ALHAZEN_HD Real uv_density(const SceneView<Real>& scene, const Hit<Real>& hit, const Vec3<Real>& normal,
+                           uint32_t uv_set) {
+  if (hit.primitive.is_none()) return 0;
+  const uint32_t index = hit.primitive.index();
+  if (hit.primitive.kind() != PrimitiveKind::triangle) {
+    const bool moves = hit.primitive.kind() == PrimitiveKind::moving_sphere;
+    const uint32_t frame = moves ? scene.moving_spheres[index].frame : scene.spheres[index].frame;
+    const Real radius = moves ? scene.moving_spheres[index].radius : scene.spheres[index].radius;
+    if (frame == no_sphere_frame) return 0;
+    // u = phi / (2 pi), v = theta / pi, area = r^2 sin(theta) dtheta dphi.
+    const Real cosine = dot(normal, scene.sphere_frames[frame].z);
+    const Real sine = larger(safe_sqrt(1 - cosine * cosine), Real(1e-3));
+    return Real(0.5) * inv_pi<Real> * inv_pi<Real> / (radius * radius * sine);
+  }
+  const TriangleRecord& triangle = scene.triangles[index];
+  const SurfaceRecord& surface = scene.surfaces[triangle.surface];
+  const uint32_t* v = triangle.vertex;
+  Vec2<Real> uv[3];
+  const AttributesRecord* attributes = uv_set == 0 ? nullptr : attributes_of(scene, hit);
+  const bool has_second = attributes && attributes->second_uv_offset != no_offset;
+  for (int i = 0; i < 3; ++i)
+    uv[i] = has_second ? scene.uvs[v[i] + attributes->second_uv_offset] : vertex_uv(scene, surface, v, i);
+  const Real twice_uv_area =
+      std::abs((uv[1].x - uv[0].x) * (uv[2].y - uv[0].y) - (uv[1].y - uv[0].y) * (uv[2].x - uv[0].x));
+  const Vec3<Real> p0 = scene.positions[v[0]];
+  const Vec3<Real> e1 = direction_in_world(scene, hit, scene.positions[v[1]] - p0);
+  const Vec3<Real> e2 = direction_in_world(scene, hit, scene.positions[v[2]] - p0);
+  return twice_uv_area / length(cross(e1, e2));
+}
+
+}  // namespace ALHAZEN_CORE

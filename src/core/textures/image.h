@@ -1,0 +1,99 @@
+#pragma once
+
+// Pictures: texels, bilinear interpolation, and pyramids of smaller versions for where they are seen from afar
+// (Williams 1983, "Pyramidal Parametrics").
+
+#include "core/textures/mapping.h"
+
+namespace ALHAZEN_CORE {
+
+/// The texel of a row or column of `size` that stands for `i`, or -1 where there is none.
+ALHAZEN_HD inline int wrapped_texel(int i, int size, uint32_t wrap) {
+  if (i >= 0 && i < size) return i;
+  switch (static_cast<WrapMode>(wrap)) {
+    case WrapMode::black:
+      return -1;
+    case WrapMode::clamp:
+      return i < 0 ? 0 : size - 1;
+    case WrapMode::repeat:
+      i %= size;
+      return i < 0 ? i + size : i;
+    case WrapMode::mirror:
+      i %= 2 * size;
+      i += i < 0 ? 2 * size : 0;
+      return i < size ? i : 2 * size - 1 - i;
+  }
+  return -1;
+}
+
+template <class Real>
+ALHAZEN_HD Vec3<Real> fetch_texel(const SceneView<Real>& scene, const ImageRecord& image, int x, int y) {
+  x = wrapped_texel(x, static_cast<int>(image.width), image.wrap_s);
+  y = wrapped_texel(y, static_cast<int>(image.height), image.wrap_t);
+  if (x < 0 || y < 0) return {};
+  const uint64_t texel =
+      image.first + image.channels * (static_cast<uint64_t>(y) * image.width + static_cast<uint64_t>(x));
+  if (image.is_float) {
+    const float* t = scene.texel_floats + texel;
+    if (image.channels == 1) return splat(static_cast<Real>(t[0]));
+    return {static_cast<Real>(t[0]), static_cast<Real>(t[1]), static_cast<Real>(t[2])};
+  }
+  const uint8_t* t = scene.texel_bytes + texel;
+  const Real* table = scene.srgb_decode_table + (image.is_srgb ? 0 : 256);
+  if (image.channels == 1) return splat(table[t[0]]);
+  return {table[t[0]], table[t[1]], table[t[2]]};
+}
+
+/// The picture at (s, t), t upwards, texel centres at half integers.
+template <class Real>
+ALHAZEN_HD Vec3<Real> lookup_image(const SceneView<Real>& scene, const ImageRecord& image, const Vec2<Real>& st) {
+  if (!(std::abs(st.x) < Real(1e6) && std::abs(st.y) < Real(1e6))) return {};
+  const Real x = st.x * static_cast<Real>(image.width), y = (1 - st.y) * static_cast<Real>(image.height);
+  if (!(std::abs(x) < Real(2e9) && std::abs(y) < Real(2e9))) return {};
+  if (image.nearest) return fetch_texel(scene, image, static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
+  const Real fx = std::floor(x - Real(0.5)), fy = std::floor(y - Real(0.5));
+  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
+  const Real wx = x - Real(0.5) - fx, wy = y - Real(0.5) - fy;
+  const Vec3<Real> top = lerp(fetch_texel(scene, image, ix, iy), fetch_texel(scene, image, ix + 1, iy), wx);
+  const Vec3<Real> bottom = lerp(fetch_texel(scene, image, ix, iy + 1), fetch_texel(scene, image, ix + 1, iy + 1), wx);
+  return lerp(top, bottom, wy);
+}
+
+/// Logarithm to base 2 of x >= 1, linear between powers of two: continuous, the same bits everywhere, and too low by at
+/// most 0.09.
+ALHAZEN_HD inline float coarse_log2(float x) {
+  const uint32_t bits = __builtin_bit_cast(uint32_t, x);
+  return static_cast<float>(bits >> 23) - 127 + (__builtin_bit_cast(float, (bits & 0x7fffffu) | 0x3f800000u) - 1);
+}
+
+/// Where in the pyramid a texel is as large as what a quarter of a pixel sees, by area, so that of surfaces seen from
+/// the edge the detail along the other direction is kept. Not above 0: nothing is minified.
+template <class Real>
+ALHAZEN_HD float pyramid_level(const SceneView<Real>& scene, const ImageRecord& image, const TextureMapping<Real>& m,
+                               const TexturePoint<Real>& at) {
+  const Real footprint = pixel_footprint(scene.camera, at.position, at.normal);
+  if (!(footprint > 0)) return 0;
+  const Real density =
+      m.kind == TextureMappingKind::uv ? density_of_uv(scene, m, at) : density_of_position(m, at, footprint);
+  const Real texels = footprint * density * static_cast<Real>(image.width) * static_cast<Real>(image.height);
+  if (!(texels > 1)) return 0;
+  return 0.5f * coarse_log2(static_cast<float>(smaller(texels, Real(1e30))));
+}
+
+/// The picture as a pixel sees it from the camera: bilinear where it is magnified, else interpolated between two levels
+/// of its pyramid. What is seen by way of other surfaces is filtered as if it were seen directly.
+template <class Real>
+ALHAZEN_HD Vec3<Real> lookup_filtered(const SceneView<Real>& scene, uint32_t index, const TextureMapping<Real>& m,
+                                      const TexturePoint<Real>& at) {
+  const ImageRecord* image = scene.images + index;
+  const Vec2<Real> st = map_texture(scene, m, at);
+  if (image->levels == 1 || is_zero(at.normal)) return lookup_image(scene, *image, st);
+  const float level = pyramid_level(scene, *image, m, at);
+  if (!(level > 0)) return lookup_image(scene, *image, st);
+  const uint32_t last = image->levels - 1, below = static_cast<uint32_t>(level);
+  if (below >= last) return lookup_image(scene, image[last], st);
+  const Real weight = static_cast<Real>(level - static_cast<float>(below));
+  return lerp(lookup_image(scene, image[below], st), lookup_image(scene, image[below + 1], st), weight);
+}
+
+}  // namespace ALHAZEN_CORE
