@@ -130,6 +130,9 @@ class TextureBuilder {
       case TextureKind::channel:
         node.octaves = static_cast<uint32_t>(std::clamp(texture.channel, 0, 2));
         break;
+      case TextureKind::threshold:
+        node.parameters = {static_cast<Real>(texture.threshold), 0, 0};
+        break;
       case TextureKind::scale:
       case TextureKind::mix:
       case TextureKind::vertex_colour:

@@ -67,6 +67,7 @@ struct Texture {
   double roughness = 0.5;  ///< fbm, wrinkled, marble: factor on the amplitude for each octave
   double noise_scale = 1;  ///< marble: factor on the point
   double variation = 0.2;  ///< marble: how far the noise displaces the veins
+  double threshold = 0.5;  ///< threshold
 };
 
 enum class MaterialType {
@@ -206,6 +207,8 @@ struct Camera {
   double lens_radius = 0;
   double focal_distance = 1e6;
   double shutter_open = 0, shutter_close = 1;
+  /// Rays all go along z; the screen window is in units of camera space, and `fov` counts for nothing.
+  bool orthographic = false;
 };
 
 struct FilmSettings {

@@ -148,6 +148,11 @@ ALHAZEN_HD Vec3<Real> evaluate_texture_node(const SceneView<Real>& scene, const 
     case TextureKind::vertex_colour:
     case TextureKind::vertex_alpha:
       return splat(Real(1));
+    case TextureKind::threshold: {
+      const Real least = node.parameters.x;
+      return {inputs[0].x >= least ? Real(1) : Real(0), inputs[0].y >= least ? Real(1) : Real(0),
+              inputs[0].z >= least ? Real(1) : Real(0)};
+    }
   }
   return {};
 }
@@ -155,7 +160,7 @@ ALHAZEN_HD Vec3<Real> evaluate_texture_node(const SceneView<Real>& scene, const 
 ALHAZEN_HD constexpr uint32_t texture_input_count(TextureKind kind) {
   return kind == TextureKind::mix                                          ? 3
          : kind == TextureKind::scale || kind == TextureKind::checkerboard ? 2
-         : kind == TextureKind::channel                                    ? 1
+         : kind == TextureKind::channel || kind == TextureKind::threshold  ? 1
                                                                            : 0;
 }
 
