@@ -16,8 +16,8 @@ void require_sound(const alhazen::Scene& scene) {
   for (const alhazen::Mesh& mesh : scene.meshes) {
     require(!mesh.indices.empty() && mesh.indices.size() % 3 == 0);
     for (const uint32_t index : mesh.indices) require(index < mesh.positions.size());
-    for (const size_t size : {mesh.normals.size(), mesh.uvs.size(), mesh.second_uvs.size(), mesh.tangents.size(),
-                              mesh.colours.size()})
+    for (const size_t size :
+         {mesh.normals.size(), mesh.uvs.size(), mesh.second_uvs.size(), mesh.tangents.size(), mesh.colours.size()})
       require(size == 0 || size == mesh.positions.size());
   }
   for (const alhazen::ShapeGroup& group : scene.groups)

@@ -10,7 +10,8 @@
 
 namespace alhazen::testing {
 
-/// The folder that ALHAZEN_SCENES names, else `shared/scenes` in the repository or beside it; empty where there is none.
+/// The folder that ALHAZEN_SCENES names, else `shared/scenes` in the repository or beside it; empty where there is
+/// none.
 inline std::filesystem::path external_scenes() {
   std::vector<std::filesystem::path> candidates;
   if (const char* folder = std::getenv("ALHAZEN_SCENES")) candidates.emplace_back(folder);

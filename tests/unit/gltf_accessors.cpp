@@ -1,8 +1,8 @@
 // Accessors of glTF files: component types, normalised integers, strides, sparse values, bounds.
 
 #include "io/read_scene.h"
-#include "unit/gltf_support.h"
 #include "support/temporary_folder.h"
+#include "unit/gltf_support.h"
 
 namespace alhazen::test {
 
@@ -128,7 +128,8 @@ TEST(GltfAccessors, RefuseTheWrongTypeAndSayWhere) {
   primitive["attributes"]["POSITION"] = file.accessor<float>({0, 0, 1, 0, 0, 1}, "VEC2");
   file.add_node({{"mesh", file.add_mesh(primitive)}});
   const std::string text = file.text();
-  const size_t line = 1 + static_cast<size_t>(std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(text.find("\"accessors\"")), '\n'));
+  const size_t line = 1 + static_cast<size_t>(std::count(
+                              text.begin(), text.begin() + static_cast<ptrdiff_t>(text.find("\"accessors\"")), '\n'));
   EXPECT_NE(error_of_gltf(text).find("test.gltf:" + std::to_string(line + 1) + ":3: "), std::string::npos)
       << error_of_gltf(text);
   EXPECT_NE(error_of_gltf(text).find("VEC3"), std::string::npos);

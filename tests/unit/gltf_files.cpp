@@ -15,15 +15,15 @@ const std::vector<std::string> gltf_extensions{".gltf", ".glb"};
 /// Warnings that are true of these files.
 bool is_expected(const std::string& warning) {
   return warning.find("points and lines have no area") != std::string::npos ||
-         warning.find("is not supported and has no effect") != std::string::npos;
+         warning.find("no surface to be drawn") != std::string::npos;
 }
 
 void expect_sound(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) {
     ASSERT_EQ(mesh.indices.size() % 3, 0u);
     for (const uint32_t index : mesh.indices) ASSERT_LT(index, mesh.positions.size());
-    for (const size_t size : {mesh.normals.size(), mesh.uvs.size(), mesh.second_uvs.size(), mesh.tangents.size(),
-                              mesh.colours.size()})
+    for (const size_t size :
+         {mesh.normals.size(), mesh.uvs.size(), mesh.second_uvs.size(), mesh.tangents.size(), mesh.colours.size()})
       ASSERT_TRUE(size == 0 || size == mesh.positions.size());
   }
   for (const ShapeGroup& group : scene.groups)
@@ -40,7 +40,6 @@ TEST(GltfFiles, OpenEveryWellFormedOne) {
       Diagnostics diagnostics;
       try {
         const Scene scene = read_scene(path.string(), diagnostics);
-        EXPECT_FALSE(scene.meshes.empty()) << path;
         expect_sound(scene);
         ++opened;
       } catch (const InputError& error) {

@@ -170,7 +170,8 @@ TEST(GltfMaterials, ReadTheExtensionsOfMaterials) {
 
 /// Where a point of glTF's uv lands in the picture, as (u, v) with v down.
 Vec2d mapped(const Texture& t, Vec2d uv) {
-  const double c = std::cos(t.uv_rotation * std::numbers::pi / 180), r = std::sin(t.uv_rotation * std::numbers::pi / 180);
+  const double c = std::cos(t.uv_rotation * std::numbers::pi / 180),
+               r = std::sin(t.uv_rotation * std::numbers::pi / 180);
   const double us = t.uv_scale.x * uv.x, vs = t.uv_scale.y * (1 - uv.y);
   return {c * us - r * vs + t.uv_offset.x, 1 - (r * us + c * vs + t.uv_offset.y)};
 }

@@ -87,8 +87,9 @@ TEST(GltfMeshes, ChainTransformsOfNodes) {
   GltfFile file;
   const double half = std::numbers::sqrt2 / 2;
   // A quarter turn about z, then a matrix that doubles and moves; by columns.
-  file.root["nodes"] = {{{"children", {1}}, {"matrix", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 10, 0, 0, 1}}},
-                        {{"mesh", 0}, {"rotation", {0, 0, half, half}}, {"translation", {0, 1, 0}}, {"scale", {3, 1, -1}}}};
+  file.root["nodes"] = {
+      {{"children", {1}}, {"matrix", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 10, 0, 0, 1}}},
+      {{"mesh", 0}, {"rotation", {0, 0, half, half}}, {"translation", {0, 1, 0}}, {"scale", {3, 1, -1}}}};
   file.add_mesh(file.triangle());
   const ParsedGltf parsed = file.parse();
   const Transform& world = parsed.shapes()[0].world_from_object.start;

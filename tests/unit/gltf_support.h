@@ -94,9 +94,7 @@ struct GltfFile {
   /// An accessor of tightly packed values in a view of their own.
   template <class T>
   int accessor(const std::vector<T>& values, const std::string& type, bool normalized = false) {
-    const size_t components = type == "SCALAR" ? 1
-                              : type == "MAT4" ? 16
-                                               : static_cast<size_t>(type[3] - '0');
+    const size_t components = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : static_cast<size_t>(type[3] - '0');
     json description{{"bufferView", view(values)},
                      {"componentType", component_type<T>()},
                      {"count", values.size() / components},
@@ -150,8 +148,8 @@ struct GltfFile {
 
   std::string text() {
     if (!data.empty())
-      root["buffers"] = json::array(
-          {{{"byteLength", data.size()}, {"uri", "data:application/octet-stream;base64," + base64(data)}}});
+      root["buffers"] =
+          json::array({{{"byteLength", data.size()}, {"uri", "data:application/octet-stream;base64," + base64(data)}}});
     return root.dump(1);
   }
 

@@ -69,8 +69,8 @@ void add_neutral_light(Scene& scene) {
       const Vec3d d =
           direction_of_square(SphereMapping::equirectangular, Vec2d{(x + 0.5) / map.width, (y + 0.5) / map.height});
       const Vec3d world{d.x, d.z, -d.y};
-      const double sky = 0.35 + 0.35 * smoothstep(-1.0, 1.0, world.y);
-      const double glow = 7 * smoothstep(0.93, 0.97, dot(world, window));
+      const double sky = 0.25 + 0.35 * smoothstep(-1.0, 1.0, world.y);
+      const double glow = 5 * smoothstep(0.93, 0.97, dot(world, window));
       for (int c = 0; c < 3; ++c) map.floats.push_back(static_cast<float>(sky + glow));
     }
   Light light;

@@ -12,6 +12,7 @@
 #include "io/gltf/meshes.h"
 #include "io/gltf/nodes.h"
 #include "io/gltf/punctual.h"
+#include "io/gltf/validate.h"
 #include "io/images/input_file.h"
 
 namespace alhazen {
@@ -56,7 +57,6 @@ class SceneReader {
       : document_(document), options_(options), nodes_(document, accessors_) {}
 
   Scene run() {
-    check_extensions(document_);
     scene_.name = document_.path();
     scene_.samples_per_pixel = 64;
     scene_.max_depth = 8;
@@ -270,6 +270,8 @@ Scene parse_gltf(std::span<const uint8_t> bytes, const std::string& path, const 
                  const ReadOptions& options, Diagnostics& diagnostics) {
   const gltf::Document document(bytes, path, folder, diagnostics);
   try {
+    gltf::check_extensions(document);
+    gltf::validate(document);
     return gltf::SceneReader(document, options).run();
   } catch (const std::bad_alloc&) {
     throw InputError({path}, "the scene is too large for the memory of this machine");
@@ -285,6 +287,7 @@ Scene read_gltf(const std::string& path, const ReadOptions& options, Diagnostics
 SceneListing list_gltf(const std::string& path, Diagnostics& diagnostics) {
   const std::vector<uint8_t> bytes = read_bytes(path);
   const gltf::Document document(bytes, path, gltf::folder_of(path), diagnostics);
+  gltf::validate(document);
   gltf::Buffers buffers(document);
   gltf::Accessors accessors(document, buffers);
   gltf::Nodes nodes(document, accessors);

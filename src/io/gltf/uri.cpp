@@ -48,7 +48,8 @@ std::vector<uint8_t> base64_decoded(const Document& document, const Json& at, st
   for (const char c : text) {
     if (c == '=') break;
     const int value = base64_values[static_cast<uint8_t>(c)];
-    if (value < 0) document.fail(at, "the data URI has " + alhazen::quoted(std::string_view(&c, 1)) + ", which is not base64");
+    if (value < 0)
+      document.fail(at, "the data URI has " + alhazen::quoted(std::string_view(&c, 1)) + ", which is not base64");
     bits = bits << 6 | static_cast<uint32_t>(value);
     count += 6;
     if (count >= 8) {
