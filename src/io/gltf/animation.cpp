@@ -44,7 +44,8 @@ struct Sampler {
     const size_t scalars = width / values.components;
     const size_t first = (k * elements_a_key() + (elements_a_key() == 3 ? part : 0)) * scalars;
     std::vector<double> result;
-    for (size_t i = 0; i < width; ++i) result.push_back(double{values.data[first * values.components + i]});
+    for (size_t i = 0; i < width; ++i)
+      result.push_back(static_cast<double>(values.data[first * values.components + i]));
     return result;
   }
 
@@ -54,15 +55,17 @@ struct Sampler {
       document.fail(description, "the animation's output has " + std::to_string(values.count) + " elements for " +
                                      std::to_string(times.size()) + " keyframes");
     const size_t last = times.size() - 1;
-    if (!(time > double{times[0]})) return key(0, width, 1);
-    if (time >= double{times[last]}) return key(last, width, 1);
-    const size_t next = static_cast<size_t>(
-        std::upper_bound(times.begin(), times.end(), time, [](double t, float key) { return t < double{key}; }) -
-        times.begin());
+    if (!(time > static_cast<double>(times[0]))) return key(0, width, 1);
+    if (time >= static_cast<double>(times[last])) return key(last, width, 1);
+    const size_t next =
+        static_cast<size_t>(std::upper_bound(times.begin(), times.end(), time,
+                                             [](double t, float key) { return t < static_cast<double>(key); }) -
+                            times.begin());
     const size_t k = next - 1;
     const std::vector<double> a = key(k, width, 1), b = key(next, width, 1);
     if (interpolation == "STEP") return a;
-    const double span = double{times[next]} - double{times[k]}, t = (time - double{times[k]}) / span;
+    const double span = static_cast<double>(times[next]) - static_cast<double>(times[k]),
+                 t = (time - static_cast<double>(times[k])) / span;
     if (interpolation == "CUBICSPLINE") return spline(a, key(k, width, 2), key(next, width, 0), b, span, t);
     std::vector<double> result(width);
     if (is_rotation) {

@@ -159,7 +159,7 @@ class SceneReader {
     };
     const Values translations = read("TRANSLATION", "VEC3"), rotations = read("ROTATION", "VEC4"),
                  scales = read("SCALE", "VEC3");
-    const auto at = [](const Values& values, size_t i, size_t c) { return double{values[i][c]}; };
+    const auto at = [](const Values& values, size_t i, size_t c) { return static_cast<double>(values[i][c]); };
     std::vector<Matrix4> matrices;
     for (size_t i = 0; i < count.value_or(0); ++i) {
       const auto vec3 = [&](const Values& v, double fallback) {

@@ -37,7 +37,7 @@ class PrimitiveReader {
     mesh.name = document_.path();
     for (size_t i = 0; i < vertices_; ++i) {
       const float* p = (*positions)[i];
-      mesh.positions.push_back({double{p[0]}, double{p[1]}, double{p[2]}});
+      mesh.positions.push_back({static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
     }
     read_directions(mesh);
     mesh.uvs = read_uvs(uv_sets_[0]);
@@ -240,7 +240,8 @@ class PrimitiveReader {
       }
       if (!mesh.tangents.empty()) {
         auto& t = mesh.tangents[i];
-        const Vec3d moved = transform_direction(blended, {double{t[0]}, double{t[1]}, double{t[2]}});
+        const Vec3d moved = transform_direction(
+            blended, {static_cast<double>(t[0]), static_cast<double>(t[1]), static_cast<double>(t[2])});
         const Vec3f unit = length(moved) > 0 ? convert<float>(normalize(moved)) : Vec3f{};
         t = {unit.x, unit.y, unit.z, t[3]};
       }
