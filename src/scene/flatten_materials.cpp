@@ -131,7 +131,7 @@ class TextureBuilder {
         node.octaves = static_cast<uint32_t>(std::clamp(texture.channel, 0, 2));
         break;
       case TextureKind::threshold:
-        node.parameters = {static_cast<Real>(texture.threshold), 0, 0};
+        node.parameters = convert<Real>(texture.value);
         break;
       case TextureKind::scale:
       case TextureKind::mix:

@@ -67,7 +67,6 @@ struct Texture {
   double roughness = 0.5;  ///< fbm, wrinkled, marble: factor on the amplitude for each octave
   double noise_scale = 1;  ///< marble: factor on the point
   double variation = 0.2;  ///< marble: how far the noise displaces the veins
-  double threshold = 0.5;  ///< threshold
 };
 
 enum class MaterialType {
@@ -197,18 +196,25 @@ struct Light {
   SourceLocation where;
 };
 
+enum class CameraType {
+  perspective,
+  orthographic,     ///< rays go along z; the screen window is in units of camera space
+  equirectangular,  ///< the whole sphere about the camera: as pbrt's spherical camera, y is up
+  equal_area        ///< the same by the octahedral mapping
+};
+
 struct Camera {
   /// Camera space as in pbrt: x right, y up, z into the scene.
   MovingTransform world_from_camera;
-  double fov = 90;  ///< degrees over the shorter axis of the picture (of the screen window [-1, 1])
-  /// x0, x1, y0, y1 on the plane at distance 1 / tan(fov / 2); absent: [-1, 1] over the shorter axis.
+  double fov = 90;  ///< perspective: degrees over the shorter axis of the picture (of the screen window [-1, 1])
+  /// x0, x1, y0, y1 on the plane at distance 1 / tan(fov / 2), of orthographic cameras in camera space; absent: [-1, 1]
+  /// over the shorter axis.
   std::optional<std::array<double, 4>> screen_window;
   std::optional<double> frame_aspect_ratio;
   double lens_radius = 0;
   double focal_distance = 1e6;
   double shutter_open = 0, shutter_close = 1;
-  /// Rays all go along z; the screen window is in units of camera space, and `fov` counts for nothing.
-  bool orthographic = false;
+  CameraType type = CameraType::perspective;
 };
 
 struct FilmSettings {

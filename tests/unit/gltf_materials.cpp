@@ -73,7 +73,7 @@ TEST(GltfMaterials, ReadAlphaModes) {
     }
     if (mode == "MASK") {
       EXPECT_EQ(parsed.texture(alpha).kind, TextureKind::threshold);
-      EXPECT_EQ(parsed.texture(alpha).threshold, 0.25);
+      EXPECT_EQ(parsed.texture(alpha).value.x, 0.25);
       alpha = parsed.texture(alpha).inputs[0];
     }
     ASSERT_EQ(parsed.texture(alpha).kind, TextureKind::scale);
@@ -305,17 +305,17 @@ TEST(GltfCameras, ReadPerspectiveAndOrthographicOnes) {
   EXPECT_EQ(first.scene.film.height, 1280);
   // Over the width, which is the shorter side.
   EXPECT_NEAR(camera.fov, 2 * std::atan(0.5 * std::tan(0.25)) * 180 / std::numbers::pi, 1e-9);
-  EXPECT_FALSE(camera.orthographic);
+  EXPECT_EQ(camera.type, CameraType::perspective);
   options.camera = "flat";
   const ParsedGltf second = file.parse(options);
-  EXPECT_TRUE(second.scene.camera.orthographic);
+  EXPECT_EQ(second.scene.camera.type, CameraType::orthographic);
   expect_point(second.scene.camera.world_from_camera.start.point({0, 0, 0}), {0, 7, 0});
   // A window of [-1, 1] over the height reaches ymag.
   expect_point(second.scene.camera.world_from_camera.start.direction({0, 1, 0}), {0, 2, 0});
   EXPECT_EQ(second.scene.film.width, 1280);
   EXPECT_EQ(second.scene.film.height, 640);
   options.camera = "1";
-  EXPECT_TRUE(file.parse(options).scene.camera.orthographic);
+  EXPECT_EQ(file.parse(options).scene.camera.type, CameraType::orthographic);
   options.camera = "7";
   EXPECT_NE(file.error(options).find("no camera '7'; it may be one of 0 'front', 1 'flat'"), std::string::npos);
 }

@@ -145,14 +145,14 @@ ALHAZEN_HD Vec3<Real> evaluate_texture_node(const SceneView<Real>& scene, const 
       return inputs[0] * (splat(Real(1)) - inputs[2]) + inputs[1] * inputs[2];
     case TextureKind::channel:
       return splat(inputs[0][static_cast<int>(node.octaves)]);
+    case TextureKind::threshold: {
+      const auto step = [](Real x, Real edge) { return x >= edge ? Real(1) : Real(0); };
+      return {step(inputs[0].x, node.parameters.x), step(inputs[0].y, node.parameters.y),
+              step(inputs[0].z, node.parameters.z)};
+    }
     case TextureKind::vertex_colour:
     case TextureKind::vertex_alpha:
       return splat(Real(1));
-    case TextureKind::threshold: {
-      const Real least = node.parameters.x;
-      return {inputs[0].x >= least ? Real(1) : Real(0), inputs[0].y >= least ? Real(1) : Real(0),
-              inputs[0].z >= least ? Real(1) : Real(0)};
-    }
   }
   return {};
 }

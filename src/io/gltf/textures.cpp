@@ -1,5 +1,6 @@
 #include "io/gltf/textures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -91,7 +92,7 @@ uint32_t Textures::threshold(uint32_t texture, double least) {
   Texture node;
   node.kind = TextureKind::threshold;
   node.inputs[0] = texture;
-  node.threshold = least;
+  node.value = {least, least, least};
   return add(std::move(node));
 }
 
@@ -174,7 +175,8 @@ uint32_t Textures::load(uint32_t source, Texels texels) {
   if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) {
     if (texels == Texels::alpha) {
       std::optional<ImageTexels> alpha = decode_png_alpha(name, bytes);
-      if (!alpha) return no_index;
+      const auto is_opaque = [](uint8_t value) { return value == 255; };
+      if (!alpha || std::all_of(alpha->bytes.begin(), alpha->bytes.end(), is_opaque)) return no_index;
       decoded = std::move(*alpha);
     } else {
       decoded = decode_png(name, bytes, texels == Texels::srgb);
