@@ -101,7 +101,7 @@ TEST_F(Gltf, TellsWhereAFileIsBad) {
   folder_.write_text("bad.gltf", text);
   const CommandResult result = run({"render", "bad.gltf"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("bad.gltf:22:22: index out of range: \"meshes\" has 1 items"), std::string::npos)
+  EXPECT_NE(result.err.find("bad.gltf:19:22: index out of range: \"meshes\" has 1 items"), std::string::npos)
       << result.err;
   EXPECT_EQ(lines_of(result.err).size(), 1u) << result.err;
 }

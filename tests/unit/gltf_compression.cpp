@@ -17,7 +17,7 @@ namespace {
 /// Decodes with every byte of the compressed data changed in turn: a mesh or an error, never a crash.
 void expect_error_or_mesh(GltfFile file, size_t offset, size_t size) {
   for (size_t i = offset; i < offset + size; ++i)
-    for (const uint8_t change : {0x01, 0x80, 0xff}) {
+    for (const uint8_t change : {uint8_t{0x01}, uint8_t{0x80}, uint8_t{0xff}}) {
       GltfFile damaged = file;
       damaged.data[i] = static_cast<uint8_t>(damaged.data[i] ^ change);
       const std::string error = damaged.error();
