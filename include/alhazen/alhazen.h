@@ -34,6 +34,10 @@ struct Settings {
   /// Map of the whole sphere that replaces the infinite lights of the scene: twice as wide as high (equirectangular) or
   /// square (equal-area octahedral). Its top is towards +y, its middle towards -z.
   std::string environment;
+  std::string camera;     ///< glTF: a name, or a number from 0; empty: the first
+  std::string variant;    ///< glTF: a name or a number of KHR_materials_variants; empty: the first
+  std::string animation;  ///< glTF: a name or a number; empty: the first, where `animation_time` is given
+  std::optional<double> animation_time;  ///< glTF: seconds; absent: nothing is animated
   int64_t samples_per_pixel = 0;
   int64_t max_depth = -1;         ///< bounces: a path has at most max_depth + 1 segments
   int64_t width = 0, height = 0;  ///< pixels
@@ -74,7 +78,7 @@ struct Picture {
   const float* plane(const std::string& channel) const;
 };
 
-/// Renders a pbrt-v4 scene. Throws std::runtime_error, whose what() is one message (for bad input
+/// Renders a pbrt-v4 or glTF 2.0 scene. Throws std::runtime_error, whose what() is one message (for bad input
 /// `file:line:column: what is wrong and what to do`), and std::bad_alloc.
 Picture render(const std::string& scene_file, const Settings& settings = {}, const ProgressFunction& progress = {});
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/listing.h"
 #include "cli/subcommands.h"
 #include "io/read_scene.h"
 #include "render/statistics.h"
@@ -16,7 +17,7 @@ namespace {
 
 struct InfoOptions {
   std::string scene;
-  bool json = false;
+  bool json = false, list = false;
 };
 
 const char* name_of(FilterType type) {
@@ -36,6 +37,10 @@ const char* name_of(FilterType type) {
 }
 
 void show(const InfoOptions& options) {
+  if (options.list) {
+    print_listing(options.scene, options.json);
+    return;
+  }
   Diagnostics diagnostics;
   Scene scene = read_scene(options.scene, diagnostics);
   const RenderSettings settings = resolve_settings({}, scene);
@@ -80,8 +85,9 @@ void show(const InfoOptions& options) {
 CLI::App* register_info(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "Read a scene and say what it holds");
   auto options = std::make_shared<InfoOptions>();
-  command->add_option("SCENE", options->scene, "Scene (.pbrt) or mesh (.ply), also as .gz")->required()->type_name("");
+  command->add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)")->required()->type_name("");
   command->add_flag("--json", options->json, "One JSON object instead of the list");
+  command->add_flag("--list", options->list, "Cameras, variants, animations and lights of a glTF file instead");
   command->callback([options] { show(*options); });
   return command;
 }

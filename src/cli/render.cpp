@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cli/interrupt.h"
+#include "cli/listing.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/subcommands.h"
@@ -27,7 +28,7 @@ struct RenderOptions {
   std::string size, crop, pixel_bounds, checkpoint, seed;
   std::string tone_map = "none", exr_type = "half";
   std::string progress = "auto", stats;
-  bool quiet = false, verbose = false;
+  bool quiet = false, verbose = false, list = false;
 };
 
 /// Numbers parted by `separator`, exactly `values.size()` of them.
@@ -125,11 +126,16 @@ void print_end(const RenderOptions& options, const RenderStatistics& statistics)
 }
 
 int run(RenderOptions& options) {
+  if (options.list) {
+    print_listing(options.scene, false);
+    return exit_done;
+  }
   parse_settings(options);
   ProgressPrinter printer(options.quiet ? ProgressStyle::none : parse_progress_style(options.progress));
   Diagnostics diagnostics;
   const auto start = std::chrono::steady_clock::now();
-  Scene scene = read_scene(options.scene, diagnostics);
+  const Settings& s = options.settings;
+  Scene scene = read_scene(options.scene, {s.camera, s.variant, s.animation, s.animation_time}, diagnostics);
   if (!options.settings.environment.empty()) use_environment(scene, options.settings.environment);
   const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
@@ -190,6 +196,21 @@ void add_picture_options(CLI::App& command, RenderOptions& o) {
                   "Light the scene by this map (EXR, HDR, ...) instead of by its infinite lights: 2:1 "
                   "(equirectangular) or square (octahedral), +y up, its middle towards -z")
       ->type_name("FILE")
+      ->group(group);
+  command.add_option("--camera", o.settings.camera, "glTF: the camera of this name or number; --list has them")
+      ->type_name("NAME")
+      ->group(group);
+  command.add_option("--time", o.settings.animation_time, "glTF: the scene at this time of its animation")
+      ->check(within(-1e9, 1e9))
+      ->type_name("SECONDS")
+      ->group(group);
+  command.add_option("--animation", o.settings.animation, "glTF: the animation of this name or number, for --time")
+      ->type_name("NAME")
+      ->group(group);
+  command.add_option("--variant", o.settings.variant, "glTF: the materials of this variant, by name or number")
+      ->type_name("NAME")
+      ->group(group);
+  command.add_flag("--list", o.list, "Print cameras, variants, animations and lights of the file, and render nothing")
       ->group(group);
   command.add_option("--sampler", o.settings.sampler, "sobol or independent")->type_name("NAME")->group(group);
   command.add_option("--seed", o.seed, "Another number, other noise")->type_name("N")->group(group);
@@ -292,7 +313,7 @@ void add_running_options(CLI::App& command, RenderOptions& o) {
 CLI::App* register_render(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("render", "Render a scene to pictures");
   auto options = std::make_shared<RenderOptions>();
-  command->add_option("SCENE", options->scene, "Scene (.pbrt) or mesh (.ply), also as .gz")->required()->type_name("");
+  command->add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)")->required()->type_name("");
   add_output_options(*command, *options);
   add_picture_options(*command, *options);
   add_engine_options(*command, *options);

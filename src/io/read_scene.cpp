@@ -1,8 +1,11 @@
 #include "io/read_scene.h"
 
+#include <array>
 #include <filesystem>
+#include <fstream>
 
 #include "core/math/bounds.h"
+#include "io/gltf/gltf.h"
 #include "io/images/image.h"
 #include "io/pbrt/pbrt.h"
 #include "io/ply/ply.h"
@@ -35,15 +38,32 @@ Scene scene_around(Mesh&& mesh, const std::string& path) {
   return scene;
 }
 
-}  // namespace
-
-Scene read_scene(const std::string& path, Diagnostics& diagnostics) {
+std::string format_of(const std::string& path) {
   std::string extension = extension_of(path);
   if (extension == "gz") extension = extension_of(std::filesystem::path(path).stem().string());
-  if (extension == "pbrt") return read_pbrt(path, diagnostics);
-  if (extension == "ply") return scene_around(read_ply(path, diagnostics), path);
+  if (extension == "pbrt" || extension == "ply") return extension;
+  if (extension == "gltf" || extension == "glb") return "gltf";
+  std::array<char, 4> head{};
+  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  if (std::string_view(head.data(), head.size()) == "glTF") return "gltf";
   throw InputError({path},
-                   "the format is not known by this name: give a .pbrt scene or a .ply mesh (or either as .gz)");
+                   "the format is not known by this name: give a .pbrt scene, a .gltf or .glb scene, or a .ply mesh "
+                   "(.pbrt and .ply also as .gz)");
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
+  const std::string format = format_of(path);
+  if (format == "gltf") return read_gltf(path, options, diagnostics);
+  if (!options.is_default())
+    throw InputError({path}, "cameras, variants, animations and their time can be chosen of glTF files alone");
+  if (format == "pbrt") return read_pbrt(path, diagnostics);
+  return scene_around(read_ply(path, diagnostics), path);
+}
+
+SceneListing list_scene(const std::string& path, Diagnostics& diagnostics) {
+  return format_of(path) == "gltf" ? list_gltf(path, diagnostics) : SceneListing{};
 }
 
 }  // namespace alhazen

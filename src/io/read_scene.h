@@ -4,12 +4,17 @@
 
 #include <string>
 
+#include "io/read_options.h"
 #include "scene/scene.h"
 
 namespace alhazen {
 
-/// Reads a scene (.pbrt, .pbrt.gz), or a mesh alone (.ply, .ply.gz), which is given a camera and a sky to be seen by.
-/// Throws InputError.
-Scene read_scene(const std::string& path, Diagnostics& diagnostics);
+/// Reads a scene (.pbrt, .pbrt.gz, .gltf, .glb), or a mesh alone (.ply, .ply.gz), which is given a camera and a sky to
+/// be seen by. Throws InputError, also where `options` choose what the format does not offer.
+Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics);
+inline Scene read_scene(const std::string& path, Diagnostics& diagnostics) { return read_scene(path, {}, diagnostics); }
+
+/// What `options` may choose from. Throws InputError.
+SceneListing list_scene(const std::string& path, Diagnostics& diagnostics);
 
 }  // namespace alhazen

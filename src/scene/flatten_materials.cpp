@@ -118,6 +118,9 @@ class TextureBuilder {
       case TextureKind::direction_mix:
         node.parameters = convert<Real>(normalize(texture.direction));
         break;
+      case TextureKind::threshold:
+        node.parameters = convert<Real>(texture.value);
+        break;
       case TextureKind::scale:
       case TextureKind::mix:
       case TextureKind::vertex_colour:

@@ -219,6 +219,13 @@ enum class CameraType {
   equal_area        ///< the same by the octahedral mapping
 };
 
+enum class CameraType {
+  perspective,
+  orthographic,     ///< rays go along z; the screen window is in units of camera space
+  equirectangular,  ///< the whole sphere about the camera: as pbrt's spherical camera, y is up
+  equal_area        ///< the same by the octahedral mapping
+};
+
 struct Camera {
   /// Camera space as in pbrt: x right, y up, z into the scene.
   MovingTransform world_from_camera;

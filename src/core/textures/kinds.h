@@ -24,6 +24,7 @@ enum class TextureKind : uint32_t {
   dots,           ///< one of two textures: within discs that noise scatters over (s, t), or outside
   windy,          ///< waves on water under wind: a product of two noises
   direction_mix,  ///< two textures blended by the cosine of the normal and a direction
+  threshold,      ///< 1 where a texture is at least the value, else 0
 };
 
 /// What the (s, t) of a texture are made of: a set of uvs of the surface, or the point in the space of the texture.

@@ -79,6 +79,11 @@ ALHAZEN_HD Vec3<Real> evaluate_texture_node(const SceneView<Real>& scene, const 
       return inputs[0] * (splat(Real(1)) - inputs[2]) + inputs[1] * inputs[2];
     case TextureKind::channel:
       return splat(inputs[0][static_cast<int>(node.octaves)]);
+    case TextureKind::threshold: {
+      const auto step = [](Real x, Real edge) { return x >= edge ? Real(1) : Real(0); };
+      return {step(inputs[0].x, node.parameters.x), step(inputs[0].y, node.parameters.y),
+              step(inputs[0].z, node.parameters.z)};
+    }
     case TextureKind::vertex_colour:
       return mesh_colour(scene, at.hit).rgb;
     case TextureKind::vertex_alpha:
@@ -109,6 +114,7 @@ ALHAZEN_HD constexpr uint32_t texture_input_count(TextureKind kind) {
     case TextureKind::direction_mix:
       return 2;
     case TextureKind::channel:
+    case TextureKind::threshold:
       return 1;
     default:
       return 0;

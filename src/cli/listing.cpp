@@ -1,0 +1,29 @@
+#include "cli/listing.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "io/read_scene.h"
+
+namespace alhazen {
+
+void print_listing(const std::string& scene, bool as_json) {
+  Diagnostics diagnostics;
+  const SceneListing listing = list_scene(scene, diagnostics);
+  const std::pair<const char*, const std::vector<std::string>*> kinds[] = {{"cameras", &listing.cameras},
+                                                                           {"variants", &listing.variants},
+                                                                           {"animations", &listing.animations},
+                                                                           {"lights", &listing.lights}};
+  nlohmann::ordered_json json;
+  for (const auto& [kind, names] : kinds) {
+    json[kind] = *names;
+    if (as_json) continue;
+    fmt::print("{}: {}\n", kind, names->size());
+    for (size_t i = 0; i < names->size(); ++i) fmt::print("  {} {}\n", i, (*names)[i]);
+  }
+  // Names are bytes of the file, which need not be valid UTF-8.
+  if (as_json) fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+}  // namespace alhazen

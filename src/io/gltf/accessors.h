@@ -1,0 +1,36 @@
+#pragma once
+
+// Accessors as arrays of numbers: every component type, normalised integers, strides, sparse values.
+
+#include <initializer_list>
+#include <vector>
+
+#include "io/gltf/buffers.h"
+
+namespace alhazen::gltf {
+
+/// `count` elements of `components` numbers each.
+struct Values {
+  size_t count = 0, components = 0;
+  std::vector<float> data;
+  const float* operator[](size_t i) const { return data.data() + i * components; }
+};
+
+class Accessors {
+ public:
+  Accessors(const Document& document, Buffers& buffers) : document_(document), buffers_(buffers) {}
+
+  /// As floats, all of them finite. `types` are those that are right here, such as {"VEC3", "VEC4"}.
+  Values floats(uint32_t index, std::initializer_list<const char*> types);
+  /// As unsigned integers: indices, joints.
+  std::vector<uint32_t> integers(uint32_t index, const char* type);
+  /// How many elements it has, by itself.
+  size_t count(uint32_t index) const;
+  bool is_normalized(uint32_t index) const;
+
+ private:
+  const Document& document_;
+  Buffers& buffers_;
+};
+
+}  // namespace alhazen::gltf

@@ -1,0 +1,40 @@
+#pragma once
+
+// Buffers and buffer views, read when they are first asked for.
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "io/gltf/document.h"
+
+namespace alhazen::gltf {
+
+struct BufferView {
+  std::span<const uint8_t> bytes;
+  size_t stride = 0;  ///< 0: tightly packed
+};
+
+class Buffers {
+ public:
+  explicit Buffers(const Document& document) : document_(document) {}
+
+  /// The bytes of a buffer view, decompressed where EXT_meshopt_compression says so. Spans stay valid.
+  const BufferView& view(uint32_t index);
+
+ private:
+  std::span<const uint8_t> buffer(uint32_t index);
+  std::span<const uint8_t> range(const Json& object);
+  BufferView decompress(const Json& compression);
+
+  const Document& document_;
+  std::map<uint32_t, std::vector<uint8_t>> buffers_;
+  std::map<uint32_t, BufferView> views_;
+  std::map<uint32_t, std::vector<uint8_t>> decompressed_;
+};
+
+/// Decodes EXT_meshopt_compression: `compression` is the extension's object, `source` its bytes. Throws InputError,
+/// also where the program was built without meshoptimizer.
+std::vector<uint8_t> decode_meshopt(const Document& document, const Json& compression, std::span<const uint8_t> source);
+
+}  // namespace alhazen::gltf

@@ -1,0 +1,76 @@
+#pragma once
+
+// A glTF document: its JSON, where it lies, and how members are read. Every reading checks the kind and the range of
+// what it reads and throws InputError with the place.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/math/vec.h"
+#include "io/gltf/json.h"
+#include "scene/diagnostics.h"
+
+namespace alhazen::gltf {
+
+class Document {
+ public:
+  /// `bytes` are those of a .gltf or .glb file and must outlive the document; other files are relative to `folder`.
+  Document(std::span<const uint8_t> bytes, const std::string& path, const std::string& folder,
+           Diagnostics& diagnostics);
+
+  const Json& root() const { return root_; }
+  const std::string& path() const { return path_; }
+  const std::string& folder() const { return folder_; }
+  /// The binary chunk of a .glb file; without one, null.
+  const std::optional<std::span<const uint8_t>>& binary_chunk() const { return binary_chunk_; }
+  Diagnostics& diagnostics() const { return diagnostics_; }
+
+  SourceLocation place(const Json& at) const { return {path_, at.line, at.column}; }
+  [[noreturn]] void fail(const Json& at, const std::string& message) const;
+  void warn(const Json& at, const std::string& message) const { diagnostics_.warn(place(at), message); }
+
+  /// The items of an array of the root ("nodes", "meshes", ...); empty where there is none.
+  const std::vector<Json>& array(const char* name) const;
+  /// Item `index` of such an array, which must be an object.
+  const Json& item(const char* array_name, size_t index) const;
+
+  // Members of `object`: absent ones give the fallback, or null.
+  const Json* object(const Json& object, const char* key) const;
+  const Json* list(const Json& object, const char* key) const;
+  double number(const Json& object, const char* key, double fallback) const;
+  bool flag(const Json& object, const char* key, bool fallback) const;
+  std::string string(const Json& object, const char* key, const std::string& fallback = {}) const;
+  /// A whole number in [0, 2^53].
+  std::optional<uint64_t> whole(const Json& object, const char* key) const;
+  uint64_t required_whole(const Json& object, const char* key) const;
+  /// A whole number below the number of items of the root's array `array_name`.
+  std::optional<uint32_t> index(const Json& object, const char* key, const char* array_name) const;
+  uint32_t required_index(const Json& object, const char* key, const char* array_name) const;
+  /// A value that is such a number itself.
+  uint32_t as_index(const Json& value, const char* array_name) const;
+  /// Exactly `count` numbers; empty where absent.
+  std::vector<double> numbers(const Json& object, const char* key, size_t count) const;
+  Vec3d vec3(const Json& object, const char* key, const Vec3d& fallback) const;
+  /// The member `name` of the member "extensions".
+  const Json* extension(const Json& object, const char* name) const;
+
+ private:
+  void read_container(std::span<const uint8_t> bytes);
+  void check_version() const;
+  const Json* member(const Json& object, const char* key, JsonKind kind, const char* kind_name) const;
+
+  std::string path_, folder_;
+  Diagnostics& diagnostics_;
+  Json root_;
+  std::optional<std::span<const uint8_t>> binary_chunk_;
+};
+
+/// Refuses what the file requires and is not known; warns of what it uses and is not known.
+void check_extensions(const Document& document);
+
+}  // namespace alhazen::gltf

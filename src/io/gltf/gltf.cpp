@@ -1,0 +1,304 @@
+#include "io/gltf/gltf.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <new>
+#include <stdexcept>
+
+#include "io/gltf/accessors.h"
+#include "io/gltf/materials.h"
+#include "io/gltf/meshes.h"
+#include "io/gltf/nodes.h"
+#include "io/gltf/punctual.h"
+#include "io/gltf/validate.h"
+#include "io/images/input_file.h"
+
+namespace alhazen {
+
+namespace gltf {
+
+namespace {
+
+/// A mesh where a node has it.
+struct Placement {
+  uint32_t mesh = 0;
+  Matrix4 world = identity;
+  Deformation deformation;
+  std::string key;  ///< the same for placements that may be instances of each other; empty: of none
+};
+
+std::vector<std::string> variant_names(const Document& document) {
+  std::vector<std::string> names;
+  const Json* extension = document.extension(document.root(), "KHR_materials_variants");
+  const Json* variants = extension == nullptr ? nullptr : document.list(*extension, "variants");
+  if (variants != nullptr)
+    for (const Json& variant : variants->items) names.push_back(document.string(variant, "name"));
+  return names;
+}
+
+std::vector<std::string> animation_names(const Document& document) {
+  std::vector<std::string> names;
+  for (size_t i = 0; i < document.array("animations").size(); ++i)
+    names.push_back(document.string(document.item("animations", i), "name"));
+  return names;
+}
+
+/// Whether the matrix can be inverted well enough to be a Transform.
+bool is_invertible(const Matrix4& m) {
+  const double volume = length(column(m, 0)) * length(column(m, 1)) * length(column(m, 2));
+  return volume > 1e-100 && std::abs(determinant(m)) > 1e-9 * volume;
+}
+
+class SceneReader {
+ public:
+  SceneReader(const Document& document, const ReadOptions& options)
+      : document_(document), options_(options), nodes_(document, accessors_) {}
+
+  Scene run() {
+    scene_.name = document_.path();
+    scene_.samples_per_pixel = 64;
+    scene_.max_depth = 8;
+    choose_variant();
+    choose_animation();
+    nodes_.place();
+    for (const uint32_t node : nodes_.drawn()) add_node(node);
+    place_all();
+    add_lights(document_, nodes_, scene_, nullptr);
+    if (scene_.lights.empty() && !emits_) add_neutral_light(scene_);
+    if (!set_camera(document_, nodes_, options_.camera, scene_)) fit_camera(scene_);
+    if (scene_.meshes.empty())
+      document_.warn(document_.root(), "the file has no surface to be drawn; the picture is empty");
+    return std::move(scene_);
+  }
+
+ private:
+  void choose_variant() {
+    const std::vector<std::string> names = variant_names(document_);
+    if (!options_.variant.empty())
+      variant_ = choose(document_, options_.variant, names, "variant");
+    else if (!names.empty())
+      variant_ = 0;
+  }
+
+  void choose_animation() {
+    if (!options_.time && options_.animation.empty()) return;
+    const std::vector<std::string> names = animation_names(document_);
+    const size_t index = choose(document_, options_.animation.empty() ? "0" : options_.animation, names, "animation");
+    nodes_.animate(document_.item("animations", index), options_.time.value_or(0));
+  }
+
+  const std::vector<Json>& primitives(uint32_t mesh) const {
+    const Json& description = document_.item("meshes", mesh);
+    const Json* list = document_.list(description, "primitives");
+    if (list == nullptr || list->items.empty()) document_.fail(description, "the mesh has no primitives");
+    for (const Json& primitive : list->items)
+      if (primitive.kind != JsonKind::object) document_.fail(primitive, "a primitive must be an object");
+    return list->items;
+  }
+
+  std::vector<double> weights(uint32_t node, uint32_t mesh) const {
+    if (!nodes_.pose(node).weights.empty()) return nodes_.pose(node).weights;
+    const Json& description = document_.item("meshes", mesh);
+    const Json* list = document_.list(description, "weights");
+    return list == nullptr ? std::vector<double>{} : document_.numbers(description, "weights", list->items.size());
+  }
+
+  void add_node(uint32_t node) {
+    const Json& description = document_.item("nodes", node);
+    const auto mesh = document_.index(description, "mesh", "meshes");
+    if (!mesh) return;
+    Placement placement;
+    placement.mesh = *mesh;
+    placement.deformation.weights = weights(node, *mesh);
+    const auto skin = document_.index(description, "skin", "skins");
+    if (skin) {
+      // What a skin moves stands where its joints have it, wherever its node is.
+      placement.deformation.joints = nodes_.joints(*skin);
+      placements_.push_back(placement);
+      return;
+    }
+    placement.key = std::to_string(*mesh);
+    for (const double weight : placement.deformation.weights) placement.key += ',' + std::to_string(weight);
+    const Json* instancing = document_.extension(description, "EXT_mesh_gpu_instancing");
+    if (instancing != nullptr) {
+      for (const Matrix4& local : instance_matrices(*instancing)) {
+        placement.world = multiply(nodes_.world(node), local);
+        add_placement(placement);
+      }
+      return;
+    }
+    placement.world = nodes_.world(node);
+    add_placement(placement);
+  }
+
+  void add_placement(Placement placement) {
+    if (!is_invertible(placement.world)) {
+      placement.deformation.baked = placement.world;
+      placement.world = identity;
+      placement.key.clear();
+    }
+    if (!placement.key.empty()) ++uses_[placement.key];
+    placements_.push_back(std::move(placement));
+  }
+
+  std::vector<Matrix4> instance_matrices(const Json& instancing) {
+    const Json* attributes = document_.object(instancing, "attributes");
+    if (attributes == nullptr) document_.fail(instancing, "\"attributes\" is missing here");
+    std::optional<size_t> count;
+    const auto read = [&](const char* name, const char* type) {
+      Values values;
+      const auto index = document_.index(*attributes, name, "accessors");
+      if (!index) return values;
+      values = accessors_.floats(*index, {type});
+      if (count && *count != values.count)
+        document_.fail(*attributes, "the attributes of instances must be equally many");
+      count = values.count;
+      return values;
+    };
+    const Values translations = read("TRANSLATION", "VEC3"), rotations = read("ROTATION", "VEC4"),
+                 scales = read("SCALE", "VEC3");
+    const auto at = [](const Values& values, size_t i, size_t c) { return static_cast<double>(values[i][c]); };
+    std::vector<Matrix4> matrices;
+    for (size_t i = 0; i < count.value_or(0); ++i) {
+      const auto vec3 = [&](const Values& v, double fallback) {
+        return v.count == 0 ? splat(fallback) : Vec3d{at(v, i, 0), at(v, i, 1), at(v, i, 2)};
+      };
+      std::array<double, 4> q{0, 0, 0, 1};
+      if (rotations.count > 0) q = {at(rotations, i, 0), at(rotations, i, 1), at(rotations, i, 2), at(rotations, i, 3)};
+      matrices.push_back(from_trs(vec3(translations, 0), q, vec3(scales, 1)));
+    }
+    return matrices;
+  }
+
+  std::optional<uint32_t> material_index(const Json& primitive) const {
+    const Json* extension = document_.extension(primitive, "KHR_materials_variants");
+    const Json* mappings = extension == nullptr ? nullptr : document_.list(*extension, "mappings");
+    if (mappings != nullptr && variant_)
+      for (const Json& mapping : mappings->items) {
+        const Json* variants = document_.list(mapping, "variants");
+        if (variants == nullptr) continue;
+        for (const Json& variant : variants->items)
+          if (variant.kind == JsonKind::number && variant.number == static_cast<double>(*variant_))
+            return document_.required_index(mapping, "material", "materials");
+      }
+    return document_.index(primitive, "material", "materials");
+  }
+
+  std::vector<Shape> shapes(const Placement& placement) {
+    std::vector<Shape> result;
+    for (const Json& primitive : primitives(placement.mesh)) {
+      const MaterialUse& use = materials_.use(material_index(primitive), has_vertex_colours(document_, primitive));
+      const auto mesh = meshes_.read(primitive, use.uv_sets, placement.deformation);
+      if (!mesh) continue;
+      Shape shape;
+      shape.mesh = *mesh;
+      shape.material = use.material;
+      shape.emission = use.emission;
+      shape.where = document_.place(primitive);
+      result.push_back(shape);
+      emits_ = emits_ || (use.emission && max_component(use.emission->radiance) > 1);
+    }
+    return result;
+  }
+
+  void place_all() {
+    std::map<std::string, uint32_t> groups;
+    for (const Placement& placement : placements_) {
+      const bool is_repeated = !placement.key.empty() && uses_[placement.key] > 1;
+      const Transform world(placement.world);
+      if (is_repeated) {
+        const auto entry = groups.find(placement.key);
+        if (entry != groups.end()) {
+          add_instance(entry->second, world, placement);
+          continue;
+        }
+      }
+      std::vector<Shape> placed = shapes(placement);
+      // Lights are known one by one, so what shines is not an instance.
+      const bool shines = std::any_of(placed.begin(), placed.end(), [](const Shape& s) { return s.emission; });
+      if (is_repeated && !shines) {
+        const auto group = static_cast<uint32_t>(scene_.groups.size());
+        groups[placement.key] = group;
+        scene_.groups.push_back({document_.string(document_.item("meshes", placement.mesh), "name"), placed});
+        add_instance(group, world, placement);
+        continue;
+      }
+      for (Shape& shape : placed) {
+        shape.world_from_object = {world, world};
+        scene_.groups[0].shapes.push_back(std::move(shape));
+      }
+    }
+  }
+
+  void add_instance(uint32_t group, const Transform& world, const Placement& placement) {
+    Instance instance;
+    instance.group = group;
+    instance.world_from_group = {world, world};
+    instance.where = document_.place(document_.item("meshes", placement.mesh));
+    scene_.instances.push_back(instance);
+  }
+
+  const Document& document_;
+  const ReadOptions& options_;
+  Scene scene_;
+  Buffers buffers_{document_};
+  Accessors accessors_{document_, buffers_};
+  Textures textures_{document_, buffers_, scene_};
+  Materials materials_{document_, textures_, scene_};
+  Meshes meshes_{document_, buffers_, accessors_, scene_};
+  Nodes nodes_;
+  std::vector<Placement> placements_;
+  std::map<std::string, size_t> uses_;
+  std::optional<size_t> variant_;
+  bool emits_ = false;
+};
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+}  // namespace
+
+}  // namespace gltf
+
+bool is_glb(std::span<const uint8_t> bytes) { return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0; }
+
+Scene parse_gltf(std::span<const uint8_t> bytes, const std::string& path, const std::string& folder,
+                 const ReadOptions& options, Diagnostics& diagnostics) {
+  const gltf::Document document(bytes, path, folder, diagnostics);
+  try {
+    gltf::check_extensions(document);
+    gltf::validate(document);
+    return gltf::SceneReader(document, options).run();
+  } catch (const std::bad_alloc&) {
+    throw InputError({path}, "the scene is too large for the memory of this machine");
+  } catch (const std::length_error&) {
+    throw InputError({path}, "the scene is too large for the memory of this machine");
+  }
+}
+
+Scene read_gltf(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
+  return parse_gltf(read_bytes(path), path, gltf::folder_of(path), options, diagnostics);
+}
+
+SceneListing list_gltf(const std::string& path, Diagnostics& diagnostics) {
+  const std::vector<uint8_t> bytes = read_bytes(path);
+  const gltf::Document document(bytes, path, gltf::folder_of(path), diagnostics);
+  gltf::validate(document);
+  gltf::Buffers buffers(document);
+  gltf::Accessors accessors(document, buffers);
+  gltf::Nodes nodes(document, accessors);
+  nodes.place();
+  SceneListing listing;
+  for (const gltf::CameraNode& camera : gltf::camera_nodes(document, nodes)) listing.cameras.push_back(camera.name);
+  listing.variants = gltf::variant_names(document);
+  listing.animations = gltf::animation_names(document);
+  Scene scene;
+  gltf::add_lights(document, nodes, scene, &listing.lights);
+  return listing;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,34 @@
+#pragma once
+
+// Materials: the metallic-roughness model and its extensions, as principled materials of the described scene.
+
+#include <map>
+#include <tuple>
+
+#include "io/gltf/textures.h"
+
+namespace alhazen::gltf {
+
+/// A material as a shape needs it.
+struct MaterialUse {
+  uint32_t material = no_index;  ///< index into Scene::materials
+  std::optional<Emission> emission;
+  UvSets uv_sets{0, 1};
+};
+
+class Materials {
+ public:
+  Materials(const Document& document, Textures& textures, Scene& scene)
+      : document_(document), textures_(textures), scene_(scene) {}
+
+  /// Material `index` of the document, or the default one. Vertex colours are a factor of the base colour.
+  const MaterialUse& use(std::optional<uint32_t> index, bool has_vertex_colours);
+
+ private:
+  const Document& document_;
+  Textures& textures_;
+  Scene& scene_;
+  std::map<std::tuple<std::optional<uint32_t>, bool>, MaterialUse> uses_;
+};
+
+}  // namespace alhazen::gltf

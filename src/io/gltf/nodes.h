@@ -1,0 +1,52 @@
+#pragma once
+
+// The node hierarchy, at rest or at a time of an animation.
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "io/gltf/accessors.h"
+#include "io/gltf/matrices.h"
+
+namespace alhazen::gltf {
+
+struct NodePose {
+  Vec3d translation, scale{1, 1, 1};
+  std::array<double, 4> rotation{0, 0, 0, 1};  ///< quaternion x, y, z, w
+  std::optional<Matrix4> matrix;               ///< instead of the three
+  std::vector<double> weights;                 ///< of morph targets; empty: those of the mesh
+};
+
+class Nodes {
+ public:
+  /// Reads all nodes and checks that they form trees.
+  Nodes(const Document& document, Accessors& accessors);
+
+  /// Moves nodes to where animation `animation` has them at `time` seconds; before its start and after its end it
+  /// stands.
+  void animate(const Json& animation, double time);
+  /// To be called once after the poses are final.
+  void place();
+
+  size_t size() const { return poses_.size(); }
+  const Matrix4& world(uint32_t node) const { return world_[node]; }
+  const NodePose& pose(uint32_t node) const { return poses_[node]; }
+  /// The nodes of the scene to be drawn, each once, parents before their children.
+  std::vector<uint32_t> drawn() const;
+  /// World from mesh, of each joint of a skin.
+  std::vector<Matrix4> joints(uint32_t skin);
+
+ private:
+  void check_trees();
+  std::vector<uint32_t> roots_of_scene() const;
+
+  const Document& document_;
+  Accessors& accessors_;
+  std::vector<NodePose> poses_;
+  std::vector<std::vector<uint32_t>> children_;
+  std::vector<uint32_t> parents_;  ///< no_index: none
+  std::vector<Matrix4> world_;
+};
+
+}  // namespace alhazen::gltf

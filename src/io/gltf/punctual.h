@@ -1,0 +1,38 @@
+#pragma once
+
+// Cameras and lights, which nodes place.
+
+#include <string>
+#include <vector>
+
+#include "io/gltf/nodes.h"
+#include "io/read_options.h"
+#include "scene/scene.h"
+
+namespace alhazen::gltf {
+
+/// Nodes with a camera, in the order of drawing, and their names: that of the node, else that of the camera.
+struct CameraNode {
+  uint32_t node = 0, camera = 0;
+  std::string name;
+};
+std::vector<CameraNode> camera_nodes(const Document& document, const Nodes& nodes);
+
+/// Sets camera and size of the picture. `choice` is a name or a number, empty for the first. False where there is none.
+/// Throws InputError where `choice` fits nothing.
+bool set_camera(const Document& document, const Nodes& nodes, const std::string& choice, Scene& scene);
+
+/// The index of `choice` (a name, else a number) among `names`. Throws InputError that lists them.
+size_t choose(const Document& document, const std::string& choice, const std::vector<std::string>& names,
+              const char* what);
+
+/// KHR_lights_punctual. Candela and lux are taken as W / sr and W / m^2 as they stand.
+void add_lights(const Document& document, const Nodes& nodes, Scene& scene, std::vector<std::string>* names);
+
+/// A camera before the whole scene, from the front, above and aside.
+void fit_camera(Scene& scene);
+
+/// White light from everywhere, more of it from above and from a window before and above the scene.
+void add_neutral_light(Scene& scene);
+
+}  // namespace alhazen::gltf

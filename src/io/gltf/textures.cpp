@@ -1,0 +1,199 @@
+#include "io/gltf/textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <utility>
+
+#include "io/gltf/uri.h"
+#include "io/images/decoders.h"
+#include "io/images/png_alpha.h"
+
+namespace alhazen::gltf {
+
+namespace {
+
+bool starts_with(std::span<const uint8_t> bytes, std::string_view head) {
+  return bytes.size() >= head.size() && std::memcmp(bytes.data(), head.data(), head.size()) == 0;
+}
+
+const char* unread_format(std::span<const uint8_t> bytes) {
+  if (starts_with(bytes, "RIFF")) return "WebP";
+  if (starts_with(bytes, "\xabKTX 20")) return "KTX2";
+  if (starts_with(bytes, "DDS ")) return "DDS";
+  if (bytes.size() > 12 && std::memcmp(bytes.data() + 4, "ftypavif", 8) == 0) return "AVIF";
+  return nullptr;
+}
+
+WrapMode wrap_mode(const Document& document, const Json& sampler, const char* key) {
+  switch (document.whole(sampler, key).value_or(10497)) {
+    case 10497:
+      return WrapMode::repeat;
+    case 33071:
+      return WrapMode::clamp;
+    case 33648:
+      return WrapMode::mirror;
+    default:
+      document.fail(sampler, std::string("unknown wrap mode in \"") + key +
+                                 "\": it may be 10497 (repeat), 33071 (clamp) or 33648 (mirror)");
+  }
+}
+
+}  // namespace
+
+uint32_t Textures::add(Texture&& texture) {
+  scene_.textures.push_back(std::move(texture));
+  return static_cast<uint32_t>(scene_.textures.size() - 1);
+}
+
+uint32_t Textures::node(TextureKind kind) {
+  Texture texture;
+  texture.kind = kind;
+  return add(std::move(texture));
+}
+
+uint32_t Textures::constant(const Vec3d& value) {
+  Texture texture;
+  texture.value = value;
+  return add(std::move(texture));
+}
+
+uint32_t Textures::product(uint32_t a, uint32_t b) {
+  if (a == no_index) return b;
+  if (b == no_index) return a;
+  Texture texture;
+  texture.kind = TextureKind::scale;
+  texture.inputs = {a, b, no_index};
+  return add(std::move(texture));
+}
+
+uint32_t Textures::scaled(const Vec3d& value, uint32_t texture) {
+  return value == Vec3d{1, 1, 1} ? texture : product(constant(value), texture);
+}
+
+uint32_t Textures::channel(uint32_t texture, int channel) {
+  if (texture == no_index) return no_index;
+  Texture node;
+  node.kind = TextureKind::channel;
+  node.inputs[0] = texture;
+  node.channel = channel;
+  return add(std::move(node));
+}
+
+uint32_t Textures::mix(uint32_t at_0, uint32_t at_1, uint32_t amount) {
+  Texture node;
+  node.kind = TextureKind::mix;
+  node.inputs = {at_0, at_1, amount};
+  return add(std::move(node));
+}
+
+uint32_t Textures::threshold(uint32_t texture, double least) {
+  Texture node;
+  node.kind = TextureKind::threshold;
+  node.inputs[0] = texture;
+  node.value = {least, least, least};
+  return add(std::move(node));
+}
+
+int texture_coordinate_set(const Document& document, const Json& info) {
+  uint64_t set = document.whole(info, "texCoord").value_or(0);
+  if (const Json* transform = document.extension(info, "KHR_texture_transform"))
+    set = document.whole(*transform, "texCoord").value_or(set);
+  return static_cast<int>(std::min<uint64_t>(set, 1000));
+}
+
+uint32_t Textures::image(const Json& object, const char* key, Texels texels, const UvSets& uv_sets) {
+  const Json* info = document_.object(object, key);
+  if (info == nullptr) return no_index;
+  const Json& texture = document_.item("textures", document_.required_index(*info, "index", "textures"));
+  Texture node;
+  node.kind = TextureKind::image;
+  node.image = scene_image(texture, texels);
+  if (node.image == no_index) return no_index;
+  node.name = document_.string(texture, "name");
+  set_sampler(texture, node);
+  set_mapping(*info, uv_sets, node);
+  return add(std::move(node));
+}
+
+void Textures::set_sampler(const Json& texture, Texture& node) const {
+  const std::optional<uint32_t> index = document_.index(texture, "sampler", "samplers");
+  if (!index) return;
+  const Json& sampler = document_.item("samplers", *index);
+  node.wrap = wrap_mode(document_, sampler, "wrapS");
+  const WrapMode wrap_t = wrap_mode(document_, sampler, "wrapT");
+  if (wrap_t != node.wrap) node.wrap_t = wrap_t;
+  const uint64_t filter = document_.whole(sampler, "magFilter").value_or(9729);
+  if (filter != 9728 && filter != 9729)
+    document_.fail(sampler, "unknown \"magFilter\": it may be 9728 (nearest) or 9729 (linear)");
+  node.nearest = filter == 9728;
+}
+
+/// The transform of KHR_texture_transform is over coordinates whose v runs down the picture:
+///   u' = c su u + s sv v + ou,  v' = -s su u + c sv v + ov  with c, s cosine and sine of the rotation.
+/// Here t = 1 - v' is a function of (u, 1 - v).
+void Textures::set_mapping(const Json& info, const UvSets& uv_sets, Texture& node) const {
+  node.uv_set = texture_coordinate_set(document_, info) == uv_sets[1] ? 1 : 0;
+  const Json* transform = document_.extension(info, "KHR_texture_transform");
+  if (transform == nullptr) return;
+  const std::vector<double> offset = document_.numbers(*transform, "offset", 2);
+  const std::vector<double> scale = document_.numbers(*transform, "scale", 2);
+  const double rotation = document_.number(*transform, "rotation", 0);
+  const double s = std::sin(rotation), c = std::cos(rotation);
+  if (!scale.empty()) node.uv_scale = {scale[0], scale[1]};
+  const Vec2d o = offset.empty() ? Vec2d{} : Vec2d{offset[0], offset[1]};
+  node.uv_rotation = rotation * 180 / std::numbers::pi;
+  node.uv_offset = {o.x + s * node.uv_scale.y, 1 - c * node.uv_scale.y - o.y};
+}
+
+uint32_t Textures::scene_image(const Json& texture, Texels texels) {
+  if (const auto source = document_.index(texture, "source", "images")) return load(*source, texels);
+  for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif"})
+    if (document_.extension(texture, name) != nullptr)
+      document_.fail(texture, std::string("the texture has its picture by the extension ") + name +
+                                  " alone, which is not read: convert it to PNG or JPEG, or add one as \"source\"");
+  document_.warn(texture, "a texture has no \"source\"; it counts as white");
+  return no_index;
+}
+
+uint32_t Textures::load(uint32_t source, Texels texels) {
+  const auto [entry, is_new] = images_.try_emplace({source, texels}, no_index);
+  if (!is_new) return entry->second;
+  const Json& image = document_.item("images", source);
+  Resource resource;
+  std::span<const uint8_t> bytes;
+  if (const Json* uri = image.find("uri")) {
+    resource = load_uri(document_, *uri);
+    bytes = resource.bytes;
+  } else {
+    bytes = buffers_.view(document_.required_index(image, "bufferView", "bufferViews")).bytes;
+  }
+  std::string name = document_.place(image).to_string() + ": image " + std::to_string(source);
+  if (image.find("uri") != nullptr && resource.name != "a data URI") name = resource.name;
+  ImageTexels decoded;
+  if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) {
+    if (texels == Texels::alpha) {
+      std::optional<ImageTexels> alpha = decode_png_alpha(name, bytes);
+      const auto is_opaque = [](uint8_t value) { return value == 255; };
+      if (!alpha || std::all_of(alpha->bytes.begin(), alpha->bytes.end(), is_opaque)) return no_index;
+      decoded = std::move(*alpha);
+    } else {
+      decoded = decode_png(name, bytes, texels == Texels::srgb);
+    }
+  } else if (starts_with(bytes, "\xff\xd8\xff")) {
+    if (texels == Texels::alpha) return no_index;
+    decoded = decode_jpeg(name, bytes);
+  } else {
+    const char* format = unread_format(bytes);
+    document_.fail(image, format != nullptr
+                              ? std::string("pictures in ") + format + " are not read: convert it to PNG or JPEG"
+                              : std::string("the picture is neither PNG nor JPEG"));
+  }
+  decoded.srgb = !decoded.bytes.empty() && texels == Texels::srgb;
+  scene_.images.push_back(std::move(decoded));
+  entry->second = static_cast<uint32_t>(scene_.images.size() - 1);
+  return entry->second;
+}
+
+}  // namespace alhazen::gltf

@@ -1,0 +1,57 @@
+#pragma once
+
+// Textures of the document as nodes of the described scene.
+
+#include <array>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "io/gltf/buffers.h"
+#include "scene/scene.h"
+
+namespace alhazen::gltf {
+
+/// What is taken of a picture.
+enum class Texels { srgb, linear, alpha };
+
+/// Which sets of texture coordinates a mesh gets: uvs are TEXCOORD_(first), second_uvs TEXCOORD_(second).
+using UvSets = std::array<int, 2>;
+
+class Textures {
+ public:
+  Textures(const Document& document, Buffers& buffers, Scene& scene)
+      : document_(document), buffers_(buffers), scene_(scene) {}
+
+  uint32_t constant(const Vec3d& value);
+  /// a * b; absent ones count as 1.
+  uint32_t product(uint32_t a, uint32_t b);
+  /// `value` times a texture; absent where both are 1.
+  uint32_t scaled(const Vec3d& value, uint32_t texture);
+  uint32_t channel(uint32_t texture, int channel);
+  uint32_t mix(uint32_t at_0, uint32_t at_1, uint32_t amount);
+  uint32_t threshold(uint32_t texture, double least);
+  uint32_t node(TextureKind kind);
+  Texture& at(uint32_t index) { return scene_.textures[index]; }
+
+  /// The picture of the member `key` of `object`, a textureInfo; absent where there is no such member, and for `alpha`
+  /// where the picture is opaque.
+  uint32_t image(const Json& object, const char* key, Texels texels, const UvSets& uv_sets);
+
+ private:
+  uint32_t add(Texture&& texture);
+  uint32_t scene_image(const Json& texture, Texels texels);
+  uint32_t load(uint32_t source, Texels texels);
+  void set_sampler(const Json& texture, Texture& node) const;
+  void set_mapping(const Json& info, const UvSets& uv_sets, Texture& node) const;
+
+  const Document& document_;
+  Buffers& buffers_;
+  Scene& scene_;
+  std::map<std::tuple<uint32_t, Texels>, uint32_t> images_;
+};
+
+/// The sets of texture coordinates that a textureInfo names.
+int texture_coordinate_set(const Document& document, const Json& info);
+
+}  // namespace alhazen::gltf

@@ -1,0 +1,98 @@
+#include "io/gltf/uri.h"
+
+#include <array>
+#include <filesystem>
+
+#include "io/images/input_file.h"
+#include "io/text/quoted.h"
+
+namespace alhazen::gltf {
+
+namespace {
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+std::string percent_decoded(std::string_view text) {
+  std::string result;
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '%' && i + 2 < text.size() && hex_digit(text[i + 1]) >= 0 && hex_digit(text[i + 2]) >= 0) {
+      result += static_cast<char>(hex_digit(text[i + 1]) * 16 + hex_digit(text[i + 2]));
+      i += 2;
+    } else {
+      result += text[i];
+    }
+  }
+  return result;
+}
+
+constexpr std::array<int8_t, 256> base64_values = [] {
+  std::array<int8_t, 256> values{};
+  values.fill(-1);
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  for (size_t i = 0; i < digits.size(); ++i) values[static_cast<uint8_t>(digits[i])] = static_cast<int8_t>(i);
+  values['-'] = 62;
+  values['_'] = 63;
+  return values;
+}();
+
+std::vector<uint8_t> base64_decoded(const Document& document, const Json& at, std::string_view text) {
+  std::vector<uint8_t> bytes;
+  bytes.reserve(text.size() / 4 * 3 + 3);
+  uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    const int value = base64_values[static_cast<uint8_t>(c)];
+    if (value < 0)
+      document.fail(at, "the data URI has " + alhazen::quoted(std::string_view(&c, 1)) + ", which is not base64");
+    bits = bits << 6 | static_cast<uint32_t>(value);
+    count += 6;
+    if (count >= 8) {
+      count -= 8;
+      bytes.push_back(static_cast<uint8_t>(bits >> count));
+    }
+  }
+  return bytes;
+}
+
+Resource data_of(const Document& document, const Json& uri) {
+  const std::string_view text = uri.string;
+  const size_t comma = text.find(',');
+  if (comma == text.npos) document.fail(uri, "the data URI has no comma before its data");
+  if (text.substr(0, comma).ends_with(";base64"))
+    return {base64_decoded(document, uri, text.substr(comma + 1)), "a data URI"};
+  const std::string plain = percent_decoded(text.substr(comma + 1));
+  return {{plain.begin(), plain.end()}, "a data URI"};
+}
+
+bool has_scheme(std::string_view uri) {
+  const size_t colon = uri.find(':');
+  return colon != uri.npos && colon > 1 && uri.substr(0, colon).find_first_of("/?#") == uri.npos;
+}
+
+}  // namespace
+
+Resource load_uri(const Document& document, const Json& uri) {
+  if (uri.kind != JsonKind::string) document.fail(uri, "\"uri\" must be a string");
+  if (uri.string.starts_with("data:")) return data_of(document, uri);
+  if (has_scheme(uri.string))
+    document.fail(uri, alhazen::quoted(uri.string) + " is not a file: only data URIs and relative paths are read");
+  const std::string decoded = percent_decoded(uri.string);
+  if (uri.string.empty() || decoded.find('\0') != decoded.npos || std::filesystem::path(decoded).is_absolute())
+    document.fail(uri, "the path " + alhazen::quoted(decoded) + " must be a relative one");
+  std::error_code error;
+  const std::filesystem::path folder = document.folder();
+  std::filesystem::path path = folder / decoded;
+  // Some exporters forget to encode.
+  if (!std::filesystem::exists(path, error) && decoded != uri.string) path = folder / uri.string;
+  if (!std::filesystem::is_regular_file(path, error))
+    document.fail(uri, "the file " + alhazen::quoted(decoded) + " is not there; it must lie beside the glTF file");
+  return {read_bytes(path.string()), path.string()};
+}
+
+}  // namespace alhazen::gltf
