@@ -37,6 +37,8 @@ namespace ALHAZEN_CORE {
   ARRAY(SphereFrame<Real>, sphere_frames)              \
   ARRAY(SurfaceRecord, surfaces)                       \
   ARRAY(MaterialRecord<Real>, materials)               \
+  ARRAY(LayersRecord<Real>, layers)                    \
+  ARRAY(Real, albedo_tables)                           \
   ARRAY(TextureRecord<Real>, textures)                 \
   ARRAY(TextureMapping<Real>, texture_mappings)        \
   ARRAY(ImageRecord, images)                           \
@@ -63,6 +65,7 @@ struct SceneView {
   Vec3<Real> background{};               ///< radiance of the constant infinite light
   uint32_t background_light = no_light;  ///< its index in `lights`
   Real exposure = 1;                     ///< factor on recorded radiance
+  uint32_t has_cutouts = 0;              ///< 1 where a material lets rays through
 };
 
 }  // namespace ALHAZEN_CORE

@@ -12,6 +12,9 @@ namespace alhazen {
 template <class Real>
 void flatten_materials(Scene& scene, SceneArrays<Real>& out);
 
+/// Throws where mixes of mixes come back to themselves.
+void check_mixes(const Scene& scene);
+
 /// Whether any texture of the material looks at uv.
 bool material_needs_uv(const Scene& scene, const Material& material);
 

@@ -20,6 +20,7 @@ enum class TextureKind : uint32_t {
   channel,        ///< one channel of a texture, in all three
   vertex_colour,  ///< interpolated over the mesh; white where it has none
   vertex_alpha,   ///< the same of its fourth channel
+  threshold,      ///< 1 where a texture is at least the value, else 0
 };
 
 enum class WrapMode : uint32_t { repeat, black, clamp, mirror };

@@ -145,6 +145,11 @@ ALHAZEN_HD Vec3<Real> evaluate_texture_node(const SceneView<Real>& scene, const 
       return inputs[0] * (splat(Real(1)) - inputs[2]) + inputs[1] * inputs[2];
     case TextureKind::channel:
       return splat(inputs[0][static_cast<int>(node.octaves)]);
+    case TextureKind::threshold: {
+      const auto step = [](Real x, Real edge) { return x >= edge ? Real(1) : Real(0); };
+      return {step(inputs[0].x, node.parameters.x), step(inputs[0].y, node.parameters.y),
+              step(inputs[0].z, node.parameters.z)};
+    }
     case TextureKind::vertex_colour:
     case TextureKind::vertex_alpha:
       return splat(Real(1));
@@ -155,7 +160,7 @@ ALHAZEN_HD Vec3<Real> evaluate_texture_node(const SceneView<Real>& scene, const 
 ALHAZEN_HD constexpr uint32_t texture_input_count(TextureKind kind) {
   return kind == TextureKind::mix                                          ? 3
          : kind == TextureKind::scale || kind == TextureKind::checkerboard ? 2
-         : kind == TextureKind::channel                                    ? 1
+         : kind == TextureKind::channel || kind == TextureKind::threshold  ? 1
                                                                            : 0;
 }
 
