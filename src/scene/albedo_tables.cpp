@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 #include "core/materials/albedo_table.h"
 #include "core/materials/layered.h"
@@ -74,9 +76,7 @@ void append(std::vector<double>& all, const std::vector<double>& table) {
   all.insert(all.end(), table.begin(), table.end());
 }
 
-}  // namespace
-
-std::vector<double> common_albedo_tables() {
+std::vector<double> make_common_tables() {
   std::vector<double> all;
   append(all, table_of([](const Vec3d& o, double alpha) {
            return reflected_share(o, alpha, [](double cosine) { return 1 - schlick_share(cosine); });
@@ -88,13 +88,26 @@ std::vector<double> common_albedo_tables() {
   return all;
 }
 
-std::vector<double> interface_albedo_table(double ior) {
-  return table_of([ior](const Vec3d& o, double alpha) {
+}  // namespace
+
+const std::vector<double>& common_albedo_tables() {
+  static const std::vector<double> all = make_common_tables();
+  return all;
+}
+
+const std::vector<double>& interface_albedo_table(double ior) {
+  static std::mutex mutex;
+  static std::map<double, std::vector<double>> tables;
+  const std::lock_guard lock(mutex);
+  std::vector<double>& table = tables[ior];
+  if (!table.empty()) return table;
+  table = table_of([ior](const Vec3d& o, double alpha) {
     return reflected_share(o, alpha, [ior](double cosine) {
       double cos_t;
       return fresnel_dielectric(cosine, ior, cos_t);
     });
   });
+  return table;
 }
 
 double inner_diffuse_reflectance(double ior, double optical_thickness) {

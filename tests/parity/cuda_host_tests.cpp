@@ -68,6 +68,15 @@ TEST(CudaOnHostLights, EnvironmentMaps) {
     }
 }
 
+TEST(CudaOnHostMaterials, OfEveryKind) {
+  for (const std::string precision : {"float", "double"})
+    for (const std::string integrator : {"path", "iterative"}) {
+      Settings serial = serial_settings(precision);
+      serial.integrator = integrator;
+      expect_serial_bits(parity_scene("materials"), serial);
+    }
+}
+
 TEST(CudaOnHostSizes, OnePixel) {
   Settings serial = serial_settings("float");
   serial.width = serial.height = 1;

@@ -95,6 +95,17 @@ INSTANTIATE_TEST_SUITE_P(Parity, EveryKernel,
                                             ::testing::Values("path", "iterative", "recursive", "branching"),
                                             ::testing::Values("sobol", "independent")));
 
+TEST(Parity, MaterialsByEveryStrategy) {
+  for (const std::string precision : {"float", "double"})
+    for (const std::string integrator : {"path", "iterative", "recursive", "branching"}) {
+      Settings serial = serial_settings(precision);
+      serial.integrator = integrator;
+      const Expected expected(parity_scene("materials"), serial);
+      for (const std::string& strategy : strategies)
+        expect_same(parity_scene("materials"), expected, strategy, "dynamic,1", 2);
+    }
+}
+
 TEST(Parity, EnvironmentMapsByEveryStrategy) {
   for (const std::string precision : {"float", "double"})
     for (const std::string integrator : {"path", "iterative", "recursive", "branching"}) {

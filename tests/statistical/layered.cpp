@@ -58,7 +58,7 @@ void check_energy(const PrincipledValues& values, Random& random, double& most) 
       if (azimuth > 0 && values.anisotropy == 0) continue;
       const Bsdf<Real> bsdf = material.bsdf(cosine);
       const Vec3<Real> wo = direction_at(bsdf.frame, cosine, azimuth);
-      const Energy e = energy_of(bsdf, wo, static_cast<int>(effort(4096)), random);
+      const Energy e = energy_of(bsdf, wo, static_cast<int>(effort(1024)), random);
       EXPECT_LT(e.mean - 4 * e.error, 1.01) << name_of(values, cosine, azimuth) << e.mean << " +- " << e.error;
       most = std::max(most, e.mean - 4 * e.error);
     }

@@ -56,7 +56,6 @@ struct LayeredLobes {
   Real coat = 0, specular = 0, diffuse = 0, through = 0;  ///< probabilities
   Real below_coat = 1;                                    ///< share that the coat lets through
   Real coat_albedo = 0;
-  Real alpha;      ///< of the base, as the direction sees it
   Real interface;  ///< albedo of the dielectric
   Real ggx;        ///< albedo of GGX that reflects everything
   Real sheen = 0;  ///< albedo, of colour 1
@@ -72,6 +71,15 @@ ALHAZEN_HD Real alpha_towards(const Vec2<Real>& alpha, const Vec3<Real>& w) {
   return smaller(mean, std::sqrt((sqr(alpha.x * w.x) + sqr(alpha.y * w.y)) / sin2));
 }
 
+/// The largest of a table's albedos over what may stand for a pair of alphas: so that the base below gets no more than
+/// is left.
+template <class Real, class Albedo>
+ALHAZEN_HD Real most_albedo(const Vec2<Real>& alpha, const Vec3<Real>& w, const Albedo& albedo) {
+  const Real towards = albedo(alpha_towards(alpha, w));
+  if (alpha.x == alpha.y) return towards;
+  return larger(larger(towards, albedo(std::sqrt(alpha.x * alpha.y))), larger(albedo(alpha.x), albedo(alpha.y)));
+}
+
 template <class Real>
 ALHAZEN_HD Real ggx_albedo(const LayeredBsdf<Real>& b, Real cosine, Real alpha) {
   return lookup_albedo(b.tables + AlbedoTables::base, cosine, alpha) +
@@ -83,6 +91,16 @@ ALHAZEN_HD Real interface_albedo(const LayeredBsdf<Real>& b, Real cosine, Real a
   if (b.interface_albedo) return lookup_albedo(b.interface_albedo, cosine, alpha);
   return max_component(b.f0) * lookup_albedo(b.tables + AlbedoTables::base, cosine, alpha) +
          b.f90 * lookup_albedo(b.tables + AlbedoTables::edge, cosine, alpha);
+}
+
+template <class Real>
+ALHAZEN_HD Real ggx_albedo(const LayeredBsdf<Real>& b, const Vec3<Real>& w) {
+  return most_albedo(b.alpha, w, [&](Real alpha) { return ggx_albedo(b, w.z, alpha); });
+}
+
+template <class Real>
+ALHAZEN_HD Real interface_albedo(const LayeredBsdf<Real>& b, const Vec3<Real>& w) {
+  return most_albedo(b.alpha, w, [&](Real alpha) { return interface_albedo(b, w.z, alpha); });
 }
 
 template <class Real>
@@ -146,9 +164,8 @@ ALHAZEN_HD LayeredLobes<Real> layered_lobes(const LayeredBsdf<Real>& b, const Ve
     lobes.coat_albedo = b.coat * lookup_albedo(b.coat_albedo, coat_cosine, b.coat_alpha);
     lobes.below_coat = 1 - lobes.coat_albedo;
   }
-  lobes.alpha = alpha_towards(b.alpha, o);
-  lobes.interface = interface_albedo(b, o.z, lobes.alpha);
-  lobes.ggx = ggx_albedo(b, o.z, lobes.alpha);
+  lobes.interface = interface_albedo(b, o);
+  lobes.ggx = ggx_albedo(b, o);
   const Real sheen = max_component(b.sheen);
   if (sheen > 0)
     lobes.sheen = lookup_albedo(b.tables + AlbedoTables::sheen, o.z, b.sheen_roughness * b.sheen_roughness);
@@ -203,9 +220,9 @@ ALHAZEN_HD BsdfValue<Real> evaluate_below_coat(const LayeredBsdf<Real>& b, const
   v.pdf = lobes.specular * ggx.pdf;
   const Real lambert = i.z * inv_pi<Real>;
   v.pdf += lobes.diffuse * lambert;
-  const Real alpha_i = alpha_towards(b.alpha, i), mean_alpha = std::sqrt(b.alpha.x * b.alpha.y);
+  const Real mean_alpha = std::sqrt(b.alpha.x * b.alpha.y);
   if (max_component(b.diffuse) > 0) {
-    Real shared = (1 - lobes.interface) * (1 - interface_albedo(b, i.z, alpha_i)) /
+    Real shared = (1 - lobes.interface) * (1 - interface_albedo(b, i)) /
                   larger(Real(1e-3), 1 - mean_interface_albedo(b, mean_alpha));
     if (b.thickness > 0)
       shared *= std::exp(-b.thickness * (1 / cosine_within(o.z, b.ior) + 1 / cosine_within(i.z, b.ior)));
@@ -218,8 +235,8 @@ ALHAZEN_HD BsdfValue<Real> evaluate_below_coat(const LayeredBsdf<Real>& b, const
                           : f) *
         (b.metal * ggx.value);
     const Real mean = mean_ggx_albedo(b, mean_alpha);
-    v.value += metal_multiple(b, mean) *
-               (lambert * (1 - lobes.ggx) * (1 - ggx_albedo(b, i.z, alpha_i)) / larger(Real(1e-3), 1 - mean));
+    v.value +=
+        metal_multiple(b, mean) * (lambert * (1 - lobes.ggx) * (1 - ggx_albedo(b, i)) / larger(Real(1e-3), 1 - mean));
   }
   const Real sheen = max_component(b.sheen);
   if (sheen > 0) {
