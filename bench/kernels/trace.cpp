@@ -65,12 +65,12 @@ uint64_t trace_by_plain_embree(const void*, const void* tracer, const void* quer
     RTCRayHit of;
     of.ray = embree_ray(query[i].ray, query[i].t_max);
     if (any_hit) {
-      occluded_1(scene, of.ray);
+      occluded_1(scene, query[i].ray, of.ray);
       hits += of.ray.tfar < 0;
     } else {
       of.hit.geomID = RTC_INVALID_GEOMETRY_ID;
       of.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      intersect_1(scene, of);
+      intersect_1(scene, query[i].ray, of);
       hits += of.hit.geomID != RTC_INVALID_GEOMETRY_ID;
     }
   }

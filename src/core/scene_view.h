@@ -35,6 +35,8 @@ namespace ALHAZEN_CORE {
   ARRAY(SphereRecord<Real>, spheres)                   \
   ARRAY(MovingSphereRecord<Real>, moving_spheres)      \
   ARRAY(SphereFrame<Real>, sphere_frames)              \
+  ARRAY(ObjectRecord, objects)                         \
+  ARRAY(InstanceRecord<Real>, instances)               \
   ARRAY(SurfaceRecord, surfaces)                       \
   ARRAY(MaterialRecord<Real>, materials)               \
   ARRAY(LayersRecord<Real>, layers)                    \

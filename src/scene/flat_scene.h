@@ -16,7 +16,7 @@ struct FreeArena {
 
 /// Sizes and times of a flattened scene, for reports.
 struct SceneStatistics {
-  uint64_t triangles = 0, spheres = 0, nodes = 0, lights = 0;
+  uint64_t triangles = 0, spheres = 0, nodes = 0, lights = 0, instances = 0;
   uint64_t bytes = 0;        ///< of the arena
   uint64_t tree_bytes = 0;   ///< of what rays walk: nodes, and the copies of primitives beside them
   double build_seconds = 0;  ///< of the BVH alone

@@ -1,18 +1,13 @@
 #include "scene/flatten.h"
 
-#include <chrono>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 #include "core/shapes/interaction.h"
-#include "scene/bvh_builder.h"
-#include "scene/bvh_reinsertion.h"
 #include "scene/flatten_camera.h"
 #include "scene/flatten_lights.h"
 #include "scene/flatten_materials.h"
-#include "scene/simd_bvh_builder.h"
-#include "scene/wide_bvh_builder.h"
+#include "scene/flatten_trees.h"
 
 namespace alhazen {
 
@@ -44,11 +39,12 @@ class Flattener {
     light_areas_.assign(out_.lights.size(), 0);
     place_shapes();
     warn_of_dropped_triangles();
-    build_tree(flat);
+    build_trees(options_, out_, flat.statistics);
     assign_light_probabilities(light_areas_, out_);
     flat.statistics.triangles = out_.triangles.size();
     flat.statistics.spheres = out_.spheres.size() + out_.moving_spheres.size();
     flat.statistics.lights = out_.lights.size();
+    flat.statistics.instances = out_.instances.size();
     out_.move_into(flat);
     return flat;
   }
@@ -62,52 +58,129 @@ class Flattener {
                                           " pixels cannot be rendered: give sides between 1 and 100000");
   }
 
-  std::vector<Placement> placements() const {
+  /// Which groups become objects: those that stand in several places, unless all their copies are few triangles.
+  std::vector<bool> find_objects() const {
+    std::vector<uint64_t> uses(scene_.groups.size()), triangles(scene_.groups.size());
+    for (const Instance& instance : scene_.instances) {
+      if (instance.group >= scene_.groups.size()) throw InputError(instance.where, "the instance names no object");
+      ++uses[instance.group];
+    }
+    uint64_t copied = 0;
+    for (size_t g = 0; g < scene_.groups.size(); ++g) {
+      for (const Shape& shape : scene_.groups[g].shapes)
+        if (lies_in_object(shape)) triangles[g] += mesh_of(shape).triangle_count();
+      if (uses[g] > 1) copied += uses[g] * triangles[g];
+    }
+    std::vector<bool> is_object(scene_.groups.size());
+    for (size_t g = 0; g < is_object.size(); ++g)
+      is_object[g] = copied > options_.most_copied_triangles && uses[g] > 1 && triangles[g] > 0;
+    return is_object;
+  }
+
+  /// What of a group an object holds: lights and spheres are placed in the world, copy by copy.
+  static bool lies_in_object(const Shape& shape) { return shape.type == ShapeType::mesh && !emits(shape); }
+
+  const Mesh& mesh_of(const Shape& shape) const {
+    if (shape.mesh >= scene_.meshes.size()) throw InputError(shape.where, "the shape names no mesh");
+    return scene_.meshes[shape.mesh];
+  }
+
+  std::vector<Placement> world_placements() const {
     std::vector<Placement> all;
     for (const Shape& shape : scene_.groups.at(0).shapes)
       all.push_back({&shape, shape.world_from_object, shape.reverse_orientation});
     for (const Instance& instance : scene_.instances) {
-      if (instance.group >= scene_.groups.size()) throw InputError(instance.where, "the instance names no object");
       const MovingTransform& outer = instance.world_from_group;
       for (const Shape& shape : scene_.groups[instance.group].shapes)
-        all.push_back({&shape,
-                       {outer.start * shape.world_from_object.start, outer.end * shape.world_from_object.end},
-                       shape.reverse_orientation != instance.reverse_orientation});
+        if (!is_object_[instance.group] || !lies_in_object(shape))
+          all.push_back({&shape,
+                         {outer.start * shape.world_from_object.start, outer.end * shape.world_from_object.end},
+                         shape.reverse_orientation != instance.reverse_orientation});
     }
     return all;
   }
 
+  std::vector<Placement> object_placements(const ShapeGroup& group) const {
+    std::vector<Placement> all;
+    for (const Shape& shape : group.shapes)
+      if (lies_in_object(shape)) all.push_back({&shape, shape.world_from_object, shape.reverse_orientation});
+    return all;
+  }
+
   void place_shapes() {
-    const std::vector<Placement> all = placements();
-    std::vector<uint32_t> uses(scene_.meshes.size());
-    size_t triangles = 0, vertices = 0, normals = 0, uvs = 0;
-    for (const Placement& p : all) {
-      if (p.shape->type != ShapeType::mesh) continue;
-      if (p.shape->mesh >= scene_.meshes.size()) throw InputError(p.shape->where, "the shape names no mesh");
-      const Mesh& mesh = scene_.meshes[p.shape->mesh];
-      ++uses[p.shape->mesh];
-      triangles += mesh.triangle_count();
-      vertices += mesh.positions.size();
-      normals += mesh.normals.size();
-      uvs += mesh.uvs.size();
+    is_object_ = find_objects();
+    const std::vector<Placement> world = world_placements();
+    std::vector<std::vector<Placement>> objects(scene_.groups.size());
+    for (size_t g = 0; g < objects.size(); ++g)
+      if (is_object_[g]) objects[g] = object_placements(scene_.groups[g]);
+    reserve(world, objects);
+    for (const Placement& p : world) place(p);
+    std::vector<uint32_t> object_of(objects.size(), no_index);
+    for (size_t g = 0; g < objects.size(); ++g) {
+      ObjectRecord object{};
+      object.first_triangle = static_cast<uint32_t>(out_.triangles.size());
+      for (const Placement& p : objects[g]) place(p);
+      object.triangle_count = static_cast<uint32_t>(out_.triangles.size()) - object.first_triangle;
+      if (object.triangle_count == 0) continue;
+      object_of[g] = static_cast<uint32_t>(out_.objects.size());
+      out_.objects.push_back(object);
     }
-    if (triangles > max_primitives_of_a_kind || vertices > 0xfffffff0u || all.size() > max_primitives_of_a_kind)
+    for (const Instance& instance : scene_.instances)
+      if (object_of[instance.group] != no_index) add_instance(instance, object_of[instance.group]);
+  }
+
+  /// Counts what is to be placed, and how often each mesh is.
+  void reserve(const std::vector<Placement>& world, const std::vector<std::vector<Placement>>& objects) {
+    uses_.assign(scene_.meshes.size(), 0);
+    size_t triangles = 0, vertices = 0, normals = 0, uvs = 0;
+    const auto count = [&](const std::vector<Placement>& placements) {
+      for (const Placement& p : placements) {
+        if (p.shape->type != ShapeType::mesh) continue;
+        const Mesh& mesh = mesh_of(*p.shape);
+        ++uses_[p.shape->mesh];
+        triangles += mesh.triangle_count();
+        vertices += mesh.positions.size();
+        normals += mesh.normals.size();
+        uvs += mesh.uvs.size();
+      }
+    };
+    count(world);
+    for (const std::vector<Placement>& object : objects) count(object);
+    if (triangles > max_primitives_of_a_kind || vertices > 0xfffffff0u || world.size() > max_primitives_of_a_kind)
       throw InputError({scene_.name}, "the scene has " + std::to_string(triangles) + " triangles with " +
-                                          std::to_string(vertices) + " vertices once instances are expanded, more " +
-                                          "than 2^30 or 2^32: split it");
+                                          std::to_string(vertices) + " vertices, more than 2^30 or 2^32: split it");
+    if (scene_.instances.size() > SimdChild::most_of_a_kind)
+      throw InputError({scene_.name}, "the scene has " + std::to_string(scene_.instances.size()) +
+                                          " instances, more than 2^26: split it");
     out_.triangles.reserve(triangles);
     out_.positions.reserve(vertices);
     out_.normals.reserve(normals);
     out_.uvs.reserve(uvs);
-    for (const Placement& p : all) {
-      if (p.shape->type == ShapeType::sphere) {
-        place_sphere(p);
-        continue;
+  }
+
+  void place(const Placement& p) {
+    if (p.shape->type == ShapeType::sphere) return place_sphere(p);
+    Mesh& mesh = scene_.meshes[p.shape->mesh];
+    place_mesh(p, mesh);
+    if (--uses_[p.shape->mesh] == 0) mesh = Mesh{};
+  }
+
+  void add_instance(const Instance& instance, uint32_t object) {
+    if (instance.world_from_group.is_moving())
+      diagnostics_.warn(instance.where, "an instance moves; it stands still here, where it is at the start");
+    const Transform& transform = instance.world_from_group.start;
+    const Matrix4 there = transform.matrix(), back = transform.inverse().matrix();
+    InstanceRecord<Real> record{};
+    for (size_t i = 0; i < 3; ++i)
+      for (size_t j = 0; j < 4; ++j) {
+        record.world_from_object[i][j] = static_cast<Real>(there[i][j]);
+        record.object_from_world[i][j] = static_cast<Real>(back[i][j]);
+        if (!std::isfinite(record.world_from_object[i][j]) || !std::isfinite(record.object_from_world[i][j]))
+          throw InputError(instance.where, "the instance's transform is not finite, or flattens its object");
       }
-      Mesh& mesh = scene_.meshes[p.shape->mesh];
-      place_mesh(p, mesh);
-      if (--uses[p.shape->mesh] == 0) mesh = Mesh{};
-    }
+    record.object = object;
+    record.flip_normal = instance.reverse_orientation ? 1 : 0;
+    out_.instances.push_back(record);
   }
 
   uint32_t material_of(const Shape& shape) const {
@@ -252,123 +325,14 @@ class Flattener {
                                                " triangles have no area and are left out (the first of them here)");
   }
 
-  std::vector<Bounds3<Real>> primitive_boxes() const {
-    std::vector<Bounds3<Real>> boxes;
-    boxes.reserve(out_.triangles.size() + out_.spheres.size() + out_.moving_spheres.size());
-    for (const TriangleRecord& triangle : out_.triangles) {
-      Bounds3<Real> box;
-      for (const uint32_t v : triangle.vertex) box.extend(out_.positions[v]);
-      boxes.push_back(box);
-    }
-    const auto sphere_box = [](const Vec3<Real>& center, Real radius) {
-      // Wider by what rounding of centre +- radius can lose.
-      const Vec3<Real> r = splat(radius) + (abs(center) + splat(radius)) * (2 * std::numeric_limits<Real>::epsilon());
-      return Bounds3<Real>{center - r, center + r};
-    };
-    for (const SphereRecord<Real>& s : out_.spheres) boxes.push_back(sphere_box(s.center, s.radius));
-    for (const MovingSphereRecord<Real>& s : out_.moving_spheres) {
-      boxes.push_back(sphere_box(s.center, s.radius));
-      boxes.back().extend(sphere_box(s.center + s.motion, s.radius));
-    }
-    return boxes;
-  }
-
-  void build_tree(FlatScene<Real>& flat) {
-    const auto start = std::chrono::steady_clock::now();
-    std::vector<Bounds3<Real>> boxes = primitive_boxes();
-    const Trees& trees = options_.trees;
-    BvhTree<Real> tree;
-    if (trees.binary || trees.wide || trees.simd) {
-      tree = build_bvh<Real>(
-          boxes, trees.simd ? BvhOptions::for_collapse(options_.threads) : BvhOptions{.threads = options_.threads});
-      reinsert_subtrees(tree, options_.threads);
-    } else {
-      tree.order.resize(boxes.size());
-      std::iota(tree.order.begin(), tree.order.end(), 0u);
-    }
-    order_primitives(tree.order);
-    out_.nodes = std::move(tree.nodes);
-    if (trees.wide || trees.simd) {
-      std::vector<Bounds3<Real>> ordered(tree.order.size());
-#pragma omp parallel for if (ordered.size() > 65'536)
-      for (size_t i = 0; i < ordered.size(); ++i) ordered[i] = boxes[tree.order[i]];
-      std::vector<Bounds3<Real>>().swap(boxes);
-      if constexpr (sizeof(Real) == sizeof(float))
-        if (trees.wide) add_wide_bvh(ordered);
-      if (trees.simd) build_simd_bvh<Real>(out_.nodes, ordered, options_.threads, out_);
-    }
-    flat.statistics.nodes = trees.binary ? out_.nodes.size() : out_.simd_nodes.size();
-    if (!trees.binary) std::vector<BvhNode<Real>>().swap(out_.nodes);
-    const auto bytes = [](const auto& array) { return array.size() * sizeof(array[0]); };
-    flat.statistics.tree_bytes = bytes(out_.nodes) + bytes(out_.wide_nodes) + bytes(out_.wide_primitives) +
-                                 bytes(out_.simd_nodes) + bytes(out_.triangle_blocks) + bytes(out_.sphere_blocks) +
-                                 bytes(out_.moving_sphere_blocks);
-    flat.statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  }
-
-  void add_wide_bvh(const std::vector<Bounds3<float>>& boxes) {
-    WideBvh wide = build_wide_bvh(out_.nodes, boxes);
-    out_.wide_nodes = std::move(wide.nodes);
-    out_.wide_primitives.reserve(wide.primitives.size());
-    for (const uint32_t place : wide.primitives) out_.wide_primitives.push_back(wide_primitive(out_.primitives[place]));
-  }
-
-  WidePrimitive wide_primitive(PrimitiveId id) const {
-    WidePrimitive primitive{};
-    primitive.id = id;
-    switch (id.kind()) {
-      case PrimitiveKind::triangle: {
-        const uint32_t* v = out_.triangles[id.index()].vertex;
-        primitive.a = convert<float>(out_.positions[v[0]]);
-        primitive.b = convert<float>(out_.positions[v[1]]);
-        primitive.c = convert<float>(out_.positions[v[2]]);
-        break;
-      }
-      case PrimitiveKind::sphere: {
-        const SphereRecord<Real>& s = out_.spheres[id.index()];
-        primitive.a = convert<float>(s.center);
-        primitive.b.x = static_cast<float>(s.radius);
-        break;
-      }
-      case PrimitiveKind::moving_sphere: {
-        const MovingSphereRecord<Real>& s = out_.moving_spheres[id.index()];
-        primitive.a = convert<float>(s.center);
-        primitive.b.x = static_cast<float>(s.radius);
-        primitive.c = convert<float>(s.motion);
-        break;
-      }
-    }
-    return primitive;
-  }
-
-  /// Lays triangles down in the order of the leaves, so that a leaf's triangles are neighbours in memory.
-  void order_primitives(const std::vector<uint32_t>& order) {
-    const uint32_t triangles = static_cast<uint32_t>(out_.triangles.size());
-    const uint32_t spheres = static_cast<uint32_t>(out_.spheres.size());
-    std::vector<TriangleRecord> ordered;
-    ordered.reserve(triangles);
-    out_.primitives.reserve(order.size());
-    for (const uint32_t i : order) {
-      if (i < triangles) {
-        out_.primitives.emplace_back(PrimitiveKind::triangle, static_cast<uint32_t>(ordered.size()));
-        ordered.push_back(out_.triangles[i]);
-        const uint32_t light = out_.surfaces[ordered.back().surface].light;
-        if (light != no_light) out_.lights[light].primitive = static_cast<uint32_t>(ordered.size() - 1);
-      } else if (i < triangles + spheres) {
-        out_.primitives.emplace_back(PrimitiveKind::sphere, i - triangles);
-      } else {
-        out_.primitives.emplace_back(PrimitiveKind::moving_sphere, i - triangles - spheres);
-      }
-    }
-    out_.triangles = std::move(ordered);
-  }
-
   Scene& scene_;
   const FlattenOptions& options_;
   Diagnostics& diagnostics_;
   int64_t width_ = 0, height_ = 0;
   SceneArrays<Real> out_;
   std::vector<bool> needs_uv_;
+  std::vector<bool> is_object_;  ///< by group
+  std::vector<uint32_t> uses_;   ///< by mesh: placements to come
   std::vector<double> light_areas_;
   size_t without_area_ = 0;
   SourceLocation without_area_place_;

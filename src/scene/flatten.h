@@ -1,6 +1,6 @@
 #pragma once
 
-// From the described scene to the flat one: validation, transforms applied, instances expanded, BVH built.
+// From the described scene to the flat one: validation, transforms applied, instances placed, BVHs built.
 
 #include "scene/flat_scene.h"
 #include "scene/scene.h"
@@ -18,6 +18,8 @@ struct FlattenOptions {
   int64_t width = 0, height = 0;  ///< 0: as the scene says
   int threads = 0;                ///< for the BVH; 0: as OpenMP has it
   Trees trees;
+  /// Instances that all together come to no more triangles than this are copied into the world, which is walked faster.
+  uint64_t most_copied_triangles = 1u << 17;
 };
 
 /// Takes the description apart as it goes, so that meshes are not held twice.

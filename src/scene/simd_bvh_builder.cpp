@@ -4,6 +4,7 @@
 
 #include "core/bvh/simd_traversal.h"
 #include "scene/bvh_collapse.h"
+#include "scene/diagnostics.h"
 #include "scene/octant_slots.h"
 
 namespace alhazen {
@@ -26,17 +27,21 @@ uint32_t lanes_of(SimdChild::Kind kind) {
   return static_cast<uint32_t>(kind == SimdChild::triangles ? TriangleBlock<Real>::lanes : SphereBlock<Real>::lanes);
 }
 
-/// The number of blocks, infinite for primitives of several kinds or more of them than pay.
+/// The number of blocks, infinite for primitives of several kinds or more of them than pay. An instance is a leaf of
+/// its own, whatever it costs.
 template <class Real>
 struct BlockCost {
   std::span<const PrimitiveId> primitives;
   static constexpr uint32_t most_primitives = 16;
+  static constexpr float instance_cost = 16;
 
   float operator()(uint32_t first, uint32_t count) const {
     if (count > most_primitives) return std::numeric_limits<float>::infinity();
+    if (count == 1 && primitives[first].kind() == PrimitiveKind::instance) return instance_cost;
     const SimdChild::Kind kind = kind_of(primitives[first]);
-    for (uint32_t i = first + 1; i < first + count; ++i)
-      if (kind_of(primitives[i]) != kind) return std::numeric_limits<float>::infinity();
+    for (uint32_t i = first; i < first + count; ++i)
+      if (kind_of(primitives[i]) != kind || primitives[i].kind() == PrimitiveKind::instance)
+        return std::numeric_limits<float>::infinity();
     const uint32_t lanes = lanes_of<Real>(kind);
     return static_cast<float>((count + lanes - 1) / lanes);
   }
@@ -54,13 +59,24 @@ Bounds3<float> simd_box(const Bounds3<Real>& box) {
 template <class Real>
 class SimdBuilder {
  public:
-  SimdBuilder(std::span<const BvhNode<Real>> tree, std::span<const Bounds3<Real>> boxes, int threads,
-              SceneArrays<Real>& scene)
-      : scene_(scene), threads_(threads), cost_{scene.primitives}, collapse_(tree, boxes, cost_, threads) {}
+  SimdBuilder(std::span<const BvhNode<Real>> tree, std::span<const Bounds3<Real>> boxes, uint32_t first_primitive,
+              int threads, SceneArrays<Real>& scene)
+      : scene_(scene),
+        primitives_(std::span(scene.primitives).subspan(first_primitive, boxes.size())),
+        threads_(threads),
+        cost_{primitives_},
+        collapse_(tree, boxes, cost_, threads) {}
 
   void run() {
+    first_node_ = static_cast<uint32_t>(scene_.simd_nodes.size());
+    block_count_[SimdChild::triangles] = static_cast<uint32_t>(scene_.triangle_blocks.size());
+    block_count_[SimdChild::spheres] = static_cast<uint32_t>(scene_.sphere_blocks.size());
+    block_count_[SimdChild::moving_spheres] = static_cast<uint32_t>(scene_.moving_sphere_blocks.size());
     plan();
-    scene_.simd_nodes.resize(plan_.size());
+    for (const size_t count : {first_node_ + plan_.size(), size_t{block_count_[SimdChild::triangles]}})
+      if (count > SimdChild::most_of_a_kind)
+        throw InputError("the scene is too large: its tree would have more than 2^26 nodes or blocks of triangles");
+    scene_.simd_nodes.resize(first_node_ + plan_.size());
     scene_.triangle_blocks.resize(block_count_[SimdChild::triangles]);
     scene_.sphere_blocks.resize(block_count_[SimdChild::spheres]);
     scene_.moving_sphere_blocks.resize(block_count_[SimdChild::moving_spheres]);
@@ -76,8 +92,12 @@ class SimdBuilder {
     uint32_t first_block[4];  ///< by SimdChild::Kind
   };
 
+  bool is_instance(uint32_t leaf) const { return primitives_[collapse_.first(leaf)].kind() == PrimitiveKind::instance; }
+
+  /// 0 for an instance.
   uint32_t blocks_of(uint32_t leaf, SimdChild::Kind& kind) const {
-    kind = kind_of(scene_.primitives[collapse_.first(leaf)]);
+    if (is_instance(leaf)) return 0;
+    kind = kind_of(primitives_[collapse_.first(leaf)]);
     const uint32_t lanes = lanes_of<Real>(kind);
     return (collapse_.count(leaf) + lanes - 1) / lanes;
   }
@@ -90,13 +110,13 @@ class SimdBuilder {
       const uint32_t at = pending.back();
       pending.pop_back();
       Planned& node = plan_[at];
-      node.first_node = static_cast<uint32_t>(plan_.size());
+      node.first_node = first_node_ + static_cast<uint32_t>(plan_.size());
       std::copy(std::begin(block_count_), std::end(block_count_), node.first_block);
       uint32_t children[simd_children];
       const uint32_t count = collapse_.children_of(node.binary, children);
       for (uint32_t c = 0; c < count; ++c) {
         if (collapse_.makes_leaf(children[c])) {
-          SimdChild::Kind kind;
+          SimdChild::Kind kind{};
           const uint32_t blocks = blocks_of(children[c], kind);
           block_count_[kind] += blocks;
         } else {
@@ -109,7 +129,7 @@ class SimdBuilder {
 
   void fill(size_t at) {
     Planned next = plan_[at];
-    SimdNode& node = scene_.simd_nodes[at];
+    SimdNode& node = scene_.simd_nodes[first_node_ + at];
     uint32_t children[simd_children];
     const uint32_t count = collapse_.children_of(next.binary, children);
     const Vec3<Real> middle = collapse_.box(next.binary).center();
@@ -124,8 +144,10 @@ class SimdBuilder {
         node.bounds[2 * axis][slot] = box.low[axis];
         node.bounds[2 * axis + 1][slot] = box.high[axis];
       }
-      if (collapse_.makes_leaf(children[c])) {
-        SimdChild::Kind kind;
+      if (collapse_.makes_leaf(children[c]) && is_instance(children[c])) {
+        node.child[slot] = SimdChild::instance(primitives_[collapse_.first(children[c])].index());
+      } else if (collapse_.makes_leaf(children[c])) {
+        SimdChild::Kind kind{};
         const uint32_t blocks = blocks_of(children[c], kind);
         node.child[slot] = SimdChild::pack(kind, blocks, next.first_block[kind]);
         fill_blocks(children[c], kind, next.first_block[kind], blocks);
@@ -150,7 +172,7 @@ class SimdBuilder {
     for (uint32_t i = 0; i < blocks * lanes; ++i) {
       const uint32_t block = first_block + i / lanes, lane = i % lanes;
       // Lanes that are left over hold the last primitive's numbers, but for what makes them none.
-      const uint32_t index = scene_.primitives[first + std::min(i, count - 1)].index();
+      const uint32_t index = primitives_[first + std::min(i, count - 1)].index();
       switch (kind) {
         case SimdChild::spheres:
           set_lane(scene_.sphere_blocks[block], lane, index, i < count, scene_.spheres[index]);
@@ -183,6 +205,8 @@ class SimdBuilder {
   }
 
   SceneArrays<Real>& scene_;
+  std::span<const PrimitiveId> primitives_;
+  uint32_t first_node_ = 0;
   int threads_;
   BlockCost<Real> cost_;
   BvhCollapse<Real, BlockCost<Real>> collapse_;
@@ -193,16 +217,16 @@ class SimdBuilder {
 }  // namespace
 
 template <class Real>
-void build_simd_bvh(std::span<const BvhNode<Real>> tree, std::span<const Bounds3<Real>> boxes, int threads,
-                    SceneArrays<Real>& scene) {
+void build_simd_bvh(std::span<const BvhNode<Real>> tree, std::span<const Bounds3<Real>> boxes, uint32_t first_primitive,
+                    int threads, SceneArrays<Real>& scene) {
   constexpr size_t fewest_shared_nodes = 8192;  // below, it is not worth waking other threads
   const int team = tree.size() < fewest_shared_nodes ? 1 : threads > 0 ? threads : omp_get_max_threads();
-  if (!tree.empty()) SimdBuilder<Real>(tree, boxes, team, scene).run();
+  if (!tree.empty()) SimdBuilder<Real>(tree, boxes, first_primitive, team, scene).run();
 }
 
-template void build_simd_bvh(std::span<const BvhNode<float>>, std::span<const Bounds3<float>>, int,
+template void build_simd_bvh(std::span<const BvhNode<float>>, std::span<const Bounds3<float>>, uint32_t, int,
                              SceneArrays<float>&);
-template void build_simd_bvh(std::span<const BvhNode<double>>, std::span<const Bounds3<double>>, int,
+template void build_simd_bvh(std::span<const BvhNode<double>>, std::span<const Bounds3<double>>, uint32_t, int,
                              SceneArrays<double>&);
 
 }  // namespace alhazen

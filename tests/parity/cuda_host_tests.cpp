@@ -77,6 +77,15 @@ TEST(CudaOnHostMaterials, OfEveryKind) {
     }
 }
 
+TEST(CudaOnHostInstances, AreThoseOfCpus) {
+  for (const std::string precision : {"float", "double"})
+    for (const std::string integrator : {"path", "iterative"}) {
+      Settings serial = serial_settings(precision);
+      serial.integrator = integrator;
+      expect_serial_bits(parity_scene("instances"), serial);
+    }
+}
+
 TEST(CudaOnHostSizes, OnePixel) {
   Settings serial = serial_settings("float");
   serial.width = serial.height = 1;

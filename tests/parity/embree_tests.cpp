@@ -7,6 +7,7 @@
 #include "backends/embree/intersector.h"
 #include "backends/embree/scene.h"
 #include "support/closed_meshes.h"
+#include "support/instanced_scenes.h"
 #include "support/linear_intersector.h"
 #include "support/primitive_scenes.h"
 #include "support/ulps.h"
@@ -23,14 +24,12 @@ Ray<float> random_ray(Random& random, double size) {
   return {convert<float>(origin), normalize(convert<float>(direction)), random.uniform<float>()};
 }
 
-TEST(Embree, MeetsWhatLookingAtEveryPrimitiveFinds) {
-  const FlatScene<float> scene = test::mixed_primitives(7, 200).flat<float>();
+void expect_what_looking_at_every_primitive_finds(const FlatScene<float>& scene, size_t rays) {
   const EmbreeScene embree(scene.view, 1);
   const EmbreeIntersector intersector(scene.view, &embree.tracer());
   const test::LinearIntersector<float> linear(scene.view);
   Random random(8);
   size_t met = 0, different = 0;
-  constexpr size_t rays = 50'000;
   for (size_t i = 0; i < rays; ++i) {
     const Ray<float> ray = random_ray(random, 15);
     Hit<float> hit, expected;
@@ -38,7 +37,8 @@ TEST(Embree, MeetsWhatLookingAtEveryPrimitiveFinds) {
     const bool expect_found = linear.closest_hit(ray, infinity<float>, expected);
     met += found;
     // Rays that graze an edge may go either way: the triangle tests round differently.
-    if (found != expect_found || (found && !(hit.primitive == expected.primitive))) {
+    if (found != expect_found ||
+        (found && (!(hit.primitive == expected.primitive) || hit.instance != expected.instance))) {
       ++different;
       continue;
     }
@@ -54,7 +54,17 @@ TEST(Embree, MeetsWhatLookingAtEveryPrimitiveFinds) {
     }
   }
   EXPECT_GT(met, rays / 5);
-  EXPECT_LE(different, rays / 10'000);
+  EXPECT_LE(different, 1 + rays / 10'000);
+}
+
+TEST(Embree, MeetsWhatLookingAtEveryPrimitiveFinds) {
+  expect_what_looking_at_every_primitive_finds(test::mixed_primitives(7, 200).flat<float>(), 50'000);
+}
+
+TEST(Embree, MeetsInstances) {
+  const FlatScene<float> scene = test::flat_instanced_scene<float>(test::instanced_scene(5, 80, 10), false);
+  ASSERT_EQ(scene.view.instances_count, 80u);
+  expect_what_looking_at_every_primitive_finds(scene, 5'000);
 }
 
 TEST(Embree, IsNotHurtByNothing) {

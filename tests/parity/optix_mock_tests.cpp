@@ -301,7 +301,7 @@ Settings settings_of(const std::string& integrator) {
 }
 
 TEST(OptixMock, LaunchesGiveTheSerialBits) {
-  for (const std::string scene : {"cornell", "spheres"})
+  for (const std::string scene : {"cornell", "spheres", "instances"})
     for (const std::string integrator : {"path", "iterative"}) {
       const OptixFunctionTable table = mock_driver();
       const Settings settings = settings_of(integrator);
@@ -328,10 +328,25 @@ TEST(OptixMock, EveryKindHasAStructureAndARecord) {
   EXPECT_EQ(calls.pipeline.traversableGraphFlags,
             static_cast<unsigned>(OPTIX_TRAVERSABLE_GRAPH_FLAG_ALLOW_SINGLE_LEVEL_INSTANCING));
   EXPECT_EQ(calls.sphere_modules_move, (std::vector<bool>{false, true}));
-  EXPECT_EQ(calls.payload_words, (std::vector<unsigned>{4, 1}));
+  EXPECT_EQ(calls.payload_words, (std::vector<unsigned>{5, 1}));
   ASSERT_FALSE(calls.first_centres.empty());
   for (size_t i = 0; i < calls.first_centres.size(); ++i)
     EXPECT_GT(length_squared(calls.last_centres[i] - calls.first_centres[i]), 0);
+}
+
+TEST(OptixMock, ObjectsHaveAStructureAndInstancesOfIt) {
+  const OptixFunctionTable table = mock_driver();
+  render(table, parity_scene("instances"), settings_of("path"));
+  ASSERT_EQ(calls.inputs.size(), 3u) << "the world's triangles, the ball and the instances";
+  EXPECT_EQ(calls.inputs[0].triangleArray.numIndexTriplets, 4u);
+  EXPECT_EQ(calls.inputs[1].triangleArray.numIndexTriplets, 20480u);
+  ASSERT_EQ(calls.instances.size(), 9u);
+  EXPECT_EQ(calls.instances[0].instanceId, 0u);
+  for (unsigned i = 1; i < 9; ++i) {
+    EXPECT_EQ(calls.instances[i].instanceId, first_instance_id + i - 1);
+    EXPECT_EQ(calls.instances[i].traversableHandle, 2u);
+    EXPECT_NE(calls.instances[i].transform[3], 0);
+  }
 }
 
 TEST(OptixMock, TrianglesLieInTheArena) {

@@ -80,6 +80,35 @@ AttributeBegin Translate 0 0 1.5 Shape "trianglemesh" "point3 P" [ -2 -2 0  2 -2
   return scene;
 }
 
+/// Eight balls of 20,480 triangles each, too many to be copied, one of them squeezed and mirrored, one of glass inside
+/// out, and a lamp.
+inline Scene read_instances() {
+  std::string text = R"(LookAt 0 -6 3  0 0 0.4  0 0 1
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 20 "integer yresolution" 17
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.1 0.2 0.3 ]
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 6 5 4 ]
+  Shape "trianglemesh" "point3 P" [ -1 -1 3  1 -1 3  1 1 3  -1 1 3 ] "integer indices" [ 0 2 1 0 3 2 ]
+AttributeEnd
+Shape "trianglemesh" "point3 P" [ -9 -9 -0.6  9 -9 -0.6  9 9 -0.6  -9 9 -0.6 ] "integer indices" [ 0 1 2 0 2 3 ]
+Material "conductor" "rgb reflectance" [ 0.9 0.8 0.7 ] "float roughness" 0.1
+ObjectBegin "ball"
+  Shape "loopsubdiv" "integer levels" 5
+    "point3 P" [ -0.5 0.8 0  0.5 0.8 0  -0.5 -0.8 0  0.5 -0.8 0  0 -0.5 0.8  0 0.5 0.8  0 -0.5 -0.8  0 0.5 -0.8
+                 0.8 0 -0.5  0.8 0 0.5  -0.8 0 -0.5  -0.8 0 0.5 ]
+    "integer indices" [ 0 11 5 0 5 1 0 1 7 0 7 10 0 10 11 1 5 9 5 11 4 11 10 2 10 7 6 7 1 8
+                        3 9 4 3 4 2 3 2 6 3 6 8 3 8 9 4 9 5 2 4 11 6 2 10 8 6 7 9 8 1 ]
+ObjectEnd
+)";
+  for (int i = 0; i < 8; ++i)
+    text += "AttributeBegin Rotate " + std::to_string(45 * i) + " 0 0 1 Translate 1.6 0 0 Rotate " +
+            std::to_string(70 * i) + " 1 2 3 Scale " + (i == 0 ? "0.4 -0.9 0.7 " : "0.6 0.6 0.6 ") +
+            (i == 1 ? "ReverseOrientation " : "") + "ObjectInstance \"ball\" AttributeEnd\n";
+  return scene_of(text);
+}
+
 inline const Scene& parity_scene(const std::string& name) {
   if (name == "cornell") {
     static const Scene cornell = scene_of(cornell_box(parity_height));
@@ -92,6 +121,10 @@ inline const Scene& parity_scene(const std::string& name) {
   if (name == "materials") {
     static const Scene materials = read_materials();
     return materials;
+  }
+  if (name == "instances") {
+    static const Scene instances = read_instances();
+    return instances;
   }
   static const Scene spheres = read_spheres();
   return spheres;

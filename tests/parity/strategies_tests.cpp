@@ -119,7 +119,7 @@ TEST(Parity, EnvironmentMapsByEveryStrategy) {
 
 TEST(Parity, TheSceneShowsEverythingThatItIsMadeFor) {
   // Pictures that are black would be the same bits as well.
-  for (const std::string scene : {"cornell", "spheres", "environments"}) {
+  for (const std::string scene : {"cornell", "spheres", "environments", "instances"}) {
     const Outcome outcome = render_bits(parity_scene(scene), serial_settings("float"));
     const size_t width = static_cast<size_t>(outcome.width), row = width * outcome.channels.size();
     for (size_t c = 0; c < outcome.channels.size(); ++c) {

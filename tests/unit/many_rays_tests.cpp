@@ -6,6 +6,7 @@
 #include "isa/queries.h"
 #include "support/closed_meshes.h"
 #include "support/effort.h"
+#include "support/instanced_scenes.h"
 #include "support/linear_intersector.h"
 #include "support/primitive_scenes.h"
 #include "support/reals.h"
@@ -69,6 +70,7 @@ void expect_same(const Hit<Real>& a, const Hit<Real>& b) {
   EXPECT_EQ(a.b1, b.b1);
   EXPECT_EQ(a.b2, b.b2);
   EXPECT_TRUE(a.primitive == b.primitive);
+  EXPECT_EQ(a.instance, b.instance);
 }
 
 template <class Real>
@@ -123,6 +125,14 @@ TYPED_TEST(ManyRays, MeshFarAway) {
   const FlatScene<TypeParam> scene = primitives.flat<TypeParam>();
   Queries<TypeParam> queries = bundles<TypeParam>(random, effort(5'000), 300);
   for (Ray<TypeParam>& ray : queries.rays) ray.origin += convert<TypeParam>(center);
+  check(scene.view, queries);
+}
+
+TYPED_TEST(ManyRays, Instances) {
+  const FlatScene<TypeParam> scene = flat_instanced_scene<TypeParam>(instanced_scene(24, 100, 10), false);
+  Random random(25);
+  Queries<TypeParam> queries = bundles<TypeParam>(random, effort(10'000), 15);
+  add_odd_rays(queries);
   check(scene.view, queries);
 }
 

@@ -20,7 +20,7 @@ class SharedStack {
   __device__ SharedStack(void* memory, uint32_t thread, uint32_t threads)
       : shared_(static_cast<Entry*>(memory) + thread), stride_(threads) {}
 
-  __device__ bool is_empty() const { return height_ == 0; }
+  __device__ int height() const { return height_; }
   __device__ void push(const Entry& entry) {
     if (height_ < shared_entries)
       shared_[height_ * stride_] = entry;

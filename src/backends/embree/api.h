@@ -13,6 +13,9 @@
 
 namespace ALHAZEN_CORE {
 
+/// The geometry's identifier of the first instance; lower ones are kinds of primitives.
+inline constexpr uint32_t embree_instances = 4;
+
 /// What the intersector is handed besides the scene.
 struct EmbreeTracer {
   RTCScene scene;
@@ -24,9 +27,11 @@ using EmbreeContext = RTCRayQueryContext;
 using EmbreeContext = RTCIntersectContext;
 #endif
 
-/// A query's context, and with it how far the query goes: filters see but the distance of the hit in question.
+/// A query's context, and with it the query: filters see but the distance of the hit in question, and within instances
+/// another ray.
 struct EmbreeQuery {
   EmbreeContext context;
+  const Ray<float>* ray;
   float t_max;
 };
 
@@ -45,8 +50,10 @@ inline RTCRay embree_ray(const Ray<float>& ray, float t_max) {
           0};
 }
 
-inline void intersect_1(RTCScene scene, RTCRayHit& query) {
+/// `query` was made from `ray`.
+inline void intersect_1(RTCScene scene, const Ray<float>& ray, RTCRayHit& query) {
   EmbreeQuery of;
+  of.ray = &ray;
   of.t_max = query.ray.tfar;
 #if RTC_VERSION_MAJOR >= 4
   rtcInitRayQueryContext(&of.context);
@@ -61,18 +68,19 @@ inline void intersect_1(RTCScene scene, RTCRayHit& query) {
 }
 
 /// tfar is negative afterwards where something was met.
-inline void occluded_1(RTCScene scene, RTCRay& ray) {
+inline void occluded_1(RTCScene scene, const Ray<float>& ray, RTCRay& query) {
   EmbreeQuery of;
-  of.t_max = ray.tfar;
+  of.ray = &ray;
+  of.t_max = query.tfar;
 #if RTC_VERSION_MAJOR >= 4
   rtcInitRayQueryContext(&of.context);
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
   arguments.context = &of.context;
-  rtcOccluded1(scene, &ray, &arguments);
+  rtcOccluded1(scene, &query, &arguments);
 #else
   rtcInitIntersectContext(&of.context);
-  rtcOccluded1(scene, &of.context, &ray);
+  rtcOccluded1(scene, &of.context, &query);
 #endif
 }
 

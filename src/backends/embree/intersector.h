@@ -1,7 +1,7 @@
 #pragma once
 
 // The ray queries that integrators ask, answered by Embree. The identifiers of its geometries are our kinds of
-// primitives.
+// primitives; from embree_instances on they are instances.
 
 #include "backends/embree/api.h"
 #include "core/bvh/traversal.h"
@@ -18,18 +18,19 @@ class EmbreeIntersector {
     query.ray = embree_ray(ray, t_max);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    intersect_1(scene_, query);
+    intersect_1(scene_, ray, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     // Where exactly, our own test says: what is spawned there relies on its bounds.
     hit = no_hit_before(t_max);
     hit.primitive = PrimitiveId(PrimitiveKind::moving_sphere, max_primitives_of_a_kind);
+    if (query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) return is_met(query.hit, ray, hit);
     return intersect_primitive(*view_, {static_cast<PrimitiveKind>(query.hit.geomID), query.hit.primID}, ray,
                                shear_ray(ray), hit);
   }
 
   bool occluded(const Ray<float>& ray, float t_max) const {
     RTCRay query = embree_ray(ray, t_max);
-    occluded_1(scene_, query);
+    occluded_1(scene_, ray, query);
     return query.tfar < 0;
   }
 
@@ -49,6 +50,18 @@ class EmbreeIntersector {
   }
 
  private:
+  /// Where our own test meets the triangle of an instance.
+  bool is_met(const RTCHit& met, const Ray<float>& ray, Hit<float>& hit) const {
+    const uint32_t index = met.instID[0] - embree_instances;
+    const InstanceRecord<float>& instance = view_->instances[index];
+    const uint32_t triangle = view_->objects[instance.object].first_triangle + met.primID;
+    if (!intersect_primitive(*view_, {PrimitiveKind::triangle, triangle}, ray, shear_ray(object_ray(instance, ray)),
+                             hit))
+      return false;
+    hit.instance = index;
+    return true;
+  }
+
   const SceneView<float>* view_;
   RTCScene scene_;
 };

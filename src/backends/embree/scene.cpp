@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/shapes/instance.h"
 #include "core/shapes/sphere.h"
 #include "core/shapes/triangle.h"
 
@@ -71,17 +72,26 @@ void occluded_sphere_n(const RTCOccludedFunctionNArguments* arguments) {
 }
 
 /// Takes a triangle only where our own test does: it bounds its error, and so rays meet neither the triangle that they
-/// leave nor the light that they are sent to.
+/// leave nor the light that they are sent to. Within an instance Embree has brought the ray into the object's space;
+/// ours is brought there by our own arithmetic.
 void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
   if (arguments->valid[0] == 0) return;
-  const RTCRay& query = *reinterpret_cast<const RTCRay*>(arguments->ray);
   const SceneView<float>& scene = *static_cast<const SceneView<float>*>(arguments->geometryUserPtr);
-  const uint32_t index = reinterpret_cast<const RTCHit*>(arguments->hit)->primID;
+  const EmbreeQuery& query = *reinterpret_cast<const EmbreeQuery*>(arguments->context);
+  const uint32_t instance = query.context.instID[0];
+  const RTCHit& met = *reinterpret_cast<const RTCHit*>(arguments->hit);
+  uint32_t index = met.primID;
+  ShearedRay<float> sheared;
+  if (instance == RTC_INVALID_GEOMETRY_ID) {
+    sheared = shear_ray(*query.ray);
+  } else {
+    const InstanceRecord<float>& placed = scene.instances[instance - embree_instances];
+    sheared = shear_ray(object_ray(placed, *query.ray));
+    index += scene.objects[placed.object].first_triangle;
+  }
   const uint32_t* v = scene.triangles[index].vertex;
-  const Ray<float> ray{{query.org_x, query.org_y, query.org_z}, {query.dir_x, query.dir_y, query.dir_z}};
   float t, b1, b2;
-  const float t_max = reinterpret_cast<const EmbreeQuery*>(arguments->context)->t_max;
-  if (!intersect_triangle(shear_ray(ray), scene.positions[v[0]], scene.positions[v[1]], scene.positions[v[2]], t_max, t,
+  if (!intersect_triangle(sheared, scene.positions[v[0]], scene.positions[v[1]], scene.positions[v[2]], query.t_max, t,
                           b1, b2))
     arguments->valid[0] = 0;
 }
@@ -98,10 +108,10 @@ EmbreeScene::EmbreeScene(const SceneView<float>& view, int threads) : view_(view
   device_ = rtcNewDevice(threads > 0 ? ("threads=" + std::to_string(threads)).c_str() : nullptr);
   check();
   rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
-  tracer_.scene = rtcNewScene(device_);
-  rtcSetSceneBuildQuality(tracer_.scene, RTC_BUILD_QUALITY_HIGH);
-  rtcSetSceneFlags(tracer_.scene, RTC_SCENE_FLAG_ROBUST);
-  if (view.triangles_count > 0) add_triangles();
+  tracer_.scene = new_scene();
+  const uint32_t in_world = view.objects_count > 0 ? view.objects[0].first_triangle : view.triangles_count;
+  if (in_world > 0) add_triangles(tracer_.scene, 0, in_world);
+  if (view.instances_count > 0) add_instances();
   constexpr PrimitiveKind still = PrimitiveKind::sphere, moving = PrimitiveKind::moving_sphere;
   if (view.spheres_count > 0)
     add_spheres(still, view.spheres_count, sphere_bounds<still>, intersect_sphere_n<still>, occluded_sphere_n<still>,
@@ -113,22 +123,48 @@ EmbreeScene::EmbreeScene(const SceneView<float>& view, int threads) : view_(view
   check();
 }
 
+RTCScene EmbreeScene::new_scene() {
+  const RTCScene scene = rtcNewScene(device_);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  return scene;
+}
+
 EmbreeScene::~EmbreeScene() {
   rtcReleaseScene(tracer_.scene);
+  for (const RTCScene object : objects_) rtcReleaseScene(object);
   rtcReleaseDevice(device_);
 }
 
-void EmbreeScene::add_triangles() {
+void EmbreeScene::add_triangles(RTCScene to, uint32_t first, uint32_t count) {
   const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   // The vertices of a record are its first words. Embree reads 4 bytes beyond the last position, which are the arena's.
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, view_.triangles, 0,
-                             sizeof(TriangleRecord), view_.triangles_count);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, view_.triangles + first, 0,
+                             sizeof(TriangleRecord), count);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, view_.positions, 0,
                              sizeof(Vec3<float>), view_.positions_count);
   rtcSetGeometryUserData(geometry, const_cast<SceneView<float>*>(&view_));
   rtcSetGeometryIntersectFilterFunction(geometry, filter_triangle);
   rtcSetGeometryOccludedFilterFunction(geometry, filter_triangle);
-  attach(geometry, PrimitiveKind::triangle);
+  attach(to, geometry, PrimitiveKind::triangle);
+}
+
+void EmbreeScene::add_instances() {
+  for (uint32_t i = 0; i < view_.objects_count; ++i) {
+    objects_.push_back(new_scene());
+    add_triangles(objects_.back(), view_.objects[i].first_triangle, view_.objects[i].triangle_count);
+    rtcCommitScene(objects_.back());
+  }
+  for (uint32_t i = 0; i < view_.instances_count; ++i) {
+    const InstanceRecord<float>& instance = view_.instances[i];
+    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, objects_[instance.object]);
+    rtcSetGeometryTimeStepCount(geometry, 1);
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, instance.world_from_object);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(tracer_.scene, geometry, embree_instances + i);
+    rtcReleaseGeometry(geometry);
+  }
 }
 
 void EmbreeScene::add_spheres(PrimitiveKind kind, uint32_t count, RTCBoundsFunction bounds,
@@ -140,13 +176,13 @@ void EmbreeScene::add_spheres(PrimitiveKind kind, uint32_t count, RTCBoundsFunct
   rtcSetGeometryBoundsFunction(geometry, bounds, nullptr);
   rtcSetGeometryIntersectFunction(geometry, intersect);
   rtcSetGeometryOccludedFunction(geometry, occluded);
-  attach(geometry, kind);
+  attach(tracer_.scene, geometry, kind);
 }
 
-void EmbreeScene::attach(RTCGeometry geometry, PrimitiveKind kind) {
+void EmbreeScene::attach(RTCScene to, RTCGeometry geometry, PrimitiveKind kind) {
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
   rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(tracer_.scene, geometry, static_cast<unsigned int>(kind));
+  rtcAttachGeometryByID(to, geometry, static_cast<unsigned int>(kind));
   rtcReleaseGeometry(geometry);
 }
 

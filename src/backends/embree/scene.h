@@ -2,6 +2,8 @@
 
 // A flat scene as Embree takes it: triangles read from the arena where they lie, spheres by our own test.
 
+#include <vector>
+
 #include "backends/embree/api.h"
 #include "core/scene_view.h"
 
@@ -21,13 +23,17 @@ class EmbreeScene {
   int64_t bytes() const { return bytes_; }
 
  private:
-  void add_triangles();
+  /// One for the world and one for each object.
+  RTCScene new_scene();
+  void add_triangles(RTCScene to, uint32_t first, uint32_t count);
+  void add_instances();
   void add_spheres(PrimitiveKind kind, uint32_t count, RTCBoundsFunction bounds, RTCIntersectFunctionN intersect,
                    RTCOccludedFunctionN occluded, unsigned int time_steps);
-  void attach(RTCGeometry geometry, PrimitiveKind kind);
+  void attach(RTCScene to, RTCGeometry geometry, PrimitiveKind kind);
   void check() const;
 
   const SceneView<float>& view_;
+  std::vector<RTCScene> objects_;
   int64_t bytes_ = 0;
   RTCDevice device_ = nullptr;
   EmbreeTracer tracer_{};

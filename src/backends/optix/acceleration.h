@@ -1,9 +1,11 @@
 #pragma once
 
-// Acceleration structures from the scene's arena where it lies on the device: one a kind of primitive, compacted, and
-// one of instances above them where there is more than one kind.
+// Acceleration structures from the scene's arena where it lies on the device: one a kind of primitive and one an
+// object, compacted, and one of instances above them where there is more than one.
 
 #include <array>
+#include <cstring>
+#include <memory>
 #include <vector>
 
 #include "backends/cuda/executor.h"
@@ -16,15 +18,17 @@ inline CUdeviceptr address(const void* pointer) { return reinterpret_cast<CUdevi
 
 /// What the programs must be compiled for.
 struct SceneTraits {
-  bool has[3]{};  ///< by PrimitiveKind
+  bool has[3]{};     ///< by PrimitiveKind, in the world or in objects
+  bool has_objects;  ///< which instances place
 
   explicit SceneTraits(const SceneView<float>& scene)
-      : has{scene.triangles_count > 0, scene.spheres_count > 0, scene.moving_spheres_count > 0} {}
+      : has{scene.triangles_count > 0, scene.spheres_count > 0, scene.moving_spheres_count > 0},
+        has_objects(scene.instances_count > 0) {}
   bool has_kind(PrimitiveKind kind) const { return has[static_cast<unsigned>(kind)]; }
   bool moves() const { return has_kind(PrimitiveKind::moving_sphere); }
   bool has_spheres() const { return has_kind(PrimitiveKind::sphere) || moves(); }
   int kinds() const { return has[0] + has[1] + has[2]; }
-  bool has_instances() const { return kinds() > 1; }
+  bool has_instances() const { return kinds() > 1 || has_objects; }
 };
 
 inline constexpr unsigned build_flags = OPTIX_BUILD_FLAG_ALLOW_COMPACTION | OPTIX_BUILD_FLAG_PREFER_FAST_TRACE;
@@ -46,7 +50,7 @@ class Acceleration {
     const SceneTraits traits(host);
     std::vector<OptixInstance> instances;
     for (unsigned kind = 0; kind < structures_.size(); ++kind) {
-      if (!traits.has[kind]) continue;
+      if (!traits.has[kind] || (kind == 0 && triangles_in_world(host) == 0)) continue;
       traversable_ = build_kind(static_cast<PrimitiveKind>(kind), host, device);
       sbt_offset_ = kind;
       OptixInstance instance{
@@ -55,6 +59,7 @@ class Acceleration {
     }
     if (!traits.has_instances()) return;
     sbt_offset_ = 0;
+    add_objects(host, device, instances);
     build_instances(instances);
   }
 
@@ -67,7 +72,7 @@ class Acceleration {
   OptixTraversableHandle build_kind(PrimitiveKind kind, const SceneView<float>& host, const SceneView<float>& device) {
     switch (kind) {
       case PrimitiveKind::triangle:
-        return build_triangles(device);
+        return build_triangles(device, 0, triangles_in_world(host), structures_[0]);
       case PrimitiveKind::sphere:
         return build_spheres(device);
       default:
@@ -75,7 +80,29 @@ class Acceleration {
     }
   }
 
-  OptixTraversableHandle build_triangles(const SceneView<float>& device) {
+  static uint32_t triangles_in_world(const SceneView<float>& host) {
+    return host.objects_count > 0 ? host.objects[0].first_triangle : host.triangles_count;
+  }
+
+  void add_objects(const SceneView<float>& host, const SceneView<float>& device,
+                   std::vector<OptixInstance>& instances) {
+    objects_.clear();
+    std::vector<OptixTraversableHandle> handles;
+    for (uint32_t i = 0; i < host.objects_count; ++i) {
+      objects_.push_back(std::make_unique<Bytes>(executor_));
+      const ObjectRecord& object = host.objects[i];
+      handles.push_back(build_triangles(device, object.first_triangle, object.triangle_count, *objects_.back()));
+    }
+    for (uint32_t i = 0; i < host.instances_count; ++i) {
+      OptixInstance instance{
+          {}, first_instance_id + i, 0, 0xff, OPTIX_INSTANCE_FLAG_NONE, handles[host.instances[i].object], {}};
+      std::memcpy(instance.transform, host.instances[i].world_from_object, sizeof(instance.transform));
+      instances.push_back(instance);
+    }
+  }
+
+  OptixTraversableHandle build_triangles(const SceneView<float>& device, uint32_t first, uint32_t count,
+                                         Bytes& structure) {
     const CUdeviceptr positions = address(device.positions);
     OptixBuildInput input{};
     input.type = OPTIX_BUILD_INPUT_TYPE_TRIANGLES;
@@ -84,13 +111,13 @@ class Acceleration {
     triangles.numVertices = device.positions_count;
     triangles.vertexFormat = OPTIX_VERTEX_FORMAT_FLOAT3;
     triangles.vertexStrideInBytes = sizeof(Vec3<float>);
-    triangles.indexBuffer = address(device.triangles) + offsetof(TriangleRecord, vertex);
-    triangles.numIndexTriplets = device.triangles_count;
+    triangles.indexBuffer = address(device.triangles + first) + offsetof(TriangleRecord, vertex);
+    triangles.numIndexTriplets = count;
     triangles.indexFormat = OPTIX_INDICES_FORMAT_UNSIGNED_INT3;
     triangles.indexStrideInBytes = sizeof(TriangleRecord);
     triangles.flags = &without_any_hit;
     triangles.numSbtRecords = 1;
-    return build_structure(input, 1, structures_[0]);
+    return build_structure(input, 1, structure);
   }
 
   OptixTraversableHandle build_spheres(const SceneView<float>& device) {
@@ -184,6 +211,7 @@ class Acceleration {
   Executor& executor_;
   OptixDeviceContext context_ = nullptr;
   std::array<Bytes, 3> structures_;
+  std::vector<std::unique_ptr<Bytes>> objects_;
   Bytes top_;
   OptixTraversableHandle traversable_ = 0;
   uint32_t sbt_offset_ = 0;

@@ -30,8 +30,10 @@ struct OptixParams {
   uint32_t sbt_offset;  ///< of rays: 0 where instances have offsets of their own, else the only kind of primitive
 };
 
-/// Closest hits. Words of the payload: t, b1, b2, PrimitiveId.
-inline constexpr unsigned closest_words = 4;
+/// Closest hits. Words of the payload: t, b1, b2, PrimitiveId, instance.
+inline constexpr unsigned closest_words = 5;
+/// Identifiers of OptiX's instances: below this the kinds of primitives of the world, from it on ours.
+inline constexpr unsigned first_instance_id = 3;
 /// Whether anything is in between. One word: 1, or 0 where the ray missed everything.
 inline constexpr unsigned occlusion_words = 1;
 

@@ -60,13 +60,15 @@ class OptixIntersector {
 
   __device__ static bool trace(const Ray<float>& ray, float t_min, float t_max, unsigned flags, Hit<float>& hit) {
     const OptixParams& launch = launch_params();
-    unsigned t = 0, b1 = 0, b2 = 0, primitive = PrimitiveId().bits;
+    unsigned t = 0, b1 = 0, b2 = 0, primitive = PrimitiveId().bits, instance = no_instance;
     optixTrace(OPTIX_PAYLOAD_TYPE_ID_0, launch.traversable, vector(ray.origin), vector(ray.direction), t_min, t_max,
-               ray.time, 0xff, flags, launch.sbt_offset, 0, miss_closest, t, b1, b2, primitive);
+               ray.time, 0xff, flags, launch.sbt_offset, 0, miss_closest, t, b1, b2, primitive,
+               instance);
     hit.t = __uint_as_float(t);
     hit.b1 = __uint_as_float(b1);
     hit.b2 = __uint_as_float(b2);
     hit.primitive.bits = primitive;
+    hit.instance = instance;
     return !hit.primitive.is_none();
   }
 
@@ -112,11 +114,12 @@ __device__ void generate_rays() {
   OptixKernel<kind>{launch_params().launch, 1, 1, launch_params().sums}(OptixThread());
 }
 
-__device__ void report(PrimitiveKind kind, float b1, float b2) {
+__device__ void report(PrimitiveId primitive, uint32_t instance, float b1, float b2) {
   optixSetPayload_0(__float_as_uint(optixGetRayTmax()));
   optixSetPayload_1(__float_as_uint(b1));
   optixSetPayload_2(__float_as_uint(b2));
-  optixSetPayload_3(PrimitiveId(kind, optixGetPrimitiveIndex()).bits);
+  optixSetPayload_3(primitive.bits);
+  optixSetPayload_4(instance);
 }
 
 extern "C" __global__ void __raygen__path() { generate_rays<IntegratorKind::path>(); }
@@ -131,17 +134,23 @@ extern "C" __global__ void __miss__occlusion() {
 extern "C" __global__ void __closesthit__triangle() {
   optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
   const float2 weights = optixGetTriangleBarycentrics();
-  report(PrimitiveKind::triangle, weights.x, weights.y);
+  const SceneView<float>& scene = launch_params().launch.scene;
+  uint32_t instance = no_instance, triangle = optixGetPrimitiveIndex();
+  if (scene.instances_count > 0 && optixGetInstanceId() >= first_instance_id) {
+    instance = optixGetInstanceId() - first_instance_id;
+    triangle += scene.objects[scene.instances[instance].object].first_triangle;
+  }
+  report({PrimitiveKind::triangle, triangle}, instance, weights.x, weights.y);
 }
 
 extern "C" __global__ void __closesthit__sphere() {
   optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
-  report(PrimitiveKind::sphere, 0, 0);
+  report({PrimitiveKind::sphere, optixGetPrimitiveIndex()}, no_instance, 0, 0);
 }
 
 extern "C" __global__ void __closesthit__moving_sphere() {
   optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
-  report(PrimitiveKind::moving_sphere, 0, 0);
+  report({PrimitiveKind::moving_sphere, optixGetPrimitiveIndex()}, no_instance, 0, 0);
 }
 
 }  // namespace alhazen::optix

@@ -15,20 +15,13 @@ class LinearIntersector {
   /// The nearest hit before t_max; among hits at the same distance that of the lowest primitive.
   bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
     hit = no_hit_before(t_max);
-    const ShearedRay<Real> sheared = shear_ray(ray);
-    bool found = false;
-    for (uint32_t i = 0; i < scene_->primitives_count; ++i)
-      found = intersect_primitive(*scene_, scene_->primitives[i], ray, sheared, hit) || found;
-    return found;
+    return search<false>(ray, hit);
   }
 
   /// Whether anything stands before t_max.
   bool occluded(const Ray<Real>& ray, Real t_max) const {
     Hit<Real> hit = no_hit_before(t_max);
-    const ShearedRay<Real> sheared = shear_ray(ray);
-    for (uint32_t i = 0; i < scene_->primitives_count; ++i)
-      if (intersect_primitive(*scene_, scene_->primitives[i], ray, sheared, hit)) return true;
-    return false;
+    return search<true>(ray, hit);
   }
 
   /// Many queries, one after the other (core/bvh/simd_traversal.h).
@@ -47,6 +40,36 @@ class LinearIntersector {
   }
 
  private:
+  template <bool any_hit>
+  bool search(const Ray<Real>& ray, Hit<Real>& hit) const {
+    const uint32_t in_world = scene_->objects_count > 0 ? scene_->objects[0].first_primitive : scene_->primitives_count;
+    const ShearedRay<Real> sheared = shear_ray(ray);
+    bool found = false;
+    for (uint32_t i = 0; i < in_world && !(any_hit && found); ++i) {
+      const PrimitiveId primitive = scene_->primitives[i];
+      if (primitive.kind() == PrimitiveKind::instance)
+        found = search_instance(primitive.index(), ray, hit) || found;
+      else
+        found = intersect_primitive(*scene_, primitive, ray, sheared, hit) || found;
+    }
+    return found;
+  }
+
+  bool search_instance(uint32_t index, const Ray<Real>& ray, Hit<Real>& hit) const {
+    const InstanceRecord<Real>& instance = scene_->instances[index];
+    const ObjectRecord& object = scene_->objects[instance.object];
+    const ShearedRay<Real> sheared = shear_ray(object_ray(instance, ray));
+    Hit<Real> within = hit;
+    within.primitive = bound_within(index, hit);
+    bool found = false;
+    for (uint32_t i = object.first_primitive; i < object.first_primitive + object.triangle_count; ++i)
+      found = intersect_primitive(*scene_, scene_->primitives[i], ray, sheared, within) || found;
+    if (!found) return false;
+    hit = within;
+    hit.instance = index;
+    return true;
+  }
+
   const SceneView<Real>* scene_;
 };
 

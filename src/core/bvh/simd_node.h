@@ -22,6 +22,10 @@ struct SimdChild {
   static constexpr Kind kind(uint32_t child) { return static_cast<Kind>(child >> 30); }
   static constexpr uint32_t blocks(uint32_t child) { return child >> index_bits & most_blocks; }
   static constexpr uint32_t first(uint32_t child) { return child & ((1u << index_bits) - 1); }
+  /// An instance: no blocks of spheres, and its index.
+  static constexpr uint32_t instance(uint32_t index) { return pack(spheres, 0, index); }
+  static constexpr bool is_instance(uint32_t child) { return child >> index_bits == instance(0) >> index_bits; }
+  static constexpr uint32_t most_of_a_kind = 1u << index_bits;
   /// Stands in the places that a node leaves free.
   static constexpr uint32_t nothing = 1u << 30;
 };

@@ -48,8 +48,9 @@ class NearestFirst {
     return true;
   }
 
-  ALHAZEN_INLINE bool pop(float t_max, int& height, uint32_t& current) const {
-    while (height > 0) {
+  /// The next of what is above `base`.
+  ALHAZEN_INLINE bool pop(float t_max, int base, int& height, uint32_t& current) const {
+    while (height > base) {
       const uint64_t entry = entries_[--height];
       if (!any_hit && !(std::bit_cast<float>(static_cast<uint32_t>(entry >> 32)) <= t_max)) continue;
       current = static_cast<uint32_t>(entry);
@@ -89,8 +90,8 @@ class OctantFirst {
     return false;
   }
 
-  ALHAZEN_INLINE bool pop(float t_max, int& height, uint32_t& current) const {
-    while (height > 0) {
+  ALHAZEN_INLINE bool pop(float t_max, int base, int& height, uint32_t& current) const {
+    while (height > base) {
       --height;
       if (!any_hit && !(t_[height] <= t_max)) continue;
       current = child_[height];
@@ -111,27 +112,31 @@ class alignas(64) SimdWalk {
   ALHAZEN_INLINE void use(Stack* stack) { stack_ = stack; }
 
   ALHAZEN_INLINE void start(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max) {
-    ray_ = &ray;
     box_ = box_ray(ray);
     sheared_ = scene.triangle_blocks_count > 0 ? shear_ray(ray) : ShearedRay<Real>{};
-    hit_ = no_hit_before(t_max);
-    t_max_ = simd_limit(t_max);
-    height_ = 0;
-    found_ = false;
     // Nothing to visit but an empty leaf where there is no tree, or no ray.
-    current_ = scene.simd_nodes_count > 0 && can_walk(ray) ? 0 : SimdChild::nothing;
+    start_at(scene.simd_nodes_count > 0 && can_walk(ray) ? 0 : SimdChild::nothing, ray, no_hit_before(t_max));
+  }
+
+  /// A walk through one instance alone, for what is nearer than `hit`.
+  ALHAZEN_INLINE void start_in(uint32_t instance, const Ray<Real>& ray, const Hit<Real>& hit) {
+    start_at(SimdChild::instance(instance), ray, hit);
   }
 
   /// Visits what is next; false when the walk is over.
   ALHAZEN_INLINE bool step(const SceneView<Real>& scene) {
     if (SimdChild::kind(current_) == SimdChild::node) {
       if (stack_->push(scene.simd_nodes[current_], box_, t_max_, height_, current_)) return true;
+    } else if (SimdChild::is_instance(current_)) {
+      enter_instance(scene);
+      return true;
     } else if (intersect_leaf(scene, current_, *ray_, sheared_, hit_)) {
+      hit_.instance = instance_;
       found_ = true;
       if (any_hit) return false;
       t_max_ = simd_limit(hit_.t);
     }
-    return stack_->pop(t_max_, height_, current_);
+    return stack_->pop(t_max_, base_, height_, current_) || (instance_ != no_instance && leave_instance());
   }
 
   uint32_t current() const { return current_; }
@@ -139,6 +144,43 @@ class alignas(64) SimdWalk {
   const Hit<Real>& hit() const { return hit_; }
 
  private:
+  ALHAZEN_INLINE void start_at(uint32_t child, const Ray<Real>& ray, const Hit<Real>& hit) {
+    ray_ = &ray;
+    hit_ = hit;
+    t_max_ = simd_limit(hit.t);
+    height_ = base_ = 0;
+    found_ = false;
+    instance_ = no_instance;
+    current_ = child;
+  }
+
+  ALHAZEN_INLINE void walk_along(const Ray<Real>& ray) {
+    box_ = box_ray(ray);
+    sheared_ = shear_ray(ray);
+  }
+
+  /// Goes on at the root of the object, whose triangles the sheared ray alone is tested against.
+  ALHAZEN_NOINLINE void enter_instance(const SceneView<Real>& scene) {
+    instance_ = SimdChild::first(current_);
+    const InstanceRecord<Real>& instance = scene.instances[instance_];
+    const Ray<Real> inner = object_ray(instance, *ray_);
+    walk_along(inner);
+    base_ = height_;
+    outer_ = hit_.primitive;
+    hit_.primitive = bound_within(instance_, hit_);
+    current_ = can_walk(inner) ? scene.objects[instance.object].simd_node : SimdChild::nothing;
+  }
+
+  /// Goes on with what was put aside before; false where there is nothing.
+  ALHAZEN_NOINLINE bool leave_instance() {
+    if (hit_.instance != instance_) hit_.primitive = outer_;
+    instance_ = no_instance;
+    base_ = 0;
+    if (!stack_->pop(t_max_, 0, height_, current_)) return false;
+    walk_along(*ray_);
+    return true;
+  }
+
   BoxRay box_;
   float t_max_;
   uint32_t current_;
@@ -148,6 +190,23 @@ class alignas(64) SimdWalk {
   Hit<Real> hit_;
   ShearedRay<Real> sheared_;
   Stack* stack_;
+  uint32_t instance_;  ///< where the walk is within one
+  int base_;           ///< what is above it on the stack lies in that instance
+  PrimitiveId outer_;  ///< of the hit before
 };
+
+/// Replaces `hit` by what is nearer within one instance.
+template <class Real>
+ALHAZEN_NOINLINE bool intersect_instance(const SceneView<Real>& scene, uint32_t instance, const Ray<Real>& ray,
+                                         Hit<Real>& hit) {
+  SimdWalk<false, Real, NearestFirst<false>> walk;
+  NearestFirst<false> stack;
+  walk.use(&stack);
+  walk.start_in(instance, ray, hit);
+  while (walk.step(scene)) {
+  }
+  if (walk.found()) hit = walk.hit();
+  return walk.found();
+}
 
 }  // namespace ALHAZEN_CORE

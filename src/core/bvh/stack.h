@@ -14,7 +14,7 @@ class LocalStack {
   // Not initialised: most of it is never used.
   ALHAZEN_HD LocalStack() {}  // NOLINT
 
-  ALHAZEN_HD bool is_empty() const { return height_ == 0; }
+  ALHAZEN_HD int height() const { return height_; }
   ALHAZEN_HD void push(const Entry& entry) { entries_[height_++] = entry; }
   ALHAZEN_HD Entry pop() { return entries_[--height_]; }
 

@@ -4,6 +4,7 @@
 
 #include "core/bvh/stack.h"
 #include "core/scene_view.h"
+#include "core/shapes/instance.h"
 #include "core/shapes/sphere.h"
 #include "core/shapes/triangle.h"
 
@@ -44,7 +45,7 @@ ALHAZEN_HD ALHAZEN_INLINE Real enter_box(const BvhNode<Real>& node, const SlabRa
 /// What a search for the nearest hit before t_max begins with: no primitive is lower than this one.
 template <class Real>
 ALHAZEN_HD Hit<Real> no_hit_before(Real t_max) {
-  return {t_max, 0, 0, PrimitiveId(PrimitiveKind::triangle, 0)};
+  return {t_max, 0, 0, PrimitiveId(PrimitiveKind::triangle, 0), 0};
 }
 
 /// Of hits at the same distance that of the lowest primitive counts, whatever the order in which a tree is walked.
@@ -53,7 +54,8 @@ ALHAZEN_HD ALHAZEN_INLINE bool is_nearer(Real t, PrimitiveId primitive, const Hi
   return t < hit.t || (t == hit.t && primitive.bits < hit.primitive.bits);
 }
 
-/// Tests one primitive; on a hit nearer than `hit` replaces it.
+/// Tests one primitive that is no instance; on a hit nearer than `hit` replaces it by one of the world. Of triangles
+/// the sheared ray alone is looked at.
 template <class Real>
 ALHAZEN_HD bool intersect_primitive(const SceneView<Real>& scene, PrimitiveId primitive, const Ray<Real>& ray,
                                     const ShearedRay<Real>& sheared, Hit<Real>& hit) {
@@ -76,6 +78,8 @@ ALHAZEN_HD bool intersect_primitive(const SceneView<Real>& scene, PrimitiveId pr
       met = intersect_sphere(ray, s.center + s.motion * ray.time, s.radius, hit.t, found.t);
       break;
     }
+    case PrimitiveKind::instance:
+      break;
   }
   if (!met || !is_nearer(found.t, primitive, hit)) return false;
   hit = found;
@@ -89,21 +93,58 @@ struct BvhEntry {
   Real t;
 };
 
-/// Walks the tree. With `any_hit` it ends at the first primitive met before `hit.t`.
+/// A ray in the space where it is walked, and which instance that is of: what is above `base` on the stack lies in it.
+template <class Real>
+struct WalkSpace {
+  SlabRay<Real> slabs;
+  ShearedRay<Real> sheared;
+  uint32_t instance = no_instance;
+  int base = 0;
+  PrimitiveId outer;  ///< what the hit was before
+
+  ALHAZEN_HD explicit WalkSpace(const Ray<Real>& ray) : slabs(slab_ray(ray)), sheared(shear_ray(ray)) {}
+
+  ALHAZEN_HD void enter(const SceneView<Real>& scene, const Ray<Real>& ray, uint32_t entered, int height,
+                        Hit<Real>& hit) {
+    const Ray<Real> inner = object_ray(scene.instances[entered], ray);
+    slabs = slab_ray(inner);
+    sheared = shear_ray(inner);
+    instance = entered;
+    base = height;
+    outer = hit.primitive;
+    hit.primitive = bound_within(entered, hit);
+  }
+
+  ALHAZEN_HD void leave(const Ray<Real>& ray, Hit<Real>& hit) {
+    if (hit.instance != instance) hit.primitive = outer;
+    slabs = slab_ray(ray);
+    sheared = shear_ray(ray);
+    instance = no_instance;
+    base = 0;
+  }
+};
+
+/// Walks the tree. With `any_hit` it ends at the first primitive met before `hit.t`. Instances are alone in their leaf.
 template <bool any_hit, class Real, class Stacks>
 ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray, const Stacks& stacks, Hit<Real>& hit) {
   if (scene.nodes_count == 0) return false;
-  const SlabRay<Real> slabs = slab_ray(ray);
-  const ShearedRay<Real> sheared = shear_ray(ray);
-  auto stack = stacks.template make<BvhEntry<Real>, max_bvh_depth>();
+  WalkSpace<Real> space(ray);
+  const SlabRay<Real>& slabs = space.slabs;
+  auto stack = stacks.template make<BvhEntry<Real>, 2 * max_bvh_depth>();
   uint32_t current = 0;
   bool found = false;
   if (enter_box(scene.nodes[0], slabs, hit.t) == infinity<Real>) return false;
   for (;;) {
     const BvhNode<Real>& node = scene.nodes[current];
-    if (node.count > 0) {
+    if (node.count > 0 && scene.primitives[node.first].kind() == PrimitiveKind::instance) {
+      const uint32_t instance = scene.primitives[node.first].index();
+      space.enter(scene, ray, instance, stack.height(), hit);
+      current = scene.objects[scene.instances[instance].object].node;
+      if (enter_box(scene.nodes[current], slabs, hit.t) < infinity<Real>) continue;
+    } else if (node.count > 0) {
       for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-        if (!intersect_primitive(scene, scene.primitives[i], ray, sheared, hit)) continue;
+        if (!intersect_primitive(scene, scene.primitives[i], ray, space.sheared, hit)) continue;
+        hit.instance = space.instance;
         found = true;
         if (any_hit) return true;
       }
@@ -124,7 +165,8 @@ ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray,
     }
     BvhEntry<Real> next;
     do {
-      if (stack.is_empty()) return found;
+      if (stack.height() == space.base && space.instance != no_instance) space.leave(ray, hit);
+      if (stack.height() == 0) return found;
       next = stack.pop();
     } while (!(next.t <= hit.t));
     current = next.node;

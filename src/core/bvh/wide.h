@@ -100,43 +100,67 @@ ALHAZEN_HD inline bool intersect_primitive(const WidePrimitive& primitive, const
     case PrimitiveKind::moving_sphere:
       met = intersect_sphere(ray, primitive.a + primitive.c * ray.time, primitive.b.x, hit.t, found.t);
       break;
+    case PrimitiveKind::instance:
+      break;
   }
   if (!met || !is_nearer(found.t, primitive.id, hit)) return false;
   hit = found;
   return true;
 }
 
+ALHAZEN_HD ALHAZEN_INLINE uint32_t octant_of(const SlabRay<float>& ray) {
+  return (ray.from_high[0] ? 1u : 0u) | (ray.from_high[1] ? 2u : 0u) | (ray.from_high[2] ? 4u : 0u);
+}
+
 /// Walks the tree. With `any_hit` it ends at the first primitive met before `hit.t`.
 template <bool any_hit, class Stacks>
 ALHAZEN_HD bool traverse_wide_bvh(const SceneView<float>& scene, const Ray<float>& ray, const Stacks& stacks,
                                   Hit<float>& hit) {
-  constexpr uint32_t to_visit = 0xff000000u;
+  constexpr uint32_t to_visit = 0xff000000u, root = 0x80000000u;
   if (scene.wide_nodes_count == 0) return false;
-  const SlabRay<float> slabs = slab_ray(ray);
-  const ShearedRay<float> sheared = shear_ray(ray);
-  const uint32_t octant =
-      (slabs.from_high[0] ? 1u : 0u) | (slabs.from_high[1] ? 2u : 0u) | (slabs.from_high[2] ? 4u : 0u);
-  auto stack = stacks.template make<WideGroup, max_wide_depth>();
+  WalkSpace<float> space(ray);
+  uint32_t octant = octant_of(space.slabs);
+  auto stack = stacks.template make<WideGroup, 2 * max_wide_depth + 2>();
   bool found = false;
-  WideGroup nodes{0, 0x80000000u};  // the root, alone
+  WideGroup nodes{0, root};
   for (;;) {
-    const uint32_t bit = highest_bit(nodes.bits);
-    nodes.bits &= ~(1u << bit);
-    if (nodes.bits & to_visit) stack.push(nodes);
-    const uint32_t slot = (bit - 24) ^ (7u - octant);
-    const WideNode node = scene.wide_nodes[nodes.base + count_bits(nodes.bits & ((1u << slot) - 1))];
-    const uint32_t hits = enter_children(node, slabs, octant, hit.t);
-    for (uint32_t left = hits & ~to_visit; left != 0;) {
-      const uint32_t i = highest_bit(left);
-      left &= ~(1u << i);
-      const WidePrimitive primitive = scene.wide_primitives[node.first_primitive + i];
-      if (!intersect_primitive(primitive, ray, sheared, hit)) continue;
+    WideGroup primitives{};
+    if (nodes.bits & to_visit) {
+      const uint32_t bit = highest_bit(nodes.bits);
+      nodes.bits &= ~(1u << bit);
+      if (nodes.bits & to_visit) stack.push(nodes);
+      const uint32_t slot = (bit - 24) ^ (7u - octant);
+      const WideNode node = scene.wide_nodes[nodes.base + count_bits(nodes.bits & ((1u << slot) - 1))];
+      const uint32_t hits = enter_children(node, space.slabs, octant, hit.t);
+      primitives = {node.first_primitive, hits & ~to_visit};
+      nodes = {node.first_child, (hits & to_visit) | node.exponents_and_inner >> 24};
+    } else {  // primitives that were put aside for an instance
+      primitives = nodes;
+      nodes.bits = 0;
+    }
+    while (primitives.bits != 0) {
+      const uint32_t i = highest_bit(primitives.bits);
+      primitives.bits &= ~(1u << i);
+      const WidePrimitive primitive = scene.wide_primitives[primitives.base + i];
+      if (primitive.id.kind() == PrimitiveKind::instance) {
+        if (nodes.bits & to_visit) stack.push(nodes);
+        if (primitives.bits != 0) stack.push(primitives);
+        space.enter(scene, ray, primitive.id.index(), stack.height(), hit);
+        octant = octant_of(space.slabs);
+        nodes = {scene.objects[scene.instances[space.instance].object].wide_node, root};
+        break;
+      }
+      if (!intersect_primitive(primitive, ray, space.sheared, hit)) continue;
+      hit.instance = space.instance;
       found = true;
       if (any_hit) return true;
     }
-    nodes = {node.first_child, (hits & to_visit) | node.exponents_and_inner >> 24};
     if (nodes.bits & to_visit) continue;
-    if (stack.is_empty()) return found;
+    if (stack.height() == space.base && space.instance != no_instance) {
+      space.leave(ray, hit);
+      octant = octant_of(space.slabs);
+    }
+    if (stack.height() == 0) return found;
     nodes = stack.pop();
   }
 }

@@ -24,7 +24,7 @@ struct alignas(16) WideNode {
 static_assert(sizeof(WideNode) == 80);
 
 /// A primitive with its coordinates, so that a ray needs to look nowhere else. Triangle: a, b, c are its vertices.
-/// Sphere: centre a, radius b.x. Moving sphere: centre a, radius b.x, motion c.
+/// Sphere: centre a, radius b.x. Moving sphere: centre a, radius b.x, motion c. Of an instance the id alone counts.
 struct alignas(16) WidePrimitive {
   Vec3<float> a;
   PrimitiveId id;

@@ -23,7 +23,7 @@ ALHAZEN_HD uint32_t bits_of(Real x) {
 /// Random bits that belong to this ray and what it met: for choices that take no dimension of the sampler.
 template <class Real>
 ALHAZEN_HD uint32_t hash_of_hit(const Ray<Real>& ray, const Hit<Real>& hit) {
-  uint32_t h = combine32(hit.primitive.bits, bits_of(hit.t));
+  uint32_t h = combine32(hit.primitive.bits ^ mix32(hit.instance), bits_of(hit.t));
   h = combine32(h, bits_of(ray.direction.x));
   h = combine32(h, bits_of(ray.direction.y));
   h = combine32(h, bits_of(ray.direction.z));

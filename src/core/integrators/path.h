@@ -48,7 +48,7 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
     if (path.travelled > 0) {
       // Seen from where the light would have been sampled.
       const Ray<Real> whole{path.ray.origin - path.ray.direction * path.travelled, path.ray.direction, path.ray.time};
-      const Hit<Real> end{hit.t + path.travelled, hit.b1, hit.b2, hit.primitive};
+      const Hit<Real> end{hit.t + path.travelled, hit.b1, hit.b2, hit.primitive, hit.instance};
       light_pdf = pdf_light(scene, scene.lights[point.light], whole, end, point.si);
     } else {
       light_pdf = pdf_light(scene, scene.lights[point.light], path.ray, hit, point.si);

@@ -25,6 +25,13 @@
 #define ALHAZEN_INLINE inline
 #endif
 
+// Rare parts of hot loops, which would only be in the way there. For CPUs.
+#if defined(__GNUC__)
+#define ALHAZEN_NOINLINE __attribute__((noinline))
+#else
+#define ALHAZEN_NOINLINE
+#endif
+
 // Small functions of the inner loops, which GCC does not inline by itself where much else is; nvcc does.
 #if defined(__GNUC__) && !defined(__CUDACC__)
 #define ALHAZEN_HOT inline __attribute__((always_inline))

@@ -3,6 +3,7 @@
 // From a hit to the point on the surface: position with a bound on its error, normals, uv.
 
 #include "core/scene_view.h"
+#include "core/shapes/instance.h"
 #include "core/shapes/sphere.h"
 #include "core/shapes/triangle.h"
 
@@ -149,6 +150,22 @@ ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> sphere_interaction(const SceneVi
   return si;
 }
 
+/// A point of an object where an instance has it.
+template <class Real>
+ALHAZEN_HD SurfaceInteraction<Real> instance_interaction(const InstanceRecord<Real>& instance,
+                                                         const SurfaceInteraction<Real>& object) {
+  SurfaceInteraction<Real> si = object;
+  si.position = transform_point(instance.world_from_object, object.position);
+  si.position_error = world_position_error(instance, object.position, object.position_error, si.position);
+  const auto outward = [&](const Vec3<Real>& n) {
+    const Vec3<Real> turned = normalize(transform_normal(instance.object_from_world, n));
+    return instance.flip_normal ? -turned : turned;
+  };
+  si.normal = outward(object.normal);
+  si.shading_normal = outward(object.shading_normal);
+  return si;
+}
+
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> surface_interaction(const SceneView<Real>& scene, const Ray<Real>& ray,
                                                                     const Hit<Real>& hit) {
@@ -166,6 +183,7 @@ ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> surface_interaction(const SceneV
     }
     default:
       si = triangle_interaction(scene, hit);
+      if (hit.instance != no_instance) si = instance_interaction(scene.instances[hit.instance], si);
       break;
   }
   si.time = ray.time;

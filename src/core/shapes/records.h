@@ -1,6 +1,6 @@
 #pragma once
 
-// How shapes lie in memory. World space throughout.
+// How shapes lie in memory. World space throughout, but for the triangles of objects, which lie in the space of theirs.
 
 #include <cstdint>
 
@@ -8,7 +8,8 @@
 
 namespace ALHAZEN_CORE {
 
-enum class PrimitiveKind : uint32_t { triangle = 0, sphere = 1, moving_sphere = 2 };
+/// Instances stand in the leaves of the world's tree alone; what is met is a primitive of their object.
+enum class PrimitiveKind : uint32_t { triangle = 0, sphere = 1, moving_sphere = 2, instance = 3 };
 
 /// Kind in the two high bits, index into the array of that kind below.
 struct PrimitiveId {
@@ -54,6 +55,26 @@ struct SphereFrame {
   Vec3<Real> x, y, z;
 };
 
+/// Triangles with trees of their own, which instances place in the world. Those of the world come before the first
+/// object's, in every array.
+struct ObjectRecord {
+  uint32_t first_triangle, triangle_count;
+  uint32_t first_primitive;  ///< in `primitives`, as many as triangles
+  uint32_t node;             ///< the root in `nodes`
+  uint32_t wide_node;        ///< the root in `wide_nodes`
+  uint32_t simd_node;        ///< the root in `simd_nodes`
+};
+
+/// An object in the world. Rows of 3x4 matrices.
+template <class Real>
+struct InstanceRecord {
+  Real world_from_object[3][4];
+  Real object_from_world[3][4];
+  uint32_t object;
+  uint32_t flip_normal;  ///< 1: the front of every surface is its back
+};
+
+inline constexpr uint32_t no_instance = 0xffffffffu;
 inline constexpr uint32_t no_light = 0xffffffffu;
 inline constexpr uint32_t no_offset = 0xffffffffu;
 inline constexpr uint32_t no_sphere_frame = 0xffffffffu;
@@ -73,6 +94,7 @@ struct Hit {
   Real t;  ///< distance along the unit direction
   Real b1{}, b2{};
   PrimitiveId primitive;
+  uint32_t instance = no_instance;  ///< the instance whose object's primitive that is; no_instance: one of the world
 };
 
 }  // namespace ALHAZEN_CORE

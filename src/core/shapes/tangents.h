@@ -32,8 +32,13 @@ ALHAZEN_HD SurfaceTangents<Real> triangle_tangents(const SceneView<Real>& scene,
 template <class Real>
 ALHAZEN_HD SurfaceTangents<Real> surface_tangents(const SceneView<Real>& scene, const Hit<Real>& hit,
                                                   const SurfaceInteraction<Real>& si) {
-  if (hit.primitive.kind() == PrimitiveKind::triangle)
-    return triangle_tangents(scene, scene.triangles[hit.primitive.index()]);
+  if (hit.primitive.kind() == PrimitiveKind::triangle) {
+    const SurfaceTangents<Real> own = triangle_tangents(scene, scene.triangles[hit.primitive.index()]);
+    if (hit.instance == no_instance) return own;
+    const InstanceRecord<Real>& instance = scene.instances[hit.instance];
+    return {transform_direction(instance.world_from_object, own.dpdu),
+            transform_direction(instance.world_from_object, own.dpdv)};
+  }
   const bool moves = hit.primitive.kind() == PrimitiveKind::moving_sphere;
   const uint32_t frame =
       moves ? scene.moving_spheres[hit.primitive.index()].frame : scene.spheres[hit.primitive.index()].frame;

@@ -23,7 +23,8 @@ inline constexpr uint32_t warp_lanes = 32;
   ARRAY(Real, radiance_x) ARRAY(Real, radiance_y) ARRAY(Real, radiance_z)                                              \
   ARRAY(uint32_t, segments) ARRAY(uint32_t, shadow_rays)                                                               \
   ARRAY(Real, filter_weight) ARRAY(uint32_t, item) ARRAY(uint32_t, taken)                                              \
-  ARRAY(Real, hit_t) ARRAY(Real, hit_b1) ARRAY(Real, hit_b2) ARRAY(PrimitiveId, hit_primitive)                         \
+  ARRAY(Real, hit_t) ARRAY(Real, hit_b1) ARRAY(Real, hit_b2)                                                            \
+  ARRAY(PrimitiveId, hit_primitive) ARRAY(uint32_t, hit_instance)                                                      \
   ARRAY(Real, shadow_origin_x) ARRAY(Real, shadow_origin_y) ARRAY(Real, shadow_origin_z)                               \
   ARRAY(Real, shadow_direction_x) ARRAY(Real, shadow_direction_y) ARRAY(Real, shadow_direction_z)                      \
   ARRAY(Real, shadow_t_max)                                                                                            \
@@ -221,6 +222,7 @@ struct IntersectKernel {
       slots.hit_b1[slot] = hit.b1;
       slots.hit_b2[slot] = hit.b2;
       slots.hit_primitive[slot] = hit.primitive;
+      slots.hit_instance[slot] = hit.instance;
       const uint32_t kind_met = static_cast<uint32_t>(material_kind(hit.primitive));
       const uint32_t material = kind_met < material_kinds ? kind_met : material_kinds - 1;
       push(thread, slots.material_queue(material), &slots.counts->materials[material], slot);
@@ -265,7 +267,8 @@ struct ShadeKernel {
   template <class Thread>
   ALHAZEN_HD void shade_slot(const Thread& thread, uint32_t slot) const {
     const Slots<Real>& slots = stage.slots;
-    const Hit<Real> hit{slots.hit_t[slot], slots.hit_b1[slot], slots.hit_b2[slot], slots.hit_primitive[slot]};
+    const Hit<Real> hit{slots.hit_t[slot], slots.hit_b1[slot], slots.hit_b2[slot], slots.hit_primitive[slot],
+                        slots.hit_instance[slot]};
     StateOf<kind, Real> path;
     SumRecord<Real> record(&stage.sums[slots.item[slot]], stage.launch.film);
     slots.load(slot, path);

@@ -1,0 +1,70 @@
+#pragma once
+
+// Scenes whose groups stand in several places, turned, stretched and mirrored.
+
+#include <utility>
+
+#include "support/closed_meshes.h"
+#include "support/flat_scenes.h"
+#include "support/random.h"
+
+namespace alhazen::test {
+
+/// Any affine transform that is not too flat, about a place of the box [-reach, reach]^3.
+inline Transform random_placement(Random& random, double reach) {
+  const auto factor = [&] { return random.magnitude_between(0.3, 2) * (random.below(2) == 0 ? -1 : 1); };
+  return Transform::translate(random.in_box(-reach, reach)) *
+         Transform::rotate(360 * random.uniform<double>(), random.on_sphere()) *
+         Transform::scale({factor(), factor(), factor()}) *
+         Transform::rotate(360 * random.uniform<double>(), random.on_sphere());
+}
+
+/// A group of a rough ball, of a ball without shading normals beside it, and `instances` of both; a ball of the world
+/// stands among them. In front of the scene's objects there is nothing that shines.
+inline Scene instanced_scene(uint64_t seed, int instances, double reach) {
+  Random random(seed);
+  Scene scene;
+  for (const int level : {2, 1}) {
+    Mesh mesh = icosphere(level);
+    // So little that stretching turns no face away from its shading normals.
+    jitter_radii(mesh, 0.02, random);
+    if (level == 2)
+      for (const Vec3d& p : mesh.positions) mesh.normals.push_back(convert<float>(normalize(p)));
+    scene.meshes.push_back(std::move(mesh));
+  }
+  scene.groups.resize(2);
+  const auto add = [&](size_t group, uint32_t mesh, const Transform& transform, bool reverse) {
+    Shape shape;
+    shape.mesh = mesh;
+    shape.world_from_object = {transform, transform};
+    shape.reverse_orientation = reverse;
+    scene.groups[group].shapes.push_back(shape);
+  };
+  add(0, 1, Transform::scale({2, 2, 2}), false);
+  add(1, 0, Transform(), false);
+  add(1, 1, Transform::translate({1.5, 0, 0}) * Transform::scale({1, -1, 1}), true);
+  for (int i = 0; i < instances; ++i) {
+    Instance instance;
+    instance.group = 1;
+    const Transform placement = random_placement(random, reach);
+    instance.world_from_group = {placement, placement};
+    instance.reverse_orientation = random.below(2) == 0;
+    scene.instances.push_back(instance);
+  }
+  return scene;
+}
+
+/// Instances as such, or copied into the world.
+template <class Real>
+FlatScene<Real> flat_instanced_scene(const Scene& scene, bool as_copies) {
+  Diagnostics diagnostics;
+  FlattenOptions options;
+  options.threads = 1;
+  options.trees = {.binary = true, .wide = true, .simd = true};
+  options.most_copied_triangles = as_copies ? ~uint64_t{0} : 0;
+  FlatScene<Real> flat = flatten<Real>(Scene(scene), options, diagnostics);
+  expect_no_warnings(diagnostics);
+  return flat;
+}
+
+}  // namespace alhazen::test
