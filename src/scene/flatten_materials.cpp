@@ -364,18 +364,24 @@ bool texture_needs_uv(const Scene& scene, uint32_t index, int nesting) {
 }  // namespace
 
 void check_mixes(const Scene& scene) {
-  // A mix that ends does so within as many levels as there are materials; colours: 0 not seen, 1 open, 2 done.
-  std::vector<uint8_t> state(scene.materials.size());
-  const auto visit = [&](const auto& self, uint32_t index) -> void {
-    if (index >= state.size() || state[index] == 2) return;
+  constexpr uint32_t most_levels = 16;
+  std::vector<uint32_t> levels(scene.materials.size());  // 0: not known yet
+  const auto levels_of = [&](const auto& self, uint32_t index, uint32_t above) -> uint32_t {
+    if (index >= levels.size()) return 0;
     const Material& material = scene.materials[index];
-    if (state[index] == 1) throw InputError("material '" + material.name + "': a mix is made of itself");
-    state[index] = 1;
-    if (material.type == MaterialType::mix)
-      for (const uint32_t next : material.mixed) self(self, next);
-    state[index] = 2;
+    if (levels[index] == 0) {
+      uint32_t below = 0;
+      if (material.type == MaterialType::mix && above < most_levels)
+        for (const uint32_t next : material.mixed) below = std::max(below, self(self, next, above + 1));
+      levels[index] = below + 1;
+      if (above < most_levels) return levels[index];
+    }
+    if (above + levels[index] > most_levels)
+      throw InputError("material '" + material.name + "': mixes are more than " + std::to_string(most_levels) +
+                       " deep, or made of themselves");
+    return levels[index];
   };
-  for (uint32_t i = 0; i < state.size(); ++i) visit(visit, i);
+  for (uint32_t i = 0; i < levels.size(); ++i) levels_of(levels_of, i, 0);
 }
 
 bool material_needs_uv(const Scene& scene, const Material& material) {

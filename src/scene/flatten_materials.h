@@ -12,7 +12,7 @@ namespace alhazen {
 template <class Real>
 void flatten_materials(Scene& scene, SceneArrays<Real>& out);
 
-/// Throws where mixes of mixes come back to themselves.
+/// Throws where mixes are made of themselves, or too deep.
 void check_mixes(const Scene& scene);
 
 /// Whether any texture of the material looks at uv.

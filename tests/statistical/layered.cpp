@@ -258,6 +258,17 @@ TEST(CoatedConductor, LiesBetweenItsBaseAndAllLight) {
   }
 }
 
+TEST(Mix, OfItselfIsRefused) {
+  Scene scene;
+  scene.materials.resize(3);
+  scene.materials[0].type = scene.materials[1].type = MaterialType::mix;
+  scene.materials[0].mixed = {1, 2};
+  scene.materials[1].mixed = {2, 2};
+  EXPECT_NO_THROW(check_mixes(scene));
+  scene.materials[1].mixed = {2, 0};
+  EXPECT_THROW(check_mixes(scene), InputError);
+}
+
 /// A pane lets through and sends back all light.
 TEST(ThinDielectric, LosesNothing) {
   Random random(9);

@@ -26,7 +26,7 @@ ALHAZEN_HD ALHAZEN_HOT void leave_scene(const SceneView<Real>& scene, const Iter
 template <class Real, class Sampler, class Record, class Light>
 ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
                                      const Hit<Real>& hit, IterativeState<Real>& path, Record& record, const Light&) {
-  if (scene.has_cutouts && passes(scene, hit, path.ray, path.travelled)) return true;
+  if (scene.has_cutouts && passes(scene, hit, path.ray, path.travelled)) return record.segments < most_passages;
   const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
   path.throughput *= arriving_share(point, path.travelled + hit.t);
   if (path.vertex == 0) record_first_hit(point, path.travelled + hit.t, record);

@@ -3,6 +3,8 @@
 // Surfaces that let rays through: by their alpha, at random, or because they are seen from behind and have one side.
 // Nothing here is run in scenes without such surfaces.
 
+#include <cstring>
+
 #include "core/materials/bsdf.h"
 #include "core/math/ray.h"
 #include "core/sampling/hash.h"
@@ -12,12 +14,11 @@ namespace ALHAZEN_CORE {
 
 template <class Real>
 ALHAZEN_HD uint32_t bits_of(Real x) {
-  if constexpr (sizeof(Real) == sizeof(float)) {
-    return __builtin_bit_cast(uint32_t, x);
-  } else {
-    const uint64_t bits = __builtin_bit_cast(uint64_t, x);
-    return static_cast<uint32_t>(bits ^ (bits >> 32));
-  }
+  uint32_t words[sizeof(Real) / sizeof(uint32_t)];
+  std::memcpy(words, &x, sizeof(Real));
+  uint32_t bits = words[0];
+  if constexpr (sizeof(Real) > sizeof(uint32_t)) bits ^= words[1];
+  return bits;
 }
 
 /// Random bits that belong to this ray and what it met: for choices that take no dimension of the sampler.
@@ -29,6 +30,9 @@ ALHAZEN_HD uint32_t hash_of_hit(const Ray<Real>& ray, const Hit<Real>& hit) {
   h = combine32(h, bits_of(ray.direction.z));
   return combine32(h, bits_of(ray.origin.x));
 }
+
+/// No ray goes through more surfaces than these: should one not get away from where it is, it ends.
+inline constexpr uint32_t most_passages = 1u << 16;
 
 /// Which choice a hash is for.
 enum class HitChoice : uint32_t { passage = 1, mix = 2, channel = 3 };
@@ -79,7 +83,8 @@ ALHAZEN_HD ALHAZEN_COLD Real transmittance(const SceneView<Real>& scene, const I
                                            Real t_max) {
   Real share = 1;
   Hit<Real> hit;
-  while (share > 0 && t_max > 0 && intersector.closest_hit(ray, t_max, hit)) {
+  for (uint32_t i = 0; share > 0 && t_max > 0 && intersector.closest_hit(ray, t_max, hit); ++i) {
+    if (i == most_passages) return 0;
     const MaterialRecord<Real>& material = material_met(scene, hit);
     if (!(material.features & MaterialFeatures::cutout)) return 0;
     const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
@@ -94,7 +99,7 @@ ALHAZEN_HD ALHAZEN_COLD Real transmittance(const SceneView<Real>& scene, const I
 template <class Real, class Intersector>
 ALHAZEN_HD bool closest_stop(const SceneView<Real>& scene, const Intersector& intersector, Ray<Real>& ray,
                              Hit<Real>& hit, Real& travelled) {
-  while (intersector.closest_hit(ray, infinity<Real>, hit))
+  for (uint32_t i = 0; i < most_passages && intersector.closest_hit(ray, infinity<Real>, hit); ++i)
     if (!scene.has_cutouts || !passes(scene, hit, ray, travelled)) return true;
   return false;
 }

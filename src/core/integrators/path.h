@@ -83,7 +83,7 @@ ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingP
 template <class Real, class Sampler, class Record, class Light>
 ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
                                      const Hit<Real>& hit, PathState<Real>& path, Record& record, const Light& light) {
-  if (scene.has_cutouts && passes(scene, hit, path.ray, path.travelled)) return true;
+  if (scene.has_cutouts && passes(scene, hit, path.ray, path.travelled)) return record.segments < most_passages;
   const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
   if (point.material->features & MaterialFeatures::absorbs)
     path.throughput *= arriving_share(point, path.travelled + hit.t);
