@@ -37,6 +37,7 @@ namespace ALHAZEN_CORE {
   ARRAY(SphereFrame<Real>, sphere_frames)              \
   ARRAY(ObjectRecord, objects)                         \
   ARRAY(InstanceRecord<Real>, instances)               \
+  ARRAY(InstanceMotion<Real>, instance_motions)        \
   ARRAY(SurfaceRecord, surfaces)                       \
   ARRAY(MaterialRecord<Real>, materials)               \
   ARRAY(LayersRecord<Real>, layers)                    \

@@ -1,6 +1,7 @@
 #include "scene/flatten.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "core/shapes/interaction.h"
@@ -58,12 +59,34 @@ class Flattener {
                                           " pixels cannot be rendered: give sides between 1 and 100000");
   }
 
-  /// Which groups become objects: those that stand in several places, unless all their copies are few triangles.
+  /// Meshes that move become groups with an instance each.
+  void group_moving_meshes() {
+    std::vector<Shape> still;
+    for (Shape& shape : scene_.groups.at(0).shapes) {
+      if (!shape.world_from_object.is_moving() || !lies_in_object(shape)) {
+        still.push_back(std::move(shape));
+        continue;
+      }
+      Instance instance;
+      instance.group = static_cast<uint32_t>(scene_.groups.size());
+      instance.world_from_group = shape.world_from_object;
+      instance.where = shape.where;
+      shape.world_from_object = {};
+      scene_.instances.push_back(instance);
+      scene_.groups.push_back({{}, {std::move(shape)}});
+    }
+    scene_.groups[0].shapes = std::move(still);
+  }
+
+  /// Which groups become objects: those that move, and those that stand in several places, unless all their copies are
+  /// few triangles.
   std::vector<bool> find_objects() const {
     std::vector<uint64_t> uses(scene_.groups.size()), triangles(scene_.groups.size());
+    std::vector<bool> moves(scene_.groups.size());
     for (const Instance& instance : scene_.instances) {
       if (instance.group >= scene_.groups.size()) throw InputError(instance.where, "the instance names no object");
       ++uses[instance.group];
+      if (instance.world_from_group.is_moving()) moves[instance.group] = true;
     }
     uint64_t copied = 0;
     for (size_t g = 0; g < scene_.groups.size(); ++g) {
@@ -73,7 +96,7 @@ class Flattener {
     }
     std::vector<bool> is_object(scene_.groups.size());
     for (size_t g = 0; g < is_object.size(); ++g)
-      is_object[g] = copied > options_.most_copied_triangles && uses[g] > 1 && triangles[g] > 0;
+      is_object[g] = triangles[g] > 0 && (moves[g] || (copied > options_.most_copied_triangles && uses[g] > 1));
     return is_object;
   }
 
@@ -108,6 +131,7 @@ class Flattener {
   }
 
   void place_shapes() {
+    group_moving_meshes();
     is_object_ = find_objects();
     const std::vector<Placement> world = world_placements();
     std::vector<std::vector<Placement>> objects(scene_.groups.size());
@@ -166,21 +190,51 @@ class Flattener {
   }
 
   void add_instance(const Instance& instance, uint32_t object) {
-    if (instance.world_from_group.is_moving())
-      diagnostics_.warn(instance.where, "an instance moves; it stands still here, where it is at the start");
-    const Transform& transform = instance.world_from_group.start;
-    const Matrix4 there = transform.matrix(), back = transform.inverse().matrix();
+    const Transform opening = transform_at(instance, scene_.camera.shutter_open);
+    const Transform closing = transform_at(instance, scene_.camera.shutter_close);
+    const Matrix4 &there = opening.matrix(), back = opening.inverse().matrix(), in_the_end = closing.matrix();
     InstanceRecord<Real> record{};
+    InstanceMotion<Real> motion{};
     for (size_t i = 0; i < 3; ++i)
       for (size_t j = 0; j < 4; ++j) {
         record.world_from_object[i][j] = static_cast<Real>(there[i][j]);
         record.object_from_world[i][j] = static_cast<Real>(back[i][j]);
-        if (!std::isfinite(record.world_from_object[i][j]) || !std::isfinite(record.object_from_world[i][j]))
-          throw InputError(instance.where, "the instance's transform is not finite, or flattens its object");
+        motion.change[i][j] = static_cast<Real>(in_the_end[i][j] - there[i][j]);
+        if (!std::isfinite(record.world_from_object[i][j]) || !std::isfinite(record.object_from_world[i][j]) ||
+            !std::isfinite(motion.change[i][j]))
+          throw InputError(instance.where, "the transform of the object is not finite, or makes it flat");
       }
     record.object = object;
     record.flip_normal = instance.reverse_orientation ? 1 : 0;
+    record.motion = no_motion;
+    if (!(opening == closing)) {
+      record.motion = static_cast<uint32_t>(out_.instance_motions.size());
+      out_.instance_motions.push_back(motion);
+    }
     out_.instances.push_back(record);
+  }
+
+  /// Matrices are interpolated linearly.
+  Transform transform_at(const Instance& instance, double time) const {
+    const MovingTransform& transform = instance.world_from_group;
+    const double s = share_of_motion(transform, time);
+    if (s == 0) return transform.start;
+    Matrix4 matrix;
+    for (size_t i = 0; i < 4; ++i)
+      for (size_t j = 0; j < 4; ++j)
+        matrix[i][j] = transform.start.matrix()[i][j] * (1 - s) + transform.end.matrix()[i][j] * s;
+    try {
+      return Transform(matrix);
+    } catch (const std::domain_error&) {
+      throw InputError(instance.where, "the transform makes the object flat on its way");
+    }
+  }
+
+  /// How much of its way something has gone at `time`.
+  double share_of_motion(const MovingTransform& transform, double time) const {
+    const double span = scene_.transform_end_time - scene_.transform_start_time;
+    if (!transform.is_moving() || !(span > 0)) return 0;
+    return clamp((time - scene_.transform_start_time) / span, 0.0, 1.0);
   }
 
   uint32_t material_of(const Shape& shape) const {
@@ -240,11 +294,7 @@ class Flattener {
   /// Centre when the shutter opens, and the way it goes until the shutter closes.
   std::pair<Vec3d, Vec3d> motion_of(const MovingTransform& transform) const {
     const Vec3d start = transform.start.point({}), end = transform.end.point({});
-    const double span = scene_.transform_end_time - scene_.transform_start_time;
-    if (!transform.is_moving() || !(span > 0)) return {start, {}};
-    const auto at = [&](double time) {
-      return lerp(start, end, clamp((time - scene_.transform_start_time) / span, 0.0, 1.0));
-    };
+    const auto at = [&](double time) { return lerp(start, end, share_of_motion(transform, time)); };
     const Vec3d open = at(scene_.camera.shutter_open);
     return {open, at(scene_.camera.shutter_close) - open};
   }
@@ -272,7 +322,9 @@ class Flattener {
     const Shape& shape = *p.shape;
     check_mesh(shape, mesh);
     if (p.world_from_object.is_moving())
-      diagnostics_.warn(shape.where, "a mesh moves; meshes stand still here, where they are at the start");
+      diagnostics_.warn(
+          shape.where,
+          "a mesh moves that shines or is part of an object; it stands still here, where it is at the start");
     const Transform& transform = p.world_from_object.start;
     const uint32_t base = static_cast<uint32_t>(out_.positions.size());
     const auto offset_to = [&](size_t count) { return static_cast<uint32_t>(count) - base; };

@@ -69,19 +69,28 @@ class TreeBuilder {
       for (uint32_t i = object.first_triangle; i < object.first_triangle + object.triangle_count; ++i)
         for (const uint32_t v : out_.triangles[i].vertex) object_boxes[o].extend(out_.positions[v]);
     }
-    for (const InstanceRecord<Real>& instance : out_.instances) {
-      const Bounds3<Real>& object = object_boxes[instance.object];
-      Bounds3<Real> box;
-      for (int corner = 0; corner < 8; ++corner) {
-        const Vec3<Real> p{corner & 1 ? object.high.x : object.low.x, corner & 2 ? object.high.y : object.low.y,
-                           corner & 4 ? object.high.z : object.low.z};
-        const Vec3<Real> there = transform_point(instance.world_from_object, p);
-        const Vec3<Real> slack = world_position_error(instance, p, Vec3<Real>{}, there);
-        box.extend(there - slack);
-        box.extend(there + slack);
-      }
-      boxes.push_back(box);
+    SceneView<Real> view;
+    view.instances = out_.instances.data();
+    view.instance_motions = out_.instance_motions.data();
+    for (uint32_t i = 0; i < out_.instances.size(); ++i) {
+      const Bounds3<Real>& object = object_boxes[out_.instances[i].object];
+      boxes.push_back(instance_box(instance_at(view, i, Real(0)), object));
+      if (out_.instances[i].motion != no_motion)
+        boxes.back().extend(instance_box(instance_at(view, i, Real(1)), object));
     }
+  }
+
+  static Bounds3<Real> instance_box(const InstanceRecord<Real>& instance, const Bounds3<Real>& object) {
+    Bounds3<Real> box;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3<Real> p{corner & 1 ? object.high.x : object.low.x, corner & 2 ? object.high.y : object.low.y,
+                         corner & 4 ? object.high.z : object.low.z};
+      const Vec3<Real> there = transform_point(instance.world_from_object, p);
+      const Vec3<Real> slack = world_position_error(instance, p, Vec3<Real>{}, there);
+      box.extend(there - slack);
+      box.extend(there + slack);
+    }
+    return box;
   }
 
   /// Trees over triangles from `first` on and, in the world's, over spheres and instances.

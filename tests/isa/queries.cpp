@@ -22,7 +22,10 @@ void answer(const test::QueryRequest& request) {
   if constexpr (way == test::Way::coherent) {
     intersector.trace_coherent(request.count, ray, limit, keep);
   } else if constexpr (way == test::Way::many) {
-    intersector.template trace_in_turns<any_hit>(request.count, ray, limit, keep);
+    if (static_cast<const SceneView<Real>*>(request.scene)->instances_count > 0)
+      intersector.template trace<any_hit>(request.count, ray, limit, keep);
+    else
+      intersector.template trace_in_turns<any_hit>(request.count, ray, limit, keep);
   } else {
     for (uint32_t i = 0; i < request.count; ++i)
       request.found[i] =

@@ -20,8 +20,8 @@ inline Transform random_placement(Random& random, double reach) {
 }
 
 /// A group of a rough ball, of a ball without shading normals beside it, and `instances` of both; a ball of the world
-/// stands among them. In front of the scene's objects there is nothing that shines.
-inline Scene instanced_scene(uint64_t seed, int instances, double reach) {
+/// stands among them. With `moving`, one in three goes and turns while the shutter is open.
+inline Scene instanced_scene(uint64_t seed, int instances, double reach, bool moving = false) {
   Random random(seed);
   Scene scene;
   for (const int level : {2, 1}) {
@@ -48,6 +48,9 @@ inline Scene instanced_scene(uint64_t seed, int instances, double reach) {
     instance.group = 1;
     const Transform placement = random_placement(random, reach);
     instance.world_from_group = {placement, placement};
+    if (moving && i % 3 == 0)
+      instance.world_from_group.end =
+          Transform::translate(random.in_box(-2, 2)) * placement * Transform::rotate(30, random.on_sphere());
     instance.reverse_orientation = random.below(2) == 0;
     scene.instances.push_back(instance);
   }

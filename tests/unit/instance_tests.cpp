@@ -51,6 +51,30 @@ TYPED_TEST(InstancesInTree, AreMetAsTheLinearScanMeetsThem) {
   EXPECT_GT(met_instances, effort(10'000) / 10);
 }
 
+TYPED_TEST(InstancesInTree, AreMetWhereTheyMove) {
+  using Real = typename TypeParam::Real;
+  const FlatScene<Real> scene = flat_instanced_scene<Real>(instanced_scene(11, 15, reach, true), false);
+  ASSERT_EQ(scene.view.instance_motions_count, 5u);
+  const typename TypeParam::Intersector tree(scene.view);
+  const LinearIntersector<Real> linear(scene.view);
+  Random random(12);
+  size_t met_moving = 0;
+  for (size_t i = 0; i < effort(5'000); ++i) {
+    Ray<Real> ray = random_ray<Real>(random);
+    ray.time = random.uniform<Real>();
+    Hit<Real> hit, expected;
+    const bool found = linear.closest_hit(ray, infinity<Real>, expected);
+    ASSERT_EQ(tree.closest_hit(ray, infinity<Real>, hit), found);
+    ASSERT_EQ(tree.occluded(ray, infinity<Real>), found);
+    if (!found) continue;
+    ASSERT_EQ(hit.t, expected.t);
+    ASSERT_TRUE(hit.primitive == expected.primitive);
+    ASSERT_EQ(hit.instance, expected.instance);
+    met_moving += hit.instance != no_instance && scene.view.instances[hit.instance].motion != no_motion;
+  }
+  EXPECT_GT(met_moving, 50u);
+}
+
 /// Two instances in the same place: the lower one counts, whichever is visited first.
 TYPED_TEST(InstancesInTree, OfTwoInOnePlaceTheLowerCounts) {
   using Real = typename TypeParam::Real;
@@ -119,7 +143,7 @@ TYPED_TEST(Instances, AreNotMetByRaysThatLeaveThem) {
   using Real = TypeParam;
   Random random(7);
   size_t left = 0, met_again = 0;
-  while (left < effort(300'000)) {
+  while (left < effort(100'000)) {
     Scene described;
     Mesh mesh = icosphere(0);  // convex: what leaves outwards meets nothing
     const double size = random.magnitude_between(1e-3, 1e3);
@@ -137,14 +161,18 @@ TYPED_TEST(Instances, AreNotMetByRaysThatLeaveThem) {
       const Transform placement =
           Transform::translate(random.on_sphere() * size * (i == 0 ? 1e2 : 1e6)) * random_placement(random, 1);
       instance.world_from_group = {placement, placement};
+      if (random.below(2) == 0) instance.world_from_group.end = placement * Transform::rotate(20, random.on_sphere());
       described.instances.push_back(instance);
     }
     const FlatScene<Real> scene = flat_instanced_scene<Real>(described, false);
-    const Transform& placement = described.instances[0].world_from_group.start;
+    const MovingTransform& placement = described.instances[0].world_from_group;
     for (int i = 0; i < 200; ++i) {
-      const Vec3d target = placement.point(place + random.on_sphere() * size * 0.7);
+      const double time = random.uniform<double>();
+      const Vec3d within = place + random.on_sphere() * size * 0.7;
+      const Vec3d target = lerp(placement.start.point(within), placement.end.point(within), time);
       const Vec3d origin = target + random.on_sphere() * size * random.magnitude_between(3, 100);
-      const Ray<Real> ray{convert<Real>(origin), normalize(convert<Real>(target) - convert<Real>(origin)), Real(0)};
+      const Ray<Real> ray{convert<Real>(origin), normalize(convert<Real>(target) - convert<Real>(origin)),
+                          static_cast<Real>(time)};
       Hit<Real> hit;
       if (!LinearIntersector<Real>(scene.view).closest_hit(ray, infinity<Real>, hit) || hit.instance != 0) continue;
       const SurfaceInteraction<Real> si = surface_interaction(scene.view, ray, hit);
@@ -157,6 +185,61 @@ TYPED_TEST(Instances, AreNotMetByRaysThatLeaveThem) {
     }
   }
   EXPECT_EQ(met_again, 0u) << "of " << left;
+}
+
+/// At any time they are where an instance would stand whose matrix is between those of the opening and of the closing.
+TYPED_TEST(Instances, MoveAlongLines) {
+  using Real = TypeParam;
+  const Scene moving = instanced_scene(13, 30, reach, true);
+  const FlatScene<Real> scene = flat_instanced_scene<Real>(moving, false);
+  const double tolerance = 2e4 * static_cast<double>(std::numeric_limits<Real>::epsilon());
+  Random random(14);
+  for (const double time : {0.0, 0.3, 1.0}) {
+    Scene still = moving;
+    for (Instance& instance : still.instances) {
+      MovingTransform& placement = instance.world_from_group;
+      Matrix4 matrix;
+      for (size_t i = 0; i < 4; ++i)
+        for (size_t j = 0; j < 4; ++j)
+          matrix[i][j] = placement.start.matrix()[i][j] * (1 - time) + placement.end.matrix()[i][j] * time;
+      placement.start = placement.end = Transform(matrix);
+    }
+    const FlatScene<Real> frozen = flat_instanced_scene<Real>(still, false);
+    size_t met = 0, apart = 0;
+    for (size_t i = 0; i < effort(5'000); ++i) {
+      Ray<Real> ray = random_ray<Real>(random);
+      ray.time = static_cast<Real>(time);
+      Hit<Real> a, b;
+      const bool found = BvhIntersector<Real>(scene.view).closest_hit(ray, infinity<Real>, a);
+      if (BvhIntersector<Real>(frozen.view).closest_hit(ray, infinity<Real>, b) != found ||
+          (found && std::abs(static_cast<double>(a.t - b.t)) > tolerance)) {
+        ++apart;
+        continue;
+      }
+      if (!found) continue;
+      ++met;
+      const SurfaceInteraction<Real> of_moving = surface_interaction(scene.view, ray, a);
+      const SurfaceInteraction<Real> of_still = surface_interaction(frozen.view, ray, b);
+      ASSERT_LT(static_cast<double>(length(of_moving.position - of_still.position)), tolerance);
+      if (a.primitive == b.primitive) {
+        ASSERT_GT(dot(of_moving.normal, of_still.normal), Real(0.99));
+      }
+    }
+    EXPECT_GT(met, effort(5'000) / 10);
+    EXPECT_LT(apart, met / 500 + 3);
+  }
+}
+
+TYPED_TEST(Instances, AMeshThatMovesIsOne) {
+  Scene described = instanced_scene(15, 0, reach);
+  Shape& ball = described.groups[0].shapes[0];
+  ball.world_from_object.end = Transform::translate({1, 2, 3}) * ball.world_from_object.start;
+  described.camera.shutter_open = 0.5;
+  const FlatScene<TypeParam> scene = flat_instanced_scene<TypeParam>(described, true);
+  ASSERT_EQ(scene.view.instances_count, 1u);
+  ASSERT_EQ(scene.view.instance_motions_count, 1u);
+  EXPECT_EQ(scene.view.instances[0].world_from_object[1][3], TypeParam(1));
+  EXPECT_EQ(scene.view.instance_motions[0].change[2][3], TypeParam(1.5));
 }
 
 TYPED_TEST(Instances, OfAFewTrianglesAreCopied) {

@@ -53,10 +53,9 @@ class EmbreeIntersector {
   /// Where our own test meets the triangle of an instance.
   bool is_met(const RTCHit& met, const Ray<float>& ray, Hit<float>& hit) const {
     const uint32_t index = met.instID[0] - embree_instances;
-    const InstanceRecord<float>& instance = view_->instances[index];
-    const uint32_t triangle = view_->objects[instance.object].first_triangle + met.primID;
-    if (!intersect_primitive(*view_, {PrimitiveKind::triangle, triangle}, ray, shear_ray(object_ray(instance, ray)),
-                             hit))
+    const uint32_t triangle = view_->objects[view_->instances[index].object].first_triangle + met.primID;
+    if (!intersect_primitive(*view_, {PrimitiveKind::triangle, triangle}, ray,
+                             shear_ray(object_ray(*view_, index, ray)), hit))
       return false;
     hit.instance = index;
     return true;

@@ -85,9 +85,9 @@ void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
   if (instance == RTC_INVALID_GEOMETRY_ID) {
     sheared = shear_ray(*query.ray);
   } else {
-    const InstanceRecord<float>& placed = scene.instances[instance - embree_instances];
-    sheared = shear_ray(object_ray(placed, *query.ray));
-    index += scene.objects[placed.object].first_triangle;
+    const uint32_t placed = instance - embree_instances;
+    sheared = shear_ray(object_ray(scene, placed, *query.ray));
+    index += scene.objects[scene.instances[placed].object].first_triangle;
   }
   const uint32_t* v = scene.triangles[index].vertex;
   float t, b1, b2;
@@ -159,8 +159,11 @@ void EmbreeScene::add_instances() {
     const InstanceRecord<float>& instance = view_.instances[i];
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, objects_[instance.object]);
-    rtcSetGeometryTimeStepCount(geometry, 1);
+    const InstanceRecord<float> closing = instance_at(view_, i, 1.0f);
+    rtcSetGeometryTimeStepCount(geometry, instance.motion == no_motion ? 1 : 2);
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, instance.world_from_object);
+    if (instance.motion != no_motion)
+      rtcSetGeometryTransform(geometry, 1, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, closing.world_from_object);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(tracer_.scene, geometry, embree_instances + i);
     rtcReleaseGeometry(geometry);

@@ -6,10 +6,12 @@
 #include <array>
 #include <cstring>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "backends/cuda/executor.h"
 #include "backends/optix/library.h"
+#include "backends/optix/params.h"
 #include "core/scene_view.h"
 
 namespace alhazen::optix {
@@ -44,6 +46,8 @@ class Acceleration {
 
   /// `host` and `device` are views of the same scene, here and there.
   void build(OptixDeviceContext context, const SceneView<float>& host, const SceneView<float>& device) {
+    if (host.instance_motions_count > 0)
+      throw std::runtime_error("OptiX: meshes that move are not supported there; render with --backend cuda");
     context_ = context;
     traversable_ = 0;
     sbt_offset_ = 0;

@@ -56,9 +56,8 @@ class LinearIntersector {
   }
 
   bool search_instance(uint32_t index, const Ray<Real>& ray, Hit<Real>& hit) const {
-    const InstanceRecord<Real>& instance = scene_->instances[index];
-    const ObjectRecord& object = scene_->objects[instance.object];
-    const ShearedRay<Real> sheared = shear_ray(object_ray(instance, ray));
+    const ObjectRecord& object = scene_->objects[scene_->instances[index].object];
+    const ShearedRay<Real> sheared = shear_ray(object_ray(*scene_, index, ray));
     Hit<Real> within = hit;
     within.primitive = bound_within(index, hit);
     bool found = false;

@@ -9,7 +9,6 @@
 #include "core/bvh/simd_blocks.h"
 #include "core/bvh/simd_prefetch.h"
 #include "core/bvh/simd_ray.h"
-#include "core/bvh/simd_walk.h"
 
 namespace ALHAZEN_CORE {
 
@@ -36,6 +35,7 @@ class RayPacket {
       }
       time_[i] = r.time;
       hits_[i] = no_hit_before(t_max(from));
+      hits_[i].instance = no_instance;  // packets are for scenes without
       limit_[i] = simd_limit(hits_[i].t);
     }
     active_ = (1u << (count - 1)) * 2 - 1;
@@ -198,13 +198,6 @@ class RayPacket {
   }
 
   ALHAZEN_INLINE void intersect(const SceneView<Real>& scene, uint32_t child, uint32_t rays) {
-    if (SimdChild::is_instance(child)) {  // there the rays walk one by one
-      for (; rays != 0; rays &= rays - 1) {
-        const int ray = std::countr_zero(rays);
-        if (intersect_instance(scene, SimdChild::first(child), *rays_[ray], hits_[ray])) note_hit(ray);
-      }
-      return;
-    }
     switch (SimdChild::kind(child)) {
       case SimdChild::spheres:
         return intersect_blocks_of(scene.sphere_blocks, child, rays);
@@ -223,9 +216,7 @@ class RayPacket {
       if (std::popcount(rays) <= primitives) {
         for (uint32_t left = rays; left != 0; left &= left - 1) {
           const int ray = std::countr_zero(left);
-          if (!intersect_block(*block, *rays_[ray], sheared_ray_of(ray), hits_[ray])) continue;
-          hits_[ray].instance = no_instance;
-          note_hit(ray);
+          if (intersect_block(*block, *rays_[ray], sheared_ray_of(ray), hits_[ray])) note_hit(ray);
         }
       } else {
         for (int p = 0; p < primitives; ++p) intersect_primitive_of(*block, p, rays);
@@ -283,7 +274,6 @@ class RayPacket {
       if (!is_nearer(distance[ray], id, hit) || !accept(ray, hit)) continue;
       hit.t = distance[ray];
       hit.primitive = id;
-      hit.instance = no_instance;
       note_hit(ray);
     }
   }

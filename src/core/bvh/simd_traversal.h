@@ -3,7 +3,7 @@
 // Closest-hit and any-hit queries over the BVH of simd_node.h, for one ray or for many at a time. In a tree larger than
 // the caches many are walked in turns, a step each, what the next step of a ray reads being fetched while the others
 // have theirs: so the waits for memory and for each other's results overlap. Rays that go much the same way walk in
-// packets (simd_packet.h). What a ray meets does not depend on the others.
+// packets (simd_packet.h), unless there are instances. What a ray meets does not depend on the others.
 
 #include <bit>
 
@@ -27,19 +27,23 @@ class SimdBvhIntersector {
       : scene_(&scene), fits_cache_(bytes(scene) <= most_cached_bytes) {}
 
   /// The nearest hit before t_max; among hits at the same distance that of the lowest primitive.
-  bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const { return walk<false>(ray, t_max, hit); }
+  bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
+    return has_instances() ? walk<false, true>(ray, t_max, hit) : walk<false, false>(ray, t_max, hit);
+  }
 
   /// Whether anything stands before t_max.
   bool occluded(const Ray<Real>& ray, Real t_max) const {
     Hit<Real> hit;
-    return walk<true>(ray, t_max, hit);
+    return has_instances() ? walk<true, true>(ray, t_max, hit) : walk<true, false>(ray, t_max, hit);
   }
 
   /// `ray(i)` and `t_max(i)` are query i of `count`; `answer(i, found, hit)` is called once for each, in any order, and
   /// need not look at the hit of an any-hit query.
   template <bool any_hit, class RayOf, class Limit, class Answer>
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    if (fits_cache_)
+    if (has_instances())
+      trace_in_turns<any_hit, true>(count, ray, t_max, answer);
+    else if (fits_cache_)
       trace_singly<any_hit>(count, ray, t_max, answer);
     else
       trace_in_turns<any_hit>(count, ray, t_max, answer);
@@ -48,6 +52,7 @@ class SimdBvhIntersector {
   /// The same for closest hits of rays of which neighbours go much the same way.
   template <class RayOf, class Limit, class Answer>
   void trace_coherent(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
+    if (has_instances()) return trace_in_turns<false, true>(count, ray, t_max, answer);
     constexpr uint32_t width = RayPacket<Real>::width;
     const SimdPrefetch<Real> prefetch(*scene_);
     RayPacket<Real> packet(prefetch);
@@ -66,10 +71,10 @@ class SimdBvhIntersector {
   }
 
   /// What `trace` does where the tree is larger than the caches.
-  template <bool any_hit, class RayOf, class Limit, class Answer>
+  template <bool any_hit, bool instances = false, class RayOf, class Limit, class Answer>
   void trace_in_turns(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     const SimdPrefetch<Real> prefetch(*scene_);
-    SimdWalk<any_hit, Real, OctantFirst<any_hit>> walks[simd_walks];
+    SimdWalk<any_hit, instances, Real, OctantFirst<any_hit>> walks[simd_walks];
     OctantFirst<any_hit> stacks[simd_walks];
     uint32_t query[simd_walks], live = 0, next = 0;
     for (; live < simd_walks && next < count; ++live, ++next) {
@@ -99,18 +104,20 @@ class SimdBvhIntersector {
   }
 
  private:
+  bool has_instances() const { return scene_->instances_count > 0; }
+
   template <bool any_hit, class RayOf, class Limit, class Answer>
   void trace_singly(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     for (uint32_t i = 0; i < count; ++i) {
       Hit<Real> hit;
-      const bool found = walk<any_hit>(ray(i), t_max(i), hit);
+      const bool found = walk<any_hit, false>(ray(i), t_max(i), hit);
       answer(i, found, hit);
     }
   }
 
-  template <bool any_hit>
+  template <bool any_hit, bool instances>
   bool walk(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
-    SimdWalk<any_hit, Real, NearestFirst<any_hit>> walk;
+    SimdWalk<any_hit, instances, Real, NearestFirst<any_hit>> walk;
     NearestFirst<any_hit> stack;
     walk.use(&stack);
     walk.start(*scene_, ray, t_max);

@@ -3,6 +3,7 @@
 // One ray on its way through the BVH of simd_node.h, a step at a time, and two ways to keep what it has yet to visit.
 
 #include <bit>
+#include <type_traits>
 
 #include "core/bvh/simd_blocks.h"
 #include "core/bvh/simd_ray.h"
@@ -105,38 +106,43 @@ class OctantFirst {
   uint32_t child_[simd_stack_size];
 };
 
-template <bool any_hit, class Real, class Stack>
+/// `instances`: whether the scene has any; where it has none, nothing is paid for them.
+template <bool any_hit, bool instances, class Real, class Stack>
 class alignas(64) SimdWalk {
  public:
   /// `stack` lies elsewhere: walks side by side are to be few cache lines each.
   ALHAZEN_INLINE void use(Stack* stack) { stack_ = stack; }
 
   ALHAZEN_INLINE void start(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max) {
+    ray_ = &ray;
     box_ = box_ray(ray);
     sheared_ = scene.triangle_blocks_count > 0 ? shear_ray(ray) : ShearedRay<Real>{};
+    hit_ = no_hit_before(t_max);
+    t_max_ = simd_limit(t_max);
+    height_ = 0;
+    found_ = false;
     // Nothing to visit but an empty leaf where there is no tree, or no ray.
-    start_at(scene.simd_nodes_count > 0 && can_walk(ray) ? 0 : SimdChild::nothing, ray, no_hit_before(t_max));
-  }
-
-  /// A walk through one instance alone, for what is nearer than `hit`.
-  ALHAZEN_INLINE void start_in(uint32_t instance, const Ray<Real>& ray, const Hit<Real>& hit) {
-    start_at(SimdChild::instance(instance), ray, hit);
+    current_ = scene.simd_nodes_count > 0 && can_walk(ray) ? 0 : SimdChild::nothing;
+    if constexpr (instances)
+      within_ = {};
+    else
+      hit_.instance = no_instance;
   }
 
   /// Visits what is next; false when the walk is over.
   ALHAZEN_INLINE bool step(const SceneView<Real>& scene) {
     if (SimdChild::kind(current_) == SimdChild::node) {
       if (stack_->push(scene.simd_nodes[current_], box_, t_max_, height_, current_)) return true;
-    } else if (SimdChild::is_instance(current_)) {
-      enter_instance(scene);
+    } else if (enter_if_instance(scene)) {
       return true;
     } else if (intersect_leaf(scene, current_, *ray_, sheared_, hit_)) {
-      hit_.instance = instance_;
+      if constexpr (instances) hit_.instance = within_.instance;
       found_ = true;
       if (any_hit) return false;
       t_max_ = simd_limit(hit_.t);
     }
-    return stack_->pop(t_max_, base_, height_, current_) || (instance_ != no_instance && leave_instance());
+    if (stack_->pop(t_max_, within_.base, height_, current_)) return true;
+    return leave_if_within();
   }
 
   uint32_t current() const { return current_; }
@@ -144,14 +150,29 @@ class alignas(64) SimdWalk {
   const Hit<Real>& hit() const { return hit_; }
 
  private:
-  ALHAZEN_INLINE void start_at(uint32_t child, const Ray<Real>& ray, const Hit<Real>& hit) {
-    ray_ = &ray;
-    hit_ = hit;
-    t_max_ = simd_limit(hit.t);
-    height_ = base_ = 0;
-    found_ = false;
-    instance_ = no_instance;
-    current_ = child;
+  /// Where the walk is: what is above `base` on the stack lies in the instance.
+  struct Within {
+    uint32_t instance = no_instance;
+    int base = 0;
+    PrimitiveId outer;  ///< of the hit before
+  };
+  struct InTheWorld {
+    static constexpr uint32_t instance = no_instance;
+    static constexpr int base = 0;
+  };
+
+  ALHAZEN_INLINE bool enter_if_instance([[maybe_unused]] const SceneView<Real>& scene) {
+    if constexpr (instances) {
+      if (!SimdChild::is_instance(current_)) return false;
+      enter_instance(scene);
+      return true;
+    }
+    return false;
+  }
+
+  ALHAZEN_INLINE bool leave_if_within() {
+    if constexpr (instances) return within_.instance != no_instance && leave_instance();
+    return false;
   }
 
   ALHAZEN_INLINE void walk_along(const Ray<Real>& ray) {
@@ -161,21 +182,18 @@ class alignas(64) SimdWalk {
 
   /// Goes on at the root of the object, whose triangles the sheared ray alone is tested against.
   ALHAZEN_NOINLINE void enter_instance(const SceneView<Real>& scene) {
-    instance_ = SimdChild::first(current_);
-    const InstanceRecord<Real>& instance = scene.instances[instance_];
-    const Ray<Real> inner = object_ray(instance, *ray_);
+    const uint32_t instance = SimdChild::first(current_);
+    const Ray<Real> inner = object_ray(scene, instance, *ray_);
     walk_along(inner);
-    base_ = height_;
-    outer_ = hit_.primitive;
-    hit_.primitive = bound_within(instance_, hit_);
-    current_ = can_walk(inner) ? scene.objects[instance.object].simd_node : SimdChild::nothing;
+    within_ = {instance, height_, hit_.primitive};
+    hit_.primitive = bound_within(instance, hit_);
+    current_ = can_walk(inner) ? scene.objects[scene.instances[instance].object].simd_node : SimdChild::nothing;
   }
 
   /// Goes on with what was put aside before; false where there is nothing.
   ALHAZEN_NOINLINE bool leave_instance() {
-    if (hit_.instance != instance_) hit_.primitive = outer_;
-    instance_ = no_instance;
-    base_ = 0;
+    if (hit_.instance != within_.instance) hit_.primitive = within_.outer;
+    within_ = {};
     if (!stack_->pop(t_max_, 0, height_, current_)) return false;
     walk_along(*ray_);
     return true;
@@ -190,23 +208,7 @@ class alignas(64) SimdWalk {
   Hit<Real> hit_;
   ShearedRay<Real> sheared_;
   Stack* stack_;
-  uint32_t instance_;  ///< where the walk is within one
-  int base_;           ///< what is above it on the stack lies in that instance
-  PrimitiveId outer_;  ///< of the hit before
+  [[no_unique_address]] std::conditional_t<instances, Within, InTheWorld> within_;
 };
-
-/// Replaces `hit` by what is nearer within one instance.
-template <class Real>
-ALHAZEN_NOINLINE bool intersect_instance(const SceneView<Real>& scene, uint32_t instance, const Ray<Real>& ray,
-                                         Hit<Real>& hit) {
-  SimdWalk<false, Real, NearestFirst<false>> walk;
-  NearestFirst<false> stack;
-  walk.use(&stack);
-  walk.start_in(instance, ray, hit);
-  while (walk.step(scene)) {
-  }
-  if (walk.found()) hit = walk.hit();
-  return walk.found();
-}
 
 }  // namespace ALHAZEN_CORE

@@ -106,7 +106,7 @@ struct WalkSpace {
 
   ALHAZEN_HD void enter(const SceneView<Real>& scene, const Ray<Real>& ray, uint32_t entered, int height,
                         Hit<Real>& hit) {
-    const Ray<Real> inner = object_ray(scene.instances[entered], ray);
+    const Ray<Real> inner = object_ray(scene, entered, ray);
     slabs = slab_ray(inner);
     sheared = shear_ray(inner);
     instance = entered;

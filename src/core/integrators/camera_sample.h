@@ -28,7 +28,8 @@ ALHAZEN_HD ALHAZEN_HOT CameraSample<Real> sample_camera(const SceneView<Real>& s
                         static_cast<Real>(y) + Real(0.5) + filter.offset.y};
   const Vec2<Real> lens =
       scene.camera.lens_radius > 0 ? sampler.template get_2d<Real>(CameraDimensions::lens) : Vec2<Real>{};
-  const Real time = scene.moving_spheres_count > 0 ? sampler.template get_1d<Real>(CameraDimensions::time) : Real(0);
+  const bool moves = scene.moving_spheres_count > 0 || scene.instance_motions_count > 0;
+  const Real time = moves ? sampler.template get_1d<Real>(CameraDimensions::time) : Real(0);
   return {camera_ray(scene.camera, film, lens, time), filter.weight};
 }
 

@@ -25,8 +25,8 @@
 #define ALHAZEN_INLINE inline
 #endif
 
-// Rare parts of hot loops, which would only be in the way there. For CPUs.
-#if defined(__GNUC__)
+// Rare parts of hot loops, which would only be in the way there.
+#if defined(__GNUC__) && !defined(__CUDACC__)
 #define ALHAZEN_NOINLINE __attribute__((noinline))
 #else
 #define ALHAZEN_NOINLINE

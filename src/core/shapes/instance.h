@@ -5,7 +5,7 @@
 
 #include "core/math/ray.h"
 #include "core/math/scalar.h"
-#include "core/shapes/records.h"
+#include "core/scene_view.h"
 
 namespace ALHAZEN_CORE {
 
@@ -44,10 +44,47 @@ ALHAZEN_HD Vec3<Real> transform_normal(const Real (&inverse)[3][4], const Vec3<R
           inverse[0][2] * n.x + inverse[1][2] * n.y + inverse[2][2] * n.z};
 }
 
+/// The inverse of an affine transform; zero where there is none.
+template <class Real>
+ALHAZEN_HD void invert(const Real (&m)[3][4], Real (&inverse)[3][4]) {
+  const Vec3<Real> x{m[0][0], m[1][0], m[2][0]}, y{m[0][1], m[1][1], m[2][1]}, z{m[0][2], m[1][2], m[2][2]};
+  const Vec3<Real> rows[3] = {cross(y, z), cross(z, x), cross(x, y)};
+  const Real determinant = dot(x, rows[0]);
+  const Real factor = determinant != 0 ? 1 / determinant : Real(0);
+  const Vec3<Real> translation{m[0][3], m[1][3], m[2][3]};
+  for (int i = 0; i < 3; ++i) {
+    const Vec3<Real> row = rows[i] * factor;
+    inverse[i][0] = row.x;
+    inverse[i][1] = row.y;
+    inverse[i][2] = row.z;
+    inverse[i][3] = -dot(row, translation);
+  }
+}
+
+/// The instance where it is at `time`.
+template <class Real>
+ALHAZEN_HD InstanceRecord<Real> instance_at(const SceneView<Real>& scene, uint32_t index, Real time) {
+  InstanceRecord<Real> instance = scene.instances[index];
+  if (instance.motion == no_motion) return instance;
+  const InstanceMotion<Real>& motion = scene.instance_motions[instance.motion];
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) instance.world_from_object[i][j] += motion.change[i][j] * time;
+  invert(instance.world_from_object, instance.object_from_world);
+  return instance;
+}
+
 template <class Real>
 ALHAZEN_HD Ray<Real> object_ray(const InstanceRecord<Real>& instance, const Ray<Real>& ray) {
   return {transform_point(instance.object_from_world, ray.origin),
           transform_direction(instance.object_from_world, ray.direction), ray.time};
+}
+
+/// The ray in the space of the object of instance `index`.
+template <class Real>
+ALHAZEN_HD Ray<Real> object_ray(const SceneView<Real>& scene, uint32_t index, const Ray<Real>& ray) {
+  const InstanceRecord<Real>& instance = scene.instances[index];
+  return instance.motion == no_motion ? object_ray(instance, ray)
+                                      : object_ray(instance_at(scene, index, ray.time), ray);
 }
 
 /// How far a point of the object may be from where it is said to be once a ray that starts there has been brought back
@@ -55,8 +92,10 @@ ALHAZEN_HD Ray<Real> object_ray(const InstanceRecord<Real>& instance, const Ray<
 template <class Real>
 ALHAZEN_HD Vec3<Real> world_position_error(const InstanceRecord<Real>& instance, const Vec3<Real>& object_position,
                                            const Vec3<Real>& object_error, const Vec3<Real>& world_position) {
-  const Vec3<Real> way_back =
-      transformed_magnitude(instance.object_from_world, world_position) * rounding_bound<Real>(6);
+  Vec3<Real> way_back = transformed_magnitude(instance.object_from_world, world_position) * rounding_bound<Real>(6);
+  if (instance.motion != no_motion)  // the inverse is of the precision of the ray, and its zeros may not be zero
+    way_back = splat(max_component(transformed_magnitude(instance.object_from_world, world_position)) *
+                     rounding_bound<Real>(32));
   return transformed_magnitude(instance.world_from_object, object_position) * rounding_bound<Real>(6) +
          transformed_extent(instance.world_from_object, object_error + way_back);
 }

@@ -150,10 +150,12 @@ ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> sphere_interaction(const SceneVi
   return si;
 }
 
-/// A point of an object where an instance has it.
+/// A point of an object where instance `index` has it at `time`.
 template <class Real>
-ALHAZEN_HD SurfaceInteraction<Real> instance_interaction(const InstanceRecord<Real>& instance,
-                                                         const SurfaceInteraction<Real>& object) {
+ALHAZEN_HD ALHAZEN_NOINLINE SurfaceInteraction<Real> instance_interaction(const SceneView<Real>& scene, uint32_t index,
+                                                                          Real time,
+                                                                          const SurfaceInteraction<Real>& object) {
+  const InstanceRecord<Real> instance = instance_at(scene, index, time);
   SurfaceInteraction<Real> si = object;
   si.position = transform_point(instance.world_from_object, object.position);
   si.position_error = world_position_error(instance, object.position, object.position_error, si.position);
@@ -183,7 +185,7 @@ ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> surface_interaction(const SceneV
     }
     default:
       si = triangle_interaction(scene, hit);
-      if (hit.instance != no_instance) si = instance_interaction(scene.instances[hit.instance], si);
+      if (hit.instance != no_instance) si = instance_interaction(scene, hit.instance, ray.time, si);
       break;
   }
   si.time = ray.time;

@@ -65,13 +65,22 @@ struct ObjectRecord {
   uint32_t simd_node;        ///< the root in `simd_nodes`
 };
 
-/// An object in the world. Rows of 3x4 matrices.
+inline constexpr uint32_t no_motion = 0xffffffffu;
+
+/// An object in the world, where it is when the shutter opens. Rows of 3x4 matrices.
 template <class Real>
 struct InstanceRecord {
   Real world_from_object[3][4];
   Real object_from_world[3][4];
   uint32_t object;
   uint32_t flip_normal;  ///< 1: the front of every surface is its back
+  uint32_t motion;       ///< index into instance_motions, or no_motion
+};
+
+/// What is added to world_from_object, times the time: points of the object move along straight lines.
+template <class Real>
+struct InstanceMotion {
+  Real change[3][4];
 };
 
 inline constexpr uint32_t no_instance = 0xffffffffu;
