@@ -35,7 +35,7 @@ ALHAZEN_HD SurfaceTangents<Real> surface_tangents(const SceneView<Real>& scene, 
   if (hit.primitive.kind() == PrimitiveKind::triangle) {
     const SurfaceTangents<Real> own = triangle_tangents(scene, scene.triangles[hit.primitive.index()]);
     if (hit.instance == no_instance) return own;
-    const InstanceRecord<Real>& instance = scene.instances[hit.instance];
+    const InstanceRecord<Real> instance = instance_at(scene, hit.instance, si.time);
     return {transform_direction(instance.world_from_object, own.dpdu),
             transform_direction(instance.world_from_object, own.dpdv)};
   }
