@@ -3,8 +3,6 @@
 // Surfaces that let rays through: by their alpha, at random, or because they are seen from behind and have one side.
 // Nothing here is run in scenes without such surfaces.
 
-#include <cstring>
-
 #include "core/materials/bsdf.h"
 #include "core/math/ray.h"
 #include "core/sampling/hash.h"
@@ -12,13 +10,10 @@
 
 namespace ALHAZEN_CORE {
 
-template <class Real>
-ALHAZEN_HD uint32_t bits_of(Real x) {
-  uint32_t words[sizeof(Real) / sizeof(uint32_t)];
-  std::memcpy(words, &x, sizeof(Real));
-  uint32_t bits = words[0];
-  if constexpr (sizeof(Real) > sizeof(uint32_t)) bits ^= words[1];
-  return bits;
+ALHAZEN_HD inline uint32_t bits_of(float x) { return __builtin_bit_cast(uint32_t, x); }
+ALHAZEN_HD inline uint32_t bits_of(double x) {
+  const uint64_t bits = __builtin_bit_cast(uint64_t, x);
+  return static_cast<uint32_t>(bits ^ (bits >> 32));
 }
 
 /// Random bits that belong to this ray and what it met: for choices that take no dimension of the sampler.
