@@ -43,6 +43,8 @@ namespace ALHAZEN_CORE {
   ARRAY(InstanceMotion<Real>, instance_motions)        \
   ARRAY(SurfaceRecord, surfaces)                       \
   ARRAY(MaterialRecord<Real>, materials)               \
+  ARRAY(LayersRecord<Real>, layers)                    \
+  ARRAY(Real, albedo_tables)                           \
   ARRAY(TextureRecord<Real>, textures)                 \
   ARRAY(TextureMapping<Real>, texture_mappings)        \
   ARRAY(ImageRecord, images)                           \
@@ -72,6 +74,7 @@ struct SceneView {
   uint32_t background_light = no_light;  ///< its index in `lights`
   Real light_tree_share = 0;             ///< probability that a light is chosen by the tree instead of by light_cdf
   Real exposure = 1;                     ///< factor on recorded radiance
+  uint32_t has_cutouts = 0;              ///< 1 where a material lets rays through
 };
 
 }  // namespace ALHAZEN_CORE

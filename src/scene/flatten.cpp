@@ -33,9 +33,12 @@ class Flattener {
     check_film();
     FlatScene<Real> flat;
     flatten_camera(scene_, width_, height_, out_, flat.view, diagnostics_);
+    check_mixes(scene_);
     for (const Material& material : scene_.materials) needs_uv_.push_back(material_needs_uv(scene_, material));
     fit_images(scene_, options_.texture_budget, diagnostics_);
     emission_textures_ = flatten_materials(scene_, out_);
+    for (const MaterialRecord<Real>& material : out_.materials)
+      if (material.features & MaterialFeatures::cutout) flat.view.has_cutouts = 1;
     add_described_lights(scene_, out_, flat.view, light_measures_);
     place_shapes();
     weigh_emission_textures(out_, light_measures_);
@@ -249,15 +252,19 @@ class Flattener {
     return static_cast<uint32_t>(out_.surfaces.size() - 1);
   }
 
-  uint32_t add_light(const Emission& emission, LightKind kind, size_t primitive, double area) {
+  /// Lights that let rays through are found by chance alone: their samples would not know what they let through.
+  uint32_t add_light(const Shape& shape, LightKind kind, size_t primitive, double area) {
+    const Emission& emission = *shape.emission;
+    static const Material opaque;
+    const Material& material = shape.material == no_index ? opaque : scene_.materials[material_of(shape)];
     LightRecord<Real> light{};
     light.kind = kind;
     light.primitive = static_cast<uint32_t>(primitive);
     light.radiance = convert<Real>(emission.radiance);
-    light.two_sided = emission.two_sided ? 1 : 0;
+    light.two_sided = emission.two_sided && material.double_sided ? 1 : 0;
     if (emission.texture != no_index) light.texture = emission_textures_.at(emission.texture);
     out_.lights.push_back(light);
-    light_measures_.push_back(area);
+    light_measures_.push_back(material.alpha == no_index ? area : 0);
     return static_cast<uint32_t>(out_.lights.size() - 1);
   }
 
@@ -278,7 +285,7 @@ class Flattener {
     const size_t index = moves ? out_.moving_spheres.size() : out_.spheres.size();
     uint32_t light = no_light;
     if (emits(shape))
-      light = add_light(*shape.emission, moves ? LightKind::moving_sphere : LightKind::sphere, index,
+      light = add_light(shape, moves ? LightKind::moving_sphere : LightKind::sphere, index,
                         4 * 3.14159265358979 * radius * radius);
     const uint32_t surface = add_surface(shape, light, no_offset, no_offset, p.reverse_orientation);
     const uint32_t frame = sphere_frame(shape, p.world_from_object.start);
@@ -383,8 +390,8 @@ class Flattener {
         continue;
       }
       if (emits(shape)) {
-        const uint32_t light = add_light(*shape.emission, LightKind::triangle, out_.triangles.size(),
-                                         0.5 * static_cast<double>(twice_area));
+        const uint32_t light =
+            add_light(shape, LightKind::triangle, out_.triangles.size(), 0.5 * static_cast<double>(twice_area));
         triangle.surface = add_surface(shape, light, normal_offset, uv_offset, flip, attributes);
       }
       out_.triangles.push_back(triangle);

@@ -1,10 +1,13 @@
 #include "scene/flatten_materials.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 
 #include "core/textures/texture.h"
+#include "scene/albedo_tables.h"
 #include "scene/flatten_images.h"
 
 namespace alhazen {
@@ -136,42 +139,204 @@ class TextureBuilder {
   ImageBuilder<Real> images_;
 };
 
+/// The records of materials, and what only layered ones have.
 template <class Real>
-MaterialRecord<Real> material_record(const Material& material, TextureBuilder<Real>& textures) {
-  MaterialRecord<Real> record{};
-  record.ior = static_cast<Real>(material.ior);
-  record.remap_roughness = material.remap_roughness ? 1 : 0;
-  switch (material.type) {
-    case MaterialType::diffuse:
-      record.kind = MaterialKind::diffuse;
-      record.reflectance =
-          material.reflectance == no_index ? textures.constant(0.5) : textures.range(material.reflectance);
-      return record;
-    case MaterialType::conductor:
-      record.kind = MaterialKind::conductor;
-      record.reflectance = textures.range(material.reflectance);
-      if (material.reflectance == no_index) {
-        if (material.eta == no_index || material.k == no_index)
-          throw InputError("material '" + material.name + "': a conductor needs a reflectance, or eta and k");
-        record.eta = textures.range(material.eta);
-        record.k = textures.range(material.k);
-      }
-      break;
-    case MaterialType::principled:
-      record.kind = MaterialKind::diffuse;
-      record.reflectance = material.principled.base_colour == no_index
-                               ? textures.constant(1)
-                               : textures.range(material.principled.base_colour);
-      return record;
-    case MaterialType::dielectric:
-      record.kind = MaterialKind::dielectric;
-      if (!(material.ior > 0) || !std::isfinite(material.ior))
-        throw InputError("material '" + material.name + "': the index of refraction must be above 0");
-      break;
+class MaterialBuilder {
+ public:
+  MaterialBuilder(const Scene& scene, TextureBuilder<Real>& textures, SceneArrays<Real>& out)
+      : scene_(scene), textures_(textures), out_(out) {}
+
+  void add(const Material& material) {
+    MaterialRecord<Real> record{};
+    record.ior = static_cast<Real>(material.ior);
+    record.remap_roughness = material.remap_roughness ? 1 : 0;
+    record.roughness = textures_.range(material.roughness_u != no_index ? material.roughness_u : material.roughness_v);
+    add_kind(material, record);
+    add_features(material, record);
+    out_.materials.push_back(record);
   }
-  record.roughness = textures.range(material.roughness_u != no_index ? material.roughness_u : material.roughness_v);
-  return record;
-}
+
+ private:
+  void add_kind(const Material& material, MaterialRecord<Real>& record) {
+    switch (material.type) {
+      case MaterialType::diffuse:
+        record.kind = MaterialKind::diffuse;
+        record.reflectance = range_or(material.reflectance, 0.5);
+        break;
+      case MaterialType::conductor:
+        add_conductor(material, record);
+        record.kind = is_anisotropic(material, record) ? MaterialKind::anisotropic_conductor : MaterialKind::conductor;
+        break;
+      case MaterialType::dielectric:
+        check_ior(material, material.ior);
+        record.kind =
+            is_anisotropic(material, record) ? MaterialKind::anisotropic_dielectric : MaterialKind::dielectric;
+        break;
+      case MaterialType::thin_dielectric:
+        check_ior(material, material.ior);
+        record.kind = MaterialKind::thin_dielectric;
+        break;
+      case MaterialType::diffuse_transmission:
+        record.kind = MaterialKind::diffuse_transmission;
+        record.reflectance = range_or(material.reflectance, 0.25);
+        record.transmittance = range_or(material.transmittance, 0.25);
+        break;
+      case MaterialType::mix:
+        add_mix(material, record);
+        break;
+      case MaterialType::principled:
+      case MaterialType::coated_diffuse:
+      case MaterialType::coated_conductor:
+        record.kind = MaterialKind::layered;
+        add_layers(material, record);
+        break;
+    }
+  }
+
+  void add_conductor(const Material& material, MaterialRecord<Real>& record) {
+    record.reflectance = textures_.range(material.reflectance);
+    if (material.reflectance != no_index) return;
+    if (material.eta == no_index || material.k == no_index)
+      throw InputError("material '" + material.name + "': a conductor needs a reflectance, or eta and k");
+    record.eta = textures_.range(material.eta);
+    record.k = textures_.range(material.k);
+  }
+
+  bool is_anisotropic(const Material& material, MaterialRecord<Real>& record) {
+    if (material.roughness_u == no_index || material.roughness_v == no_index ||
+        material.roughness_u == material.roughness_v)
+      return false;
+    record.roughness_v = textures_.range(material.roughness_v);
+    record.features |= MaterialFeatures::tangents;
+    return true;
+  }
+
+  void add_mix(const Material& material, MaterialRecord<Real>& record) {
+    record.kind = MaterialKind::mix;
+    record.amount = range_or(material.amount, 0.5);
+    for (size_t i = 0; i < 2; ++i) {
+      if (material.mixed[i] >= scene_.materials.size())
+        throw InputError("material '" + material.name + "': a mix names a material that does not exist");
+      record.mixed[i] = material.mixed[i];
+    }
+  }
+
+  void add_features(const Material& material, MaterialRecord<Real>& record) {
+    if (material.alpha != no_index || !material.double_sided) record.features |= MaterialFeatures::cutout;
+    if (!material.double_sided) record.features |= MaterialFeatures::one_sided;
+    record.opacity = textures_.range(material.alpha);
+    record.normal_map = textures_.range(material.normal_map);
+    record.displacement = textures_.range(material.displacement);
+    record.normal_scale = static_cast<Real>(material.normal_scale);
+    if (material.normal_map != no_index || material.displacement != no_index)
+      record.features |= MaterialFeatures::tangents;
+    const Vec3d absorption = absorption_of(material);
+    record.absorption = convert<Real>(absorption);
+    if (!is_finite(record.absorption))
+      throw InputError("material '" + material.name + "': the absorption of its volume is not finite");
+    if (!is_zero(absorption)) record.features |= MaterialFeatures::absorbs;
+  }
+
+  /// Per scene unit, of what the surface bounds.
+  static Vec3d absorption_of(const Material& material) {
+    if (material.type != MaterialType::principled) return material.absorption;
+    const Principled& p = material.principled;
+    if (p.thin || p.transmission == no_index || !(p.attenuation_distance > 0)) return {};
+    if (std::isinf(p.attenuation_distance)) return {};
+    const auto channel = [&](double c) { return -std::log(std::clamp(c, 1e-6, 1.0)) / p.attenuation_distance; };
+    return {channel(p.attenuation_colour.x), channel(p.attenuation_colour.y), channel(p.attenuation_colour.z)};
+  }
+
+  void add_layers(const Material& material, MaterialRecord<Real>& record) {
+    if (out_.albedo_tables.empty()) append_table(common_albedo_tables());
+    LayersRecord<Real> layers{};
+    layers.rotation_cosine = 1;
+    layers.clearcoat_ior = Real(1.5);
+    if (material.type == MaterialType::principled)
+      add_principled(material, record, layers);
+    else
+      add_coat(material, record, layers);
+    record.layers = static_cast<uint32_t>(out_.layers.size());
+    out_.layers.push_back(layers);
+  }
+
+  void add_coat(const Material& material, MaterialRecord<Real>& record, LayersRecord<Real>& layers) {
+    is_anisotropic(material, record);
+    layers.thickness = static_cast<Real>(material.thickness);
+    if (material.type == MaterialType::coated_diffuse) {
+      check_ior(material, material.ior);
+      layers.type = LayersType::coated_diffuse;
+      record.reflectance = range_or(material.reflectance, 0.5);
+      layers.interface_albedo = interface_table(material.ior);
+      layers.inner_reflectance = static_cast<Real>(inner_diffuse_reflectance(material.ior, 0));
+      layers.inner_return = static_cast<Real>(inner_diffuse_reflectance(material.ior, material.thickness));
+      return;
+    }
+    check_ior(material, material.coat_ior);
+    layers.type = LayersType::coated_conductor;
+    add_conductor(material, record);
+    layers.clearcoat_ior = static_cast<Real>(material.coat_ior);
+    layers.clearcoat_roughness = textures_.range(material.coat_roughness);
+    layers.coat_albedo = interface_table(material.coat_ior);
+  }
+
+  void add_principled(const Material& material, MaterialRecord<Real>& record, LayersRecord<Real>& layers) {
+    const Principled& p = material.principled;
+    check_ior(material, p.ior);
+    check_ior(material, p.iridescence_ior);
+    record.ior = static_cast<Real>(p.ior);
+    record.roughness = textures_.range(p.roughness);
+    layers.type = LayersType::principled;
+    layers.thin = p.thin ? 1 : 0;
+    layers.base_colour = textures_.range(p.base_colour);
+    layers.metallic = textures_.range(p.metallic);
+    layers.specular = textures_.range(p.specular);
+    layers.specular_colour = textures_.range(p.specular_colour);
+    layers.transmission = textures_.range(p.transmission);
+    layers.clearcoat = textures_.range(p.clearcoat);
+    layers.clearcoat_roughness = textures_.range(p.clearcoat_roughness);
+    layers.clearcoat_normal_map = textures_.range(p.clearcoat_normal_map);
+    layers.sheen_colour = textures_.range(p.sheen_colour);
+    layers.sheen_roughness = textures_.range(p.sheen_roughness);
+    layers.iridescence = textures_.range(p.iridescence);
+    layers.iridescence_thickness = textures_.range(p.iridescence_thickness);
+    layers.anisotropy = textures_.range(p.anisotropy);
+    layers.anisotropy_direction = textures_.range(p.anisotropy_direction);
+    const double turn = p.anisotropy_rotation * std::numbers::pi / 180;
+    layers.rotation_cosine = static_cast<Real>(std::cos(turn));
+    layers.rotation_sine = static_cast<Real>(std::sin(turn));
+    layers.iridescence_ior = static_cast<Real>(p.iridescence_ior);
+    layers.clearcoat_normal_scale = static_cast<Real>(p.clearcoat_normal_scale);
+    layers.dispersion = static_cast<Real>(p.dispersion);
+    layers.coat_albedo = interface_table(1.5);
+    if (p.anisotropy != no_index || p.clearcoat_normal_map != no_index) record.features |= MaterialFeatures::tangents;
+  }
+
+  void append_table(const std::vector<double>& table) {
+    for (const double value : table) out_.albedo_tables.push_back(static_cast<Real>(value));
+  }
+
+  /// Where the table of an interface stands; one an index.
+  uint32_t interface_table(double ior) {
+    const auto [place, is_new] = interface_tables_.try_emplace(ior, static_cast<uint32_t>(out_.albedo_tables.size()));
+    if (is_new) append_table(interface_albedo_table(ior));
+    return place->second;
+  }
+
+  TextureRange range_or(uint32_t texture, double fallback) {
+    return texture == no_index ? textures_.constant(fallback) : textures_.range(texture);
+  }
+
+  static void check_ior(const Material& material, double ior) {
+    if (!(ior > 0) || !std::isfinite(ior))
+      throw InputError("material '" + material.name + "': the index of refraction must be above 0");
+  }
+
+  const Scene& scene_;
+  TextureBuilder<Real>& textures_;
+  SceneArrays<Real>& out_;
+  std::map<double, uint32_t> interface_tables_;
+};
 
 bool texture_needs_uv(const Scene& scene, uint32_t index, int nesting) {
   if (index >= scene.textures.size() || nesting > 64) return false;
@@ -187,10 +352,60 @@ bool texture_needs_uv(const Scene& scene, uint32_t index, int nesting) {
 
 }  // namespace
 
+void check_mixes(const Scene& scene) {
+  constexpr uint32_t most_levels = 16;
+  std::vector<uint32_t> levels(scene.materials.size());  // 0: not known yet
+  const auto levels_of = [&](const auto& self, uint32_t index, uint32_t above) -> uint32_t {
+    if (index >= levels.size()) return 0;
+    const Material& material = scene.materials[index];
+    if (levels[index] == 0) {
+      uint32_t below = 0;
+      if (material.type == MaterialType::mix && above < most_levels)
+        for (const uint32_t next : material.mixed) below = std::max(below, self(self, next, above + 1));
+      levels[index] = below + 1;
+      if (above < most_levels) return levels[index];
+    }
+    if (above + levels[index] > most_levels)
+      throw InputError("material '" + material.name + "': mixes are more than " + std::to_string(most_levels) +
+                       " deep, or made of themselves");
+    return levels[index];
+  };
+  for (uint32_t i = 0; i < levels.size(); ++i) levels_of(levels_of, i, 0);
+}
+
 bool material_needs_uv(const Scene& scene, const Material& material) {
-  for (const uint32_t texture :
-       {material.reflectance, material.eta, material.k, material.roughness_u, material.roughness_v})
+  const Principled& p = material.principled;
+  // What follows the tangents needs the frame of uv itself.
+  if (material.normal_map != no_index || material.displacement != no_index || p.anisotropy != no_index ||
+      (material.roughness_u != material.roughness_v && material.roughness_u != no_index &&
+       material.roughness_v != no_index))
+    return true;
+  for (const uint32_t texture : {material.reflectance,
+                                 material.eta,
+                                 material.k,
+                                 material.roughness_u,
+                                 material.roughness_v,
+                                 material.alpha,
+                                 material.transmittance,
+                                 material.amount,
+                                 material.coat_roughness,
+                                 p.base_colour,
+                                 p.metallic,
+                                 p.roughness,
+                                 p.specular,
+                                 p.specular_colour,
+                                 p.transmission,
+                                 p.clearcoat,
+                                 p.clearcoat_roughness,
+                                 p.clearcoat_normal_map,
+                                 p.sheen_colour,
+                                 p.sheen_roughness,
+                                 p.iridescence,
+                                 p.iridescence_thickness})
     if (texture_needs_uv(scene, texture, 0)) return true;
+  if (material.type == MaterialType::mix)
+    for (const uint32_t other : material.mixed)
+      if (other < scene.materials.size() && material_needs_uv(scene, scene.materials[other])) return true;
   return false;
 }
 
@@ -199,8 +414,9 @@ std::vector<TextureRange> flatten_materials(Scene& scene, SceneArrays<Real>& out
   add_srgb_table(out);
   out.noise_permutation.assign(perlin_permutation, perlin_permutation + 256);
   TextureBuilder<Real> textures(scene, out);
-  for (const Material& material : scene.materials) out.materials.push_back(material_record(material, textures));
-  out.materials.push_back(material_record(Material{}, textures));
+  MaterialBuilder<Real> materials(scene, textures, out);
+  for (const Material& material : scene.materials) materials.add(material);
+  materials.add(Material{});
   std::vector<TextureRange> emission(scene.textures.size());
   for (const ShapeGroup& group : scene.groups)
     for (const Shape& shape : group.shapes) {

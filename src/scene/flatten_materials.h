@@ -15,6 +15,9 @@ namespace alhazen {
 template <class Real>
 std::vector<TextureRange> flatten_materials(Scene& scene, SceneArrays<Real>& out);
 
+/// Throws where mixes are made of themselves, or too deep.
+void check_mixes(const Scene& scene);
+
 /// Whether any texture of the material looks at uv.
 bool material_needs_uv(const Scene& scene, const Material& material);
 

@@ -79,6 +79,12 @@ enum class MaterialType {
   conductor,   ///< smooth or GGX-rough, Fresnel of (eta, k), or coloured by `reflectance` alone
   dielectric,  ///< smooth or GGX-rough
   principled,  ///< what `Material::principled` says
+  // pbrt's, besides the first three.
+  coated_diffuse,        ///< a dielectric interface of `ior` and roughness_u, roughness_v over Lambert
+  coated_conductor,      ///< the same of `coat_ior` and `coat_roughness` over a conductor
+  thin_dielectric,       ///< a clear pane
+  diffuse_transmission,  ///< Lambert, on both sides: `reflectance` and `transmittance`
+  mix,                   ///< one of `mixed`, chosen at random
 };
 
 /// Inputs of the principled material, which glTF's metallic-roughness model and its extensions map to. All are
@@ -127,8 +133,16 @@ struct Material {
   /// normals in tangent space, encoded as 0.5 + 0.5 * n, z away from the surface.
   uint32_t alpha = no_index;
   uint32_t normal_map = no_index;
-  double normal_scale = 1;   ///< factor on x and y of what the normal map says
-  bool double_sided = true;  ///< false: seen from behind it is not there
+  double normal_scale = 1;            ///< factor on x and y of what the normal map says
+  bool double_sided = true;           ///< false: seen from behind it is not there
+  uint32_t displacement = no_index;   ///< scalar texture, scene units along the normal: tilts the normal alone
+  uint32_t transmittance = no_index;  ///< texture. diffuse_transmission
+  std::array<uint32_t, 2> mixed{no_index, no_index};  ///< mix: indices into Scene::materials
+  uint32_t amount = no_index;                         ///< mix: scalar texture, share of the second; absent: 0.5
+  double coat_ior = 1.5;                              ///< coated_conductor
+  uint32_t coat_roughness = no_index;                 ///< coated_conductor: scalar texture, absent = smooth
+  double thickness = 0;  ///< coated kinds: optical thickness of what lies below the interface
+  Vec3d absorption{};    ///< dielectric: of what it bounds, per scene unit
 };
 
 /// A triangle mesh in object space. Indices come in threes. Normals and uvs are per vertex or absent (empty).
@@ -210,13 +224,6 @@ enum class LightSampling {
   automatic,  ///< by a light tree where there are more than a few
   power,      ///< by their power alone
   tree,       ///< by a light tree
-};
-
-enum class CameraType {
-  perspective,
-  orthographic,     ///< rays go along z; the screen window is in units of camera space
-  equirectangular,  ///< the whole sphere about the camera: as pbrt's spherical camera, y is up
-  equal_area        ///< the same by the octahedral mapping
 };
 
 enum class CameraType {

@@ -77,6 +77,15 @@ TEST(CudaOnHostLights, Many) {
     }
 }
 
+TEST(CudaOnHostMaterials, OfEveryKind) {
+  for (const std::string precision : {"float", "double"})
+    for (const std::string integrator : {"path", "iterative"}) {
+      Settings serial = serial_settings(precision);
+      serial.integrator = integrator;
+      expect_serial_bits(parity_scene("materials"), serial);
+    }
+}
+
 TEST(CudaOnHostInstances, AreThoseOfCpus) {
   for (const std::string precision : {"float", "double"})
     for (const std::string integrator : {"path", "iterative"}) {

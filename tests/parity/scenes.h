@@ -56,6 +56,49 @@ LightSource "distant" "point3 from" [ 1 2 3 ])"));
   return scene;
 }
 
+/// Every kind of material, with alpha, one-sided surfaces, mixes, bumps and absorption.
+inline Scene read_materials() {
+  Scene scene = scene_of(R"(LookAt 0 -5 2  0 0 0.4  0 0 1
+Camera "perspective" "float fov" 45
+Film "rgb" "integer xresolution" 20 "integer yresolution" 17
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.1 0.2 0.3 ]
+AttributeBegin Translate 0 0 4 AreaLightSource "diffuse" "rgb L" [ 4 4 4 ] Shape "sphere" "float radius" 0.7 AttributeEnd
+Texture "waves" "float" "wrinkled"
+Material "coateddiffuse" "rgb reflectance" [ 0.6 0.4 0.3 ] "float roughness" 0.05 "texture displacement" "waves"
+Shape "trianglemesh" "point3 P" [ -9 -9 0  9 -9 0  9 9 0  -9 9 0 ] "integer indices" [ 0 1 2 0 2 3 ]
+MakeNamedMaterial "metal" "string type" "conductor" "float uroughness" 0.1 "float vroughness" 0.4
+MakeNamedMaterial "coat" "string type" "coatedconductor" "float conductor.roughness" 0.1
+MakeNamedMaterial "leaf" "string type" "diffusetransmission"
+MakeNamedMaterial "mixed" "string type" "mix" "string materials" [ "metal" "leaf" ]
+AttributeBegin NamedMaterial "mixed" Translate -1.5 0 0.5 Shape "sphere" "float radius" 0.5 AttributeEnd
+AttributeBegin NamedMaterial "coat" Translate -0.5 0 0.5 Shape "sphere" "float radius" 0.5 AttributeEnd
+MakeNamedMedium "tea" "string type" "homogeneous" "rgb sigma_a" [ 0.5 1 2 ] "rgb sigma_s" [ 0 0 0 ]
+AttributeBegin MediumInterface "tea" "" Material "dielectric" "float uroughness" 0.1 "float vroughness" 0.3
+Translate 0.5 0 0.5 Shape "sphere" "float radius" 0.5 AttributeEnd
+AttributeBegin Material "diffuse" Translate 1.5 0 0.5 Shape "sphere" "float radius" 0.5 AttributeEnd
+AttributeBegin Material "thindielectric" Translate 0 -1 0.5 Shape "sphere" "float radius" 0.3 AttributeEnd
+AttributeBegin Translate 0 0 1.5 Shape "trianglemesh" "point3 P" [ -2 -2 0  2 -2 0  2 2 0  -2 2 0 ]
+"integer indices" [ 0 1 2 0 2 3 ] "float alpha" 0.6 AttributeEnd
+)");
+  for (Material& material : scene.materials) {
+    if (material.type != MaterialType::diffuse || material.alpha != no_index) continue;
+    material.type = MaterialType::principled;
+    Principled& p = material.principled;
+    const auto constant = [&](double value) {
+      Texture texture;
+      texture.value = splat(value);
+      scene.textures.push_back(texture);
+      return static_cast<uint32_t>(scene.textures.size() - 1);
+    };
+    p.transmission = constant(0.6), p.roughness = constant(0.4), p.clearcoat = constant(0.5);
+    p.sheen_colour = constant(0.3), p.anisotropy = constant(0.5), p.iridescence = constant(0.5);
+    p.thin = false, p.attenuation_colour = {0.5, 0.8, 0.9}, p.attenuation_distance = 0.5, p.dispersion = 0.5;
+    material.double_sided = true;
+  }
+  return scene;
+}
+
 /// Eight balls of 20,480 triangles each, too many to be copied, one of them squeezed and mirrored, one of glass inside
 /// out, and a lamp.
 inline Scene read_instances() {
@@ -97,6 +140,10 @@ inline const Scene& parity_scene(const std::string& name) {
   if (name == "lights") {
     static const Scene lights = read_lights();
     return lights;
+  }
+  if (name == "materials") {
+    static const Scene materials = read_materials();
+    return materials;
   }
   if (name == "instances") {
     static const Scene instances = read_instances();

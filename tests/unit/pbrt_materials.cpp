@@ -104,14 +104,10 @@ struct Replacement {
   double reflectance;
 };
 
-TEST(PbrtMaterials, KnownButUnsupportedOnesAreReplacedWithOneWarning) {
-  const std::vector<Replacement> cases{
-      {"coateddiffuse", "\"rgb reflectance\" [ .4 .4 .4 ] \"float roughness\" .1 \"float thickness\" 1",
-       MaterialType::diffuse, 0.4},
-      {"diffusetransmission", "\"rgb transmittance\" [ .4 .4 .4 ]", MaterialType::diffuse, 0.25},
-      {"subsurface", "\"float scale\" 2", MaterialType::diffuse, 0.5},
-      {"measured", "\"string filename\" \"x.bsdf\"", MaterialType::diffuse, 0.5},
-      {"hair", "\"float eumelanin\" 1.3", MaterialType::diffuse, 0.5}};
+TEST(PbrtMaterials, ApproximatedOnesSaySoOnce) {
+  const std::vector<Replacement> cases{{"subsurface", "\"float scale\" 2", MaterialType::coated_diffuse, 0.5},
+                                       {"measured", "\"string filename\" \"x.bsdf\"", MaterialType::diffuse, 0.5},
+                                       {"hair", "\"float eumelanin\" 1.3", MaterialType::diffuse, 0.5}};
   for (const Replacement& c : cases) {
     SCOPED_TRACE(c.kind);
     const Parsed p = parse_world("LightSource \"point\" Material \"" + c.kind + "\" " + c.parameters + sphere +
@@ -123,32 +119,102 @@ TEST(PbrtMaterials, KnownButUnsupportedOnesAreReplacedWithOneWarning) {
   }
 }
 
-TEST(PbrtMaterials, CoatedConductorKeepsItsConductor) {
+TEST(PbrtMaterials, CoatedDiffuse) {
+  const Parsed p = parse_world("LightSource \"point\" Material \"coateddiffuse\"" + sphere +
+                               "Material \"coateddiffuse\" \"rgb reflectance\" [ .4 .4 .4 ] \"float uroughness\" .1 "
+                               "\"float vroughness\" .3 \"float thickness\" 1 \"float eta\" 1.7 \"integer maxdepth\" 5 "
+                               "\"integer nsamples\" 2 \"float g\" .1 \"bool remaproughness\" false" +
+                               sphere);
+  EXPECT_EQ(p.diagnostics.warnings().size(), 0u);
+  const Material& plain = only_material(p);
+  EXPECT_EQ(plain.type, MaterialType::coated_diffuse);
+  EXPECT_EQ(plain.ior, 1.5);
+  EXPECT_EQ(plain.thickness, 0.01);
+  EXPECT_EQ(plain.roughness_u, no_index);
+  expect_near(constant_of(p, plain.reflectance), splat(0.5));
+  const Material& other = material_of(p, shapes(p)[1]);
+  EXPECT_EQ(other.ior, 1.7);
+  EXPECT_EQ(other.thickness, 1);
+  EXPECT_EQ(constant_of(p, other.roughness_u).x, 0.1);
+  EXPECT_EQ(constant_of(p, other.roughness_v).x, 0.3);
+  EXPECT_FALSE(other.remap_roughness);
+}
+
+TEST(PbrtMaterials, CoatedConductor) {
   const Parsed p = parse_world(
-      "Material \"coatedconductor\" \"rgb conductor.eta\" [ 1 2 3 ] \"rgb conductor.k\" [ 4 5 6 ] "
-      "\"float conductor.roughness\" 0.2 \"float interface.roughness\" 0.1" +
+      "LightSource \"point\" Material \"coatedconductor\" \"rgb conductor.eta\" [ 1 2 3 ] \"rgb conductor.k\" "
+      "[ 4 5 6 ] \"float conductor.roughness\" 0.2 \"float interface.roughness\" 0.1 \"float interface.eta\" 1.4" +
       sphere);
-  EXPECT_EQ(only_material(p).type, MaterialType::conductor);
-  expect_near(constant_of(p, only_material(p).eta), {1, 2, 3});
-  EXPECT_EQ(constant_of(p, only_material(p).roughness_u).x, 0.2);
+  EXPECT_EQ(p.diagnostics.warnings().size(), 0u);
+  const Material& m = only_material(p);
+  EXPECT_EQ(m.type, MaterialType::coated_conductor);
+  expect_near(constant_of(p, m.eta), {1, 2, 3});
+  EXPECT_EQ(constant_of(p, m.roughness_u).x, 0.2);
+  EXPECT_EQ(constant_of(p, m.coat_roughness).x, 0.1);
+  EXPECT_EQ(m.coat_ior, 1.4);
 }
 
-TEST(PbrtMaterials, MixTakesTheFirst) {
+TEST(PbrtMaterials, SheetsAreRead) {
   const Parsed p = parse_world(
-      "MakeNamedMaterial \"a\" \"string type\" \"dielectric\" MakeNamedMaterial \"b\" \"string type\" \"diffuse\"\n"
-      "Material \"mix\" \"string materials\" [ \"a\" \"b\" ] \"float amount\" .25" +
-      sphere + "Material \"mix\" \"string materials\" [ \"a\" \"b\" ] \"float amount\" 1" + sphere);
-  EXPECT_EQ(only_material(p).type, MaterialType::dielectric);
-  EXPECT_EQ(material_of(p, shapes(p)[1]).type, MaterialType::diffuse);
-  EXPECT_TRUE(p.warned("material \"mix\""));
+      "LightSource \"point\" Material \"diffusetransmission\" \"rgb transmittance\" "
+      "[ .4 .4 .4 ]" +
+      sphere + "Material \"thindielectric\" \"float eta\" 1.3" + sphere);
+  EXPECT_EQ(p.diagnostics.warnings().size(), 0u);
+  EXPECT_EQ(only_material(p).type, MaterialType::diffuse_transmission);
+  expect_near(constant_of(p, only_material(p).reflectance), splat(0.25));
+  expect_near(constant_of(p, only_material(p).transmittance), splat(0.4));
+  EXPECT_EQ(material_of(p, shapes(p)[1]).type, MaterialType::thin_dielectric);
+  EXPECT_EQ(material_of(p, shapes(p)[1]).ior, 1.3);
 }
 
-TEST(PbrtMaterials, InterfacesAndPanesAreLeftOut) {
-  for (const std::string kind : {"interface", "", "thindielectric"}) {
+TEST(PbrtMaterials, MixesAreOfNamedOnes) {
+  const Parsed p = parse_world(
+      "LightSource \"point\" Material \"mix\" \"string materials\" [ \"a\" \"c\" ] \"float amount\" .25" + sphere +
+      "MakeNamedMaterial \"a\" \"string type\" \"dielectric\" MakeNamedMaterial \"b\" \"string type\" \"diffuse\"\n"
+      "MakeNamedMaterial \"c\" \"string type\" \"mix\" \"string materials\" [ \"a\" \"b\" ]");
+  EXPECT_EQ(p.diagnostics.warnings().size(), 0u);
+  const Material& m = only_material(p);
+  EXPECT_EQ(m.type, MaterialType::mix);
+  EXPECT_EQ(constant_of(p, m.amount).x, 0.25);
+  EXPECT_EQ(p.scene.materials[m.mixed[0]].type, MaterialType::dielectric);
+  EXPECT_EQ(p.scene.materials[m.mixed[1]].type, MaterialType::mix);
+}
+
+TEST(PbrtMaterials, MixesWithNothingLetRaysThrough) {
+  const Parsed p = parse_world(
+      "MakeNamedMaterial \"a\" \"string type\" \"dielectric\" MakeNamedMaterial \"b\" \"string type\" "
+      "\"interface\"\nMaterial \"mix\" \"string materials\" [ \"b\" \"a\" ] \"float amount\" .25" +
+      sphere);
+  EXPECT_EQ(only_material(p).type, MaterialType::dielectric);
+  EXPECT_EQ(constant_of(p, only_material(p).alpha).x, 0.25);
+}
+
+TEST(PbrtMaterials, BumpsAreRead) {
+  const Parsed p = parse_world(
+      "LightSource \"point\" Texture \"d\" \"float\" \"wrinkled\" Material \"diffuse\" "
+      "\"texture displacement\" \"d\"" +
+      sphere);
+  EXPECT_EQ(p.diagnostics.warnings().size(), 0u);
+  EXPECT_NE(only_material(p).displacement, no_index);
+}
+
+TEST(PbrtMaterials, InterfacesAreLeftOut) {
+  for (const std::string kind : {"interface", ""}) {
     const Parsed p = parse_world("Material \"" + kind + "\"" + sphere + "Material \"diffuse\"" + sphere);
     EXPECT_EQ(shapes(p).size(), 1u);
     EXPECT_TRUE(p.warned("left out"));
   }
+}
+
+TEST(PbrtMaterials, AbsorbingMediaInsideDielectrics) {
+  const std::string medium =
+      "LightSource \"point\" MakeNamedMedium \"tea\" \"string type\" \"homogeneous\" "
+      "\"rgb sigma_a\" [ 1 2 3 ] \"rgb sigma_s\" [ 0 0 0 ] \"float scale\" 2\n";
+  const Parsed p = parse_world(medium + "MediumInterface \"tea\" \"\" Material \"dielectric\"" + sphere);
+  EXPECT_EQ(p.diagnostics.warnings().size(), 0u);
+  expect_near(only_material(p).absorption, {2, 4, 6});
+  const Parsed opaque = parse_world(medium + "MediumInterface \"tea\" \"\" Material \"diffuse\"" + sphere);
+  EXPECT_TRUE(opaque.warned("no dielectric"));
 }
 
 TEST(PbrtMaterials, MediaAreWarnedOf) {

@@ -218,9 +218,15 @@ TEST(PbrtShapes, Alpha) {
   const Parsed p = parse_world("Shape \"sphere\" \"float alpha\" 0 Shape \"sphere\" \"float alpha\" 1");
   EXPECT_EQ(shapes(p).size(), 1u);
   EXPECT_FALSE(p.warned("alpha"));
-  const Parsed half = parse_world("Shape \"sphere\" \"float alpha\" 0.5");
-  EXPECT_EQ(shapes(half).size(), 1u);
-  EXPECT_TRUE(half.warned("\"alpha\" of shapes is not supported"));
+  const Parsed half = parse_world(
+      "NamedMaterial \"later\" Shape \"sphere\" \"float alpha\" 0.5 Shape \"sphere\" Shape \"sphere\" \"float alpha\" "
+      "0.5\n"
+      "MakeNamedMaterial \"later\" \"string type\" \"dielectric\"");
+  ASSERT_EQ(shapes(half).size(), 3u);
+  EXPECT_EQ(material_of(half, shapes(half)[0]).type, MaterialType::dielectric);
+  EXPECT_EQ(constant_of(half, material_of(half, shapes(half)[0]).alpha).x, 0.5);
+  EXPECT_EQ(material_of(half, shapes(half)[1]).alpha, no_index);
+  EXPECT_EQ(shapes(half)[0].material, shapes(half)[2].material);
 }
 
 TEST(PbrtAreaLights, EmissionOfTheShapesThatFollow) {

@@ -142,6 +142,14 @@ class PathBatch {
   }
 
   void look_for_light() {
+    if (scene_.has_cutouts) {
+      for (uint32_t i = 0; i < lit_count_; ++i) {
+        Lane& lane = lanes_[lit_[i]];
+        const Real share = free_share(scene_, intersector_, lane.shadow);
+        if (share > 0) lane.record.radiance += lane.lit * share;
+      }
+      return;
+    }
     intersector_.template trace<true>(
         lit_count_, [&](uint32_t i) -> const Ray<Real>& { return lanes_[lit_[i]].shadow.ray; },
         [&](uint32_t i) { return lanes_[lit_[i]].shadow.t_max; },

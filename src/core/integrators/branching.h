@@ -9,20 +9,22 @@ namespace ALHAZEN_CORE {
 /// Radiance that arrives along `ray`, from at most `segments_left` segments; `segment` counts those before it.
 template <class Real, class Intersector, class Sampler>
 ALHAZEN_HD Vec3<Real> cast_ray_branching(const SceneView<Real>& scene, const Intersector& intersector,
-                                         const Sampler& sampler, const Ray<Real>& ray, uint32_t segments_left,
+                                         const Sampler& sampler, Ray<Real> ray, uint32_t segments_left,
                                          uint32_t segment, SampleRecord<Real>& record) {
   if (segments_left == 0) return {};
   ++record.segments;
   Hit<Real> hit;
-  if (!intersector.closest_hit(ray, infinity<Real>, hit)) return background_radiance(scene, ray.direction);
+  Real travelled = 0;
+  if (!closest_stop(scene, intersector, ray, hit, travelled)) return background_radiance(scene, ray.direction);
   const ShadingPoint<Real> point = shading_point(scene, ray, hit);
-  if (segment == 0) record_first_hit(point, hit, record);
-  Vec3<Real> radiance = surface_emission(scene, hit, point);
+  if (segment == 0) record_first_hit(point, travelled + hit.t, record);
+  const Vec3<Real> share = arriving_share(point, travelled + hit.t);
+  Vec3<Real> radiance = share * surface_emission(scene, hit, point);
   const VertexDimensions dimensions(segment);
 
   const auto follow = [&](const BsdfSample<Real>& s, const Sampler& numbers, Real rate) {
     if (!(s.pdf > 0 && rate > 0) || is_zero(s.weight) || !is_on_one_side(point, s.direction)) return;
-    radiance += s.weight * rate *
+    radiance += share * s.weight * rate *
                 cast_ray_branching(scene, intersector, numbers, spawn_ray(point.si, s.direction), segments_left - 1,
                                    segment + 1, record);
   };

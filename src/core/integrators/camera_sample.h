@@ -49,7 +49,8 @@ ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& in
   }
   return shade(scene, sampler, max_segments, hit, path, record,
                [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
-                 if (is_free(intersector, shadow)) record.radiance += radiance;
+                 const Real share = free_share(scene, intersector, shadow);
+                 if (share > 0) record.radiance += radiance * share;
                });
 }
 

@@ -13,6 +13,7 @@ struct IterativeState {
   Ray<Real> ray;
   Vec3<Real> throughput = splat(Real(1));
   uint32_t vertex = 0;  ///< how many surfaces it met so far
+  Real travelled = 0;   ///< how far it came before the ray's origin, through surfaces that let it pass
 };
 
 template <class Real, class Record>
@@ -25,14 +26,17 @@ ALHAZEN_HD ALHAZEN_HOT void leave_scene(const SceneView<Real>& scene, const Iter
 template <class Real, class Sampler, class Record, class Light>
 ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
                                      const Hit<Real>& hit, IterativeState<Real>& path, Record& record, const Light&) {
+  if (scene.has_cutouts && passes(scene, hit, path.ray, path.travelled)) return record.segments < most_passages;
   const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
-  if (path.vertex == 0) record_first_hit(point, hit, record);
+  path.throughput *= arriving_share(point, path.travelled + hit.t);
+  if (path.vertex == 0) record_first_hit(point, path.travelled + hit.t, record);
   record.radiance += path.throughput * surface_emission(scene, hit, point);
   if (path.vertex + 1 >= max_segments) return false;
   const BsdfSample<Real> s = scatter(point, sampler, VertexDimensions(path.vertex));
   if (!(s.pdf > 0) || is_zero(s.weight)) return false;
   path.throughput *= s.weight;
   path.ray = spawn_ray(point.si, s.direction);
+  path.travelled = 0;
   ++path.vertex;
   return true;
 }

@@ -17,6 +17,7 @@ struct PathState {
   uint32_t vertex = 0;      ///< how many surfaces it met so far
   bool is_specular = true;  ///< lights could not have been sampled for this ray
   Vec3<Real> light_side{};  ///< what `side_of_light` says of the last surface, where there is a light tree
+  Real travelled = 0;       ///< how far it came before its origin, through surfaces that let it pass
 };
 
 /// Weight of light that the ray found by chance, against sampling it with density `light_pdf`.
@@ -42,9 +43,17 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
                                             const Hit<Real>& hit, const ShadingPoint<Real>& point, Record& record) {
   const Vec3<Real> emission = surface_emission(scene, hit, point);
   if (is_zero(emission)) return;
-  const Real light_pdf = path.is_specular
-                             ? Real(0)
-                             : pdf_light(scene, scene.lights[point.light], path.ray, hit, point.si, path.light_side);
+  Real light_pdf = 0;
+  if (!path.is_specular) {
+    if (path.travelled > 0) {
+      // Seen from where the light would have been sampled.
+      const Ray<Real> whole{path.ray.origin - path.ray.direction * path.travelled, path.ray.direction, path.ray.time};
+      const Hit<Real> end{hit.t + path.travelled, hit.b1, hit.b2, hit.primitive, hit.instance};
+      light_pdf = pdf_light(scene, scene.lights[point.light], whole, end, point.si, path.light_side);
+    } else {
+      light_pdf = pdf_light(scene, scene.lights[point.light], path.ray, hit, point.si, path.light_side);
+    }
+  }
   record.radiance += path.throughput * emission * chance_weight(path, light_pdf);
 }
 
@@ -60,6 +69,7 @@ ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingP
   path.is_specular = s.specular;
   path.eta_scale *= s.eta * s.eta;
   path.ray = spawn_ray(point.si, s.direction);
+  path.travelled = 0;
   const Real survival = max_component(path.throughput) * path.eta_scale;
   if (!(survival > 0)) return false;
   if (++path.vertex < 2 || survival >= 1) return true;
@@ -73,8 +83,11 @@ ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingP
 template <class Real, class Sampler, class Record, class Light>
 ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
                                      const Hit<Real>& hit, PathState<Real>& path, Record& record, const Light& light) {
+  if (scene.has_cutouts && passes(scene, hit, path.ray, path.travelled)) return record.segments < most_passages;
   const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
-  if (path.vertex == 0) record_first_hit(point, hit, record);
+  if (point.material->features & MaterialFeatures::absorbs)
+    path.throughput *= arriving_share(point, path.travelled + hit.t);
+  if (path.vertex == 0) record_first_hit(point, path.travelled + hit.t, record);
   gather_emission(scene, path, hit, point, record);
   if (path.vertex + 1 >= max_segments) return false;
   const DirectLight<Real> direct = direct_light(scene, sampler, VertexDimensions(path.vertex), point);

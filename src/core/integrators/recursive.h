@@ -9,19 +9,22 @@ namespace ALHAZEN_CORE {
 /// Radiance that arrives along `ray`, from at most `segments_left` segments; `segment` counts those before it.
 template <class Real, class Intersector, class Sampler>
 ALHAZEN_HD Vec3<Real> cast_ray_recursive(const SceneView<Real>& scene, const Intersector& intersector,
-                                         const Sampler& sampler, const Ray<Real>& ray, uint32_t segments_left,
+                                         const Sampler& sampler, Ray<Real> ray, uint32_t segments_left,
                                          uint32_t segment, SampleRecord<Real>& record) {
   if (segments_left == 0) return {};
   ++record.segments;
   Hit<Real> hit;
-  if (!intersector.closest_hit(ray, infinity<Real>, hit)) return background_radiance(scene, ray.direction);
+  Real travelled = 0;
+  if (!closest_stop(scene, intersector, ray, hit, travelled)) return background_radiance(scene, ray.direction);
   const ShadingPoint<Real> point = shading_point(scene, ray, hit);
-  if (segment == 0) record_first_hit(point, hit, record);
-  const Vec3<Real> emission = surface_emission(scene, hit, point);
+  if (segment == 0) record_first_hit(point, travelled + hit.t, record);
+  const Vec3<Real> share = arriving_share(point, travelled + hit.t);
+  const Vec3<Real> emission = share * surface_emission(scene, hit, point);
   const BsdfSample<Real> s = scatter(point, sampler, VertexDimensions(segment));
   if (!(s.pdf > 0) || is_zero(s.weight)) return emission;
-  return emission + s.weight * cast_ray_recursive(scene, intersector, sampler, spawn_ray(point.si, s.direction),
-                                                  segments_left - 1, segment + 1, record);
+  return emission + share * s.weight *
+                        cast_ray_recursive(scene, intersector, sampler, spawn_ray(point.si, s.direction),
+                                           segments_left - 1, segment + 1, record);
 }
 
 }  // namespace ALHAZEN_CORE

@@ -3,9 +3,11 @@
 // The stages that every integrator is made of: meet the surface, gather emission, light it directly, scatter.
 // A megakernel runs them in a row, queues one kernel each. A `Record` is a PathRecord that is told of the first hit.
 
+#include "core/integrators/passage.h"
 #include "core/integrators/record.h"
 #include "core/lights/light.h"
 #include "core/materials/bsdf.h"
+#include "core/materials/detail.h"
 #include "core/math/ray.h"
 #include "core/sampling/dimensions.h"
 
@@ -18,7 +20,32 @@ struct ShadingPoint {
   Bsdf<Real> bsdf;
   Vec3<Real> wo;   ///< unit, back along the ray
   uint32_t light;  ///< the light that this surface is, or no_light
+  const MaterialRecord<Real>* material;
 };
+
+/// Of a mix, which of its materials the ray meets.
+template <class Real>
+ALHAZEN_HD ALHAZEN_COLD const MaterialRecord<Real>& mixed_material(const SceneView<Real>& scene,
+                                                                   const MaterialRecord<Real>& mix,
+                                                                   const TexturePoint<Real>& at, uint32_t hash) {
+  const MaterialRecord<Real>* material = &mix;
+  // The flattener sees to it that mixes end; each level draws anew.
+  for (uint32_t level = 0; material->kind == MaterialKind::mix; ++level) {
+    const Real amount = evaluate_texture(scene, material->amount, at).x;
+    const bool second = random_of_hit<Real>(combine32(hash, level), HitChoice::mix) < amount;
+    material = scene.materials + material->mixed[second ? 1 : 0];
+  }
+  return *material;
+}
+
+/// The scattering function of a layered material, whose frame is set.
+template <class Real>
+ALHAZEN_HD ALHAZEN_COLD void add_layers(const SceneView<Real>& scene, const TexturePoint<Real>& at, uint32_t hash,
+                                        const Vec3<Real>& coat_normal, ShadingPoint<Real>& point) {
+  const Frame<Real>& frame = point.bsdf.frame;
+  make_layered(scene, *point.material, at, abs_dot(point.wo, frame.normal),
+               random_of_hit<Real>(hash, HitChoice::channel), frame.to_local(coat_normal), point.bsdf.layered);
+}
 
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point(const SceneView<Real>& scene, const Ray<Real>& ray,
@@ -28,8 +55,19 @@ ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point(const SceneView<Real>& s
   point.wo = -ray.direction;
   const SurfaceRecord& surface = scene.surfaces[point.si.surface];
   point.light = surface.light;
-  point.bsdf = make_bsdf(scene, scene.materials[surface.material], texture_point(point.si, hit),
-                         consistent_shading_normal(point.si, point.wo));
+  const TexturePoint<Real> at = texture_point(point.si, hit);
+  point.material = scene.materials + surface.material;
+  if (point.material->kind == MaterialKind::mix)
+    point.material = &mixed_material(scene, *point.material, at, hash_of_hit(ray, hit));
+  Vec3<Real> coat_normal;
+  if (point.material->features & MaterialFeatures::tangents) {
+    point.bsdf.frame = detailed_frame(scene, *point.material, hit, at, point.wo, point.si, coat_normal);
+  } else {
+    coat_normal = consistent_shading_normal(point.si, point.wo);
+    point.bsdf.frame = frame_about(coat_normal);
+  }
+  make_bsdf(scene, *point.material, at, point.bsdf);
+  if (point.material->kind == MaterialKind::layered) add_layers(scene, at, hash_of_hit(ray, hit), coat_normal, point);
   return point;
 }
 
@@ -48,7 +86,9 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> surface_emission(const SceneView<Real>& scene,
 /// surface may let light through.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> side_of_light(const ShadingPoint<Real>& point) {
-  if (point.bsdf.kind != MaterialKind::diffuse && point.bsdf.kind != MaterialKind::conductor) return {};
+  const MaterialKind kind = point.bsdf.kind;
+  if (kind != MaterialKind::diffuse && kind != MaterialKind::conductor && kind != MaterialKind::anisotropic_conductor)
+    return {};
   return face_forward(point.si.normal, point.wo);
 }
 
@@ -62,9 +102,13 @@ ALHAZEN_HD ALHAZEN_HOT bool is_on_one_side(const ShadingPoint<Real>& point, cons
          0;
 }
 
+/// Share of light that is left where the ray came `distance` through what the surface bounds (Beer and Lambert).
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT Ray<Real> spawn_ray(const SurfaceInteraction<Real>& si, const Vec3<Real>& direction) {
-  return {offset_origin(si.position, si.position_error, si.normal, direction), direction, si.time};
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> arriving_share(const ShadingPoint<Real>& point, Real distance) {
+  if (!(point.material->features & MaterialFeatures::absorbs) || dot(point.wo, point.si.normal) > 0)
+    return splat(Real(1));
+  const Vec3<Real>& sigma = point.material->absorption;
+  return {std::exp(-sigma.x * distance), std::exp(-sigma.y * distance), std::exp(-sigma.z * distance)};
 }
 
 /// A ray that is asked whether anything stands before `t_max`.
@@ -92,6 +136,14 @@ ALHAZEN_HD ALHAZEN_HOT ShadowRay<Real> shadow_ray(const SurfaceInteraction<Real>
 template <class Real, class Intersector>
 ALHAZEN_HD bool is_free(const Intersector& intersector, const ShadowRay<Real>& shadow) {
   return !(shadow.t_max > 0) || !intersector.occluded(shadow.ray, shadow.t_max);
+}
+
+/// Share of light that arrives: 0 or 1 where no material lets rays through.
+template <class Real, class Intersector>
+ALHAZEN_HD Real free_share(const SceneView<Real>& scene, const Intersector& intersector,
+                           const ShadowRay<Real>& shadow) {
+  if (scene.has_cutouts) return transmittance(scene, intersector, shadow.ray, shadow.t_max);
+  return is_free(intersector, shadow) ? Real(1) : Real(0);
 }
 
 /// Light that arrives from one sampled light and leaves along `wo`, unless something stands in between, weighted
@@ -136,9 +188,9 @@ ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> scatter(const ShadingPoint<Real>& point,
 }
 
 template <class Real, class Record>
-ALHAZEN_HD ALHAZEN_HOT void record_first_hit(const ShadingPoint<Real>& point, const Hit<Real>& hit, Record& record) {
+ALHAZEN_HD ALHAZEN_HOT void record_first_hit(const ShadingPoint<Real>& point, Real distance, Record& record) {
   if (record.wants_first_hit())
-    record.keep_first_hit(FirstHit<Real>{bsdf_albedo(point.bsdf), point.si.shading_normal, hit.t});
+    record.keep_first_hit(FirstHit<Real>{bsdf_albedo(point.bsdf), point.si.shading_normal, distance});
 }
 
 }  // namespace ALHAZEN_CORE

@@ -8,18 +8,18 @@
 
 namespace ALHAZEN_CORE {
 
-template <class Real>
+template <class Real, class Alpha = Real>
 struct ConductorBsdf {
   Vec3<Real> eta, k;
-  Real alpha;  ///< below smooth_alpha: a mirror
+  Alpha alpha;  ///< below smooth_alpha: a mirror
 };
 
-template <class Real>
-ALHAZEN_HD BsdfSample<Real> sample_conductor(const ConductorBsdf<Real>& bsdf, const Vec3<Real>& wo,
+template <class Real, class Alpha>
+ALHAZEN_HD BsdfSample<Real> sample_conductor(const ConductorBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
                                              const Vec2<Real>& u) {
   BsdfSample<Real> s;
   if (wo.z == 0) return s;
-  if (bsdf.alpha < smooth_alpha<Real>) {
+  if (is_smooth(bsdf.alpha)) {
     s.direction = {-wo.x, -wo.y, wo.z};
     s.weight = fresnel_conductor(std::abs(wo.z), bsdf.eta, bsdf.k);
     s.pdf = 1;
@@ -38,10 +38,10 @@ ALHAZEN_HD BsdfSample<Real> sample_conductor(const ConductorBsdf<Real>& bsdf, co
   return s;
 }
 
-template <class Real>
-ALHAZEN_HD BsdfValue<Real> evaluate_conductor(const ConductorBsdf<Real>& bsdf, const Vec3<Real>& wo,
+template <class Real, class Alpha>
+ALHAZEN_HD BsdfValue<Real> evaluate_conductor(const ConductorBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
                                               const Vec3<Real>& wi) {
-  if (bsdf.alpha < smooth_alpha<Real> || !(wo.z * wi.z > 0)) return {};
+  if (is_smooth(bsdf.alpha) || !(wo.z * wi.z > 0)) return {};
   const Real side = wo.z < 0 ? Real(-1) : Real(1);
   const Vec3<Real> o = wo * side, i = wi * side;
   const Vec3<Real> half = o + i;

@@ -9,10 +9,10 @@
 
 namespace ALHAZEN_CORE {
 
-template <class Real>
+template <class Real, class Alpha = Real>
 struct DielectricBsdf {
-  Real ior;    ///< inside (against the normal) relative to outside
-  Real alpha;  ///< below smooth_alpha: a smooth interface
+  Real ior;     ///< inside (against the normal) relative to outside
+  Alpha alpha;  ///< below smooth_alpha: a smooth interface
 };
 
 /// Both ways on from an interface, for the microfacet normal that `u` picks. Their weights leave the Fresnel share out:
@@ -23,8 +23,8 @@ struct DielectricBranches {
   Real reflected_rate = 1;
 };
 
-template <class Real>
-ALHAZEN_HD DielectricBranches<Real> dielectric_branches(const DielectricBsdf<Real>& bsdf, const Vec3<Real>& wo,
+template <class Real, class Alpha>
+ALHAZEN_HD DielectricBranches<Real> dielectric_branches(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
                                                         const Vec2<Real>& u) {
   DielectricBranches<Real> branches;
   if (wo.z == 0) return branches;
@@ -32,7 +32,7 @@ ALHAZEN_HD DielectricBranches<Real> dielectric_branches(const DielectricBsdf<Rea
   const Real side = wo.z < 0 ? Real(-1) : Real(1);
   const Real eta = wo.z < 0 ? 1 / bsdf.ior : bsdf.ior;
   const Vec3<Real> o = wo * side;
-  const bool smooth = bsdf.alpha < smooth_alpha<Real> || bsdf.ior == 1;
+  const bool smooth = is_smooth(bsdf.alpha) || bsdf.ior == 1;
   const Vec3<Real> m = smooth ? Vec3<Real>{0, 0, 1} : sample_visible_normal(o, bsdf.alpha, u);
   const Real cos_o = smooth ? o.z : dot(o, m);
   if (!(cos_o > 0)) return branches;
@@ -63,9 +63,9 @@ ALHAZEN_HD DielectricBranches<Real> dielectric_branches(const DielectricBsdf<Rea
 }
 
 /// One of the two ways, reflection with the probability of its Fresnel share.
-template <class Real>
-ALHAZEN_HD BsdfSample<Real> sample_dielectric(const DielectricBsdf<Real>& bsdf, const Vec3<Real>& wo, Real u_lobe,
-                                              const Vec2<Real>& u) {
+template <class Real, class Alpha>
+ALHAZEN_HD BsdfSample<Real> sample_dielectric(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
+                                              Real u_lobe, const Vec2<Real>& u) {
   const DielectricBranches<Real> branches = dielectric_branches(bsdf, wo, u);
   const bool reflect = u_lobe < branches.reflected_rate;
   BsdfSample<Real> s = reflect ? branches.reflected : branches.refracted;
@@ -73,10 +73,10 @@ ALHAZEN_HD BsdfSample<Real> sample_dielectric(const DielectricBsdf<Real>& bsdf, 
   return s;
 }
 
-template <class Real>
-ALHAZEN_HD BsdfValue<Real> evaluate_dielectric(const DielectricBsdf<Real>& bsdf, const Vec3<Real>& wo,
+template <class Real, class Alpha>
+ALHAZEN_HD BsdfValue<Real> evaluate_dielectric(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
                                                const Vec3<Real>& wi) {
-  if (bsdf.alpha < smooth_alpha<Real> || bsdf.ior == 1 || wo.z == 0 || wi.z == 0) return {};
+  if (is_smooth(bsdf.alpha) || bsdf.ior == 1 || wo.z == 0 || wi.z == 0) return {};
   const Real side = wo.z < 0 ? Real(-1) : Real(1);
   const Real eta = wo.z < 0 ? 1 / bsdf.ior : bsdf.ior;
   const Vec3<Real> o = wo * side, i = wi * side;

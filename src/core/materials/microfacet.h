@@ -1,7 +1,8 @@
 #pragma once
 
-// The isotropic GGX distribution of microfacet normals (Trowbridge and Reitz 1975; Walter et al. 2007) and sampling of
-// the normals that a direction sees (Heitz 2018, JCGT 7(4)). Local coordinates, z along the shading normal.
+// The GGX distribution of microfacet normals (Trowbridge and Reitz 1975; Walter et al. 2007) and sampling of the
+// normals that a direction sees (Heitz 2018, JCGT 7(4)). Local coordinates, z along the shading normal. `Alpha` is a
+// number, or a pair where the roughness along x (the tangent) differs from that along y.
 
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
@@ -13,6 +14,25 @@ namespace ALHAZEN_CORE {
 template <class Real>
 inline constexpr Real smooth_alpha = Real(1e-3);
 
+template <class Real>
+ALHAZEN_HD constexpr bool is_smooth(Real alpha) {
+  return alpha < smooth_alpha<Real>;
+}
+template <class Real>
+ALHAZEN_HD constexpr bool is_smooth(const Vec2<Real>& alpha) {
+  return alpha.x < smooth_alpha<Real> && alpha.y < smooth_alpha<Real>;
+}
+
+/// The vector with x and y scaled by alpha.
+template <class Real>
+ALHAZEN_HD constexpr Vec3<Real> stretch(const Vec3<Real>& v, Real alpha) {
+  return {alpha * v.x, alpha * v.y, v.z};
+}
+template <class Real>
+ALHAZEN_HD constexpr Vec3<Real> stretch(const Vec3<Real>& v, const Vec2<Real>& alpha) {
+  return {alpha.x * v.x, alpha.y * v.y, v.z};
+}
+
 /// Density of normals per unit of projected area: the integral of ggx_d * cos over the hemisphere is 1.
 template <class Real>
 ALHAZEN_HD Real ggx_d(const Vec3<Real>& m, Real alpha) {
@@ -22,34 +42,46 @@ ALHAZEN_HD Real ggx_d(const Vec3<Real>& m, Real alpha) {
 }
 
 template <class Real>
+ALHAZEN_HD Real ggx_d(const Vec3<Real>& m, const Vec2<Real>& alpha) {
+  const Real d = m.z * m.z + sqr(m.x / alpha.x) + sqr(m.y / alpha.y);
+  return 1 / (pi<Real> * alpha.x * alpha.y * d * d);
+}
+
+template <class Real>
 ALHAZEN_HD Real ggx_lambda(const Vec3<Real>& w, Real alpha) {
   const Real tan2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
   return Real(0.5) * (std::sqrt(1 + alpha * alpha * tan2) - 1);
 }
 
-/// Share of the microfacets visible from `w`.
 template <class Real>
-ALHAZEN_HD Real ggx_g1(const Vec3<Real>& w, Real alpha) {
+ALHAZEN_HD Real ggx_lambda(const Vec3<Real>& w, const Vec2<Real>& alpha) {
+  const Real slope2 = (sqr(alpha.x * w.x) + sqr(alpha.y * w.y)) / (w.z * w.z);
+  return Real(0.5) * (std::sqrt(1 + slope2) - 1);
+}
+
+/// Share of the microfacets visible from `w`.
+template <class Real, class Alpha>
+ALHAZEN_HD Real ggx_g1(const Vec3<Real>& w, const Alpha& alpha) {
   return w.z == 0 ? Real(0) : 1 / (1 + ggx_lambda(w, alpha));
 }
 
 /// Share visible from both, heights correlated.
-template <class Real>
-ALHAZEN_HD Real ggx_g2(const Vec3<Real>& wo, const Vec3<Real>& wi, Real alpha) {
+template <class Real, class Alpha>
+ALHAZEN_HD Real ggx_g2(const Vec3<Real>& wo, const Vec3<Real>& wi, const Alpha& alpha) {
   if (wo.z == 0 || wi.z == 0) return 0;
   return 1 / (1 + ggx_lambda(wo, alpha) + ggx_lambda(wi, alpha));
 }
 
 /// Density over solid angle with which `sample_visible_normal` returns m.
-template <class Real>
-ALHAZEN_HD Real pdf_visible_normal(const Vec3<Real>& w, const Vec3<Real>& m, Real alpha) {
+template <class Real, class Alpha>
+ALHAZEN_HD Real pdf_visible_normal(const Vec3<Real>& w, const Vec3<Real>& m, const Alpha& alpha) {
   return ggx_g1(w, alpha) / std::abs(w.z) * ggx_d(m, alpha) * larger(Real(0), dot(w, m));
 }
 
 /// A microfacet normal as seen from `w`, w.z > 0.
-template <class Real>
-ALHAZEN_HD Vec3<Real> sample_visible_normal(const Vec3<Real>& w, Real alpha, const Vec2<Real>& u) {
-  const Vec3<Real> stretched = normalize(Vec3<Real>{alpha * w.x, alpha * w.y, w.z});
+template <class Real, class Alpha>
+ALHAZEN_HD Vec3<Real> sample_visible_normal(const Vec3<Real>& w, const Alpha& alpha, const Vec2<Real>& u) {
+  const Vec3<Real> stretched = normalize(stretch(w, alpha));
   const Real sin2 = stretched.x * stretched.x + stretched.y * stretched.y;
   const Vec3<Real> t1 =
       sin2 > Real(1e-12) ? Vec3<Real>{-stretched.y, stretched.x, 0} * (1 / std::sqrt(sin2)) : Vec3<Real>{1, 0, 0};
@@ -59,7 +91,7 @@ ALHAZEN_HD Vec3<Real> sample_visible_normal(const Vec3<Real>& w, Real alpha, con
   p.y = (1 - s) * h + s * p.y;
   const Real pz = safe_sqrt(1 - p.x * p.x - p.y * p.y);
   const Vec3<Real> n = t1 * p.x + t2 * p.y + stretched * pz;
-  return normalize(Vec3<Real>{alpha * n.x, alpha * n.y, larger(Real(1e-6), n.z)});
+  return normalize(stretch(Vec3<Real>{n.x, n.y, larger(Real(1e-6), n.z)}, alpha));
 }
 
 }  // namespace ALHAZEN_CORE

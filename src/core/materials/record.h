@@ -8,16 +8,67 @@
 
 namespace ALHAZEN_CORE {
 
-enum class MaterialKind : uint32_t { diffuse, conductor, dielectric };
+/// `layered` and those after it are the rarer ones; GPUs shade them in one queue.
+enum class MaterialKind : uint32_t {
+  diffuse,
+  conductor,
+  dielectric,
+  layered,                 ///< what its LayersRecord says: principled, coated diffuse, coated conductor
+  anisotropic_conductor,   ///< rough, alpha along the tangent differs
+  anisotropic_dielectric,  ///< the same
+  thin_dielectric,         ///< a pane: both of its sides at once, smooth
+  diffuse_transmission,    ///< Lambert on both sides
+  mix,                     ///< one of two materials, chosen at each hit
+};
+
+/// What costs something only where it is asked for: bits of MaterialRecord::features.
+struct MaterialFeatures {
+  static constexpr uint32_t cutout = 1;    ///< lets rays through: by alpha, or all of them from behind
+  static constexpr uint32_t tangents = 2;  ///< normal map, bump, anisotropy: the frame follows dp/du
+  static constexpr uint32_t absorbs = 4;   ///< so does what lies behind it, by MaterialRecord::absorption
+  static constexpr uint32_t one_sided = 8;
+};
 
 template <class Real>
 struct MaterialRecord {
   MaterialKind kind;
-  TextureRange reflectance;  ///< diffuse; conductor without eta and k: colour at normal incidence
-  TextureRange eta, k;       ///< conductor
-  TextureRange roughness;    ///< scalar; absent: smooth
+  TextureRange reflectance;  ///< diffuse, diffuse_transmission; conductor without eta and k: colour at normal incidence
+  TextureRange eta, k;       ///< conductor, coated conductor
+  TextureRange roughness;    ///< scalar; absent: smooth. Of anisotropic kinds that along the tangent
   uint32_t remap_roughness;  ///< 1: alpha = sqrt(roughness)
   Real ior;                  ///< dielectric: inside relative to outside
+  uint32_t features;         ///< bits of MaterialFeatures
+  TextureRange roughness_v;  ///< anisotropic kinds
+  TextureRange transmittance;
+  TextureRange opacity;       ///< scalar: share of rays that are stopped; absent: 1
+  TextureRange normal_map;    ///< encoded as 0.5 + 0.5 * n
+  TextureRange displacement;  ///< scalar, scene units: tilts the normal
+  Real normal_scale;
+  Vec3<Real> absorption;  ///< per scene unit, behind the surface
+  uint32_t layers;        ///< layered: index into SceneView::layers
+  uint32_t mixed[2];      ///< mix: indices of materials
+  TextureRange amount;    ///< mix: share of the second
+};
+
+enum class LayersType : uint32_t { principled, coated_diffuse, coated_conductor };
+
+/// Principled: textures that are absent have the values that Principled of scene/scene.h gives.
+template <class Real>
+struct LayersRecord {
+  LayersType type;
+  uint32_t thin;              ///< transmission does not refract
+  uint32_t interface_albedo;  ///< coats: where in SceneView::albedo_tables that of the interface lies
+  uint32_t coat_albedo;       ///< the same of the clearcoat
+  TextureRange base_colour, metallic, specular, specular_colour, transmission;
+  TextureRange clearcoat, clearcoat_roughness, clearcoat_normal_map;
+  TextureRange sheen_colour, sheen_roughness;
+  TextureRange iridescence, iridescence_thickness;
+  TextureRange anisotropy, anisotropy_direction;
+  Real rotation_cosine, rotation_sine;  ///< of the anisotropy
+  Real iridescence_ior, clearcoat_normal_scale, dispersion, clearcoat_ior;
+  Real thickness;  ///< coats: optical thickness
+  /// coated diffuse: share of diffuse light that the interface sends back inside, without and with absorption.
+  Real inner_reflectance, inner_return;
 };
 
 }  // namespace ALHAZEN_CORE

@@ -38,3 +38,10 @@
 #else
 #define ALHAZEN_HOT inline
 #endif
+
+// Large functions that few scenes need: kept out of the loops that call them.
+#if defined(__GNUC__) && !defined(__CUDACC__)
+#define ALHAZEN_COLD inline __attribute__((noinline))
+#else
+#define ALHAZEN_COLD inline
+#endif

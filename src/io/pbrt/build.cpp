@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "io/pbrt/materials.h"
 #include "io/pbrt/options.h"
 #include "io/pbrt/shapes.h"
 
@@ -75,6 +76,7 @@ NamedEntry& Build::named_object(const std::string& name, const Place& place) {
 Scene Build::finish() {
   require_definitions(materials);
   require_definitions(objects);
+  finish_materials(*this);
   bool any_shape = false, any_emission = !scene.lights.empty();
   for (ShapeGroup& group : scene.groups) {
     std::erase_if(group.shapes, [&](const Shape& shape) { return material_is_invisible[shape.material]; });

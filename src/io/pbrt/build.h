@@ -27,6 +27,14 @@ struct AreaLight {
   double picture_mean = 1;      ///< luminance, over all of the picture
 };
 
+/// A material as a shape has it: with its alpha, and with what the medium inside absorbs.
+struct MaterialVariant {
+  uint32_t base = no_index;
+  uint32_t alpha = no_index;
+  Vec3d absorption{};
+  Place medium_place;  ///< where the shape is that asks for it
+};
+
 /// The directives that `Attribute` sets defaults for.
 struct AttributeDefaults {
   InheritedParameters shape, light, material, medium, texture;
@@ -39,6 +47,7 @@ struct GraphicsState {
   bool reverse_orientation = false;
   uint32_t material = no_index;  ///< absent: the default material
   std::optional<AreaLight> area_light;
+  Vec3d absorption_inside{};  ///< of the medium that MediumInterface gives to the inside of shapes
   std::string rgb_space = "srgb";
   AttributeDefaults defaults;
 
@@ -69,6 +78,8 @@ struct Build {
   std::map<std::string, uint32_t> float_textures, spectrum_textures;
   std::vector<bool> material_is_invisible;  ///< by material: the surface is left out
   uint32_t default_material = no_index;
+  std::map<std::string, Vec3d> absorbing_media;  ///< homogeneous and without scattering: absorption per unit
+  std::map<uint32_t, MaterialVariant> variants;  ///< by material; filled in at the end, when all are defined
 
   /// Meshes and images that are read or made once: by file or by the numbers that make them.
   std::map<std::string, uint32_t> meshes_by_key;

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/images/texture.h"
 #include "io/pbrt/colours.h"
 #include "io/pbrt/nearest.h"
 #include "io/pbrt/textures.h"
@@ -34,9 +35,6 @@ void read_roughness(Build& build, ParameterList& list, const std::string& prefix
     material.roughness_u = build.constant_texture({});
   else if (material.roughness_v == no_index)
     material.roughness_v = build.constant_texture({});
-  if (material.roughness_u != material.roughness_v)
-    build.warn(list.place_of(prefix + (v != no_index ? "vroughness" : "uroughness")),
-               "roughness that differs along u and v is not supported; that along u is used for both");
 }
 
 const Spectrum& copper(const ParameterList& list, const std::string& name) {
@@ -85,35 +83,93 @@ ReadMaterial read_conductor(Build& build, ParameterList& list) {
   return read;
 }
 
-double read_ior(Build& build, ParameterList& list) {
-  const Parameter* eta = list.find("eta", {ParameterType::number, ParameterType::spectrum});
-  if (!eta) return 1.5;
-  if (eta->type == ParameterType::number) return list.positive("eta", 1.5);
+double read_ior(Build& build, ParameterList& list, const std::string& name, double fallback) {
+  const Parameter* eta = list.find(name, {ParameterType::number, ParameterType::spectrum});
+  if (!eta) return fallback;
+  if (eta->type == ParameterType::number) return list.positive(name, fallback);
   const Spectrum spectrum = *spectrum_of(build, *eta);
   build.warn(eta->place, "dispersion is not supported; the index of refraction is that at 587.56 nm");
   const double ior = spectrum.at(d_line_nanometres);
-  if (!(ior > 0)) fail(eta->place, "\"eta\": the spectrum has no value over 0 at 587.56 nm");
+  if (!(ior > 0)) fail(eta->place, "\"" + name + "\": the spectrum has no value over 0 at 587.56 nm");
   return ior;
 }
 
 ReadMaterial read_dielectric(Build& build, ParameterList& list) {
   ReadMaterial read;
   read.material.type = MaterialType::dielectric;
-  read.material.ior = read_ior(build, list);
+  read.material.ior = read_ior(build, list, "eta", 1.5);
   read_roughness(build, list, "", read.material);
+  return read;
+}
+
+/// What lies between the interface and the base of a coat.
+void read_coat(Build& build, ParameterList& list, Material& material) {
+  material.thickness = list.number("thickness", 0.01);
+  if (!(material.thickness >= 0)) fail(list.place_of("thickness"), "\"thickness\" must not be negative");
+  const Parameter* albedo = list.find("albedo");
+  if (albedo && albedo->type != ParameterType::texture && !is_zero(colour_of(build, *albedo, ColourUse::unbounded)))
+    build.warn(albedo->place, "light scattered within coats is not supported; they absorb alone");
+  list.ignore({"g", "maxdepth", "nsamples"});
+}
+
+ReadMaterial read_coated_diffuse(Build& build, ParameterList& list) {
+  ReadMaterial read = read_diffuse(build, list);
+  read.material.type = MaterialType::coated_diffuse;
+  read.material.ior = read_ior(build, list, "eta", 1.5);
+  read_roughness(build, list, "", read.material);
+  read_coat(build, list, read.material);
   return read;
 }
 
 ReadMaterial read_coated_conductor(Build& build, ParameterList& list) {
   ReadMaterial read;
-  read_conductor_colour(build, list, "conductor.", read.material);
-  read_roughness(build, list, "conductor.", read.material);
+  Material& material = read.material;
+  Material interface;
+  read_conductor_colour(build, list, "conductor.", material);
+  read_roughness(build, list, "interface.", interface);
+  read_roughness(build, list, "conductor.", material);
+  material.type = MaterialType::coated_conductor;
+  material.coat_ior = read_ior(build, list, "interface.eta", 1.5);
+  material.coat_roughness = interface.roughness_u;
+  if (interface.roughness_u != interface.roughness_v)
+    build.warn(list.place_of("interface.vroughness"),
+               "roughness of a coat that differs along u and v is not supported; that along u is used for both");
+  read_coat(build, list, material);
   return read;
+}
+
+ReadMaterial read_thin_dielectric(Build& build, ParameterList& list) {
+  ReadMaterial read;
+  read.material.type = MaterialType::thin_dielectric;
+  read.material.ior = read_ior(build, list, "eta", 1.5);
+  return read;
+}
+
+uint32_t scaled(Build& build, uint32_t texture, double scale) {
+  if (scale == 1) return texture;
+  Texture product;
+  product.kind = TextureKind::scale;
+  product.inputs = {texture, build.constant_texture(splat(scale)), no_index};
+  build.scene.textures.push_back(product);
+  return static_cast<uint32_t>(build.scene.textures.size() - 1);
 }
 
 ReadMaterial read_diffuse_transmission(Build& build, ParameterList& list) {
   ReadMaterial read;
-  read.material.reflectance = colour_texture_or(build, list, "reflectance", ColourUse::albedo, 0.25);
+  read.material.type = MaterialType::diffuse_transmission;
+  const double scale = list.number("scale", 1);
+  read.material.reflectance =
+      scaled(build, colour_texture_or(build, list, "reflectance", ColourUse::albedo, 0.25), scale);
+  read.material.transmittance =
+      scaled(build, colour_texture_or(build, list, "transmittance", ColourUse::albedo, 0.25), scale);
+  return read;
+}
+
+ReadMaterial read_subsurface(Build& build, ParameterList& list) {
+  ReadMaterial read = read_diffuse(build, list);
+  read.material.type = MaterialType::coated_diffuse;
+  read.material.ior = read_ior(build, list, "eta", 1.33);
+  read_roughness(build, list, "", read.material);
   return read;
 }
 
@@ -127,45 +183,17 @@ ReadMaterial read_mix(Build& build, ParameterList& list) {
   const Place place = list.place_of("materials");
   const Strings names = list.take_strings("materials");
   if (names.size() != 2) fail(place, "a mix takes two names: \"string materials\" [ \"a\" \"b\" ]");
-  const uint32_t amount = scalar_texture_or(build, list, "amount", 0.5);
-  // Where the amount is 1 the second one is all that is seen.
-  const std::string& name = constant_value(build, amount) == 1.0 ? names[1] : names[0];
-  const auto found = build.materials.find(name);
-  if (found == build.materials.end() || !found->second.defined)
-    fail(place, "material \"" + name + "\" is not defined before this mix");
-  return {build.scene.materials[found->second.index], build.material_is_invisible[found->second.index]};
+  ReadMaterial read;
+  read.material.type = MaterialType::mix;
+  read.material.amount = scalar_texture_or(build, list, "amount", 0.5);
+  for (size_t i = 0; i < 2; ++i) read.material.mixed[i] = build.named_material(names[i], place).index;
+  return read;
 }
 
 /// What the materials that are replaced take besides what their replacement does.
 void ignore_parameters_of_replaced(ParameterList& list) {
-  list.ignore({"reflectance",
-               "roughness",
-               "uroughness",
-               "vroughness",
-               "remaproughness",
-               "thickness",
-               "eta",
-               "g",
-               "albedo",
-               "maxdepth",
-               "nsamples",
-               "interface.roughness",
-               "interface.uroughness",
-               "interface.vroughness",
-               "interface.eta",
-               "transmittance",
-               "scale",
-               "sigma_a",
-               "sigma_s",
-               "mfp",
-               "name",
-               "eumelanin",
-               "pheomelanin",
-               "beta_m",
-               "beta_n",
-               "alpha",
-               "color",
-               "filename"});
+  list.ignore({"reflectance", "roughness", "uroughness", "vroughness", "remaproughness", "eta", "g", "scale", "sigma_a",
+               "sigma_s", "mfp", "name", "eumelanin", "beta_m", "beta_n", "alpha", "color", "pheomelanin", "filename"});
 }
 
 struct KnownMaterial {
@@ -180,18 +208,34 @@ const std::map<std::string, KnownMaterial> known_materials{
     {"diffuse", {read_diffuse}},
     {"conductor", {read_conductor}},
     {"dielectric", {read_dielectric}},
-    {"coateddiffuse", {read_diffuse, "diffuse of its reflectance is used, without the coat"}},
-    {"coatedconductor", {read_coated_conductor, "conductor of its conductor parameters is used, without the coat"}},
-    // A dielectric would bend light as if all behind the pane were glass, and keep the light of lamps from passing.
-    {"thindielectric", {read_interface, "the panes are left out, as if fully clear"}},
-    {"diffusetransmission", {read_diffuse_transmission, "diffuse of its reflectance is used, without transmission"}},
-    {"subsurface", {read_diffuse, as_diffuse}},
+    {"coateddiffuse", {read_coated_diffuse}},
+    {"coatedconductor", {read_coated_conductor}},
+    {"thindielectric", {read_thin_dielectric}},
+    {"diffusetransmission", {read_diffuse_transmission}},
+    {"subsurface", {read_subsurface, "diffuse of its reflectance (0.5 where it has none) under its interface is used"}},
     {"measured", {read_diffuse, as_diffuse}},
     {"hair", {read_diffuse, as_diffuse}},
-    {"mix", {read_mix, "the first of its materials is used (the second where the amount is 1)"}},
+    {"mix", {read_mix}},
     {"interface", {read_interface, as_nothing}},
     {"none", {read_interface, as_nothing}},
     {"", {read_interface, as_nothing}}};
+
+/// `"string normalmap"`: the picture of normals, whose values are linear.
+uint32_t read_normal_map(Build& build, ParameterList& list) {
+  if (!list.has("normalmap")) return no_index;
+  const std::string path = build.existing_file(list.place_of("normalmap"), list.string("normalmap", ""));
+  const auto [entry, is_new] =
+      build.images_by_key.try_emplace({path, static_cast<int>(TextureEncoding::linear), false}, 0u);
+  if (is_new) {
+    entry->second = static_cast<uint32_t>(build.scene.images.size());
+    build.scene.images.push_back(read_texture(path, TextureEncoding::linear));
+  }
+  Texture texture;
+  texture.kind = TextureKind::image;
+  texture.image = entry->second;
+  build.scene.textures.push_back(texture);
+  return static_cast<uint32_t>(build.scene.textures.size() - 1);
+}
 
 ReadMaterial read_material(Build& build, const std::string& kind, const Place& kind_place, ParameterList& list) {
   list.inherit(build.state.defaults.material);
@@ -205,10 +249,9 @@ ReadMaterial read_material(Build& build, const std::string& kind, const Place& k
     build.warn(kind_place, "material \"" + kind + "\" is not supported; " + replacement);
     ignore_parameters_of_replaced(list);
   }
-  for (const char* name : {"displacement", "normalmap"})
-    if (list.has(name))
-      build.warn(list.place_of(name), std::string("\"") + name + "\" of materials is not supported; it is left out");
   ReadMaterial read = known->second.read(build, list);
+  read.material.displacement = scalar_texture(build, list, "displacement");
+  read.material.normal_map = read_normal_map(build, list);
   list.reject_unknown();
   return read;
 }
@@ -249,6 +292,86 @@ uint32_t current_material(Build& build) {
     material.reflectance = build.constant_texture(splat(0.5));
   }
   return build.default_material;
+}
+
+uint32_t material_of_shape(Build& build, uint32_t alpha, const Place& place) {
+  const uint32_t base = current_material(build);
+  const Vec3d& absorption = build.state.absorption_inside;
+  if (alpha == no_index && is_zero(absorption)) return base;
+  for (const auto& [index, variant] : build.variants)
+    if (variant.base == base && variant.alpha == alpha && variant.absorption == absorption) return index;
+  const auto index = static_cast<uint32_t>(build.scene.materials.size());
+  build.scene.materials.emplace_back();
+  build.material_is_invisible.push_back(false);
+  build.variants[index] = {base, alpha, absorption, place};
+  return index;
+}
+
+void define_named_medium(Build& build, const std::string& name, ParameterList& list) {
+  const bool is_homogeneous = list.string("type", "homogeneous") == "homogeneous" && !list.has("preset");
+  if (is_homogeneous && list.has("sigma_a") && list.has("sigma_s")) {
+    const Vec3d scattering = colour(build, list, "sigma_s", ColourUse::unbounded, {});
+    if (is_zero(scattering)) {
+      const double scale = list.number("scale", 1);
+      build.absorbing_media[name] = colour(build, list, "sigma_a", ColourUse::unbounded, {}) * scale;
+      return;
+    }
+  }
+  build.warn(list.place(), "participating media that scatter are not supported; they are left out");
+}
+
+void set_medium_interface(Build& build, const std::string& inside, const std::string& outside, const Place& place) {
+  const auto absorbing = [&](const std::string& name) { return name.empty() || build.absorbing_media.contains(name); };
+  build.state.absorption_inside = {};
+  if (!absorbing(inside) || !outside.empty()) {
+    build.warn(place,
+               "participating media are not supported, but for homogeneous ones without scattering inside "
+               "dielectrics; they are left out");
+    return;
+  }
+  if (!inside.empty()) build.state.absorption_inside = build.absorbing_media.at(inside);
+}
+
+namespace {
+
+/// A mix with surfaces that are left out lets rays through where those are.
+void finish_mix(Build& build, uint32_t index) {
+  const Material mix = build.scene.materials[index];
+  const bool first = build.material_is_invisible[mix.mixed[0]], second = build.material_is_invisible[mix.mixed[1]];
+  if (!first && !second) return;
+  if (first && second) {
+    build.material_is_invisible[index] = true;
+    return;
+  }
+  uint32_t alpha = mix.amount;
+  if (second) {
+    Texture rest;
+    rest.kind = TextureKind::mix;
+    rest.inputs = {build.constant_texture(splat(1.0)), build.constant_texture({}), mix.amount};
+    alpha = static_cast<uint32_t>(build.scene.textures.size());
+    build.scene.textures.push_back(rest);
+  }
+  const std::string name = mix.name;
+  build.scene.materials[index] = build.scene.materials[mix.mixed[first ? 1 : 0]];
+  build.scene.materials[index].name = name;
+  build.scene.materials[index].alpha = alpha;
+}
+
+}  // namespace
+
+void finish_materials(Build& build) {
+  for (uint32_t i = 0; i < build.scene.materials.size(); ++i)
+    if (build.scene.materials[i].type == MaterialType::mix) finish_mix(build, i);
+  for (const auto& [index, variant] : build.variants) {
+    Material material = build.scene.materials[variant.base];
+    if (variant.alpha != no_index) material.alpha = variant.alpha;
+    if (material.type == MaterialType::dielectric)
+      material.absorption = variant.absorption;
+    else if (!is_zero(variant.absorption) && !build.material_is_invisible[variant.base])
+      build.warn(variant.medium_place, "a medium inside a surface that is no dielectric is left out");
+    build.scene.materials[index] = std::move(material);
+    build.material_is_invisible[index] = build.material_is_invisible[variant.base];
+  }
 }
 
 }  // namespace alhazen::pbrt

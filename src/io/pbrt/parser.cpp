@@ -267,16 +267,15 @@ void Parser::texture(const Place& place) {
 
 void Parser::make_named_medium(const Place& place) {
   const std::string name = expect_string(*lexer_, "the name of the medium");
-  read_parameters(name, place);
-  build_.warn(place, "participating media are not supported; they are left out");
+  ParameterList list = read_parameters(name, place);
+  define_named_medium(build_, name, list);
 }
 
 void Parser::medium_interface(const Place& place) {
   const std::string inside = expect_string(*lexer_, "the name of a medium");
   std::string outside = inside;
   if (lexer_->peek().kind == TokenKind::string) outside = expect_string(*lexer_, "the name of a medium");
-  if (!inside.empty() || !outside.empty())
-    build_.warn(place, "participating media are not supported; they are left out");
+  set_medium_interface(build_, inside, outside, place);
 }
 
 }  // namespace alhazen::pbrt

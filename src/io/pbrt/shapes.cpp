@@ -151,15 +151,14 @@ std::optional<Emission> emission_of(Build& build, const Shape& shape) {
   return emission;
 }
 
-/// Whether `alpha` lets anything of the shape be seen.
-bool is_visible(Build& build, ParameterList& list) {
+/// The texture of `alpha`, absent where the shape is opaque; `visible` is false where nothing of it can be seen.
+uint32_t read_alpha(Build& build, ParameterList& list, bool& visible) {
   const uint32_t alpha = scalar_texture(build, list, "alpha");
-  if (alpha == no_index) return true;
+  visible = true;
+  if (alpha == no_index) return no_index;
   const auto constant = constant_value(build, alpha);
-  if (constant && *constant >= 1) return true;
-  if (constant && *constant <= 0) return false;
-  build.warn(list.place_of("alpha"), "\"alpha\" of shapes is not supported; they are opaque");
-  return true;
+  visible = !constant || *constant > 0;
+  return constant && *constant >= 1 ? no_index : alpha;
 }
 
 }  // namespace
@@ -176,8 +175,8 @@ void add_shape(Build& build, const std::string& kind, ParameterList& list) {
   shape.where = list.place().location();
   shape.world_from_object = build.state.ctm();
   shape.reverse_orientation = build.state.reverse_orientation;
-  shape.material = current_material(build);
-  const bool visible = is_visible(build, list);
+  bool visible = true;
+  shape.material = material_of_shape(build, read_alpha(build, list, visible), list.place());
   reader->second(build, list, shape);
   list.reject_unknown();
   const bool is_empty =

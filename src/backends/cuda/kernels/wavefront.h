@@ -8,7 +8,8 @@
 
 namespace alhazen::cuda {
 
-inline constexpr uint32_t material_kinds = 3;
+/// Queues of shading: one each for the kinds that are met most, one for the others.
+inline constexpr uint32_t material_kinds = 4;
 inline constexpr uint32_t warp_lanes = 32;
 
 // clang-format does not know what separates these.
@@ -18,19 +19,20 @@ inline constexpr uint32_t warp_lanes = 32;
   ARRAY(Real, origin_x) ARRAY(Real, origin_y) ARRAY(Real, origin_z)                                                    \
   ARRAY(Real, direction_x) ARRAY(Real, direction_y) ARRAY(Real, direction_z) ARRAY(Real, time)                         \
   ARRAY(Real, throughput_x) ARRAY(Real, throughput_y) ARRAY(Real, throughput_z)                                        \
-  ARRAY(Real, bsdf_pdf) ARRAY(Real, eta_scale) ARRAY(uint32_t, vertex)                                                 \
+  ARRAY(Real, bsdf_pdf) ARRAY(Real, eta_scale) ARRAY(uint32_t, vertex) ARRAY(Real, travelled)                          \
   ARRAY(Real, light_side_x) ARRAY(Real, light_side_y) ARRAY(Real, light_side_z)                                        \
   ARRAY(Real, radiance_x) ARRAY(Real, radiance_y) ARRAY(Real, radiance_z)                                              \
   ARRAY(uint32_t, segments) ARRAY(uint32_t, shadow_rays)                                                               \
   ARRAY(Real, filter_weight) ARRAY(uint32_t, item) ARRAY(uint32_t, taken)                                              \
-  ARRAY(Real, hit_t) ARRAY(Real, hit_b1) ARRAY(Real, hit_b2)                                                            \
+  ARRAY(Real, hit_t) ARRAY(Real, hit_b1) ARRAY(Real, hit_b2)                                                           \
   ARRAY(PrimitiveId, hit_primitive) ARRAY(uint32_t, hit_instance)                                                      \
   ARRAY(Real, shadow_origin_x) ARRAY(Real, shadow_origin_y) ARRAY(Real, shadow_origin_z)                               \
   ARRAY(Real, shadow_direction_x) ARRAY(Real, shadow_direction_y) ARRAY(Real, shadow_direction_z)                      \
   ARRAY(Real, shadow_t_max)                                                                                            \
   ARRAY(Real, light_x) ARRAY(Real, light_y) ARRAY(Real, light_z)                                                       \
   ARRAY(uint32_t, ray_queue_0) ARRAY(uint32_t, ray_queue_1) ARRAY(uint32_t, ended_queue) ARRAY(uint32_t, shadow_queue) \
-  ARRAY(uint32_t, material_queue_0) ARRAY(uint32_t, material_queue_1) ARRAY(uint32_t, material_queue_2)
+  ARRAY(uint32_t, material_queue_0) ARRAY(uint32_t, material_queue_1) ARRAY(uint32_t, material_queue_2)                \
+  ARRAY(uint32_t, material_queue_3)
 // clang-format on
 
 /// How long the queues are.
@@ -51,7 +53,10 @@ struct Slots {
 
   ALHAZEN_HD uint32_t* ray_queue(uint32_t parity) const { return parity == 0 ? ray_queue_0 : ray_queue_1; }
   ALHAZEN_HD uint32_t* material_queue(uint32_t kind) const {
-    return kind == 0 ? material_queue_0 : kind == 1 ? material_queue_1 : material_queue_2;
+    return kind == 0   ? material_queue_0
+           : kind == 1 ? material_queue_1
+           : kind == 2 ? material_queue_2
+                       : material_queue_3;
   }
 
   ALHAZEN_HD Ray<Real> ray(uint32_t s) const {
@@ -66,11 +71,13 @@ struct Slots {
     path.ray = ray(s);
     path.throughput = {throughput_x[s], throughput_y[s], throughput_z[s]};
     path.vertex = vertex[s];
+    path.travelled = travelled[s];
   }
   ALHAZEN_HD void store(uint32_t s, const IterativeState<Real>& path) const {
     set_ray(s, path.ray);
     throughput_x[s] = path.throughput.x, throughput_y[s] = path.throughput.y, throughput_z[s] = path.throughput.z;
     vertex[s] = path.vertex;
+    travelled[s] = path.travelled;
   }
   ALHAZEN_HD void load(uint32_t s, PathState<Real>& path) const {
     path.ray = ray(s);
@@ -80,6 +87,7 @@ struct Slots {
     path.bsdf_pdf = bsdf_pdf[s];
     path.eta_scale = eta_scale[s];
     path.light_side = {light_side_x[s], light_side_y[s], light_side_z[s]};
+    path.travelled = travelled[s];
   }
   ALHAZEN_HD void store(uint32_t s, const PathState<Real>& path) const {
     set_ray(s, path.ray);
@@ -88,6 +96,7 @@ struct Slots {
     bsdf_pdf[s] = path.bsdf_pdf;
     eta_scale[s] = path.eta_scale;
     light_side_x[s] = path.light_side.x, light_side_y[s] = path.light_side.y, light_side_z[s] = path.light_side.z;
+    travelled[s] = path.travelled;
   }
   ALHAZEN_HD void load(uint32_t s, PathRecord<Real>& record) const {
     record.radiance = {radiance_x[s], radiance_y[s], radiance_z[s]};
@@ -217,7 +226,8 @@ struct IntersectKernel {
       slots.hit_b2[slot] = hit.b2;
       slots.hit_primitive[slot] = hit.primitive;
       slots.hit_instance[slot] = hit.instance;
-      const uint32_t material = static_cast<uint32_t>(material_kind(hit.primitive));
+      const uint32_t kind_met = static_cast<uint32_t>(material_kind(hit.primitive));
+      const uint32_t material = kind_met < material_kinds ? kind_met : material_kinds - 1;
       push(thread, slots.material_queue(material), &slots.counts->materials[material], slot);
       return;
     }
@@ -238,7 +248,7 @@ struct IntersectKernel {
 };
 
 /// Gathers, samples lights, scatters. Threads go through the queues of the kinds of material one after another, each
-/// beginning with a warp of its own: at least 3 warps more than slots.
+/// beginning with a warp of its own: at least as many warps more than slots as there are queues.
 template <IntegratorKind kind, class Real>
 struct ShadeKernel {
   WavefrontStage<Real> stage;
@@ -311,10 +321,12 @@ struct ShadowKernel {
          {slots.shadow_direction_x[s], slots.shadow_direction_y[s], slots.shadow_direction_z[s]},
          slots.time[s]},
         slots.shadow_t_max[s]};
-    if (!is_free(Tracing::intersector(stage.launch.scene, thread.stacks()), shadow)) return;
-    slots.radiance_x[s] += slots.light_x[s];
-    slots.radiance_y[s] += slots.light_y[s];
-    slots.radiance_z[s] += slots.light_z[s];
+    const SceneView<Real>& scene = stage.launch.scene;
+    const Real share = free_share(scene, Tracing::intersector(scene, thread.stacks()), shadow);
+    if (!(share > 0)) return;
+    slots.radiance_x[s] += slots.light_x[s] * share;
+    slots.radiance_y[s] += slots.light_y[s] * share;
+    slots.radiance_z[s] += slots.light_z[s] * share;
   }
 };
 

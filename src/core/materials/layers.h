@@ -1,0 +1,143 @@
+#pragma once
+
+// From the record of a layered material to its scattering function at a point.
+
+#include "core/materials/iridescence.h"
+#include "core/materials/layered.h"
+#include "core/textures/texture.h"
+
+namespace ALHAZEN_CORE {
+
+template <class Real>
+ALHAZEN_HD Real scalar_or(const SceneView<Real>& scene, TextureRange range, const TexturePoint<Real>& at,
+                          Real fallback) {
+  return range.count == 0 ? fallback : clamp(evaluate_texture(scene, range, at).x, Real(0), Real(1));
+}
+
+template <class Real>
+ALHAZEN_HD Vec3<Real> colour_or(const SceneView<Real>& scene, TextureRange range, const TexturePoint<Real>& at,
+                                Real fallback) {
+  return range.count == 0 ? splat(fallback)
+                          : max(min(evaluate_texture(scene, range, at), splat(Real(1))), Vec3<Real>{});
+}
+
+/// alpha of a roughness as the material's file has it; 0 where there is none.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Real alpha_of(const SceneView<Real>& scene, TextureRange range, bool remap,
+                                     const TexturePoint<Real>& at) {
+  if (range.count == 0) return 0;
+  const Real roughness = clamp(evaluate_texture(scene, range, at).x, Real(0), Real(1));
+  return remap ? std::sqrt(roughness) : roughness;
+}
+
+template <class Real>
+ALHAZEN_HD Real layered_alpha(Real alpha) {
+  return larger(alpha, least_layered_alpha<Real>);
+}
+
+/// pbrt's coats. The interface lies over Lambert's law, or over metal whose lobe refraction widens.
+template <class Real>
+ALHAZEN_HD void make_coated(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
+                            const LayersRecord<Real>& layers, const TexturePoint<Real>& at, LayeredBsdf<Real>& b) {
+  const bool remap = material.remap_roughness != 0;
+  const Real u = alpha_of(scene, material.roughness, remap, at);
+  const Real v = material.roughness_v.count > 0 ? alpha_of(scene, material.roughness_v, remap, at) : u;
+  b.alpha = {layered_alpha(u), layered_alpha(v)};
+  b.thickness = layers.thickness;
+  const Vec3<Real> reflectance = colour_or(scene, material.reflectance, at, Real(1));
+  if (layers.type == LayersType::coated_diffuse) {
+    b.dielectric = 1;
+    b.ior = material.ior;
+    b.interface_albedo = scene.albedo_tables + layers.interface_albedo;
+    b.diffuse = reflectance * (1 - layers.inner_reflectance) / (splat(Real(1)) - reflectance * layers.inner_return);
+    return;
+  }
+  b.coat = 1;
+  b.coat_ior = layers.clearcoat_ior;
+  b.coat_albedo = scene.albedo_tables + layers.coat_albedo;
+  b.coat_alpha = layered_alpha(alpha_of(scene, layers.clearcoat_roughness, remap, at));
+  b.metal = 1;
+  b.metal_is_exact = true;
+  b.alpha = {smaller(Real(1), b.alpha.x * b.coat_ior), smaller(Real(1), b.alpha.y * b.coat_ior)};
+  if (material.eta.count > 0) {
+    b.metal_f0 = evaluate_texture(scene, material.eta, at) / b.coat_ior;
+    b.metal_k = evaluate_texture(scene, material.k, at) / b.coat_ior;
+  } else {
+    b.metal_f0 = splat(Real(1));
+    b.metal_k = {absorption_for_reflectance(reflectance.x), absorption_for_reflectance(reflectance.y),
+                 absorption_for_reflectance(reflectance.z)};
+  }
+}
+
+/// Dispersion: each ray sees one channel, with the index of that channel (KHR_materials_dispersion).
+template <class Real>
+ALHAZEN_HD Vec3<Real> disperse(Real dispersion, Real u_channel, Real& ior) {
+  const Real spread = (ior - 1) * Real(0.025) * dispersion;
+  const int channel = u_channel < Real(1) / 3 ? 0 : u_channel < Real(2) / 3 ? 1 : 2;
+  ior = larger(Real(1.0001), ior + spread * static_cast<Real>(channel - 1));
+  return {channel == 0 ? Real(3) : Real(0), channel == 1 ? Real(3) : Real(0), channel == 2 ? Real(3) : Real(0)};
+}
+
+/// Fills `b`. `cosine` is that of the outgoing direction; `u_channel` is a random number for dispersion.
+template <class Real>
+ALHAZEN_HD ALHAZEN_COLD void make_layered(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
+                                          const TexturePoint<Real>& at, Real cosine, Real u_channel,
+                                          const Vec3<Real>& coat_normal, LayeredBsdf<Real>& b) {
+  const LayersRecord<Real>& layers = scene.layers[material.layers];
+  b.tables = scene.albedo_tables;
+  b.dielectric = 0, b.interface_albedo = nullptr, b.f0 = {}, b.f90 = 0, b.ior = material.ior;
+  b.diffuse = {}, b.thickness = 0, b.thin = true, b.through = {}, b.glass = 0, b.glass_reflection = {};
+  b.metal = 0, b.metal_f0 = {}, b.metal_k = {}, b.metal_is_exact = false;
+  b.coat = 0, b.coat_alpha = least_layered_alpha<Real>, b.coat_ior = layers.clearcoat_ior, b.coat_albedo = nullptr;
+  b.coat_normal = coat_normal, b.sheen = {}, b.sheen_roughness = 0;
+  if (layers.type != LayersType::principled) return make_coated(scene, material, layers, at, b);
+
+  const Vec3<Real> colour = colour_or(scene, layers.base_colour, at, Real(1));
+  const Real roughness = scalar_or(scene, material.roughness, at, Real(1));
+  const Real alpha = layered_alpha(roughness * roughness);
+  const Real anisotropy = scalar_or(scene, layers.anisotropy, at, Real(0));
+  b.alpha = {alpha + (1 - alpha) * anisotropy * anisotropy, alpha};
+  b.metal = scalar_or(scene, layers.metallic, at, Real(0));
+  const Real rest = 1 - b.metal, transmission = scalar_or(scene, layers.transmission, at, Real(0));
+  const Real specular = scalar_or(scene, layers.specular, at, Real(1));
+  const Vec3<Real> tint = layers.specular_colour.count == 0
+                              ? splat(Real(1))
+                              : max(evaluate_texture(scene, layers.specular_colour, at), Vec3<Real>{});
+  b.f0 = min(tint * sqr((b.ior - 1) / (b.ior + 1)), splat(Real(1))) * specular;
+  b.f90 = specular;
+  b.metal_f0 = colour;
+  const Real film = scalar_or(scene, layers.iridescence, at, Real(0));
+  if (film > 0) {
+    const Real thickness = layers.iridescence_thickness.count == 0
+                               ? Real(400)
+                               : evaluate_texture(scene, layers.iridescence_thickness, at).x;
+    const auto with_film = [&](const Vec3<Real>& f0) {
+      const Vec3<Real> reflectance = film_reflectance(cosine, layers.iridescence_ior, larger(thickness, Real(0)), f0);
+      return lerp(f0, f0_of_reflectance(reflectance, cosine), film);
+    };
+    b.f0 = min(with_film(b.f0), splat(larger(b.f90, max_component(b.f0))));
+    b.metal_f0 = min(with_film(b.metal_f0), splat(Real(1)));
+  }
+  b.thin = layers.thin != 0 || std::abs(b.ior - 1) < Real(1e-3);
+  b.glass = b.thin ? Real(0) : rest * transmission;
+  b.dielectric = rest - b.glass;
+  b.diffuse = colour * (rest * (1 - transmission));
+  b.through = colour * (rest * transmission);
+  b.glass_reflection = min(tint * specular, splat(Real(1)));
+  if (b.glass > 0 && layers.dispersion > 0) b.through *= disperse(layers.dispersion, u_channel, b.ior);
+  b.coat = scalar_or(scene, layers.clearcoat, at, Real(0));
+  const Real coat_roughness = scalar_or(scene, layers.clearcoat_roughness, at, Real(0));
+  b.coat_alpha = layered_alpha(coat_roughness * coat_roughness);
+  b.coat_albedo = scene.albedo_tables + layers.coat_albedo;
+  b.sheen = colour_or(scene, layers.sheen_colour, at, Real(0));
+  b.sheen_roughness = larger(scalar_or(scene, layers.sheen_roughness, at, Real(0)), Real(0.07));
+}
+
+/// Share of light that comes back at normal incidence, as a guide for denoisers.
+template <class Real>
+ALHAZEN_HD Vec3<Real> layered_albedo(const LayeredBsdf<Real>& b) {
+  const Vec3<Real> base = b.f0 * b.dielectric + b.diffuse + b.through + fresnel_of_metal(b, Real(1)) * b.metal;
+  return min(max(base, b.sheen), splat(Real(1)));
+}
+
+}  // namespace ALHAZEN_CORE

@@ -1,0 +1,70 @@
+#pragma once
+
+// How a surface runs with its uv coordinates: what normal maps, bumps and anisotropy follow.
+
+#include "core/shapes/attributes.h"
+
+namespace ALHAZEN_CORE {
+
+/// Derivatives of the position by u and v, at the hit.
+template <class Real>
+struct SurfaceTangents {
+  Vec3<Real> dpdu{}, dpdv{};
+};
+
+template <class Real>
+ALHAZEN_HD SurfaceTangents<Real> triangle_tangents(const SceneView<Real>& scene, const TriangleRecord& triangle) {
+  const SurfaceRecord& surface = scene.surfaces[triangle.surface];
+  const uint32_t* v = triangle.vertex;
+  const Vec3<Real> e1 = scene.positions[v[1]] - scene.positions[v[0]];
+  const Vec3<Real> e2 = scene.positions[v[2]] - scene.positions[v[0]];
+  const Vec2<Real> uv0 = vertex_uv(scene, surface, v, 0);
+  const Vec2<Real> uv1 = vertex_uv(scene, surface, v, 1);
+  const Vec2<Real> uv2 = vertex_uv(scene, surface, v, 2);
+  const Real du1 = uv1.x - uv0.x, dv1 = uv1.y - uv0.y, du2 = uv2.x - uv0.x, dv2 = uv2.y - uv0.y;
+  const Real determinant = difference_of_products(du1, dv2, dv1, du2);
+  if (!(std::abs(determinant) > Real(1e-20))) return {};
+  const Real scale = 1 / determinant;
+  return {(e1 * dv2 - e2 * dv1) * scale, (e2 * du1 - e1 * du2) * scale};
+}
+
+/// Zero where uv does not say. Tangents that a mesh brings along take their place; of those only directions count.
+template <class Real>
+ALHAZEN_HD SurfaceTangents<Real> surface_tangents(const SceneView<Real>& scene, const Hit<Real>& hit,
+                                                  const SurfaceInteraction<Real>& si) {
+  if (hit.primitive.kind() == PrimitiveKind::triangle) {
+    const MeshTangent<Real> mesh = mesh_tangent(scene, hit);
+    if (mesh.handedness != 0) return {mesh.direction, cross(si.shading_normal, mesh.direction) * mesh.handedness};
+    const SurfaceTangents<Real> own = triangle_tangents(scene, scene.triangles[hit.primitive.index()]);
+    if (hit.instance == no_instance) return own;
+    const InstanceRecord<Real> instance = instance_at(scene, hit.instance, si.time);
+    return {transform_direction(instance.world_from_object, own.dpdu),
+            transform_direction(instance.world_from_object, own.dpdv)};
+  }
+  const bool moves = hit.primitive.kind() == PrimitiveKind::moving_sphere;
+  const uint32_t frame =
+      moves ? scene.moving_spheres[hit.primitive.index()].frame : scene.spheres[hit.primitive.index()].frame;
+  if (frame == no_sphere_frame) return {};
+  const Real radius =
+      moves ? scene.moving_spheres[hit.primitive.index()].radius : scene.spheres[hit.primitive.index()].radius;
+  const Vec3<Real> outward = scene.surfaces[si.surface].flip_normal ? -si.normal : si.normal;
+  // u runs round the polar axis, v from pole to pole.
+  const Vec3<Real> around = cross(scene.sphere_frames[frame].z, outward) * radius;
+  const Real ring = length(around);
+  if (!(ring > 0)) return {};
+  const Vec3<Real> up = cross(outward, around * (1 / ring)) * radius;
+  return {around * (2 * pi<Real>), up * pi<Real>};
+}
+
+/// A frame about `normal` whose tangent leans along dpdu; the bitangent is on the side of dpdv.
+template <class Real>
+ALHAZEN_HD Frame<Real> frame_along(const Vec3<Real>& normal, const SurfaceTangents<Real>& tangents) {
+  const Vec3<Real> t = tangents.dpdu - normal * dot(normal, tangents.dpdu);
+  const Real size = length(t);
+  if (!(size > 0) || !is_finite(t)) return frame_about(normal);
+  const Vec3<Real> tangent = t * (1 / size);
+  const Vec3<Real> bitangent = cross(normal, tangent);
+  return {tangent, dot(bitangent, tangents.dpdv) < 0 ? -bitangent : bitangent, normal};
+}
+
+}  // namespace ALHAZEN_CORE

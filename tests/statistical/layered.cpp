@@ -1,0 +1,287 @@
+// The layered materials: energy over the grid of their parameters, density, reciprocity, and pbrt's coats against a
+// random walk between their interface and their base.
+
+#include <gtest/gtest.h>
+
+#include "support/direction_histogram.h"
+#include "support/effort.h"
+#include "support/layered.h"
+#include "support/random.h"
+#include "support/reals.h"
+
+namespace alhazen::test {
+namespace {
+
+struct Energy {
+  double mean, error;
+};
+
+/// Share of the light that goes on, in the strongest channel, the change of radiance by refraction undone.
+template <class Real>
+Energy energy_of(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, int samples, Random& random) {
+  double sum = 0, squares = 0;
+  for (int i = 0; i < samples; ++i) {
+    const Real u_lobe = random.uniform<Real>();
+    const BsdfSample<Real> s = sample_bsdf(bsdf, wo, u_lobe, random.uniform_2d<Real>());
+    const double e = s.pdf > 0 ? static_cast<double>(max_component(s.weight) * s.eta * s.eta) : 0;
+    EXPECT_TRUE(std::isfinite(e) && e >= 0);
+    sum += e, squares += e * e;
+  }
+  const double mean = sum / samples;
+  return {mean, std::sqrt(std::max(0.0, squares / samples - mean * mean) / samples)};
+}
+
+std::string name_of(const PrincipledValues& v, double cosine, double azimuth) {
+  std::string name;
+  for (const auto& [what, value] : {std::pair{"metallic", v.metallic},
+                                    {"roughness", v.roughness},
+                                    {"transmission", v.transmission},
+                                    {"thin", v.thin ? 1.0 : 0.0},
+                                    {"clearcoat", v.clearcoat},
+                                    {"clearcoat roughness", v.clearcoat_roughness},
+                                    {"sheen", v.sheen},
+                                    {"sheen roughness", v.sheen_roughness},
+                                    {"anisotropy", v.anisotropy},
+                                    {"iridescence", v.iridescence},
+                                    {"ior", v.ior},
+                                    {"cosine", cosine},
+                                    {"azimuth", azimuth}})
+    name += std::string(what) + " " + std::to_string(value) + " ";
+  return name;
+}
+
+template <class Real>
+void check_energy(const PrincipledValues& values, Random& random, double& most) {
+  const FlatMaterial<Real> material = principled_of<Real>(values);
+  for (const double cosine : {1.0, 0.7, 0.4, 0.15, 0.03, -0.2, -0.8})
+    for (const double azimuth : {0.0, 0.8, 1.5}) {
+      if (azimuth > 0 && values.anisotropy == 0) continue;
+      const Bsdf<Real> bsdf = material.bsdf(cosine);
+      const Vec3<Real> wo = direction_at(bsdf.frame, cosine, azimuth);
+      const Energy e = energy_of(bsdf, wo, static_cast<int>(effort(1024)), random);
+      EXPECT_LT(e.mean - 4 * e.error, 1.01) << name_of(values, cosine, azimuth) << e.mean << " +- " << e.error;
+      most = std::max(most, e.mean - 4 * e.error);
+    }
+}
+
+template <class Real>
+class Layered : public ::testing::Test {};
+TYPED_TEST_SUITE(Layered, Reals);
+
+TYPED_TEST(Layered, PrincipledFurnaceGainsNothing) {
+  Random random(1);
+  double most = 0;
+  for (const double roughness : {0.0, 0.15, 0.4, 0.7, 1.0})
+    for (const double metallic : {0.0, 0.5, 1.0})
+      for (const double transmission : {0.0, 0.6, 1.0})
+        for (const bool thin : {true, false})
+          for (const int above : {0, 1, 2, 3}) {
+            if (metallic == 1 && transmission > 0) continue;
+            if (!thin && transmission == 0) continue;
+            PrincipledValues v;
+            v.roughness = roughness, v.metallic = metallic, v.transmission = transmission, v.thin = thin;
+            v.clearcoat = above & 1 ? 1 : 0, v.clearcoat_roughness = roughness / 2;
+            v.sheen = above & 2 ? 1 : 0, v.sheen_roughness = 0.1 + roughness * 0.8;
+            check_energy<TypeParam>(v, random, most);
+          }
+  this->RecordProperty("most", std::to_string(most));
+}
+
+TYPED_TEST(Layered, AnisotropyIridescenceAndIndicesGainNothing) {
+  Random random(2);
+  double most = 0;
+  for (const double roughness : {0.0, 0.3, 0.7})
+    for (const double metallic : {0.0, 1.0})
+      for (const double anisotropy : {0.0, 0.5, 1.0})
+        for (const double ior : {1.0, 1.33, 2.4}) {
+          PrincipledValues v;
+          v.roughness = roughness, v.metallic = metallic, v.anisotropy = anisotropy, v.ior = ior;
+          check_energy<TypeParam>(v, random, most);
+          v.iridescence = 1;
+          check_energy<TypeParam>(v, random, most);
+          v.iridescence = 0, v.transmission = 1, v.thin = false;
+          if (metallic == 0) check_energy<TypeParam>(v, random, most);
+        }
+}
+
+/// White metal of any roughness, and white dielectric, give (nearly) all light back.
+TYPED_TEST(Layered, WhiteOpaqueLosesLittle) {
+  using Real = TypeParam;
+  Random random(3);
+  for (const double roughness : {0.1, 0.4, 0.7, 1.0})
+    for (const double metallic : {0.0, 1.0}) {
+      PrincipledValues v;
+      v.roughness = roughness, v.metallic = metallic;
+      const FlatMaterial<Real> material = principled_of<Real>(v);
+      for (const double cosine : {1.0, 0.6, 0.2}) {
+        const Bsdf<Real> bsdf = material.bsdf(cosine);
+        const Energy e = energy_of(bsdf, direction_at(bsdf.frame, cosine, 0.4), 16384, random);
+        EXPECT_NEAR(e.mean, 1, 0.015 + 4 * e.error) << name_of(v, cosine, 0.4);
+      }
+    }
+}
+
+template <class Real>
+std::vector<PrincipledValues> mixtures() {
+  std::vector<PrincipledValues> all(7);
+  all[0].metallic = 0.4, all[0].roughness = 0.5;
+  all[1].clearcoat = 0.8, all[1].clearcoat_roughness = 0.4, all[1].metallic = 0.2, all[1].roughness = 0.7;
+  all[2].sheen = 0.7, all[2].sheen_roughness = 0.4;
+  all[3].transmission = 0.6, all[3].roughness = 0.5;
+  all[4].transmission = 0.7, all[4].roughness = 0.6, all[4].thin = false, all[4].clearcoat = 0.5,
+  all[4].clearcoat_roughness = 0.6;
+  all[5].anisotropy = 0.6, all[5].metallic = 0.7, all[5].roughness = 0.6;
+  all[6].transmission = 1, all[6].roughness = 0.5, all[6].thin = false;
+  return all;
+}
+
+template <class Real>
+void check_density(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, Random& random, size_t cases,
+                   const std::string& name) {
+  DirectionHistogram histogram(
+      {convert<double>(bsdf.frame.tangent), convert<double>(bsdf.frame.bitangent), convert<double>(bsdf.frame.normal)},
+      pi<double>);
+  for (size_t i = 0; i < effort(200'000); ++i) {
+    const Real u_lobe = random.uniform<Real>();
+    const BsdfSample<Real> s = sample_bsdf(bsdf, wo, u_lobe, random.uniform_2d<Real>());
+    if (s.pdf > 0)
+      histogram.add(convert<double>(s.direction));
+    else
+      histogram.add_nothing();
+  }
+  double integral = 0;
+  const ChiSquared test =
+      histogram.test([&](const Vec3d& wi) { return evaluate_bsdf(bsdf, wo, convert<Real>(wi)).pdf; }, integral);
+  EXPECT_LE(integral, 1 + 2e-3) << name;
+  EXPECT_GT(test.p_value, sidak(0.01, cases)) << name << ": integral of the pdf " << integral;
+}
+
+TYPED_TEST(Layered, SamplesFollowTheirDensity) {
+  using Real = TypeParam;
+  Random random(4);
+  for (const PrincipledValues& v : mixtures<Real>()) {
+    const FlatMaterial<Real> material = principled_of<Real>(v);
+    for (const double cosine : {0.95, 0.3, -0.6}) {
+      const Bsdf<Real> bsdf = material.bsdf(cosine);
+      check_density(bsdf, direction_at(bsdf.frame, cosine, 0.7), random, 2 * 7 * 3, name_of(v, cosine, 0.7));
+    }
+  }
+}
+
+TYPED_TEST(Layered, SheetsAndAnisotropicOnesFollowTheirDensity) {
+  using Real = TypeParam;
+  Random random(5);
+  for (const MaterialKind kind :
+       {MaterialKind::anisotropic_conductor, MaterialKind::anisotropic_dielectric, MaterialKind::diffuse_transmission})
+    for (const double cosine : {0.9, 0.3, -0.5}) {
+      Bsdf<Real> bsdf{};
+      bsdf.kind = kind, bsdf.frame = tilted_frame<Real>(), bsdf.ior = Real(1.5);
+      bsdf.a = splat(Real(0.3)), bsdf.b = splat(Real(0.6)), bsdf.alpha = Real(0.5), bsdf.alpha_v = Real(0.15);
+      check_density(bsdf, direction_at(bsdf.frame, cosine, 0.7), random, 2 * 9,
+                    "kind " + std::to_string(static_cast<int>(kind)));
+    }
+}
+
+/// Of what reflects without coat: f(wo, wi) = f(wi, wo).
+TYPED_TEST(Layered, Reciprocity) {
+  using Real = TypeParam;
+  Random random(6);
+  size_t tested = 0;
+  for (const PrincipledValues& v : mixtures<Real>()) {
+    if (v.clearcoat > 0 || v.transmission > 0) continue;
+    const Bsdf<Real> bsdf = principled_of<Real>(v).bsdf(1);
+    const Vec3<Real> n = bsdf.frame.normal;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3<Real> a = convert<Real>(random.on_sphere()), b = convert<Real>(random.on_sphere());
+      if (abs_dot(a, n) < Real(0.02) || dot(a, n) * dot(b, n) <= 0 || abs_dot(b, n) < Real(0.02)) continue;
+      const double forth = static_cast<double>(evaluate_bsdf(bsdf, a, b).value.y / abs_dot(b, n));
+      const double back = static_cast<double>(evaluate_bsdf(bsdf, b, a).value.y / abs_dot(a, n));
+      ++tested;
+      ASSERT_NEAR(forth / back, 1, by_precision<Real>(1e-3, 1e-9));
+    }
+  }
+  EXPECT_GT(tested, 1000u);
+}
+
+/// A photon between a smooth interface and a Lambertian or mirroring base, weighted as pbrt's layers do.
+double random_walk(double cosine, double ior, double thickness, double albedo, Random& random) {
+  double cos_t;
+  if (random.uniform<double>() < fresnel_dielectric(cosine, ior, cos_t)) return 1;
+  double weight = 1;
+  for (int bounce = 0; bounce < 200; ++bounce) {
+    weight *= std::exp(-thickness / cos_t) * albedo;
+    const double up = std::sqrt(random.uniform<double>());
+    weight *= std::exp(-thickness / up);
+    double cos_out;
+    if (random.uniform<double>() >= fresnel_dielectric(up, 1 / ior, cos_out)) return weight;
+    cos_t = up;
+  }
+  return 0;
+}
+
+TEST(CoatedDiffuse, AlbedoIsThatOfARandomWalk) {
+  Random random(7);
+  for (const double albedo : {0.2, 0.6, 0.95})
+    for (const double thickness : {0.0, 0.01, 0.1}) {
+      Scene scene;
+      Material coat;
+      coat.type = MaterialType::coated_diffuse;
+      coat.reflectance = constant_in(scene, albedo);
+      coat.thickness = thickness;
+      const FlatMaterial<double> material(scene, coat);
+      for (const double cosine : {1.0, 0.6, 0.25}) {
+        const Bsdf<double> bsdf = material.bsdf(cosine);
+        const Energy e = energy_of(bsdf, direction_at(bsdf.frame, cosine, 0.3), 40'000, random);
+        double walked = 0;
+        for (int i = 0; i < 40'000; ++i) walked += random_walk(cosine, 1.5, thickness, albedo, random) / 40'000;
+        EXPECT_NEAR(e.mean, walked, 0.02 * walked + 6 * e.error)
+            << "albedo " << albedo << ", thickness " << thickness << ", " << cosine;
+      }
+    }
+}
+
+TEST(CoatedConductor, LiesBetweenItsBaseAndAllLight) {
+  Random random(8);
+  for (const double roughness : {0.0, 0.1, 0.5}) {
+    Scene scene;
+    Material coat;
+    coat.type = MaterialType::coated_conductor;
+    coat.reflectance = constant_in(scene, 0.6);
+    coat.roughness_u = coat.roughness_v = constant_in(scene, roughness);
+    coat.coat_roughness = constant_in(scene, roughness / 2);
+    const FlatMaterial<double> material(scene, coat);
+    for (const double cosine : {1.0, 0.5, 0.1, 0.03}) {
+      const Bsdf<double> bsdf = material.bsdf(cosine);
+      const Energy e = energy_of(bsdf, direction_at(bsdf.frame, cosine, 0.3), 20'000, random);
+      EXPECT_LT(e.mean - 4 * e.error, 1.01) << roughness << " " << cosine;
+      // What single scattering loses of rough metal is not given back.
+      EXPECT_GT(e.mean, roughness < 0.3 ? 0.4 : 0.15) << roughness << " " << cosine;
+    }
+  }
+}
+
+TEST(Mix, OfItselfIsRefused) {
+  Scene scene;
+  scene.materials.resize(3);
+  scene.materials[0].type = scene.materials[1].type = MaterialType::mix;
+  scene.materials[0].mixed = {1, 2};
+  scene.materials[1].mixed = {2, 2};
+  EXPECT_NO_THROW(check_mixes(scene));
+  scene.materials[1].mixed = {2, 0};
+  EXPECT_THROW(check_mixes(scene), InputError);
+}
+
+/// A pane lets through and sends back all light.
+TEST(ThinDielectric, LosesNothing) {
+  Random random(9);
+  Bsdf<double> bsdf{};
+  bsdf.kind = MaterialKind::thin_dielectric, bsdf.frame = tilted_frame<double>(), bsdf.ior = 1.5;
+  for (const double cosine : {1.0, 0.3, -0.05}) {
+    const Vec3d wo = direction_at(bsdf.frame, cosine, 0.3);
+    EXPECT_NEAR(energy_of(bsdf, wo, 1000, random).mean, 1, 1e-12);
+    EXPECT_NEAR(length(sample_bsdf(bsdf, wo, 0.9999, Vec2d{}).direction + wo), 0, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace alhazen::test

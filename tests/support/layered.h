@@ -1,0 +1,88 @@
+#pragma once
+
+// Layered materials for the tests: a described material, flattened without shapes.
+
+#include <initializer_list>
+#include <string>
+#include <utility>
+
+#include "core/materials/bsdf.h"
+#include "scene/flatten_materials.h"
+#include "scene/scene_arrays.h"
+#include "support/bsdfs.h"
+
+namespace alhazen::test {
+
+/// Inputs by name; what is not named has its default.
+struct PrincipledValues {
+  double metallic = 0, roughness = 0.5, transmission = 0, clearcoat = 0, clearcoat_roughness = 0;
+  double sheen = 0, sheen_roughness = 0.5, anisotropy = 0, iridescence = 0, specular = 1, ior = 1.5, dispersion = 0;
+  bool thin = true;
+  double colour = 1;
+};
+
+inline uint32_t constant_in(Scene& scene, double value) {
+  Texture texture;
+  texture.value = splat(value);
+  scene.textures.push_back(texture);
+  return static_cast<uint32_t>(scene.textures.size() - 1);
+}
+
+inline Material principled_material(Scene& scene, const PrincipledValues& values) {
+  Material material;
+  material.type = MaterialType::principled;
+  Principled& p = material.principled;
+  p.base_colour = constant_in(scene, values.colour);
+  p.metallic = constant_in(scene, values.metallic);
+  p.roughness = constant_in(scene, values.roughness);
+  p.specular = constant_in(scene, values.specular);
+  p.transmission = constant_in(scene, values.transmission);
+  p.clearcoat = constant_in(scene, values.clearcoat);
+  p.clearcoat_roughness = constant_in(scene, values.clearcoat_roughness);
+  p.sheen_colour = constant_in(scene, values.sheen);
+  p.sheen_roughness = constant_in(scene, values.sheen_roughness);
+  p.anisotropy = constant_in(scene, values.anisotropy);
+  p.iridescence = constant_in(scene, values.iridescence);
+  p.ior = values.ior;
+  p.dispersion = values.dispersion;
+  p.thin = values.thin;
+  return material;
+}
+
+/// One material of a flat scene without shapes.
+template <class Real>
+class FlatMaterial {
+ public:
+  FlatMaterial(Scene& scene, const Material& material) {
+    scene.materials = {material};
+    flatten_materials(scene, arrays_);
+    view_.materials = arrays_.materials.data();
+    view_.layers = arrays_.layers.data();
+    view_.textures = arrays_.textures.data();
+    view_.albedo_tables = arrays_.albedo_tables.data();
+  }
+
+  /// As it is seen at that cosine, its frame tilted.
+  Bsdf<Real> bsdf(double cosine, Real u_channel = 0) const {
+    Bsdf<Real> bsdf{};
+    bsdf.frame = tilted_frame<Real>();
+    make_bsdf(view_, view_.materials[0], TexturePoint<Real>{}, bsdf);
+    if (bsdf.kind == MaterialKind::layered)
+      make_layered(view_, view_.materials[0], TexturePoint<Real>{}, static_cast<Real>(std::abs(cosine)), u_channel,
+                   Vec3<Real>{0, 0, 1}, bsdf.layered);
+    return bsdf;
+  }
+
+ private:
+  SceneArrays<Real> arrays_;
+  SceneView<Real> view_;
+};
+
+template <class Real>
+FlatMaterial<Real> principled_of(const PrincipledValues& values) {
+  Scene scene;
+  const Material material = principled_material(scene, values);
+  return {scene, material};
+}
+
+}  // namespace alhazen::test
