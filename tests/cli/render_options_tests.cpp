@@ -40,12 +40,13 @@ bool is_same(const Image& a, const Image& b) {
 
 TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
   const std::set<std::string> tested{
-      "--help",       "--output",      "--outfile",    "--aov",        "--exr-type",    "--exposure",
-      "--tone-map",   "--spp",         "--max-depth",  "--maxdepth",   "--size",        "--crop",
-      "--cropwindow", "--pixelbounds", "--integrator", "--sampler",    "--seed",        "--backend",
-      "--strategy",   "--schedule",    "--threads",    "--nthreads",   "--precision",   "--progress",
-      "--quiet",      "--verbose",     "--stats",      "--time-limit", "--checkpoint",  "--resume",
-      "--device",     "--block",       "--chunk",      "--denoise",    "--environment", "--texture-budget"};
+      "--help", "--output", "--outfile", "--aov", "--exr-type", "--exposure", "--tone-map", "--spp", "--max-depth",
+      "--maxdepth", "--size", "--crop", "--cropwindow", "--pixelbounds", "--integrator", "--sampler", "--seed",
+      "--backend", "--strategy", "--schedule", "--threads", "--nthreads", "--precision", "--progress", "--quiet",
+      "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--device", "--block", "--chunk", "--denoise",
+      "--environment", "--texture-budget",
+      // In gltf_tests.cpp:
+      "--camera", "--time", "--animation", "--variant", "--list"};
   const CommandResult help = run({"render", "--help"});
   EXPECT_EQ(help.exit_code, 0);
   std::set<std::string> named;
@@ -56,6 +57,25 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
   EXPECT_EQ(named, tested);
   for (const char* group : {"Output:", "Picture:", "Engine:", "While it runs:", "SCENE"})
     EXPECT_NE(help.out.find(group), std::string::npos) << group;
+}
+
+TEST_F(RenderOptions, TextureBudgetMakesPicturesSmaller) {
+  Image picture{800, 800, {"R", "G", "B"}, std::vector(3, std::vector<float>(800 * 800, 0.5f))};
+  for (size_t i = 0; i < 800 * 800; i += 3) picture.planes[0][i] = 0.25f;
+  write_png(folder_.file("picture.png"), source_of(picture), {});
+  folder_.write_text("textured.pbrt", R"(Camera "perspective" Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+WorldBegin LightSource "infinite" Texture "t" "spectrum" "imagemap" "string filename" "picture.png"
+Material "diffuse" "texture reflectance" "t" Shape "sphere")");
+  const std::vector<std::string> whole{"render", "textured.pbrt", "-o", "a.exr", "--spp", "1"};
+  EXPECT_EQ(run(whole).err.find("budget"), std::string::npos);
+  std::vector<std::string> fitted = whole;
+  fitted.insert(fitted.end(), {"--texture-budget", "1"});
+  const CommandResult result = run(fitted);
+  EXPECT_EQ(result.exit_code, 0) << result.everything();
+  EXPECT_NE(result.err.find("more than the budget of 1 MiB; 1 of 1 were made smaller"), std::string::npos)
+      << result.err;
+  fitted.back() = "0";
+  EXPECT_EQ(run(fitted).err.find("budget"), std::string::npos) << "0 is none";
 }
 
 TEST_F(RenderOptions, StatisticsAreOneObjectWithEveryKey) {

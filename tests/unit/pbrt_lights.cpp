@@ -106,15 +106,15 @@ TEST_F(PbrtLightPictures, OfAreaLights) {
   SurfaceInteraction<double> si = surface_interaction(scene.view, Ray<double>{{0, 0, 1}, {0, 0, -1}, 0}, hit);
   const LightRecord<double>& lamp = scene.view.lights[0];
   si.uv = {3.5 / 4, 1.5 / 2};
-  expect_near(convert<double>(lamp.radiance * emission_factor(scene.view, lamp, point_of_emission(si))), {3, 6, 9},
+  expect_near(convert<double>(lamp.radiance * emission_factor(scene.view, lamp, point_of_emission(si, hit))), {3, 6, 9},
               1e-6);
   si.uv = {3.5 / 4, 0.5 / 2};
-  EXPECT_TRUE(is_zero(emission_factor(scene.view, lamp, point_of_emission(si))));
+  EXPECT_TRUE(is_zero(emission_factor(scene.view, lamp, point_of_emission(si, hit))));
   // What is sampled is what is met.
   for (const Vec2d& u : {Vec2d{0.1, 0.2}, {0.7, 0.9}, {0.95, 0.4}}) {
     const LightSample<double> s = sample_light(scene.view, Vec3d{1, 1, 5}, Vec3d{}, 0.0, 0.9, u);
     si.uv = {s.point.x / 4, s.point.y / 2};
-    expect_near(s.radiance, emission_factor(scene.view, lamp, point_of_emission(si)) * 3, 1e-6);
+    expect_near(s.radiance, emission_factor(scene.view, lamp, point_of_emission(si, hit)) * 3, 1e-6);
   }
   // pi times the area times the mean luminance of the picture is the power.
   const Parsed powered = world(R"(AreaLightSource "diffuse" "string filename" "even.exr" "float power" 10)" + quad);

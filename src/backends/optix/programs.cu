@@ -62,8 +62,7 @@ class OptixIntersector {
     const OptixParams& launch = launch_params();
     unsigned t = 0, b1 = 0, b2 = 0, primitive = PrimitiveId().bits, instance = no_instance;
     optixTrace(OPTIX_PAYLOAD_TYPE_ID_0, launch.traversable, vector(ray.origin), vector(ray.direction), t_min, t_max,
-               ray.time, 0xff, flags, launch.sbt_offset, 0, miss_closest, t, b1, b2, primitive,
-               instance);
+               ray.time, 0xff, flags, launch.sbt_offset, 0, miss_closest, t, b1, b2, primitive, instance);
     hit.t = __uint_as_float(t);
     hit.b1 = __uint_as_float(b1);
     hit.b2 = __uint_as_float(b2);
