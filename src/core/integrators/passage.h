@@ -74,8 +74,7 @@ ALHAZEN_HD ALHAZEN_COLD bool passes(const SceneView<Real>& scene, const Hit<Real
 
 /// Share of light that arrives over a way of length `t_max`.
 template <class Real, class Intersector>
-ALHAZEN_HD ALHAZEN_COLD Real transmittance(const SceneView<Real>& scene, const Intersector& intersector, Ray<Real> ray,
-                                           Real t_max) {
+ALHAZEN_HD Real transmittance(const SceneView<Real>& scene, const Intersector& intersector, Ray<Real> ray, Real t_max) {
   Real share = 1;
   Hit<Real> hit;
   for (uint32_t i = 0; share > 0 && t_max > 0 && intersector.closest_hit(ray, t_max, hit); ++i) {

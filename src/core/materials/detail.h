@@ -16,6 +16,25 @@ ALHAZEN_HD Vec3<Real> mapped_normal(const SceneView<Real>& scene, TextureRange m
   return normalize(frame.to_world(local));
 }
 
+/// A bent normal, turned towards the geometric one as little as needed for the mirror direction of `wo` to stay above
+/// the surface: what reflects into the surface comes out black.
+template <class Real>
+ALHAZEN_HD Vec3<Real> reflecting_normal(const Vec3<Real>& bent, const Vec3<Real>& geometric, const Vec3<Real>& wo) {
+  const Real side = dot(wo, geometric) < 0 ? Real(-1) : Real(1);
+  const Real seen = side * dot(wo, geometric);
+  const Real least = seen * Real(0.9) < Real(0.01) ? seen * Real(0.9) : Real(0.01);
+  const auto reflects_outwards = [&](const Vec3<Real>& n) {
+    return side * (2 * dot(n, wo) * dot(n, geometric) - dot(wo, geometric)) >= least;
+  };
+  if (reflects_outwards(bent)) return bent;
+  Real inside = 0, outside = 1;
+  for (int i = 0; i < 8; ++i) {
+    const Real middle = (inside + outside) * Real(0.5);
+    (reflects_outwards(normalize(lerp(bent, geometric, middle))) ? outside : inside) = middle;
+  }
+  return normalize(lerp(bent, geometric, outside));
+}
+
 /// The normal of the surface displaced along it (Blinn 1978, "Simulation of Wrinkled Surfaces").
 template <class Real>
 ALHAZEN_HD Vec3<Real> bumped_normal(const SceneView<Real>& scene, TextureRange displacement,
@@ -57,6 +76,7 @@ ALHAZEN_HD ALHAZEN_COLD Frame<Real> detailed_frame(const SceneView<Real>& scene,
     SurfaceInteraction<Real> coat = si;
     coat.shading_normal = mapped_normal(scene, layers.clearcoat_normal_map, layers.clearcoat_normal_scale, at,
                                         frame_along(si.shading_normal, tangents));
+    coat.shading_normal = reflecting_normal(coat.shading_normal, si.normal, wo);
     coat_normal = consistent_shading_normal(coat, wo);
   }
   if (has_tangents && material.normal_map.count > 0)
@@ -64,6 +84,8 @@ ALHAZEN_HD ALHAZEN_COLD Frame<Real> detailed_frame(const SceneView<Real>& scene,
         mapped_normal(scene, material.normal_map, material.normal_scale, at, frame_along(si.shading_normal, tangents));
   if (has_tangents && material.displacement.count > 0)
     si.shading_normal = bumped_normal(scene, material.displacement, at, tangents, si.shading_normal);
+  if (has_tangents && (material.normal_map.count > 0 || material.displacement.count > 0))
+    si.shading_normal = reflecting_normal(si.shading_normal, si.normal, wo);
   Frame<Real> frame = frame_along(consistent_shading_normal(si, wo), tangents);
   if (!is_layered) return frame;
   const LayersRecord<Real>& layers = scene.layers[material.layers];

@@ -39,8 +39,10 @@
 #define ALHAZEN_HOT inline
 #endif
 
-// Large functions that few scenes need: kept out of the loops that call them.
-#if defined(__GNUC__) && !defined(__CUDACC__)
+// Large functions that few scenes need: kept out of the loops that call them, whose registers they would take on GPUs.
+#if defined(__CUDACC__)
+#define ALHAZEN_COLD inline __noinline__
+#elif defined(__GNUC__)
 #define ALHAZEN_COLD inline __attribute__((noinline))
 #else
 #define ALHAZEN_COLD inline

@@ -152,9 +152,9 @@ ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> sphere_interaction(const SceneVi
 
 /// A point of an object where instance `index` has it at `time`.
 template <class Real>
-ALHAZEN_HD ALHAZEN_NOINLINE SurfaceInteraction<Real> instance_interaction(const SceneView<Real>& scene, uint32_t index,
-                                                                          Real time,
-                                                                          const SurfaceInteraction<Real>& object) {
+ALHAZEN_HD ALHAZEN_COLD SurfaceInteraction<Real> instance_interaction(const SceneView<Real>& scene, uint32_t index,
+                                                                      Real time,
+                                                                      const SurfaceInteraction<Real>& object) {
   const InstanceRecord<Real> instance = instance_at(scene, index, time);
   SurfaceInteraction<Real> si = object;
   si.position = transform_point(instance.world_from_object, object.position);
