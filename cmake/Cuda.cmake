@@ -35,8 +35,8 @@ else()
     list(REMOVE_DUPLICATES capabilities)
     set(CMAKE_CUDA_ARCHITECTURES ${capabilities})
   else()
-    # `90` alone embeds PTX too, which newer GPUs compile when the program starts.
-    set(CMAKE_CUDA_ARCHITECTURES 75-real 80-real 86-real 89-real 90)
+    # Code for 8.0 runs on all of 8.x; other GPUs compile PTX when the program starts. Each architecture takes minutes.
+    set(CMAKE_CUDA_ARCHITECTURES 75-virtual 80-real 90)
   endif()
 endif()
 enable_language(CUDA)

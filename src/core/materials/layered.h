@@ -158,7 +158,8 @@ ALHAZEN_HD Frame<Real> coat_frame(const LayeredBsdf<Real>& b, Real side) {
 }
 
 template <class Real>
-ALHAZEN_HD LayeredLobes<Real> layered_lobes(const LayeredBsdf<Real>& b, const Vec3<Real>& o, Real coat_cosine) {
+ALHAZEN_HD ALHAZEN_COLD LayeredLobes<Real> layered_lobes(const LayeredBsdf<Real>& b, const Vec3<Real>& o,
+                                                         Real coat_cosine) {
   LayeredLobes<Real> lobes;
   if (b.coat > 0 && coat_cosine > 0) {
     lobes.coat_albedo = b.coat * lookup_albedo(b.coat_albedo, coat_cosine, b.coat_alpha);
@@ -264,7 +265,8 @@ ALHAZEN_HD BsdfValue<Real> evaluate_from_within(const LayeredBsdf<Real>& b, cons
 }
 
 template <class Real>
-ALHAZEN_HD BsdfValue<Real> evaluate_layered(const LayeredBsdf<Real>& b, const Vec3<Real>& wo, const Vec3<Real>& wi) {
+ALHAZEN_HD ALHAZEN_COLD BsdfValue<Real> evaluate_layered(const LayeredBsdf<Real>& b, const Vec3<Real>& wo,
+                                                         const Vec3<Real>& wi) {
   if (wo.z == 0 || wi.z == 0) return {};
   if (wo.z < 0 && b.glass > 0) return evaluate_from_within(b, wo, wi);
   const Real side = wo.z < 0 ? Real(-1) : Real(1);

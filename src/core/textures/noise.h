@@ -42,8 +42,8 @@ ALHAZEN_HD Real perlin_noise(const uint8_t* permutation, const Vec3<Real>& p) {
 /// Sum of `octaves` noises, each at 1.99 times the frequency and `roughness` times the amplitude of the one before
 /// (fractional Brownian motion); with `absolute` the sum of their absolute values (turbulence).
 template <class Real>
-ALHAZEN_HD Real octave_noise(const uint8_t* permutation, Vec3<Real> p, Real roughness, uint32_t octaves,
-                             bool absolute) {
+ALHAZEN_HD ALHAZEN_COLD Real octave_noise(const uint8_t* permutation, Vec3<Real> p, Real roughness, uint32_t octaves,
+                                          bool absolute) {
   Real sum = 0, amplitude = 1;
   for (uint32_t i = 0; i < octaves; ++i) {
     const Real n = perlin_noise(permutation, p);

@@ -121,8 +121,11 @@ ALHAZEN_HD constexpr uint32_t texture_input_count(TextureKind kind) {
   }
 }
 
+/// What is not a constant. One copy serves all callers, of which there are many: compilers for GPUs would inline it
+/// into each of them.
 template <class Real>
-ALHAZEN_HD Vec3<Real> evaluate_texture(const SceneView<Real>& scene, TextureRange range, const TexturePoint<Real>& at) {
+ALHAZEN_HD ALHAZEN_COLD Vec3<Real> evaluate_texture_nodes(const SceneView<Real>& scene, TextureRange range,
+                                                          const TexturePoint<Real>& at) {
   const TextureRecord<Real>* nodes = scene.textures + range.first;
   if (range.count == 1) return evaluate_texture_node(scene, nodes[0], at, static_cast<const Vec3<Real>*>(nullptr));
   Vec3<Real> stack[max_texture_stack];
@@ -133,6 +136,14 @@ ALHAZEN_HD Vec3<Real> evaluate_texture(const SceneView<Real>& scene, TextureRang
     ++height;
   }
   return stack[0];
+}
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> evaluate_texture(const SceneView<Real>& scene, TextureRange range,
+                                                   const TexturePoint<Real>& at) {
+  const TextureRecord<Real>& first = scene.textures[range.first];
+  if (range.count == 1 && first.kind == TextureKind::constant) return first.parameters;
+  return evaluate_texture_nodes(scene, range, at);
 }
 
 }  // namespace ALHAZEN_CORE
