@@ -1,7 +1,7 @@
 #pragma once
 
 // Where a walk through a tree keeps what it has yet to visit. On a CPU that is an array of the thread; on a GPU its
-// first entries lie in shared memory (backends/cuda/kernels/shared_stack.h).
+// first entries lie in shared memory (backends/cuda/device_thread.cuh).
 
 #include "core/math/platform.h"
 
