@@ -17,6 +17,7 @@ Picture render(const std::string& scene_file, const Settings& settings, const Pr
   const ReadOptions choice{settings.camera, settings.variant, settings.animation, settings.animation_time};
   Scene scene = read_scene(scene_file, choice, diagnostics);
   if (!settings.environment.empty()) use_environment(scene, settings.environment);
+  scene.coats = parse_coats(settings.coats);
   const RenderSettings resolved = resolve_settings(settings, scene);
   const Rendering rendering = render_scene(std::move(scene), resolved, 0, RenderEvents{progress, {}}, diagnostics);
   const ImageSource source = rendering.source();

@@ -18,6 +18,7 @@ struct CompareOptions {
   std::string a, b;
   bool json = false;
   std::string diff;
+  int reduce = 1;
 };
 
 /// Numbers that are not finite (psnr of equal pictures) are null: JSON has no infinity.
@@ -67,7 +68,8 @@ void run_compare(const CompareOptions& options) {
   const std::string extension = extension_of(options.diff);
   if (!options.diff.empty() && extension != "png" && extension != "exr")
     throw InputError("--diff " + options.diff + ": give a file name that ends in .png or .exr");
-  const Image a = read_image(options.a), b = read_image(options.b);
+  Image a = read_image(options.a), b = read_image(options.b);
+  if (options.reduce > 1) a = reduced(a, options.reduce), b = reduced(b, options.reduce);
   const ImageDifference difference = compare_images(a, b);
   if (!options.diff.empty()) write_difference(options.diff, a, b);
   fmt::print("{}{}", options.json ? json_text(difference) : table_text(difference), options.json ? "\n" : "");
@@ -85,6 +87,11 @@ CLI::App* register_compare(CLI::App& app) {
   command->add_flag("--json", options->json, "print one JSON object");
   command->add_option("--diff", options->diff, "write a picture of where they differ (FLIP), .png or .exr")
       ->type_name("FILE");
+  command
+      ->add_option("--reduce", options->reduce,
+                   "compare means of N x N pixels: less noise, and FLIP as of the smaller pictures")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
   command->callback([options] { run_compare(*options); });
   return command;
 }

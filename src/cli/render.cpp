@@ -137,6 +137,7 @@ int run(RenderOptions& options) {
   const Settings& s = options.settings;
   Scene scene = read_scene(options.scene, {s.camera, s.variant, s.animation, s.animation_time}, diagnostics);
   if (!options.settings.environment.empty()) use_environment(scene, options.settings.environment);
+  scene.coats = parse_coats(options.settings.coats);
   const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene);
@@ -196,6 +197,11 @@ void add_picture_options(CLI::App& command, RenderOptions& o) {
                   "Light the scene by this map (EXR, HDR, ...) instead of by its infinite lights: 2:1 "
                   "(equirectangular) or square (octahedral), +y up, its middle towards -z")
       ->type_name("FILE")
+      ->group(group);
+  command
+      .add_option("--coats", o.settings.coats,
+                  "pbrt: lossless coats (the default), or ones that lose as much light as in pbrt-v4: pbrt")
+      ->type_name("NAME")
       ->group(group);
   command.add_option("--camera", o.settings.camera, "glTF: the camera of this name or number; --list has them")
       ->type_name("NAME")

@@ -153,6 +153,12 @@ void resolve_denoiser(const std::string& name, RenderSettings& s) {
 
 }  // namespace
 
+CoatModel parse_coats(const std::string& text) {
+  if (text.empty() || text == "lossless") return CoatModel::lossless;
+  if (text == "pbrt") return CoatModel::pbrt;
+  throw InputError("unknown coats '" + text + "'; use lossless or pbrt");
+}
+
 Schedule parse_schedule(const std::string& text) {
   const size_t comma = text.find(',');
   Schedule schedule;

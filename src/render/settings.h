@@ -76,6 +76,9 @@ std::string to_string(SamplerType sampler);
 std::string to_string(const Schedule& schedule);
 std::string to_string(const BlockSize& size);
 
+/// Parses `lossless` and `pbrt`; empty: lossless. Throws InputError.
+CoatModel parse_coats(const std::string& text);
+
 /// Parses `static`, `dynamic,4`, ... Throws InputError.
 Schedule parse_schedule(const std::string& text);
 

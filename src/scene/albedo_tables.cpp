@@ -43,7 +43,8 @@ std::vector<double> table_of(const Albedo& albedo) {
   return table;
 }
 
-/// Mean of weight(cosine at the microfacet) over what GGX of that alpha reflects, by strata of its visible normals.
+/// Mean of weight(cosine at the microfacet, that of the way on) over what GGX of that alpha reflects, by strata of its
+/// visible normals.
 template <class Weight>
 double reflected_share(const Vec3d& o, double alpha, const Weight& weight) {
   constexpr int strata = 24;
@@ -53,7 +54,7 @@ double reflected_share(const Vec3d& o, double alpha, const Weight& weight) {
       const Vec3d m = sample_visible_normal(o, alpha, Vec2d{(a + 0.5) / strata, (b + 0.5) / strata});
       const double cosine = dot(o, m);
       const Vec3d i = m * (2 * cosine) - o;
-      if (i.z > 0 && cosine > 0) sum += weight(cosine) * ggx_g2(o, i, alpha) / ggx_g1(o, alpha);
+      if (i.z > 0 && cosine > 0) sum += weight(cosine, i.z) * ggx_g2(o, i, alpha) / ggx_g1(o, alpha);
     }
   return sum / (strata * strata);
 }
@@ -72,6 +73,40 @@ double sheen_share(const Vec3d& o, double alpha) {
   return sum * 2 * (pi<double> / 2 / rings) * (pi<double> / sectors);
 }
 
+/// Share of light from `o` that single scattering at a rough interface lets through to what lies below a medium.
+double transmitted_share(const Vec3d& o, double alpha, double ior, double optical_thickness) {
+  constexpr int strata = 24;
+  double sum = 0;
+  for (int a = 0; a < strata; ++a)
+    for (int b = 0; b < strata; ++b) {
+      const Vec3d m = sample_visible_normal(o, alpha, Vec2d{(a + 0.5) / strata, (b + 0.5) / strata});
+      const double cosine = dot(o, m);
+      double cos_t;
+      const double passes = cosine > 0 ? 1 - fresnel_dielectric(cosine, ior, cos_t) : 0;
+      if (passes == 0) continue;
+      const Vec3d i = m * (cosine / ior - cos_t) - o * (1 / ior);
+      if (i.z < 0) sum += passes * std::exp(optical_thickness / i.z) * ggx_g2(o, i, alpha) / ggx_g1(o, alpha);
+    }
+  return sum / (strata * strata);
+}
+
+/// Share of diffuse light from below that the interface sends down again, after a way up and one down.
+double inner_reflectance(double ior, double alpha, double optical_thickness) {
+  const bool smooth = alpha <= least_layered_alpha<double>;
+  const int steps = smooth ? 4096 : 96;
+  double sum = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double cosine = (k + 0.5) / steps;
+    const auto reflected = [&](double cos_o, double cos_i) {
+      double cos_t;
+      return fresnel_dielectric(cos_o, 1 / ior, cos_t) * std::exp(-optical_thickness * (1 / cosine + 1 / cos_i));
+    };
+    const Vec3d o{std::sqrt(1 - cosine * cosine), 0, cosine};
+    sum += 2 * cosine * (smooth ? reflected(cosine, cosine) : reflected_share(o, alpha, reflected)) / steps;
+  }
+  return sum;
+}
+
 void append(std::vector<double>& all, const std::vector<double>& table) {
   all.insert(all.end(), table.begin(), table.end());
 }
@@ -79,10 +114,10 @@ void append(std::vector<double>& all, const std::vector<double>& table) {
 std::vector<double> make_common_tables() {
   std::vector<double> all;
   append(all, table_of([](const Vec3d& o, double alpha) {
-           return reflected_share(o, alpha, [](double cosine) { return 1 - schlick_share(cosine); });
+           return reflected_share(o, alpha, [](double cosine, double) { return 1 - schlick_share(cosine); });
          }));
   append(all, table_of([](const Vec3d& o, double alpha) {
-           return reflected_share(o, alpha, [](double cosine) { return schlick_share(cosine); });
+           return reflected_share(o, alpha, [](double cosine, double) { return schlick_share(cosine); });
          }));
   append(all, table_of(sheen_share));
   return all;
@@ -102,7 +137,7 @@ const std::vector<double>& interface_albedo_table(double ior) {
   std::vector<double>& table = tables[ior];
   if (!table.empty()) return table;
   table = table_of([ior](const Vec3d& o, double alpha) {
-    return reflected_share(o, alpha, [ior](double cosine) {
+    return reflected_share(o, alpha, [ior](double cosine, double) {
       double cos_t;
       return fresnel_dielectric(cosine, ior, cos_t);
     });
@@ -110,15 +145,26 @@ const std::vector<double>& interface_albedo_table(double ior) {
   return table;
 }
 
-double inner_diffuse_reflectance(double ior, double optical_thickness) {
-  constexpr int steps = 4096;
-  double sum = 0;
-  for (int k = 0; k < steps; ++k) {
-    const double cosine = (k + 0.5) / steps;
-    double cos_t;
-    sum += 2 * cosine * fresnel_dielectric(cosine, 1 / ior, cos_t) * std::exp(-2 * optical_thickness / cosine) / steps;
+std::vector<double> coat_transmission_table(double ior, double optical_thickness, bool conserves) {
+  std::vector<double> table;
+  double* back = nullptr;
+  if (conserves) {
+    table = interface_albedo_table(ior);
+    back = table.data() + albedo_side * albedo_side;
+    for (uint32_t i = 0; i < albedo_side * albedo_side; ++i) {
+      const double inside = cosine_within(cosine_at(i % albedo_side), ior);
+      table[i] = inside > 0 ? (1 - table[i]) * std::exp(-optical_thickness / inside) : 0;
+    }
+    // Diffuse light leaves by as much as it enters, over the square of the index.
+    const double absorbed = inner_reflectance(ior, 0, optical_thickness) / inner_reflectance(ior, 0, 0);
+    for (uint32_t j = 0; j < albedo_side; ++j) back[j] = std::max(0.0, 1 - (1 - back[j]) / (ior * ior)) * absorbed;
+  } else {
+    table = table_of([&](const Vec3d& o, double alpha) { return transmitted_share(o, alpha, ior, optical_thickness); });
+    back = table.data() + albedo_side * albedo_side;
+#pragma omp parallel for schedule(dynamic)
+    for (uint32_t j = 0; j < albedo_side; ++j) back[j] = inner_reflectance(ior, alpha_at(j), optical_thickness);
   }
-  return sum;
+  return table;
 }
 
 }  // namespace alhazen

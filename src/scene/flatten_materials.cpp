@@ -4,10 +4,14 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <tuple>
 
+#include "core/materials/layered.h"
 #include "core/textures/texture.h"
 #include "scene/albedo_tables.h"
+#include "scene/coated_metal_tables.h"
 #include "scene/flatten_images.h"
 
 namespace alhazen {
@@ -262,14 +266,13 @@ class MaterialBuilder {
 
   void add_coat(const Material& material, MaterialRecord<Real>& record, LayersRecord<Real>& layers) {
     is_anisotropic(material, record);
-    layers.thickness = static_cast<Real>(material.thickness);
     if (material.type == MaterialType::coated_diffuse) {
       check_ior(material, material.ior);
       layers.type = LayersType::coated_diffuse;
       record.reflectance = range_or(material.reflectance, 0.5);
       layers.interface_albedo = interface_table(material.ior);
-      layers.inner_reflectance = static_cast<Real>(inner_diffuse_reflectance(material.ior, 0));
-      layers.inner_return = static_cast<Real>(inner_diffuse_reflectance(material.ior, material.thickness));
+      layers.coat_transmission = transmission_table(material.ior, thickness_of(material), !loses_light());
+      layers.bounces = static_cast<Real>(bounces_of(material));
       return;
     }
     check_ior(material, material.coat_ior);
@@ -278,6 +281,38 @@ class MaterialBuilder {
     layers.clearcoat_ior = static_cast<Real>(material.coat_ior);
     layers.clearcoat_roughness = textures_.range(material.coat_roughness);
     layers.coat_albedo = interface_table(material.coat_ior);
+    add_coated_metal(material, record, layers);
+  }
+
+  void add_coated_metal(const Material& material, const MaterialRecord<Real>& record, LayersRecord<Real>& layers) {
+    CoatedMetal coat{material.coat_ior, constant_alpha(material, layers.clearcoat_roughness),
+                     constant_alpha(material, record.roughness), thickness_of(material), bounces_of(material)};
+    // Of an anisotropic one the alphas' mean, which varies where one of them does.
+    if (coat.metal_alpha && record.roughness_v.count > 0) {
+      const std::optional<double> other = constant_alpha(material, record.roughness_v);
+      coat.metal_alpha = other ? std::optional(std::sqrt(*coat.metal_alpha * *other)) : std::nullopt;
+    }
+    layers.coat_varies = coat.coat_alpha ? 0 : 1;
+    layers.metal_varies = coat.metal_alpha ? 0 : 1;
+    const auto [place, is_new] =
+        coated_metal_tables_.try_emplace(coat, static_cast<uint32_t>(out_.albedo_tables.size()));
+    if (is_new) append_table(coated_metal_table(coat));
+    layers.coated_metal = place->second;
+  }
+
+  bool loses_light() const { return scene_.coats == CoatModel::pbrt; }
+  double thickness_of(const Material& material) const {
+    return material.thickness_is_given || loses_light() ? material.thickness : 0;
+  }
+  int bounces_of(const Material& material) const { return loses_light() ? material.coat_bounces : 0; }
+
+  /// alpha where the roughness is the same everywhere.
+  std::optional<double> constant_alpha(const Material& material, TextureRange roughness) const {
+    if (roughness.count == 0) return least_layered_alpha<double>;
+    const TextureRecord<Real>& record = out_.textures[roughness.first];
+    if (roughness.count > 1 || record.kind != TextureKind::constant) return std::nullopt;
+    const double value = std::clamp(static_cast<double>(record.parameters.x), 0.0, 1.0);
+    return std::max(material.remap_roughness ? std::sqrt(value) : value, least_layered_alpha<double>);
   }
 
   void add_principled(const Material& material, MaterialRecord<Real>& record, LayersRecord<Real>& layers) {
@@ -323,6 +358,14 @@ class MaterialBuilder {
     return place->second;
   }
 
+  /// Where the table of what a coat lets through stands; one a coat.
+  uint32_t transmission_table(double ior, double thickness, bool conserves) {
+    const auto [place, is_new] =
+        transmission_tables_.try_emplace({ior, thickness, conserves}, static_cast<uint32_t>(out_.albedo_tables.size()));
+    if (is_new) append_table(coat_transmission_table(ior, thickness, conserves));
+    return place->second;
+  }
+
   TextureRange range_or(uint32_t texture, double fallback) {
     return texture == no_index ? textures_.constant(fallback) : textures_.range(texture);
   }
@@ -336,6 +379,8 @@ class MaterialBuilder {
   TextureBuilder<Real>& textures_;
   SceneArrays<Real>& out_;
   std::map<double, uint32_t> interface_tables_;
+  std::map<std::tuple<double, double, bool>, uint32_t> transmission_tables_;
+  std::map<CoatedMetal, uint32_t> coated_metal_tables_;
 };
 
 bool texture_needs_uv(const Scene& scene, uint32_t index, int nesting) {

@@ -141,8 +141,16 @@ struct Material {
   uint32_t amount = no_index;                         ///< mix: scalar texture, share of the second; absent: 0.5
   double coat_ior = 1.5;                              ///< coated_conductor
   uint32_t coat_roughness = no_index;                 ///< coated_conductor: scalar texture, absent = smooth
-  double thickness = 0;  ///< coated kinds: optical thickness of what lies below the interface
-  Vec3d absorption{};    ///< dielectric: of what it bounds, per scene unit
+  double thickness = 0;            ///< coated kinds: optical thickness of what lies below the interface
+  Vec3d absorption{};              ///< dielectric: of what it bounds, per scene unit
+  bool thickness_is_given = true;  ///< coated kinds: by the file; false: a default
+  int coat_bounces = 0;            ///< coated kinds: CoatModel::pbrt lets light meet the base as often; 0: for ever
+};
+
+/// How much light pbrt's coats lose.
+enum class CoatModel {
+  lossless,  ///< what a file says that they absorb; over diffuse bases nothing else
+  pbrt       ///< also by a thickness that is only a default, at rough interfaces, and after Material::coat_bounces
 };
 
 /// A triangle mesh in object space. Indices come in threes. Normals and uvs are per vertex or absent (empty).
@@ -294,6 +302,7 @@ struct Scene {
   /// Pictures of goniometric and projection lights, of floats that are finite and not negative, three a texel.
   std::vector<ImageTexels> light_pictures;
   LightSampling light_sampling = LightSampling::automatic;
+  CoatModel coats = CoatModel::lossless;
 };
 
 }  // namespace alhazen

@@ -1,35 +1,15 @@
-// The layered materials: energy over the grid of their parameters, density, reciprocity, and pbrt's coats against a
-// random walk between their interface and their base.
+// The layered materials: energy over the grid of their parameters, density and reciprocity.
 
 #include <gtest/gtest.h>
 
-#include "support/direction_histogram.h"
 #include "support/effort.h"
 #include "support/layered.h"
+#include "support/layered_checks.h"
 #include "support/random.h"
 #include "support/reals.h"
 
 namespace alhazen::test {
 namespace {
-
-struct Energy {
-  double mean, error;
-};
-
-/// Share of the light that goes on, in the strongest channel, the change of radiance by refraction undone.
-template <class Real>
-Energy energy_of(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, int samples, Random& random) {
-  double sum = 0, squares = 0;
-  for (int i = 0; i < samples; ++i) {
-    const Real u_lobe = random.uniform<Real>();
-    const BsdfSample<Real> s = sample_bsdf(bsdf, wo, u_lobe, random.uniform_2d<Real>());
-    const double e = s.pdf > 0 ? static_cast<double>(max_component(s.weight) * s.eta * s.eta) : 0;
-    EXPECT_TRUE(std::isfinite(e) && e >= 0);
-    sum += e, squares += e * e;
-  }
-  const double mean = sum / samples;
-  return {mean, std::sqrt(std::max(0.0, squares / samples - mean * mean) / samples)};
-}
 
 std::string name_of(const PrincipledValues& v, double cosine, double azimuth) {
   std::string name;
@@ -135,27 +115,6 @@ std::vector<PrincipledValues> mixtures() {
   return all;
 }
 
-template <class Real>
-void check_density(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, Random& random, size_t cases,
-                   const std::string& name) {
-  DirectionHistogram histogram(
-      {convert<double>(bsdf.frame.tangent), convert<double>(bsdf.frame.bitangent), convert<double>(bsdf.frame.normal)},
-      pi<double>);
-  for (size_t i = 0; i < effort(200'000); ++i) {
-    const Real u_lobe = random.uniform<Real>();
-    const BsdfSample<Real> s = sample_bsdf(bsdf, wo, u_lobe, random.uniform_2d<Real>());
-    if (s.pdf > 0)
-      histogram.add(convert<double>(s.direction));
-    else
-      histogram.add_nothing();
-  }
-  double integral = 0;
-  const ChiSquared test =
-      histogram.test([&](const Vec3d& wi) { return evaluate_bsdf(bsdf, wo, convert<Real>(wi)).pdf; }, integral);
-  EXPECT_LE(integral, 1 + 2e-3) << name;
-  EXPECT_GT(test.p_value, sidak(0.01, cases)) << name << ": integral of the pdf " << integral;
-}
-
 TYPED_TEST(Layered, SamplesFollowTheirDensity) {
   using Real = TypeParam;
   Random random(4);
@@ -201,63 +160,6 @@ TYPED_TEST(Layered, Reciprocity) {
     }
   }
   EXPECT_GT(tested, 1000u);
-}
-
-/// A photon between a smooth interface and a Lambertian or mirroring base, weighted as pbrt's layers do.
-double random_walk(double cosine, double ior, double thickness, double albedo, Random& random) {
-  double cos_t;
-  if (random.uniform<double>() < fresnel_dielectric(cosine, ior, cos_t)) return 1;
-  double weight = 1;
-  for (int bounce = 0; bounce < 200; ++bounce) {
-    weight *= std::exp(-thickness / cos_t) * albedo;
-    const double up = std::sqrt(random.uniform<double>());
-    weight *= std::exp(-thickness / up);
-    double cos_out;
-    if (random.uniform<double>() >= fresnel_dielectric(up, 1 / ior, cos_out)) return weight;
-    cos_t = up;
-  }
-  return 0;
-}
-
-TEST(CoatedDiffuse, AlbedoIsThatOfARandomWalk) {
-  Random random(7);
-  for (const double albedo : {0.2, 0.6, 0.95})
-    for (const double thickness : {0.0, 0.01, 0.1}) {
-      Scene scene;
-      Material coat;
-      coat.type = MaterialType::coated_diffuse;
-      coat.reflectance = constant_in(scene, albedo);
-      coat.thickness = thickness;
-      const FlatMaterial<double> material(scene, coat);
-      for (const double cosine : {1.0, 0.6, 0.25}) {
-        const Bsdf<double> bsdf = material.bsdf(cosine);
-        const Energy e = energy_of(bsdf, direction_at(bsdf.frame, cosine, 0.3), 40'000, random);
-        double walked = 0;
-        for (int i = 0; i < 40'000; ++i) walked += random_walk(cosine, 1.5, thickness, albedo, random) / 40'000;
-        EXPECT_NEAR(e.mean, walked, 0.02 * walked + 6 * e.error)
-            << "albedo " << albedo << ", thickness " << thickness << ", " << cosine;
-      }
-    }
-}
-
-TEST(CoatedConductor, LiesBetweenItsBaseAndAllLight) {
-  Random random(8);
-  for (const double roughness : {0.0, 0.1, 0.5}) {
-    Scene scene;
-    Material coat;
-    coat.type = MaterialType::coated_conductor;
-    coat.reflectance = constant_in(scene, 0.6);
-    coat.roughness_u = coat.roughness_v = constant_in(scene, roughness);
-    coat.coat_roughness = constant_in(scene, roughness / 2);
-    const FlatMaterial<double> material(scene, coat);
-    for (const double cosine : {1.0, 0.5, 0.1, 0.03}) {
-      const Bsdf<double> bsdf = material.bsdf(cosine);
-      const Energy e = energy_of(bsdf, direction_at(bsdf.frame, cosine, 0.3), 20'000, random);
-      EXPECT_LT(e.mean - 4 * e.error, 1.01) << roughness << " " << cosine;
-      // What single scattering loses of rough metal is not given back.
-      EXPECT_GT(e.mean, roughness < 0.3 ? 0.4 : 0.15) << roughness << " " << cosine;
-    }
-  }
 }
 
 TEST(Mix, OfItselfIsRefused) {

@@ -59,6 +59,17 @@ TEST(Compare, EqualPictures) {
   EXPECT_EQ(d.nonfinite_a + d.nonfinite_b, 0);
 }
 
+TEST(Compare, ReducedPicturesAreMeansOfBlocks) {
+  Image image = constant_image(5, 3, 0);
+  for (size_t i = 0; i < 15; ++i) image.planes[0][i] = static_cast<float>(i);
+  const Image small = reduced(image, 2);
+  EXPECT_EQ(small.width, 2);
+  EXPECT_EQ(small.height, 1);
+  EXPECT_EQ(small.channels, image.channels);
+  EXPECT_EQ(small.planes[0], (std::vector<float>{3, 5}));  // 0 1 5 6, 2 3 7 8
+  EXPECT_THROW(reduced(image, 4), InputError);
+}
+
 TEST(Compare, ConstantOffset) {
   const ImageDifference d = compare_images(constant_image(16, 16, 0.75f), constant_image(16, 16, 0.5f));
   EXPECT_NEAR(d.mse, 0.0625, 1e-12);

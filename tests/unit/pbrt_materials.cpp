@@ -130,11 +130,15 @@ TEST(PbrtMaterials, CoatedDiffuse) {
   EXPECT_EQ(plain.type, MaterialType::coated_diffuse);
   EXPECT_EQ(plain.ior, 1.5);
   EXPECT_EQ(plain.thickness, 0.01);
+  EXPECT_FALSE(plain.thickness_is_given);
+  EXPECT_EQ(plain.coat_bounces, 5);
   EXPECT_EQ(plain.roughness_u, no_index);
   expect_near(constant_of(p, plain.reflectance), splat(0.5));
   const Material& other = material_of(p, shapes(p)[1]);
   EXPECT_EQ(other.ior, 1.7);
   EXPECT_EQ(other.thickness, 1);
+  EXPECT_TRUE(other.thickness_is_given);
+  EXPECT_EQ(other.coat_bounces, 3);
   EXPECT_EQ(constant_of(p, other.roughness_u).x, 0.1);
   EXPECT_EQ(constant_of(p, other.roughness_v).x, 0.3);
   EXPECT_FALSE(other.remap_roughness);

@@ -8,6 +8,7 @@
 // Imageworks"). There are no single directions: what is smooth has an alpha of `least_alpha`.
 
 #include "core/materials/albedo_table.h"
+#include "core/materials/coated_metal.h"
 #include "core/materials/dielectric.h"
 #include "core/materials/sheen.h"
 #include "core/math/frame.h"
@@ -29,7 +30,9 @@ struct LayeredBsdf {
   Real f90;
   Real ior;
   Vec3<Real> diffuse;  ///< colour below the interface, times the share of the base that has it
-  Real thickness;      ///< optical, of what lies between interface and diffuse base
+  const Real*
+      transmission;  ///< what a coat lets through to the diffuse base, and out again; null: what it does not reflect
+  Real exit;         ///< of a coat: 1 / (share of light that leaves from below, times ior^2)
   // Light that goes through
   bool thin;
   Vec3<Real> through;           ///< colour, times the share of the base
@@ -39,7 +42,8 @@ struct LayeredBsdf {
   Real metal;           ///< share of the base
   Vec3<Real> metal_f0;  ///< or, of coated conductors, eta
   Vec3<Real> metal_k;
-  bool metal_is_exact;  ///< by eta and k, relative to the coat above it
+  bool metal_is_exact;                  ///< by eta and k, relative to the coat above it
+  CoatedMetalPlace<Real> coated_metal;  ///< of that
   // Layers above
   Real coat, coat_alpha, coat_ior;
   const Real* coat_albedo;
@@ -58,6 +62,8 @@ struct LayeredLobes {
   Real coat_albedo = 0;
   Real interface;  ///< albedo of the dielectric
   Real ggx;        ///< albedo of GGX that reflects everything
+  Real entering;   ///< share that gets to the diffuse base
+  CoatedMetalFactors<Real> coated_metal{1, 1};
   Real sheen = 0;  ///< albedo, of colour 1
 };
 
@@ -78,6 +84,13 @@ ALHAZEN_HD Real most_albedo(const Vec2<Real>& alpha, const Vec3<Real>& w, const 
   const Real towards = albedo(alpha_towards(alpha, w));
   if (alpha.x == alpha.y) return towards;
   return larger(larger(towards, albedo(std::sqrt(alpha.x * alpha.y))), larger(albedo(alpha.x), albedo(alpha.y)));
+}
+
+/// Share of light from `w` that gets below the coat.
+template <class Real>
+ALHAZEN_HD Real coat_transmission(const LayeredBsdf<Real>& b, const Vec3<Real>& w) {
+  // The least for a pair of alphas, as it is the most for what is reflected.
+  return 1 - most_albedo(b.alpha, w, [&](Real alpha) { return 1 - lookup_albedo(b.transmission, w.z, alpha); });
 }
 
 template <class Real>
@@ -105,7 +118,6 @@ ALHAZEN_HD Real interface_albedo(const LayeredBsdf<Real>& b, const Vec3<Real>& w
 
 template <class Real>
 ALHAZEN_HD Real mean_interface_albedo(const LayeredBsdf<Real>& b, Real alpha) {
-  if (b.interface_albedo) return mean_albedo(b.interface_albedo, alpha);
   return max_component(b.f0) * mean_albedo(b.tables + AlbedoTables::base, alpha) +
          b.f90 * mean_albedo(b.tables + AlbedoTables::edge, alpha);
 }
@@ -167,15 +179,20 @@ ALHAZEN_HD ALHAZEN_COLD LayeredLobes<Real> layered_lobes(const LayeredBsdf<Real>
   }
   lobes.interface = interface_albedo(b, o);
   lobes.ggx = ggx_albedo(b, o);
+  lobes.entering = b.transmission ? coat_transmission(b, o) : 1 - lobes.interface;
   const Real sheen = max_component(b.sheen);
   if (sheen > 0)
     lobes.sheen = lookup_albedo(b.tables + AlbedoTables::sheen, o.z, b.sheen_roughness * b.sheen_roughness);
   const Real below = lobes.below_coat, base = below * larger(Real(0), 1 - sheen * lobes.sheen);
   lobes.coat = lobes.coat_albedo;
-  lobes.specular = base * (b.dielectric * lobes.interface +
-                           (b.metal > 0 ? b.metal * max_component(fresnel_of_metal(b, o.z)) * lobes.ggx : Real(0)));
-  lobes.diffuse = below * sheen * lobes.sheen + base * (max_component(b.diffuse) * (1 - lobes.interface) +
-                                                        b.metal * max_component(b.metal_f0) * (1 - lobes.ggx));
+  if (b.metal_is_exact) lobes.coated_metal = coated_metal_factors(b.coated_metal, o.z);
+  lobes.specular =
+      base * (b.dielectric * lobes.interface +
+              (b.metal > 0 ? b.metal * max_component(fresnel_of_metal(b, o.z)) * lobes.ggx * sqr(lobes.coated_metal.all)
+                           : Real(0)));
+  lobes.diffuse = below * sheen * lobes.sheen +
+                  base * (max_component(b.diffuse) * lobes.entering +
+                          (b.metal_is_exact ? Real(0) : b.metal * max_component(b.metal_f0) * (1 - lobes.ggx)));
   lobes.through = base * (b.thin ? max_component(b.through) * (1 - lobes.interface)
                                  : b.glass * larger(max_component(b.through), Real(0.2) * b.glass));
   const Real sum = lobes.coat + lobes.specular + lobes.diffuse + lobes.through;
@@ -203,14 +220,6 @@ ALHAZEN_HD GgxReflection<Real> ggx_reflection(const Vec3<Real>& o, const Vec3<Re
   return r;
 }
 
-/// What metal below a coat reflects: between the two light goes to and fro.
-template <class Real>
-ALHAZEN_HD Vec3<Real> below_interface(const Vec3<Real>& reflectance, Real coat_o, Real coat_i) {
-  const Real m = larger(coat_o, coat_i);
-  const auto channel = [&](Real c) { return (1 - m) * (1 - m) * c / (1 - m * c); };
-  return {channel(reflectance.x), channel(reflectance.y), channel(reflectance.z)};
-}
-
 /// Sheen and base where both directions are on the same side, what the coat keeps not yet left out.
 template <class Real>
 ALHAZEN_HD BsdfValue<Real> evaluate_below_coat(const LayeredBsdf<Real>& b, const LayeredLobes<Real>& lobes,
@@ -223,17 +232,16 @@ ALHAZEN_HD BsdfValue<Real> evaluate_below_coat(const LayeredBsdf<Real>& b, const
   v.pdf += lobes.diffuse * lambert;
   const Real mean_alpha = std::sqrt(b.alpha.x * b.alpha.y);
   if (max_component(b.diffuse) > 0) {
-    Real shared = (1 - lobes.interface) * (1 - interface_albedo(b, i)) /
-                  larger(Real(1e-3), 1 - mean_interface_albedo(b, mean_alpha));
-    if (b.thickness > 0)
-      shared *= std::exp(-b.thickness * (1 / cosine_within(o.z, b.ior) + 1 / cosine_within(i.z, b.ior)));
+    const Real shared =
+        lobes.entering *
+        (b.transmission ? coat_transmission(b, i) * b.exit
+                        : (1 - interface_albedo(b, i)) / larger(Real(1e-3), 1 - mean_interface_albedo(b, mean_alpha)));
     v.value += b.diffuse * (shared * lambert);
   }
   if (b.metal > 0) {
     const Vec3<Real> f = fresnel_of_metal(b, ggx.cosine);
     v.value +=
-        (b.metal_is_exact ? below_interface(f, lobes.coat_albedo, lookup_albedo(b.coat_albedo, i.z, b.coat_alpha))
-                          : f) *
+        (b.metal_is_exact ? coated_metal_colour(lobes.coated_metal, coated_metal_factors(b.coated_metal, i.z), f) : f) *
         (b.metal * ggx.value);
     const Real mean = mean_ggx_albedo(b, mean_alpha);
     v.value +=

@@ -35,6 +35,15 @@ ALHAZEN_HD Real layered_alpha(Real alpha) {
   return larger(alpha, least_layered_alpha<Real>);
 }
 
+/// Of light that has come in: the share that a diffuse base sends out again, where the interface sends `back` that
+/// share of what meets it from below.
+template <class Real>
+ALHAZEN_HD Real below_coat(Real reflectance, Real back, Real bounces) {
+  const Real again = reflectance * back;
+  const Real sum = (bounces > 0 ? 1 - std::pow(again, bounces) : Real(1)) / larger(Real(1e-6), 1 - again);
+  return reflectance * (1 - back) * sum;
+}
+
 /// pbrt's coats. The interface lies over Lambert's law, or over metal whose lobe refraction widens.
 template <class Real>
 ALHAZEN_HD void make_coated(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
@@ -43,13 +52,16 @@ ALHAZEN_HD void make_coated(const SceneView<Real>& scene, const MaterialRecord<R
   const Real u = alpha_of(scene, material.roughness, remap, at);
   const Real v = material.roughness_v.count > 0 ? alpha_of(scene, material.roughness_v, remap, at) : u;
   b.alpha = {layered_alpha(u), layered_alpha(v)};
-  b.thickness = layers.thickness;
   const Vec3<Real> reflectance = colour_or(scene, material.reflectance, at, Real(1));
   if (layers.type == LayersType::coated_diffuse) {
     b.dielectric = 1;
     b.ior = material.ior;
     b.interface_albedo = scene.albedo_tables + layers.interface_albedo;
-    b.diffuse = reflectance * (1 - layers.inner_reflectance) / (splat(Real(1)) - reflectance * layers.inner_return);
+    b.transmission = scene.albedo_tables + layers.coat_transmission;
+    const Real back = mean_albedo(b.transmission, std::sqrt(b.alpha.x * b.alpha.y));
+    b.exit = 1 / (b.ior * b.ior * larger(Real(1e-3), 1 - back));
+    b.diffuse = {below_coat(reflectance.x, back, layers.bounces), below_coat(reflectance.y, back, layers.bounces),
+                 below_coat(reflectance.z, back, layers.bounces)};
     return;
   }
   b.coat = 1;
@@ -58,14 +70,18 @@ ALHAZEN_HD void make_coated(const SceneView<Real>& scene, const MaterialRecord<R
   b.coat_alpha = layered_alpha(alpha_of(scene, layers.clearcoat_roughness, remap, at));
   b.metal = 1;
   b.metal_is_exact = true;
-  b.alpha = {smaller(Real(1), b.alpha.x * b.coat_ior), smaller(Real(1), b.alpha.y * b.coat_ior)};
+  b.coated_metal = coated_metal_place(scene.albedo_tables + layers.coated_metal, layers.coat_varies != 0,
+                                      layers.metal_varies != 0, b.coat_alpha, std::sqrt(b.alpha.x * b.alpha.y));
+  b.alpha = {coated_metal_alpha(b.coat_alpha, b.alpha.x, b.coat_ior),
+             coated_metal_alpha(b.coat_alpha, b.alpha.y, b.coat_ior)};
   if (material.eta.count > 0) {
     b.metal_f0 = evaluate_texture(scene, material.eta, at) / b.coat_ior;
     b.metal_k = evaluate_texture(scene, material.k, at) / b.coat_ior;
   } else {
-    b.metal_f0 = splat(Real(1));
-    b.metal_k = {absorption_for_reflectance(reflectance.x), absorption_for_reflectance(reflectance.y),
-                 absorption_for_reflectance(reflectance.z)};
+    b.metal_f0 = splat(1 / b.coat_ior);
+    b.metal_k = Vec3<Real>{absorption_for_reflectance(reflectance.x), absorption_for_reflectance(reflectance.y),
+                           absorption_for_reflectance(reflectance.z)} /
+                b.coat_ior;
   }
 }
 
@@ -86,8 +102,9 @@ ALHAZEN_HD ALHAZEN_COLD void make_layered(const SceneView<Real>& scene, const Ma
   const LayersRecord<Real>& layers = scene.layers[material.layers];
   b.tables = scene.albedo_tables;
   b.dielectric = 0, b.interface_albedo = nullptr, b.f0 = {}, b.f90 = 0, b.ior = material.ior;
-  b.diffuse = {}, b.thickness = 0, b.thin = true, b.through = {}, b.glass = 0, b.glass_reflection = {};
-  b.metal = 0, b.metal_f0 = {}, b.metal_k = {}, b.metal_is_exact = false;
+  b.diffuse = {}, b.transmission = nullptr, b.exit = 1, b.thin = true, b.through = {}, b.glass = 0,
+  b.glass_reflection = {};
+  b.metal = 0, b.metal_f0 = {}, b.metal_k = {}, b.metal_is_exact = false, b.coated_metal = {};
   b.coat = 0, b.coat_alpha = least_layered_alpha<Real>, b.coat_ior = layers.clearcoat_ior, b.coat_albedo = nullptr;
   b.coat_normal = coat_normal, b.sheen = {}, b.sheen_roughness = 0;
   if (layers.type != LayersType::principled) return make_coated(scene, material, layers, at, b);

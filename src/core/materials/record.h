@@ -66,9 +66,10 @@ struct LayersRecord {
   TextureRange anisotropy, anisotropy_direction;
   Real rotation_cosine, rotation_sine;  ///< of the anisotropy
   Real iridescence_ior, clearcoat_normal_scale, dispersion, clearcoat_ior;
-  Real thickness;  ///< coats: optical thickness
-  /// coated diffuse: share of diffuse light that the interface sends back inside, without and with absorption.
-  Real inner_reflectance, inner_return;
+  uint32_t coat_transmission;  ///< coated diffuse: where in SceneView::albedo_tables what the coat lets through lies
+  uint32_t coated_metal;       ///< coated conductor: where its table of core/materials/coated_metal.h lies
+  uint32_t coat_varies, metal_varies;  ///< and whether that has many roughnesses of the two
+  Real bounces;                        ///< coated diffuse: light meets the base as often as this at most; 0: for ever
 };
 
 }  // namespace ALHAZEN_CORE

@@ -146,4 +146,24 @@ Image difference_image(const Image& a, const Image& b) {
   return image;
 }
 
+Image reduced(const Image& image, int factor) {
+  if (factor < 1 || factor > std::min(image.width, image.height))
+    throw InputError("a picture of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                     " cannot be reduced by " + std::to_string(factor));
+  Image small{image.width / factor, image.height / factor, image.channels, {}};
+  const auto width = static_cast<size_t>(image.width), columns = static_cast<size_t>(small.width),
+             rows = static_cast<size_t>(small.height), n = static_cast<size_t>(factor);
+  for (const std::vector<float>& plane : image.planes) {
+    std::vector<float> means(columns * rows);
+    for (size_t y = 0; y < rows; ++y)
+      for (size_t x = 0; x < columns; ++x) {
+        double sum = 0;
+        for (size_t i = 0; i < n * n; ++i) sum += static_cast<double>(plane[(y * n + i / n) * width + x * n + i % n]);
+        means[y * columns + x] = static_cast<float>(sum / static_cast<double>(n * n));
+      }
+    small.planes.push_back(std::move(means));
+  }
+  return small;
+}
+
 }  // namespace alhazen

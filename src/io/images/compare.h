@@ -25,6 +25,10 @@ struct ImageDifference {
 /// Throws InputError where the sizes differ or a picture has neither R, G, B nor a single channel.
 ImageDifference compare_images(const Image& a, const Image& b);
 
+/// The picture with each `factor` x `factor` pixels made one, their mean; rows and columns that are left over at the
+/// right and the bottom are dropped. Throws InputError where nothing would be left.
+Image reduced(const Image& image, int factor);
+
 /// A picture (R, G, B) of where they differ: the FLIP error of each pixel through a perceptually ordered colour map.
 Image difference_image(const Image& a, const Image& b);
 

@@ -1,5 +1,6 @@
 #include "io/pbrt/materials.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
@@ -104,12 +105,17 @@ ReadMaterial read_dielectric(Build& build, ParameterList& list) {
 
 /// What lies between the interface and the base of a coat.
 void read_coat(Build& build, ParameterList& list, Material& material) {
+  material.thickness_is_given = list.has("thickness");
   material.thickness = list.number("thickness", 0.01);
   if (!(material.thickness >= 0)) fail(list.place_of("thickness"), "\"thickness\" must not be negative");
   const Parameter* albedo = list.find("albedo");
   if (albedo && albedo->type != ParameterType::texture && !is_zero(colour_of(build, *albedo, ColourUse::unbounded)))
     build.warn(albedo->place, "light scattered within coats is not supported; they absorb alone");
-  list.ignore({"g", "maxdepth", "nsamples"});
+  // pbrt-v4 counts both surfaces.
+  const int32_t depth = list.integer("maxdepth", 10);
+  if (depth < 1) fail(list.place_of("maxdepth"), "\"maxdepth\" must be 1 or more");
+  material.coat_bounces = (std::min(depth, 1000) + 1) / 2;
+  list.ignore({"g", "nsamples"});
 }
 
 ReadMaterial read_coated_diffuse(Build& build, ParameterList& list) {

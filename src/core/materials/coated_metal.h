@@ -1,0 +1,97 @@
+#pragma once
+
+// Metal below a rough dielectric coat, as a single lobe. Where light goes once down, off the metal and out again it
+// leaves about GGX of an alpha that both roughnesses and the refraction make; what share of it leaves after one bounce
+// and after any number is tabulated by a simulation of the layers (scene/coated_metal_tables.cpp).
+
+#include "core/materials/fresnel.h"
+
+namespace ALHAZEN_CORE {
+
+/// Values of a row, by sqrt(cosine), and of the roughnesses of coat and metal by sqrt(alpha), where they vary.
+inline constexpr uint32_t coated_metal_cosines = 32, coated_metal_alphas = 8;
+/// Two rows: factors for light that meets the metal once, and for all of it where each further bounce leaves
+/// `coated_metal_fit` of it: in between and around it the sum is taken for that of a geometric series.
+template <class Real>
+inline constexpr Real coated_metal_fit = Real(0.8);
+inline constexpr uint32_t coated_metal_block = 2 * coated_metal_cosines;
+
+/// Where to look in a table: the steps are 0 where a roughness is constant.
+template <class Real>
+struct CoatedMetalPlace {
+  const Real* block;
+  uint32_t coat_step, metal_step;
+  Real coat_share, metal_share;  ///< of the next block
+};
+
+template <class Real>
+ALHAZEN_HD uint32_t coated_metal_step(Real alpha, Real& share) {
+  const Real place = std::sqrt(clamp(alpha, Real(0), Real(1))) * static_cast<Real>(coated_metal_alphas - 1);
+  uint32_t i = static_cast<uint32_t>(place);
+  i = i > coated_metal_alphas - 2 ? coated_metal_alphas - 2 : i;
+  share = place - static_cast<Real>(i);
+  return i;
+}
+
+/// Blocks of a table lie by the roughness of the coat, then by that of the metal.
+template <class Real>
+ALHAZEN_HD CoatedMetalPlace<Real> coated_metal_place(const Real* table, bool coat_varies, bool metal_varies, Real coat,
+                                                     Real metal) {
+  CoatedMetalPlace<Real> place{table, 0, 0, 0, 0};
+  if (metal_varies) {
+    place.metal_step = coated_metal_block;
+    place.block += coated_metal_step(metal, place.metal_share) * place.metal_step;
+  }
+  if (coat_varies) {
+    place.coat_step = coated_metal_block * (metal_varies ? coated_metal_alphas : 1);
+    place.block += coated_metal_step(coat, place.coat_share) * place.coat_step;
+  }
+  return place;
+}
+
+/// alpha of the lobe outside. Slopes of the metal are scaled by the index as light leaves; the coat's bend the way in
+/// and the way out by (ior - 1) / 2 of theirs each.
+template <class Real>
+ALHAZEN_HD Real coated_metal_alpha(Real coat, Real metal, Real ior) {
+  return smaller(Real(1), std::sqrt(sqr(ior * metal) + Real(0.5) * sqr((ior - 1) * coat)));
+}
+
+template <class Real>
+ALHAZEN_HD Real coated_metal_value(const Real* row, Real cosine) {
+  const Real x = std::sqrt(clamp(cosine, Real(0), Real(1))) * static_cast<Real>(coated_metal_cosines - 1);
+  uint32_t i = static_cast<uint32_t>(x);
+  i = i > coated_metal_cosines - 2 ? coated_metal_cosines - 2 : i;
+  return row[i] + (row[i + 1] - row[i]) * (x - static_cast<Real>(i));
+}
+
+/// Factors on the lobe at one of its directions.
+template <class Real>
+struct CoatedMetalFactors {
+  Real once, all;
+};
+
+template <class Real>
+ALHAZEN_HD CoatedMetalFactors<Real> coated_metal_factors(const CoatedMetalPlace<Real>& place, Real cosine) {
+  CoatedMetalFactors<Real> sum{0, 0};
+  for (uint32_t corner = 0; corner < 4; ++corner) {
+    const Real share = (corner & 1 ? place.metal_share : 1 - place.metal_share) *
+                       (corner & 2 ? place.coat_share : 1 - place.coat_share);
+    if (!(share > 0)) continue;
+    const Real* row = place.block + (corner & 1 ? place.metal_step : 0) + (corner & 2 ? place.coat_step : 0);
+    sum.once += share * coated_metal_value(row, cosine);
+    sum.all += share * coated_metal_value(row + coated_metal_cosines, cosine);
+  }
+  return sum;
+}
+
+/// Factor on the lobe for metal of that reflectance: each further bounce is coloured by it once more.
+template <class Real>
+ALHAZEN_HD Vec3<Real> coated_metal_colour(const CoatedMetalFactors<Real>& o, const CoatedMetalFactors<Real>& i,
+                                          const Vec3<Real>& reflectance) {
+  const Real once = o.once * i.once, all = o.all * i.all;
+  const Real again = all > 0 ? clamp((1 - once / all) / coated_metal_fit<Real>, Real(0), Real(1)) : Real(0);
+  const auto channel = [&](Real c) { return once * c / larger(Real(1e-6), 1 - again * c); };
+  return {channel(reflectance.x), channel(reflectance.y), channel(reflectance.z)};
+}
+
+}  // namespace ALHAZEN_CORE
