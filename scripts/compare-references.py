@@ -11,6 +11,7 @@ reference, with the filter that it asks for, at few samples; then both pictures 
 import argparse
 import json
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -35,6 +36,14 @@ def name_of(scene: pathlib.Path) -> str:
     return scene.parent.parent.name if scene.parent.name == "pbrt" else scene.parent.name
 
 
+def size_of(picture: pathlib.Path) -> str:
+    """WxH of an EXR: its header has the data window as two inclusive corners."""
+    header = picture.read_bytes()[:65536]
+    at = header.index(b"dataWindow\0box2i\0") + len(b"dataWindow\0box2i\0") + 4
+    x0, y0, x1, y1 = struct.unpack("<4i", header[at : at + 16])
+    return f"{x1 - x0 + 1}x{y1 - y0 + 1}"
+
+
 def run(command: list[str]) -> subprocess.CompletedProcess:
     return subprocess.run(command, capture_output=True, text=True)
 
@@ -49,7 +58,7 @@ class Study:
         picture, small = self.work / f"{name}.exr", self.work / f"{name}.png"
         start = time.time()
         rendered = run([self.options.alhazen, "render", str(scene), "-o", str(picture), "-o", str(small), "-q",
-                        "--spp", str(self.options.spp), "--threads", str(self.options.threads),
+                        "--size", size_of(reference), "--spp", str(self.options.spp), "--threads", str(self.options.threads),
                         *self.options.render])  # fmt: skip
         seconds = time.time() - start
         (self.work / f"{name}.log").write_text(rendered.stderr)

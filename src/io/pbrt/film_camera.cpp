@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "io/pbrt/nearest.h"
 #include "io/pbrt/options.h"
 
 namespace alhazen::pbrt {
@@ -177,7 +178,7 @@ void set_film(Build& build, const std::string& kind, ParameterList& list) {
   if (kind == "spectral")
     build.warn_replaced(list, "linear sRGB is written instead");
   else if (kind != "rgb" && kind != "gbuffer")
-    fail(list.place(), "unknown film \"" + kind + "\"; use rgb");
+    fail(list.place(), "unknown film \"" + kind + "\"" + or_upgrade(kind, "; use rgb"));
   FilmSettings film;
   film.width = read_side(list, "xresolution", 1280);
   film.height = read_side(list, "yresolution", 720);

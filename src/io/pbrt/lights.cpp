@@ -259,7 +259,8 @@ void add_light(Build& build, const std::string& kind, ParameterList& list) {
 
 void set_area_light(Build& build, const std::string& kind, ParameterList& list) {
   list.inherit(build.state.defaults.light);
-  if (kind != "diffuse") fail(list.place(), "unknown area light \"" + kind + "\"; the format has \"diffuse\" only");
+  if (kind != "diffuse")
+    fail(list.place(), "unknown area light \"" + kind + "\"" + or_upgrade(kind, "; the format has \"diffuse\" only"));
   AreaLight light;
   light.place = list.place();
   light.two_sided = list.boolean("twosided", false);

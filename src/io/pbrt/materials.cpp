@@ -249,7 +249,7 @@ ReadMaterial read_material(Build& build, const std::string& kind, const Place& k
   if (known == known_materials.end()) {
     std::vector<std::string> kinds;
     for (const auto& [name, material] : known_materials) kinds.push_back(name);
-    fail(kind_place, "unknown material \"" + kind + "\"" + suggestion(kind, kinds));
+    fail(kind_place, "unknown material \"" + kind + "\"" + upgrade_or_suggestion(kind, kinds));
   }
   if (const char* replacement = known->second.replacement) {
     build.warn(kind_place, "material \"" + kind + "\" is not supported; " + replacement);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Suggestions for misspelt names.
+// Suggestions for misspelt names, and for names of the version before.
 
 #include <algorithm>
 #include <string>
@@ -40,6 +40,25 @@ std::string suggestion(std::string_view word, const Names& names) {
     }
   }
   return best.empty() ? std::string() : "; did you mean \"" + std::string(best) + "\"?";
+}
+
+/// After a name that is not known: what to do where it is one of pbrt-v3's that pbrt-v4 took out, else `otherwise`.
+inline std::string or_upgrade(std::string_view name, const std::string& otherwise) {
+  constexpr std::string_view names_of_v3[] = {
+      "image",          "area",         "color",       "matte",          "plastic",           "substrate",
+      "glass",          "metal",        "mirror",      "uber",           "translucent",       "disney",
+      "fourier",        "kdsubsurface", "02sequence",  "lowdiscrepancy", "maxmindist",        "random",
+      "directlighting", "whitted",      "heightfield", "nurbs",          "SurfaceIntegrator", "VolumeIntegrator"};
+  for (const std::string_view old : names_of_v3)
+    if (name == old)
+      return "; that is of pbrt-v3, and pbrt-v4 files are read: convert it by 'pbrt --upgrade old.pbrt > new.pbrt'";
+  return otherwise;
+}
+
+/// The same for one of several kinds.
+template <class Names>
+std::string upgrade_or_suggestion(std::string_view name, const Names& names) {
+  return or_upgrade(name, suggestion(name, names));
 }
 
 }  // namespace alhazen::pbrt

@@ -18,7 +18,7 @@ const Value& known_kind(const std::map<std::string, Value>& kinds, const std::st
   if (const auto found = kinds.find(kind); found != kinds.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [name, value] : kinds) names.push_back(name);
-  fail(list.place(), "unknown " + what + " \"" + kind + "\"" + suggestion(kind, names));
+  fail(list.place(), "unknown " + what + " \"" + kind + "\"" + upgrade_or_suggestion(kind, names));
 }
 
 /// What stands in for an integrator of pbrt-v4, and what to say where the picture is another one for it.

@@ -115,7 +115,7 @@ void Parser::parse_directive() {
   if (found == by_name.end()) {
     std::vector<std::string_view> names;
     for (const Directive& directive : directives()) names.emplace_back(directive.name);
-    fail(place, "unknown directive " + described(token) + suggestion(token.text, names));
+    fail(place, "unknown directive " + described(token) + upgrade_or_suggestion(token.text, names));
   }
   const Directive& directive = *found->second;
   directive_ = directive.name;

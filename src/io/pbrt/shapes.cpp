@@ -169,7 +169,7 @@ void add_shape(Build& build, const std::string& kind, ParameterList& list) {
   if (reader == readers.end()) {
     std::vector<std::string> kinds;
     for (const auto& [known, function] : readers) kinds.push_back(known);
-    fail(list.place(), "unknown shape \"" + kind + "\"" + suggestion(kind, kinds));
+    fail(list.place(), "unknown shape \"" + kind + "\"" + upgrade_or_suggestion(kind, kinds));
   }
   Shape shape;
   shape.where = list.place().location();

@@ -224,7 +224,8 @@ uint32_t find_texture(const Build& build, const Parameter& parameter, bool is_fl
 void add_texture(Build& build, const std::string& name, const std::string& value_type, const std::string& kind,
                  ParameterList& list) {
   if (value_type != "float" && value_type != "spectrum")
-    fail(list.place(), "texture \"" + name + "\": unknown type \"" + value_type + "\"; use float or spectrum");
+    fail(list.place(), "texture \"" + name + "\": unknown type \"" + value_type + "\"" +
+                           or_upgrade(value_type, "; use float or spectrum"));
   const bool is_float = value_type == "float";
   auto& textures = is_float ? build.float_textures : build.spectrum_textures;
   if (textures.contains(name))
