@@ -17,4 +17,7 @@ inline constexpr bool is_sanitized = false;
 /// `full`, or a sixteenth of it under sanitizers.
 constexpr size_t effort(size_t full) { return is_sanitized ? full / 16 : full; }
 
+/// A bound on a mean over `effort(n)` samples, of which a sixteenth errs by four times as much.
+constexpr double widened(double bound) { return is_sanitized ? 4 * bound : bound; }
+
 }  // namespace alhazen::test
