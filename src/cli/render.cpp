@@ -135,7 +135,8 @@ int run(RenderOptions& options) {
   Diagnostics diagnostics;
   const auto start = std::chrono::steady_clock::now();
   const Settings& s = options.settings;
-  Scene scene = read_scene(options.scene, {s.camera, s.variant, s.animation, s.animation_time}, diagnostics);
+  const ReadOptions choice{s.camera, s.variant, s.animation, s.animation_time, aspect_of(s.width, s.height)};
+  Scene scene = read_scene(options.scene, choice, diagnostics);
   if (!options.settings.environment.empty()) use_environment(scene, options.settings.environment);
   const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);

@@ -116,6 +116,9 @@ struct Principled {
   /// What is left of white light after `attenuation_distance`, scene units; infinite: nothing is absorbed.
   Vec3d attenuation_colour{1, 1, 1};
   double attenuation_distance = std::numeric_limits<double>::infinity();
+  /// scalar, 0: share of what enters the diffuse base that leaves it on the other side, diffusely.
+  uint32_t diffuse_transmission = no_index;
+  uint32_t diffuse_transmission_colour = no_index;  ///< (1, 1, 1)
 };
 
 struct Material {
