@@ -1,6 +1,7 @@
 // What a file without cameras or lights is seen by.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -36,7 +37,7 @@ Vec3d way_to_eye(const Vec3d& half) {
   const auto ratio = [](double a, double b) { return b > 0 ? std::clamp(a / b, 0.0, 1.0) : 1.0; };
   const double depth = ratio(1.5 * half.z, std::max(half.x, half.y));
   const double length_in_z = 1 - ratio(half.x, half.z), flatness = 1 - ratio(half.y, std::max(half.x, half.z));
-  return normalize(Vec3d{0.12 + 0.33 * depth + 0.5 * length_in_z, 0.08 + 0.24 * depth + 0.25 * depth * flatness, 1});
+  return normalize(Vec3d{0.12 + 0.33 * depth + 0.5 * length_in_z, 0.08 + 0.3 * depth + 0.2 * depth * flatness, 1});
 }
 
 }  // namespace
@@ -82,16 +83,24 @@ void add_neutral_light(Scene& scene) {
   map.height = 64;
   map.srgb = false;
   map.name = "the neutral light";
-  const Vec3d window = normalize(Vec3d{-0.5, 0.8, 0.7});
+  // Before and above the model, beside it, and behind: for light, for what shines, and for its edge.
+  struct Window {
+    Vec3d direction;
+    double cosine, brightness;  ///< at the edge; of the middle
+  };
+  const std::array<Window, 3> windows{Window{normalize(Vec3d{-0.5, 0.8, 0.7}), 0.94, 7},
+                                      Window{normalize(Vec3d{0.95, 0.2, 0.2}), 0.92, 1.5},
+                                      Window{normalize(Vec3d{0.85, 0.6, -0.55}), 0.93, 2}};
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) {
       // z of the map is up in the world.
       const Vec3d d =
           direction_of_square(SphereMapping::equirectangular, Vec2d{(x + 0.5) / map.width, (y + 0.5) / map.height});
       const Vec3d world{d.x, d.z, -d.y};
-      const double sky = 0.25 + 0.35 * smoothstep(-1.0, 1.0, world.y);
-      const double glow = 5 * smoothstep(0.93, 0.97, dot(world, window));
-      for (int c = 0; c < 3; ++c) map.floats.push_back(static_cast<float>(sky + glow));
+      double sky = 0.16 + 0.36 * smoothstep(-0.8, 0.9, world.y);
+      for (const Window& w : windows)
+        sky += w.brightness * smoothstep(w.cosine, w.cosine + 0.03, dot(world, w.direction));
+      for (int c = 0; c < 3; ++c) map.floats.push_back(static_cast<float>(sky));
     }
   Light light;
   light.type = LightType::environment;

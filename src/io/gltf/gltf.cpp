@@ -78,7 +78,14 @@ class SceneReader {
     const bool has_camera = set_camera(document_, nodes_, options_.camera, scene_);
     if (!has_camera) fit_camera(scene_, options_.aspect);
     // What has a camera and lights is a scene, lit as it says; else it is a model to be looked at.
-    if (!has_camera || (scene_.lights.empty() && !emits_)) add_neutral_light(scene_);
+    const bool is_lit = !scene_.lights.empty() || emits_;
+    if (has_camera && !is_lit && light_closed_room(scene_))
+      document_.warn(
+          document_.root(),
+          "nothing shines within the walls that the camera stands in; the outermost of them shine by their own "
+          "colour");
+    else if (!has_camera || !is_lit)
+      add_neutral_light(scene_);
     if (scene_.meshes.empty())
       document_.warn(document_.root(), "the file has no surface to be drawn; the picture is empty");
     return std::move(scene_);
@@ -86,8 +93,7 @@ class SceneReader {
 
  private:
   void choose_variant() {
-    if (!options_.variant.empty())
-      variant_ = choose(document_, options_.variant, variant_names(document_), "variant");
+    if (!options_.variant.empty()) variant_ = choose(document_, options_.variant, variant_names(document_), "variant");
   }
 
   void choose_animation() {
