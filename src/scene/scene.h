@@ -256,6 +256,8 @@ struct FilmSettings {
   std::optional<std::array<int64_t, 4>> pixel_bounds;
   std::string filename;  ///< as the file says, may be empty
   double exposure = 1;   ///< factor on the radiance that is recorded
+  /// The lights are of no agreed brightness: pictures of 8 bits may be darkened where they would come out white.
+  bool fits_exposure = false;
 };
 
 enum class FilterType { box, triangle, gaussian, mitchell, sinc };
