@@ -9,9 +9,15 @@ endif()
 set(ALHAZEN_FLAGS_avx2 -march=x86-64-v3)
 set(ALHAZEN_FLAGS_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
 
+# Loops that shade many paths side by side have ways that meet in many places; by default GCC gives up at five.
+set(ALHAZEN_LOOP_OPTIONS)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(ALHAZEN_LOOP_OPTIONS "SHELL:--param max-tree-if-conversion-phi-args=16")
+endif()
+
 function(alhazen_compile_for target set)
   target_compile_definitions(${target} PRIVATE ALHAZEN_ISA=${set})
-  target_compile_options(${target} PRIVATE ${ALHAZEN_FLAGS_${set}})
+  target_compile_options(${target} PRIVATE ${ALHAZEN_FLAGS_${set}} ${ALHAZEN_LOOP_OPTIONS})
   target_link_libraries(${target} PRIVATE alhazen_options)
   if(ALHAZEN_WITH_EMBREE)
     target_link_libraries(${target} PRIVATE embree)

@@ -47,8 +47,9 @@ bool add_filter_axis(const Filter& filter, double radius, std::vector<Real>& tab
   }
   const size_t cdf = table.size() - 2 * filter_cells - 1;
   uint32_t cell = 0;
-  for (uint32_t part = 0; part < filter_cells; ++part) {
-    const Real lowest = static_cast<Real>(part) / static_cast<Real>(filter_cells);
+  constexpr uint32_t parts = filter_parts_per_cell * filter_cells;
+  for (uint32_t part = 0; part < parts; ++part) {
+    const Real lowest = static_cast<Real>(part) / static_cast<Real>(parts);
     while (table[cdf + cell + 1] <= lowest) ++cell;
     table.push_back(static_cast<Real>(cell));
   }

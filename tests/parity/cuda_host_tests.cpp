@@ -59,41 +59,19 @@ INSTANTIATE_TEST_SUITE_P(Parity, CudaOnHost,
                                             ::testing::Values("path", "iterative"),
                                             ::testing::Values("sobol", "independent")));
 
-TEST(CudaOnHostLights, EnvironmentMaps) {
+class CudaOnHostScene : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(CudaOnHostScene, GivesTheSerialBits) {
   for (const std::string precision : {"float", "double"})
     for (const std::string integrator : {"path", "iterative"}) {
       Settings serial = serial_settings(precision);
       serial.integrator = integrator;
-      expect_serial_bits(parity_scene("environments"), serial);
+      expect_serial_bits(parity_scene(GetParam()), serial);
     }
 }
 
-TEST(CudaOnHostLights, Many) {
-  for (const std::string precision : {"float", "double"})
-    for (const std::string integrator : {"path", "iterative"}) {
-      Settings serial = serial_settings(precision);
-      serial.integrator = integrator;
-      expect_serial_bits(parity_scene("lights"), serial);
-    }
-}
-
-TEST(CudaOnHostMaterials, OfEveryKind) {
-  for (const std::string precision : {"float", "double"})
-    for (const std::string integrator : {"path", "iterative"}) {
-      Settings serial = serial_settings(precision);
-      serial.integrator = integrator;
-      expect_serial_bits(parity_scene("materials"), serial);
-    }
-}
-
-TEST(CudaOnHostInstances, AreThoseOfCpus) {
-  for (const std::string precision : {"float", "double"})
-    for (const std::string integrator : {"path", "iterative"}) {
-      Settings serial = serial_settings(precision);
-      serial.integrator = integrator;
-      expect_serial_bits(parity_scene("instances"), serial);
-    }
-}
+INSTANTIATE_TEST_SUITE_P(Parity, CudaOnHostScene,
+                         ::testing::Values("environments", "lights", "materials", "instances", "meshes"));
 
 TEST(CudaOnHostSizes, OnePixel) {
   Settings serial = serial_settings("float");

@@ -128,6 +128,38 @@ ObjectEnd
   return scene_of(text);
 }
 
+/// Triangles of every sort, most of them diffuse: with and without normals of their own, turned inside out, bumped,
+/// textured, and shining on one side, on both, or by a mesh's normals; through a lens.
+inline Scene read_meshes() {
+  const std::string indices = R"( "integer indices" [ 0 1 2 0 2 3 ] )";
+  const std::string tent = R"(Shape "trianglemesh" "point3 P" [ -1 -1 0  1 -1 0  1 1 0.6  -1 1 0.6 ]
+    "normal N" [ -0.3 -0.5 1  0.3 -0.5 1  0.3 0.1 1  -0.3 0.1 1 ] "point2 uv" [ 0 0  1 0  1 1  0 1 ])" +
+                           indices;
+  return scene_of(R"(LookAt 0 -5 2  0 0 0.4  0 0 1
+Camera "perspective" "float fov" 45 "float lensradius" 0.05 "float focaldistance" 5
+Film "rgb" "integer xresolution" 20 "integer yresolution" 17
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.1 0.2 0.3 ]
+LightSource "point" "point3 from" [ 0 -2 3 ] "rgb I" [ 2 2 2 ]
+AttributeBegin AreaLightSource "diffuse" "rgb L" [ 4 5 6 ] "bool twosided" true Translate 0 0 3 Scale 0.4 0.4 0.4 )" +
+                  tent + R"(AttributeEnd
+AttributeBegin AreaLightSource "diffuse" "rgb L" [ 9 5 4 ] ReverseOrientation
+Shape "trianglemesh" "point3 P" [ -3 0 1  -3 1 1  -3 1 2  -3 0 2 ])" +
+                  indices + R"(AttributeEnd
+Texture "checks" "spectrum" "checkerboard" "rgb tex1" [ 0.8 0.2 0.2 ] "rgb tex2" [ 0.2 0.8 0.2 ]
+  "float uscale" 8 "float vscale" 8
+Texture "waves" "float" "wrinkled"
+Material "diffuse" "texture reflectance" "checks"
+Shape "trianglemesh" "point3 P" [ -9 -9 0  9 -9 0  9 9 0  -9 9 0 ])" +
+                  indices + R"(
+AttributeBegin Translate -1.4 0 0.3 )" +
+                  tent + R"(AttributeEnd
+AttributeBegin ReverseOrientation Material "diffuse" "texture displacement" "waves" Translate 1.4 0 0.3 )" +
+                  tent + R"(AttributeEnd
+AttributeBegin Material "conductor" "float roughness" 0.2 Translate 0 1.2 0.3 )" +
+                  tent + "AttributeEnd\n");
+}
+
 inline const Scene& parity_scene(const std::string& name) {
   if (name == "cornell") {
     static const Scene cornell = scene_of(cornell_box(parity_height));
@@ -148,6 +180,10 @@ inline const Scene& parity_scene(const std::string& name) {
   if (name == "instances") {
     static const Scene instances = read_instances();
     return instances;
+  }
+  if (name == "meshes") {
+    static const Scene meshes = read_meshes();
+    return meshes;
   }
   static const Scene spheres = read_spheres();
   return spheres;

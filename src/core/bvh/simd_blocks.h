@@ -7,24 +7,29 @@
 
 namespace ALHAZEN_CORE {
 
-/// Which lanes might be met at a distance in (0, hit.t]: replaces `hit` by the nearest of them that `accept` takes.
-template <class V, class Real, class Accept>
-ALHAZEN_INLINE bool take_nearest(const V& t, uint32_t lanes, const uint32_t* index, PrimitiveKind kind, Hit<Real>& hit,
-                                 const Accept& accept) {
-  lanes &= less(V::all(0), t) & less_equal(t, V::all(hit.t));
+/// Of `lanes`, which might be met, replaces `hit` by the nearest at a distance in (0, hit.t].
+template <class Met, class Real>
+ALHAZEN_INLINE bool take_nearest(const Met& met, uint32_t lanes, const uint32_t* index, PrimitiveKind kind,
+                                 Hit<Real>& hit) {
+  using V = decltype(met.t);
+  lanes &= less(V::all(0), met.t) & less_equal(met.t, V::all(hit.t));
+  if (lanes == 0) return false;
+  lanes &= met.accepted();
   if (lanes == 0) return false;
   Real distance[sizeof(V) / sizeof(Real)];
-  t.store(distance);
-  bool met = false;
+  met.t.store(distance);
+  int nearest = -1;
   for (; lanes != 0; lanes &= lanes - 1) {
     const int lane = std::countr_zero(lanes);
     const PrimitiveId id(kind, index[lane]);
-    if (!is_nearer(distance[lane], id, hit) || !accept(lane)) continue;
+    if (!is_nearer(distance[lane], id, hit)) continue;
     hit.t = distance[lane];
     hit.primitive = id;
-    met = true;
+    nearest = lane;
   }
-  return met;
+  if (nearest < 0) return false;
+  met.fill(nearest, hit);
+  return true;
 }
 
 template <class Real>
@@ -36,8 +41,7 @@ ALHAZEN_INLINE bool intersect_block(const TriangleBlock<Real>& block, const Ray<
   const V shear[3] = {V::all(ray.shear.x), V::all(ray.shear.y), V::all(ray.shear.z)};
   const TriangleLanes<V> met([&](int v, int k) { return V::load(block.vertex[v][axis[k]]); }, origin, shear);
   if (met.inside == 0) return false;
-  return take_nearest(met.t, met.inside, block.index, PrimitiveKind::triangle, hit,
-                      [&](int lane) { return met.accept(lane, ray.shear.z, hit); });
+  return take_nearest(met, met.inside, block.index, PrimitiveKind::triangle, hit);
 }
 
 template <class V, class Real>
@@ -46,7 +50,7 @@ ALHAZEN_INLINE bool intersect_spheres(const V (&f)[3], const Real* radii, const 
   const V d[3] = {V::all(ray.direction.x), V::all(ray.direction.y), V::all(ray.direction.z)};
   const SphereLanes<V> met(f, d, V::load(radii));
   if (met.crossed == 0) return false;
-  return take_nearest(met.t, met.crossed, index, kind, hit, [&](int) { return met.accept(hit); });
+  return take_nearest(met, met.crossed, index, kind, hit);
 }
 
 template <class Real>

@@ -237,8 +237,7 @@ class RayPacket {
     const V shear[3] = {V::load(shear_[0]), V::load(shear_[1]), V::load(shear_[2])};
     const TriangleLanes<V> met([&](int v, int k) { return V::all(block.vertex[v][axis_[k]][p]); }, origin, shear);
     if ((met.inside & rays) == 0) return;
-    take(met.t, met.inside & rays, PrimitiveId(PrimitiveKind::triangle, block.index[p]),
-         [&](int ray, Hit<Real>& hit) { return met.accept(ray, shear_[2][ray], hit); });
+    take(met, met.inside & rays, PrimitiveId(PrimitiveKind::triangle, block.index[p]));
   }
 
   ALHAZEN_INLINE void intersect_primitive_of(const SphereBlock<Real>& block, int p, uint32_t rays) {
@@ -260,18 +259,22 @@ class RayPacket {
     const V direction[3] = {V::load(direction_[0]), V::load(direction_[1]), V::load(direction_[2])};
     const SphereLanes<V> met(f, direction, V::all(radius));
     if ((met.crossed & rays) == 0) return;
-    take(met.t, met.crossed & rays, id, [&](int, Hit<Real>& hit) { return met.accept(hit); });
+    take(met, met.crossed & rays, id);
   }
 
   /// What take_nearest does, where a lane is a ray.
-  template <class Accept>
-  ALHAZEN_INLINE void take(const V& t, uint32_t rays, PrimitiveId id, const Accept& accept) {
+  template <class Met>
+  ALHAZEN_INLINE void take(const Met& met, uint32_t rays, PrimitiveId id) {
+    rays &= less(V::all(0), met.t);
+    if (rays == 0) return;
+    rays &= met.accepted();
     Real distance[width];
-    t.store(distance);
-    for (rays &= less(V::all(0), t); rays != 0; rays &= rays - 1) {
+    met.t.store(distance);
+    for (; rays != 0; rays &= rays - 1) {
       const int ray = std::countr_zero(rays);
       Hit<Real>& hit = hits_[ray];
-      if (!is_nearer(distance[ray], id, hit) || !accept(ray, hit)) continue;
+      if (!is_nearer(distance[ray], id, hit)) continue;
+      met.fill(ray, hit);
       hit.t = distance[ray];
       hit.primitive = id;
       note_hit(ray);

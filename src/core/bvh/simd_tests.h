@@ -14,14 +14,15 @@ namespace ALHAZEN_CORE {
 /// Where the rays meet the triangles' planes (Woop, Benthin, Wald 2013), and what the error bound of that needs.
 template <class V>
 struct TriangleLanes {
-  V x[3], y[3], z[3];  ///< vertices, sheared; z is not yet scaled
-  V e[3];              ///< edge functions
+  V x[3], y[3], scaled_z[3];  ///< vertices, sheared
+  V e[3];                     ///< edge functions
   V inverse, t;
-  uint32_t inside = 0;  ///< a bit for each lane; where none is set, `inverse` and `t` are not there
+  uint32_t inside = 0;  ///< a bit for each lane; where none is set, `scaled_z`, `inverse` and `t` are not there
 
   /// `vertex(v, k)` is coordinate k of vertex v; k is 0 to 2 and stands for the ray's axes kx, ky, kz.
   template <class Vertex>
   ALHAZEN_INLINE TriangleLanes(const Vertex& vertex, const V (&origin)[3], const V (&shear)[3]) {
+    V z[3];
     for (int v = 0; v < 3; ++v) {
       z[v] = vertex(v, 2) - origin[2];
       x[v] = vertex(v, 0) - origin[0] - shear[0] * z[v];
@@ -35,20 +36,35 @@ struct TriangleLanes {
     if (inside == 0) return;
     // Where the sum is 0, t is infinite or not a number, and not taken.
     inverse = V::all(1) / (e[0] + e[1] + e[2]);
-    t = (e[0] * (z[0] * shear[2]) + e[1] * (z[1] * shear[2]) + e[2] * (z[2] * shear[2])) * inverse;
+    for (int v = 0; v < 3; ++v) scaled_z[v] = z[v] * shear[2];
+    t = (e[0] * scaled_z[0] + e[1] * scaled_z[1] + e[2] * scaled_z[2]) * inverse;
   }
 
-  /// Whether t of a lane lies beyond its error; if so, sets the barycentric weights.
+  /// The lanes where t does not lie within its error, which is that of triangle_t_error.
+  ALHAZEN_INLINE uint32_t accepted() const {
+    using Real = typename V::Component;
+    const auto largest = [](const V& a, const V& b, const V& c) {
+      return larger(magnitude(a), larger(magnitude(b), magnitude(c)));
+    };
+    const auto bound = [](int n) { return V::all(rounding_bound<Real>(n)); };
+    const V max_x = largest(x[0], x[1], x[2]);
+    const V max_y = largest(y[0], y[1], y[2]);
+    const V max_z = largest(scaled_z[0], scaled_z[1], scaled_z[2]);
+    const V max_e = largest(e[0], e[1], e[2]);
+    const V error_x = bound(5) * (max_x + max_z);
+    const V error_y = bound(5) * (max_y + max_z);
+    const V error_z = bound(3) * max_z;
+    const V error_e = V::all(2) * (bound(2) * max_x * max_y + error_y * max_x + error_x * max_y);
+    const V error = V::all(3) * (bound(3) * max_e * max_z + error_e * max_z + error_z * max_e) * magnitude(inverse);
+    return ~less_equal(t, error);
+  }
+
+  /// Sets the barycentric weights of a lane.
   template <class Real>
-  ALHAZEN_INLINE bool accept(int lane, Real shear_z, Hit<Real>& hit) const {
-    Vec3<Real> p[3];
-    for (int v = 0; v < 3; ++v) p[v] = {x[v].lane(lane), y[v].lane(lane), z[v].lane(lane) * shear_z};
-    const Vec3<Real> edges{e[0].lane(lane), e[1].lane(lane), e[2].lane(lane)};
+  ALHAZEN_INLINE void fill(int lane, Hit<Real>& hit) const {
     const Real inverse_det = inverse.lane(lane);
-    if (t.lane(lane) <= triangle_t_error(p, edges, inverse_det)) return false;
-    hit.b1 = edges.y * inverse_det;
-    hit.b2 = edges.z * inverse_det;
-    return true;
+    hit.b1 = e[1].lane(lane) * inverse_det;
+    hit.b2 = e[2].lane(lane) * inverse_det;
   }
 };
 
@@ -75,10 +91,11 @@ struct SphereLanes {
     t = where_less(zero, c, near, far);
   }
 
+  ALHAZEN_INLINE uint32_t accepted() const { return crossed; }
+
   template <class Real>
-  ALHAZEN_INLINE bool accept(Hit<Real>& hit) const {
+  ALHAZEN_INLINE void fill(int, Hit<Real>& hit) const {
     hit.b1 = hit.b2 = 0;
-    return true;
   }
 };
 

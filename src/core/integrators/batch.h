@@ -6,6 +6,8 @@
 // what `integrate` does, in the same order, to the same bits.
 
 #include "core/integrators/camera_sample.h"
+#include "core/integrators/diffuse_surfaces.h"
+#include "core/integrators/met_surfaces.h"
 #include "core/sampling/drawn_numbers.h"
 
 namespace ALHAZEN_CORE {
@@ -36,7 +38,7 @@ class PathBatch {
     start();
     while (live_ > 0) {
       trace();
-      numbers_.draw(live_);
+      numbers_.draw(live_, wanted_numbers());
       shade_all();
       look_for_light();
       finish();
@@ -69,21 +71,68 @@ class PathBatch {
     for (uint32_t i = 0; i < count; ++i)
       camera_numbers_.samplers[i] = Sampler(seed_, pixels_[i].x, pixels_[i].y, pixels_[i].sample);
     for (uint32_t i = 0; i < count; ++i) camera_numbers_.first_dimension[i] = 0;
-    camera_numbers_.draw(count);
+    camera_numbers_.draw(count, wanted_camera_numbers());
+    for (uint32_t i = 0; i < count; ++i) {
+      const FilmSample<Real> film =
+          sample_film(scene_, pixels_[i].x, pixels_[i].y, camera_numbers_.pair(CameraDimensions::film, i));
+      film_x_[i] = film.position.x;
+      film_y_[i] = film.position.y;
+      lanes_[ended_[i]].filter_weight = film.filter_weight;
+    }
+    make_camera_rays(count);
     for (uint32_t i = 0; i < count; ++i) {
       Lane& lane = lanes_[ended_[i]];
-      const CameraSample<Real> camera = sample_camera(scene_, camera_numbers_.of(i), pixels_[i].x, pixels_[i].y);
       lane.sampler = camera_numbers_.samplers[i];
       lane.sample = next_ + i;
-      lane.filter_weight = camera.filter_weight;
       lane.path = {};
-      lane.path.ray = camera.ray;
+      lane.path.ray = {camera_origin_[i], camera_direction_[i], time_of(i)};
       lane.record = {};
       lane.record.keeps_first_hit = wants_first_hit_;
       wait(lane, ended_[i]);
     }
     next_ += count;
     ended_count_ = 0;
+  }
+
+  Real time_of(uint32_t i) const {
+    return scene_moves(scene_) ? camera_numbers_.first(CameraDimensions::time, i) : Real(0);
+  }
+
+  /// What `camera_ray` makes of the film positions; side by side where the camera is a perspective one.
+  void make_camera_rays(uint32_t count) {
+    const auto make = [&](const CameraRecord<Real>& camera, const Vec2<Real>& lens, uint32_t i) {
+      const Ray<Real> ray = camera_ray(camera, Vec2<Real>{film_x_[i], film_y_[i]}, lens, Real(0));
+      camera_origin_.set(i, ray.origin);
+      camera_direction_.set(i, ray.direction);
+    };
+    // The copies tell the compiler what the branches ask.
+    CameraRecord<Real> camera = scene_.camera;
+    if (camera.kind != CameraKind::perspective) {
+      const bool has_lens = camera.lens_radius > 0;
+      for (uint32_t i = 0; i < count; ++i)
+        make(camera, has_lens ? camera_numbers_.pair(CameraDimensions::lens, i) : Vec2<Real>{}, i);
+      return;
+    }
+    camera.kind = CameraKind::perspective;
+    if (camera.lens_radius > 0) {
+      ALHAZEN_SIDE_BY_SIDE
+      for (uint32_t i = 0; i < count; ++i) make(camera, camera_numbers_.pair(CameraDimensions::lens, i), i);
+    } else {
+      camera.lens_radius = 0;
+      ALHAZEN_SIDE_BY_SIDE
+      for (uint32_t i = 0; i < count; ++i) make(camera, {}, i);
+    }
+  }
+
+  uint32_t wanted_camera_numbers() const {
+    return 1u << CameraDimensions::film | (scene_.camera.lens_radius > 0 ? 1u << CameraDimensions::lens : 0) |
+           (scene_moves(scene_) ? 1u << CameraDimensions::time : 0);
+  }
+  uint32_t wanted_numbers() const {
+    constexpr VertexDimensions d = VertexDimensions::from(0);
+    const bool lights = kind == IntegratorKind::path && scene_.lights_count > 0;
+    return 1u << d.bsdf_lobe() | 1u << d.bsdf_direction() | 1u << d.roulette() |
+           (lights ? 1u << d.light_choice() | 1u << d.light_point() : 0);
   }
 
   /// The path of this lane is to take its next segment.
@@ -109,36 +158,94 @@ class PathBatch {
         [&](uint32_t i, bool found, const Hit<Real>& hit) { answer(first + i, found, hit); });
   }
 
-  void shade_all() {
+  /// Works out where the paths have met triangles.
+  void meet_triangles() {
     constexpr uint32_t ahead = 8;
     const auto prefetch = [&](uint32_t i) {
       const Lane& lane = lanes_[active_[i]];
       if (lane.has_met) prefetch_vertices(scene_, lane.hit.primitive);
     };
     for (uint32_t i = 0; i < ahead && i < live_; ++i) prefetch(i);
+    for (uint32_t i = 0; i < live_; ++i) {
+      if (i + ahead < live_) prefetch(i + ahead);
+      const Lane& lane = lanes_[active_[i]];
+      if (lane.has_met && met_.takes(lane.hit)) met_.meet(i, scene_, lane.path.ray, lane.hit);
+    }
+    met_.work_out(live_);
+  }
+
+  void shade_all() {
+    meet_triangles();
     lit_count_ = 0;
     const uint32_t count = live_;
     live_ = 0;
     for (uint32_t i = 0; i < count; ++i) {
-      if (i + ahead < count) prefetch(i + ahead);
       const uint32_t index = active_[i];
       Lane& lane = lanes_[index];
       ++lane.record.segments;
-      bool goes_on = false;
-      if (lane.has_met)
-        goes_on = shade(scene_, numbers_.of(i), max_segments_, lane.hit, lane.path, lane.record,
-                        [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
-                          lane.shadow = shadow;
-                          lane.lit = radiance;
-                          lit_[lit_count_++] = index;
-                        });
-      else
+      if (lane.has_met) {
+        shade_one(numbers_.of(i), i, index);
+      } else {
         leave_scene(scene_, lane.path, lane.record);
-      if (goes_on)
-        wait(lane, index);
-      else
-        ended_[ended_count_++] = index;
+        go_on_or_end(false, index);
+      }
     }
+    if constexpr (kind == IntegratorKind::path) shade_diffuse(count);
+  }
+
+  ALHAZEN_INLINE void go_on_or_end(bool goes_on, uint32_t index) {
+    if (goes_on)
+      wait(lanes_[index], index);
+    else
+      ended_[ended_count_++] = index;
+  }
+
+  ALHAZEN_INLINE void ask_for_light(uint32_t index, const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
+    lanes_[index].shadow = shadow;
+    lanes_[index].lit = radiance;
+    lit_[lit_count_++] = index;
+  }
+
+  /// `place` is that in `active_`.
+  template <class Numbers>
+  ALHAZEN_INLINE void shade_one(const Numbers& numbers, uint32_t place, uint32_t index) {
+    Lane& lane = lanes_[index];
+    if (scene_.has_cutouts && passes(scene_, lane.hit, lane.path.ray, lane.path.travelled))
+      return go_on_or_end(lane.record.segments < most_passages, index);
+    const bool is_met = met_.takes(lane.hit);
+    const ShadingPoint<Real> point = is_met ? met_.shading_point(place, scene_, lane.path.ray, lane.hit)
+                                            : shading_point(scene_, lane.path.ray, lane.hit);
+    if constexpr (kind != IntegratorKind::path) {
+      go_on_or_end(shade_at(scene_, numbers, max_segments_, lane.hit, point, lane.path, lane.record), index);
+    } else if (!arrive(scene_, max_segments_, lane.hit, point, lane.path, lane.record)) {
+      go_on_or_end(false, index);
+    } else if (point.bsdf.kind == MaterialKind::diffuse) {
+      if (!is_met || point.material->features & MaterialFeatures::tangents) met_.set(place, point);
+      diffuse_.add(place, scene_, point, numbers, lane.path);
+      diffuse_lanes_[place] = index;
+    } else {
+      const auto light = [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
+        ask_for_light(index, shadow, radiance);
+      };
+      go_on_or_end(light_and_scatter(scene_, numbers, point, lane.path, lane.record, light), index);
+    }
+  }
+
+  /// The diffuse surfaces that have been put aside, among the first `end` places.
+  void shade_diffuse(uint32_t end) {
+    if (diffuse_.count() == 0) return;
+    diffuse_.shade(met_, numbers_, end);
+    for (uint32_t i = 0; i < diffuse_.count(); ++i) {
+      const uint32_t place = diffuse_.place(i), index = diffuse_lanes_[place];
+      Lane& lane = lanes_[index];
+      if (diffuse_.is_lit(place)) {
+        ++lane.record.shadow_rays;
+        ask_for_light(index, diffuse_.shadow(place, lane.path.ray.time), diffuse_.lit(place));
+      }
+      diffuse_.take_over(place, lane.path);
+      go_on_or_end(diffuse_.goes_on(place), index);
+    }
+    diffuse_.clear();
   }
 
   void look_for_light() {
@@ -175,11 +282,16 @@ class PathBatch {
   const End& end_;
   Lane lanes_[most_paths];
   PixelSample pixels_[most_paths];
-  DrawnNumbers<Real, Sampler, most_paths, CameraDimensions::count> camera_numbers_;  ///< of those that begin
-  DrawnNumbers<Real, Sampler, most_paths, VertexDimensions::count> numbers_;         ///< of all, as `active_` has them
+  Real film_x_[most_paths], film_y_[most_paths];
+  VectorColumns<Real, most_paths> camera_origin_, camera_direction_;
+  DrawnNumbers<Real, Sampler, most_paths, CameraDimensions> camera_numbers_;  ///< of those that begin
+  DrawnNumbers<Real, Sampler, most_paths, VertexDimensions> numbers_;         ///< of all, as `active_` has them
   uint32_t active_[most_paths], live_ = 0, going_on_ = 0;  ///< lanes; the first `going_on_` of them are no camera rays
   uint32_t lit_[most_paths], lit_count_ = 0;
   uint32_t ended_[most_paths], ended_count_ = 0;
+  MetSurfaces<Real, most_paths> met_;
+  DiffuseSurfaces<Real, most_paths> diffuse_;
+  uint32_t diffuse_lanes_[most_paths];
 };
 
 /// Takes `count` samples: `pixel(i)` says which sample i is, `end(i, record, filter_weight)` is called once for each,

@@ -19,18 +19,34 @@ struct CameraSample {
   Real filter_weight;
 };
 
+template <class Real>
+ALHAZEN_HD bool scene_moves(const SceneView<Real>& scene) {
+  return scene.moving_spheres_count > 0 || scene.instance_motions_count > 0;
+}
+
+/// Where on the film the sample of pixel (x, y) lies, in pixels, and its weight by the filter.
+template <class Real>
+struct FilmSample {
+  Vec2<Real> position;
+  Real filter_weight;
+};
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT FilmSample<Real> sample_film(const SceneView<Real>& scene, uint32_t x, uint32_t y,
+                                                    const Vec2<Real>& u) {
+  const FilterSample<Real> filter = sample_filter(scene.filter, scene.filter_cdf, u);
+  return {{static_cast<Real>(x) + Real(0.5) + filter.offset.x, static_cast<Real>(y) + Real(0.5) + filter.offset.y},
+          filter.weight};
+}
+
 template <class Real, class Sampler>
 ALHAZEN_HD ALHAZEN_HOT CameraSample<Real> sample_camera(const SceneView<Real>& scene, const Sampler& sampler,
                                                         uint32_t x, uint32_t y) {
-  const FilterSample<Real> filter =
-      sample_filter(scene.filter, scene.filter_cdf, sampler.template get_2d<Real>(CameraDimensions::film));
-  const Vec2<Real> film{static_cast<Real>(x) + Real(0.5) + filter.offset.x,
-                        static_cast<Real>(y) + Real(0.5) + filter.offset.y};
+  const FilmSample<Real> film = sample_film(scene, x, y, sampler.template get_2d<Real>(CameraDimensions::film));
   const Vec2<Real> lens =
       scene.camera.lens_radius > 0 ? sampler.template get_2d<Real>(CameraDimensions::lens) : Vec2<Real>{};
-  const bool moves = scene.moving_spheres_count > 0 || scene.instance_motions_count > 0;
-  const Real time = moves ? sampler.template get_1d<Real>(CameraDimensions::time) : Real(0);
-  return {camera_ray(scene.camera, film, lens, time), filter.weight};
+  const Real time = scene_moves(scene) ? sampler.template get_1d<Real>(CameraDimensions::time) : Real(0);
+  return {camera_ray(scene.camera, film.position, lens, time), film.filter_weight};
 }
 
 /// The state between two segments of an integrator that goes by segments.

@@ -22,12 +22,11 @@ ALHAZEN_HD ALHAZEN_HOT void leave_scene(const SceneView<Real>& scene, const Iter
   record.radiance += path.throughput * background_radiance(scene, path.ray.direction);
 }
 
-/// Gathers and scatters where the path met a surface. False when it ends there. `light` is not asked for any.
-template <class Real, class Sampler, class Record, class Light>
-ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
-                                     const Hit<Real>& hit, IterativeState<Real>& path, Record& record, const Light&) {
-  if (scene.has_cutouts && passes(scene, hit, path.ray, path.travelled)) return record.segments < most_passages;
-  const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
+/// Gathers and scatters where the path met a surface. False when it ends there.
+template <class Real, class Sampler, class Record>
+ALHAZEN_HD ALHAZEN_HOT bool shade_at(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
+                                     const Hit<Real>& hit, const ShadingPoint<Real>& point, IterativeState<Real>& path,
+                                     Record& record) {
   path.throughput *= arriving_share(point, path.travelled + hit.t);
   if (path.vertex == 0) record_first_hit(point, path.travelled + hit.t, record);
   record.radiance += path.throughput * surface_emission(scene, hit, point);
@@ -39,6 +38,14 @@ ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler
   path.travelled = 0;
   ++path.vertex;
   return true;
+}
+
+/// The same from the hit on. `light` is not asked for any.
+template <class Real, class Sampler, class Record, class Light>
+ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
+                                     const Hit<Real>& hit, IterativeState<Real>& path, Record& record, const Light&) {
+  if (scene.has_cutouts && passes(scene, hit, path.ray, path.travelled)) return record.segments < most_passages;
+  return shade_at(scene, sampler, max_segments, hit, shading_point(scene, path.ray, hit), path, record);
 }
 
 }  // namespace ALHAZEN_CORE

@@ -78,25 +78,41 @@ ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingP
   return true;
 }
 
-/// Gathers, lights and scatters where the path met a surface. False when it ends there. `light` is handed the way to a
-/// sampled light and what the path gains if it is free, and may look at once or later.
-template <class Real, class Sampler, class Record, class Light>
-ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
-                                     const Hit<Real>& hit, PathState<Real>& path, Record& record, const Light& light) {
-  if (scene.has_cutouts && passes(scene, hit, path.ray, path.travelled)) return record.segments < most_passages;
-  const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
+/// What is done where the path met a surface before light is looked for. False when it ends there.
+template <class Real, class Record>
+ALHAZEN_HD ALHAZEN_HOT bool arrive(const SceneView<Real>& scene, uint32_t max_segments, const Hit<Real>& hit,
+                                   const ShadingPoint<Real>& point, PathState<Real>& path, Record& record) {
   if (point.material->features & MaterialFeatures::absorbs)
     path.throughput *= arriving_share(point, path.travelled + hit.t);
   if (path.vertex == 0) record_first_hit(point, path.travelled + hit.t, record);
   gather_emission(scene, path, hit, point, record);
-  if (path.vertex + 1 >= max_segments) return false;
-  const DirectLight<Real> direct = direct_light(scene, sampler, VertexDimensions(path.vertex), point);
+  return path.vertex + 1 < max_segments;
+}
+
+/// Looks for light and scatters. False when the path ends here. `light` is handed the way to a sampled light and what
+/// the path gains if it is free, and may look at once or later.
+template <class Real, class Sampler, class Record, class Light>
+ALHAZEN_HD ALHAZEN_HOT bool light_and_scatter(const SceneView<Real>& scene, const Sampler& sampler,
+                                              const ShadingPoint<Real>& point, PathState<Real>& path, Record& record,
+                                              const Light& light) {
+  const DirectLight<Real> direct =
+      direct_light(point, sample_light_for(scene, sampler, VertexDimensions(path.vertex), point));
   if (direct.is_lit) {
     ++record.shadow_rays;
     light(direct.shadow, path.throughput * direct.radiance);
   }
   if (scene.light_tree_count > 0) path.light_side = side_of_light(point);
   return continue_path(sampler, point, path);
+}
+
+/// Gathers, lights and scatters where the path met a surface. False when it ends there. `light` as above.
+template <class Real, class Sampler, class Record, class Light>
+ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
+                                     const Hit<Real>& hit, PathState<Real>& path, Record& record, const Light& light) {
+  if (scene.has_cutouts && passes(scene, hit, path.ray, path.travelled)) return record.segments < most_passages;
+  const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
+  return arrive(scene, max_segments, hit, point, path, record) &&
+         light_and_scatter(scene, sampler, point, path, record, light);
 }
 
 }  // namespace ALHAZEN_CORE

@@ -47,11 +47,13 @@ ALHAZEN_HD ALHAZEN_COLD void add_layers(const SceneView<Real>& scene, const Text
                random_of_hit<Real>(hash, HitChoice::channel), frame.to_local(coat_normal), point.bsdf.layered);
 }
 
+/// The shading point where the surface has been met at `si`; `frame` is that about its consistent_shading_normal.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point(const SceneView<Real>& scene, const Ray<Real>& ray,
-                                                        const Hit<Real>& hit) {
+ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point_at(const SceneView<Real>& scene, const Ray<Real>& ray,
+                                                           const Hit<Real>& hit, const SurfaceInteraction<Real>& si,
+                                                           const Frame<Real>& frame) {
   ShadingPoint<Real> point;
-  point.si = surface_interaction(scene, ray, hit);
+  point.si = si;
   point.wo = -ray.direction;
   const SurfaceRecord& surface = scene.surfaces[point.si.surface];
   point.light = surface.light;
@@ -59,16 +61,20 @@ ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point(const SceneView<Real>& s
   point.material = scene.materials + surface.material;
   if (point.material->kind == MaterialKind::mix)
     point.material = &mixed_material(scene, *point.material, at, hash_of_hit(ray, hit));
-  Vec3<Real> coat_normal;
-  if (point.material->features & MaterialFeatures::tangents) {
+  Vec3<Real> coat_normal = frame.normal;
+  point.bsdf.frame = frame;
+  if (point.material->features & MaterialFeatures::tangents)
     point.bsdf.frame = detailed_frame(scene, *point.material, hit, at, point.wo, point.si, coat_normal);
-  } else {
-    coat_normal = consistent_shading_normal(point.si, point.wo);
-    point.bsdf.frame = frame_about(coat_normal);
-  }
   make_bsdf(scene, *point.material, at, point.bsdf);
   if (point.material->kind == MaterialKind::layered) add_layers(scene, at, hash_of_hit(ray, hit), coat_normal, point);
   return point;
+}
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point(const SceneView<Real>& scene, const Ray<Real>& ray,
+                                                        const Hit<Real>& hit) {
+  const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
+  return shading_point_at(scene, ray, hit, si, frame_about(consistent_shading_normal(si, -ray.direction)));
 }
 
 /// Radiance that the surface itself sends back along the ray.
@@ -155,16 +161,32 @@ struct DirectLight {
   bool is_lit = false;
 };
 
+/// Chooses one of the scene's lights, of which there is one at least, for a surface. pmf 0: none.
 template <class Real, class Sampler>
-ALHAZEN_HD ALHAZEN_HOT DirectLight<Real> direct_light(const SceneView<Real>& scene, const Sampler& sampler,
-                                                      const VertexDimensions& dimensions,
-                                                      const ShadingPoint<Real>& point) {
+ALHAZEN_HD ALHAZEN_HOT LightChoice<Real> choose_light_for(const SceneView<Real>& scene, const Sampler& sampler,
+                                                          const VertexDimensions& dimensions,
+                                                          const ShadingPoint<Real>& point) {
+  return choose_light(scene, point.si.position, scene.light_tree_count > 0 ? side_of_light(point) : Vec3<Real>{},
+                      scene.lights_count > 1 ? sampler.template get_1d<Real>(dimensions.light_choice()) : Real(0));
+}
+
+/// One light, and a point of it as seen from a surface. pdf 0: there is none.
+template <class Real, class Sampler>
+ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light_for(const SceneView<Real>& scene, const Sampler& sampler,
+                                                          const VertexDimensions& dimensions,
+                                                          const ShadingPoint<Real>& point) {
+  if (scene.lights_count == 0 || point.bsdf.is_specular()) return {};
+  const LightChoice<Real> choice = choose_light_for(scene, sampler, dimensions, point);
+  if (!(choice.pmf > 0)) return {};
+  LightSample<Real> light = sample_chosen_light(scene, scene.lights[choice.light], point.si.position, point.si.time,
+                                                sampler.template get_2d<Real>(dimensions.light_point()));
+  light.pdf *= choice.pmf;
+  return light;
+}
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT DirectLight<Real> direct_light(const ShadingPoint<Real>& point, const LightSample<Real>& light) {
   DirectLight<Real> direct;
-  if (scene.lights_count == 0 || point.bsdf.is_specular()) return direct;
-  const LightSample<Real> light = sample_light(
-      scene, point.si.position, scene.light_tree_count > 0 ? side_of_light(point) : Vec3<Real>{}, point.si.time,
-      scene.lights_count > 1 ? sampler.template get_1d<Real>(dimensions.light_choice()) : Real(0),
-      sampler.template get_2d<Real>(dimensions.light_point()));
   if (!(light.pdf > 0) || is_zero(light.radiance) || !is_on_one_side(point, light.direction)) return direct;
   const BsdfValue<Real> f = evaluate_bsdf(point.bsdf, point.wo, light.direction);
   if (is_zero(f.value)) return direct;

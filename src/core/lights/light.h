@@ -66,29 +66,64 @@ ALHAZEN_HD Vec3<Real> sphere_emission_factor(const SceneView<Real>& scene, const
   return emission_factor(scene, light, at);
 }
 
+/// A triangle that shines, without its texture.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_triangle_light(const SceneView<Real>& scene,
-                                                               const LightRecord<Real>& light,
-                                                               const Vec3<Real>& reference, const Vec2<Real>& u) {
-  LightSample<Real> s;
+struct ShiningTriangle {
+  Vec3<Real> corner[3];
+  Vec3<Real> outward;  ///< the sum of the mesh's normals, which says where the front is; zero: the winding does
+  uint32_t flip_normal;
+  uint32_t two_sided;
+  Vec3<Real> radiance;
+};
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT ShiningTriangle<Real> shining_triangle(const SceneView<Real>& scene,
+                                                              const LightRecord<Real>& light) {
   const TriangleRecord& triangle = scene.triangles[light.primitive];
+  const SurfaceRecord& surface = scene.surfaces[triangle.surface];
+  const uint32_t* v = triangle.vertex;
+  ShiningTriangle<Real> t;
+  for (int i = 0; i < 3; ++i) t.corner[i] = scene.positions[v[i]];
+  t.outward = surface.normal_offset == no_offset ? Vec3<Real>{} : sum_of_vertex_normals(scene, surface, v);
+  t.flip_normal = surface.flip_normal;
+  t.two_sided = light.two_sided;
+  t.radiance = light.radiance;
+  return t;
+}
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_shining_triangle(const ShiningTriangle<Real>& t,
+                                                                 const Vec3<Real>& reference, const Vec2<Real>& u) {
+  LightSample<Real> s;
   const Vec2<Real> b = sample_triangle(u);
-  const Vec3<Real> q0 = scene.positions[triangle.vertex[0]] * b.x;
-  const Vec3<Real> q1 = scene.positions[triangle.vertex[1]] * b.y;
-  const Vec3<Real> q2 = scene.positions[triangle.vertex[2]] * (1 - b.x - b.y);
+  const Vec3<Real> q0 = t.corner[0] * b.x;
+  const Vec3<Real> q1 = t.corner[1] * b.y;
+  const Vec3<Real> q2 = t.corner[2] * (1 - b.x - b.y);
   s.point = q0 + q1 + q2;
   s.point_error = (abs(q0) + abs(q1) + abs(q2)) * rounding_bound<Real>(7);
-  s.normal = triangle_front_normal(scene, triangle);
+  const Vec3<Real> winding = cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]);
+  s.normal = face_forward(normalize(winding), t.outward) * (t.flip_normal ? Real(-1) : Real(1));
   const Vec3<Real> to_light = s.point - reference;
   const Real distance_squared = length_squared(to_light);
   if (!(distance_squared > 0)) return s;
   s.direction = to_light * (1 / std::sqrt(distance_squared));
-  const Real cos_area = abs_dot(s.normal, s.direction) * Real(0.5) * length(triangle_cross(scene, triangle));
+  const Real cos_area = abs_dot(s.normal, s.direction) * Real(0.5) * length(winding);
   if (!(cos_area > 0)) return s;
   s.pdf = distance_squared / cos_area;
-  s.radiance = emitted_radiance(light, s.normal, -s.direction);
-  if (light.texture.count > 0) s.radiance = s.radiance * triangle_emission_factor(scene, light, b.y, 1 - b.x - b.y);
+  s.radiance = t.radiance * (t.two_sided || dot(s.normal, s.direction) < 0 ? Real(1) : Real(0));
   s.is_finite = true;
+  return s;
+}
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_triangle_light(const SceneView<Real>& scene,
+                                                               const LightRecord<Real>& light,
+                                                               const Vec3<Real>& reference, const Vec2<Real>& u) {
+  LightSample<Real> s = sample_shining_triangle(shining_triangle(scene, light), reference, u);
+  if (light.texture.count > 0) {
+    const Vec2<Real> b = sample_triangle(u);
+    s.radiance = s.radiance * triangle_emission_factor(scene, light, b.y, 1 - b.x - b.y);
+  }
   return s;
 }
 
@@ -165,16 +200,13 @@ ALHAZEN_HD ALHAZEN_HOT Real pmf_of_shape(const SceneView<Real>& scene, const Lig
   return scene.light_tree_share * pmf_of_light_tree(scene, light.trail, reference, normal);
 }
 
-/// One light, chosen by `u_choice`, towards a point of it. `normal` as for `choose_light`.
+/// Towards a point of this light; the density leaves out that it was chosen.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light(const SceneView<Real>& scene, const Vec3<Real>& reference,
-                                                      const Vec3<Real>& normal, Real time, Real u_choice,
-                                                      const Vec2<Real>& u) {
+ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_chosen_light(const SceneView<Real>& scene,
+                                                             const LightRecord<Real>& light,
+                                                             const Vec3<Real>& reference, Real time,
+                                                             const Vec2<Real>& u) {
   LightSample<Real> s;
-  if (scene.lights_count == 0) return s;
-  const LightChoice<Real> choice = choose_light(scene, reference, normal, u_choice);
-  if (!(choice.pmf > 0)) return s;
-  const LightRecord<Real>& light = scene.lights[choice.light];
   switch (light.kind) {
     case LightKind::triangle:
       s = sample_triangle_light(scene, light, reference, u);
@@ -215,6 +247,18 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light(const SceneView<Real>& sce
       break;
     }
   }
+  return s;
+}
+
+/// One light, chosen by `u_choice`, towards a point of it. `normal` as for `choose_light`.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light(const SceneView<Real>& scene, const Vec3<Real>& reference,
+                                                      const Vec3<Real>& normal, Real time, Real u_choice,
+                                                      const Vec2<Real>& u) {
+  if (scene.lights_count == 0) return {};
+  const LightChoice<Real> choice = choose_light(scene, reference, normal, u_choice);
+  if (!(choice.pmf > 0)) return {};
+  LightSample<Real> s = sample_chosen_light(scene, scene.lights[choice.light], reference, time, u);
   s.pdf *= choice.pmf;
   return s;
 }

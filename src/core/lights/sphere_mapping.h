@@ -17,8 +17,8 @@ enum class SphereMapping : uint32_t {
 
 template <class Real>
 ALHAZEN_HD Vec3<Real> direction_of_equirectangular(const Vec2<Real>& uv) {
-  const auto [sin_theta, cos_theta] = sine_cosine(pi<Real> * uv.y);
-  const auto [sin_phi, cos_phi] = sine_cosine(2 * pi<Real> * uv.x);
+  const auto [sin_theta, cos_theta] = sine_cosine_of_turn(pi<Real> * uv.y);
+  const auto [sin_phi, cos_phi] = sine_cosine_of_turn(2 * pi<Real> * uv.x);
   return {sin_theta * cos_phi, sin_theta * sin_phi, cos_theta};
 }
 
@@ -35,7 +35,7 @@ ALHAZEN_HD Vec3<Real> direction_of_octahedral(const Vec2<Real>& uv) {
   const bool is_upper = std::abs(x) + std::abs(y) <= 1;
   const Real a = is_upper ? std::abs(x) : 1 - std::abs(y), b = is_upper ? std::abs(y) : 1 - std::abs(x);
   const Real r = a + b;
-  const auto [sine, cosine] = sine_cosine(r > 0 ? pi<Real> / 2 * (b / r) : Real(0));
+  const auto [sine, cosine] = sine_cosine_of_turn(r > 0 ? pi<Real> / 2 * (b / r) : Real(0));
   const Real to_axis = r * std::sqrt(2 - r * r), z = 1 - r * r;
   return {std::copysign(cosine * to_axis, x), std::copysign(sine * to_axis, y), is_upper ? z : -z};
 }

@@ -147,26 +147,26 @@ ALHAZEN_HD ALHAZEN_COLD BsdfValue<Real> evaluate_rare_bsdf(const Bsdf<Real>& bsd
   }
 }
 
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> sample_local_bsdf(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, Real u_lobe,
+                                                          const Vec2<Real>& u) {
+  switch (bsdf.kind) {
+    case MaterialKind::diffuse:
+      return sample_diffuse(bsdf.diffuse(), wo, u);
+    case MaterialKind::conductor:
+      return sample_conductor(bsdf.conductor(), wo, u);
+    case MaterialKind::dielectric:
+      return sample_dielectric(bsdf.dielectric(), wo, u_lobe, u);
+    default:
+      return sample_rare_bsdf(bsdf, wo, u_lobe, u);
+  }
+}
+
 /// A direction for light that leaves along `wo`. pdf 0: absorbed.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> sample_bsdf(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, Real u_lobe,
                                                     const Vec2<Real>& u) {
-  const Vec3<Real> local = bsdf.frame.to_local(wo);
-  BsdfSample<Real> s;
-  switch (bsdf.kind) {
-    case MaterialKind::diffuse:
-      s = sample_diffuse(bsdf.diffuse(), local, u);
-      break;
-    case MaterialKind::conductor:
-      s = sample_conductor(bsdf.conductor(), local, u);
-      break;
-    case MaterialKind::dielectric:
-      s = sample_dielectric(bsdf.dielectric(), local, u_lobe, u);
-      break;
-    default:
-      s = sample_rare_bsdf(bsdf, local, u_lobe, u);
-      break;
-  }
+  BsdfSample<Real> s = sample_local_bsdf(bsdf, bsdf.frame.to_local(wo), u_lobe, u);
   s.direction = bsdf.frame.to_world(s.direction);
   return s;
 }

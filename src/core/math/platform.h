@@ -47,3 +47,12 @@
 #else
 #define ALHAZEN_COLD inline
 #endif
+
+// Before a loop whose turns do not depend on each other, for the compiler to turn into SIMD instructions.
+#if defined(__clang__)
+#define ALHAZEN_SIDE_BY_SIDE _Pragma("clang loop vectorize(assume_safety)")
+#elif defined(__GNUC__) && !defined(__CUDACC__)
+#define ALHAZEN_SIDE_BY_SIDE _Pragma("GCC ivdep")
+#else
+#define ALHAZEN_SIDE_BY_SIDE
+#endif

@@ -60,10 +60,10 @@ struct SineCosine {
 
 /// In float, to 1e-7, by operations that round alike everywhere, for angles up to 8192: reduced to an eighth of
 /// a turn by pi / 2 in three parts (Cody and Waite 1980), then the polynomials of Moshier's Cephes library.
-ALHAZEN_HD inline SineCosine<float> sine_cosine_by_polynomials(float angle) {
-  const float quarters = angle * 0.636619772f;
-  const int quarter = static_cast<int>(quarters + (quarters < 0 ? -0.5f : 0.5f));
-  const float q = static_cast<float>(quarter);
+ALHAZEN_HD ALHAZEN_HOT SineCosine<float> sine_cosine_by_polynomials(float angle) {
+  // To the nearest whole number: beyond 2^23 a float has no other.
+  const float q = (angle * 0.636619772f + 12582912.0f) - 12582912.0f;
+  const int quarter = static_cast<int>(q);
   const float x = ((angle - q * 1.5703125f) - q * 4.8375129e-4f) - q * 7.5497899e-8f;
   const float x2 = x * x;
   const float sine = x + x * x2 * (-1.6666654611e-1f + x2 * (8.3321608736e-3f + x2 * -1.9515295891e-4f));
@@ -74,19 +74,52 @@ ALHAZEN_HD inline SineCosine<float> sine_cosine_by_polynomials(float angle) {
   return {quarter & 2 ? -s : s, (quarter + 1) & 2 ? -c : c};
 }
 
-/// Of an angle in radians. In float a GPU takes them of angle / pi, which needs neither tables nor double for its
-/// range.
+/// The same in double, to 3e-16.
+ALHAZEN_HD ALHAZEN_HOT SineCosine<double> sine_cosine_by_polynomials(double angle) {
+  const double q = (angle * 0.63661977236758134308 + 6755399441055744.0) - 6755399441055744.0;
+  const int quarter = static_cast<int>(q);
+  const double x =
+      ((angle - q * 1.57079625129699707031) - q * 7.54978941586159635335e-8) - q * 5.39030285815811905290e-15;
+  const double x2 = x * x;
+  const double sine = x + x * x2 *
+                              (-1.66666666666666307295e-1 +
+                               x2 * (8.33333333332211858878e-3 +
+                                     x2 * (-1.98412698295895385996e-4 +
+                                           x2 * (2.75573136213857245213e-6 + x2 * (-2.50507477628578072866e-8 +
+                                                                                   x2 * 1.58962301576546568060e-10)))));
+  const double cosine = 1 - 0.5 * x2 +
+                        x2 * x2 *
+                            (4.16666666666665929218e-2 +
+                             x2 * (-1.38888888888730564116e-3 +
+                                   x2 * (2.48015872888517045348e-5 +
+                                         x2 * (-2.75573141792967388112e-7 +
+                                               x2 * (2.08757008419747316778e-9 + x2 * -1.13585365213876817300e-11)))));
+  const bool swaps = quarter & 1;
+  const double s = swaps ? cosine : sine, c = swaps ? sine : cosine;
+  return {quarter & 2 ? -s : s, (quarter + 1) & 2 ? -c : c};
+}
+
+/// Of an angle in radians, a few turns at most. In float a GPU takes them of angle / pi, which needs neither tables
+/// nor double for its range.
 template <class Real>
-ALHAZEN_HD inline SineCosine<Real> sine_cosine(Real angle) {
-  if constexpr (sizeof(Real) == sizeof(float)) {
+ALHAZEN_HD ALHAZEN_HOT SineCosine<Real> sine_cosine_of_turn(Real angle) {
 #if defined(__CUDA_ARCH__)
+  if constexpr (sizeof(Real) == sizeof(float)) {
     SineCosine<Real> both;
     sincospif(angle * inv_pi<float>, &both.sine, &both.cosine);
     return both;
-#else
-    if (std::abs(angle) < 8192) return sine_cosine_by_polynomials(angle);
-#endif
   }
+#endif
+  return sine_cosine_by_polynomials(angle);
+}
+
+/// Of any angle in radians.
+template <class Real>
+ALHAZEN_HD inline SineCosine<Real> sine_cosine(Real angle) {
+#if defined(__CUDA_ARCH__)
+  if constexpr (sizeof(Real) == sizeof(float)) return sine_cosine_of_turn(angle);
+#endif
+  if (std::abs(angle) < 8192) return sine_cosine_of_turn(angle);
   return {std::sin(angle), std::cos(angle)};
 }
 

@@ -132,7 +132,14 @@ ALHAZEN_HD constexpr Vec3<Real> lerp(const Vec3<Real>& a, const Vec3<Real>& b, R
 
 template <class Real>
 ALHAZEN_HD constexpr Vec3<Real> face_forward(const Vec3<Real>& v, const Vec3<Real>& reference) {
-  return dot(v, reference) < 0 ? -v : v;
+  return v * (dot(v, reference) < 0 ? Real(-1) : Real(1));
+}
+
+/// Both by value: compilers turn a choice between references into one between addresses, which SIMD has no
+/// instruction for.
+template <class Real>
+ALHAZEN_HD constexpr Vec3<Real> select(bool first, Vec3<Real> a, Vec3<Real> b) {
+  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }
 
 using Vec2f = Vec2<float>;

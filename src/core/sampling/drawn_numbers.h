@@ -7,37 +7,46 @@
 
 namespace ALHAZEN_CORE {
 
-/// `dimensions` draws for each of up to `most` paths. They are those that the path's own sampler would return.
-template <class Real, class Sampler, uint32_t most, uint32_t dimensions>
+/// Draws for each of up to `most` paths, `Dimensions::count` of them; bit d of `Dimensions::pairs` says that draw d is
+/// one of a pair. They are those that the path's own sampler would return.
+template <class Real, class Sampler, uint32_t most, class Dimensions>
 struct DrawnNumbers {
   Sampler samplers[most];
   uint32_t first_dimension[most];
-  Real x[dimensions][most], y[dimensions][most];
+  Real x[Dimensions::count][most], y[Dimensions::count][most];
 
-  /// Draws for paths 0 to count - 1.
-  void draw(uint32_t count) {
-    for (uint32_t d = 0; d < dimensions; ++d)
-      for (uint32_t i = 0; i < count; ++i) {
-        const Vec2<Real> u = samplers[i].template get_2d<Real>(first_dimension[i] + d);
-        x[d][i] = u.x;
-        y[d][i] = u.y;
+  /// Draws for paths 0 to count - 1, where bit d of `wanted` says whether draw d is.
+  void draw(uint32_t count, uint32_t wanted) {
+    for (uint32_t d = 0; d < Dimensions::count; ++d) {
+      if (!(wanted >> d & 1)) continue;
+      if (Dimensions::pairs >> d & 1) {
+        for (uint32_t i = 0; i < count; ++i) {
+          const Vec2<Real> u = samplers[i].template get_2d<Real>(first_dimension[i] + d);
+          x[d][i] = u.x;
+          y[d][i] = u.y;
+        }
+      } else {
+        for (uint32_t i = 0; i < count; ++i) x[d][i] = samplers[i].template get_1d<Real>(first_dimension[i] + d);
       }
+    }
   }
+
+  /// Draw d of a path, which is a pair, or one number.
+  ALHAZEN_INLINE Vec2<Real> pair(uint32_t d, uint32_t path) const { return {x[d][path], y[d][path]}; }
+  ALHAZEN_INLINE Real first(uint32_t d, uint32_t path) const { return x[d][path]; }
 
   /// Stands for the sampler of one path, of which only these dimensions may be asked.
   struct One {
     const DrawnNumbers& all;
     uint32_t path;
 
-    /// Where one number is wanted, every sampler draws the first of the pair.
     template <class>
     Real get_1d(uint32_t dimension) const {
-      return all.x[dimension - all.first_dimension[path]][path];
+      return all.first(dimension - all.first_dimension[path], path);
     }
     template <class>
     Vec2<Real> get_2d(uint32_t dimension) const {
-      const uint32_t d = dimension - all.first_dimension[path];
-      return {all.x[d][path], all.y[d][path]};
+      return all.pair(dimension - all.first_dimension[path], path);
     }
   };
 

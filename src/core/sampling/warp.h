@@ -9,9 +9,9 @@ namespace ALHAZEN_CORE {
 
 /// Uniform over the unit disk by radius and angle.
 template <class Real>
-ALHAZEN_HD Vec2<Real> sample_disk_polar(const Vec2<Real>& u) {
+ALHAZEN_HD ALHAZEN_HOT Vec2<Real> sample_disk_polar(const Vec2<Real>& u) {
   const Real r = std::sqrt(u.x), phi = 2 * pi<Real> * u.y;
-  const auto [sine, cosine] = sine_cosine(phi);
+  const auto [sine, cosine] = sine_cosine_of_turn(phi);
   return {r * cosine, r * sine};
 }
 
@@ -23,7 +23,7 @@ ALHAZEN_HD ALHAZEN_HOT Vec2<Real> sample_disk(const Vec2<Real>& u) {
   const bool by_x = std::abs(x) > std::abs(y);
   const Real r = by_x ? x : y;
   const Real phi = by_x ? pi<Real> / 4 * (y / x) : pi<Real> / 2 - pi<Real> / 4 * (x / y);
-  const auto [sine, cosine] = sine_cosine(phi);
+  const auto [sine, cosine] = sine_cosine_of_turn(phi);
   return {r * cosine, r * sine};
 }
 
@@ -41,9 +41,9 @@ ALHAZEN_HD constexpr Real pdf_cosine_hemisphere(Real cos_theta) {
 
 /// The whole sphere with density 1 / (4 pi) over solid angle.
 template <class Real>
-ALHAZEN_HD Vec3<Real> sample_uniform_sphere(const Vec2<Real>& u) {
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_uniform_sphere(const Vec2<Real>& u) {
   const Real z = 1 - 2 * u.x, r = safe_sqrt(1 - z * z), phi = 2 * pi<Real> * u.y;
-  const auto [sine, cosine] = sine_cosine(phi);
+  const auto [sine, cosine] = sine_cosine_of_turn(phi);
   return {r * cosine, r * sine, z};
 }
 

@@ -71,6 +71,13 @@ ALHAZEN_HD const Vec3<Real>& vertex_normal(const SceneView<Real>& scene, const S
   return scene.normals[vertex + surface.normal_offset];
 }
 
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sum_of_vertex_normals(const SceneView<Real>& scene, const SurfaceRecord& surface,
+                                                        const uint32_t vertex[3]) {
+  return vertex_normal(scene, surface, vertex[0]) + vertex_normal(scene, surface, vertex[1]) +
+         vertex_normal(scene, surface, vertex[2]);
+}
+
 /// uv of a corner; without uvs (0, 0), (1, 0), (1, 1) as pbrt has it.
 template <class Real>
 ALHAZEN_HD Vec2<Real> vertex_uv(const SceneView<Real>& scene, const SurfaceRecord& surface, const uint32_t vertex[3],
@@ -85,45 +92,71 @@ template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> triangle_front_normal(const SceneView<Real>& scene, const TriangleRecord& triangle) {
   const SurfaceRecord& surface = scene.surfaces[triangle.surface];
   Vec3<Real> n = normalize(triangle_cross(scene, triangle));
-  if (surface.normal_offset != no_offset) {
-    const uint32_t* v = triangle.vertex;
-    n = face_forward(n, vertex_normal(scene, surface, v[0]) + vertex_normal(scene, surface, v[1]) +
-                            vertex_normal(scene, surface, v[2]));
-  }
+  if (surface.normal_offset != no_offset) n = face_forward(n, sum_of_vertex_normals(scene, surface, triangle.vertex));
   return surface.flip_normal ? -n : n;
+}
+
+/// The corners of a triangle, and what its mesh has at them.
+template <class Real>
+struct TriangleCorners {
+  Vec3<Real> position[3];
+  Vec3<Real> normal[3];  ///< where there are any
+  uint32_t has_normals, flip_normal;
+};
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT TriangleCorners<Real> triangle_corners(const SceneView<Real>& scene,
+                                                              const TriangleRecord& triangle) {
+  const SurfaceRecord& surface = scene.surfaces[triangle.surface];
+  TriangleCorners<Real> corners;
+  for (int i = 0; i < 3; ++i) corners.position[i] = scene.positions[triangle.vertex[i]];
+  corners.has_normals = surface.normal_offset != no_offset;
+  if (corners.has_normals)
+    for (int i = 0; i < 3; ++i) corners.normal[i] = vertex_normal(scene, surface, triangle.vertex[i]);
+  corners.flip_normal = surface.flip_normal;
+  return corners;
+}
+
+/// The point with weights b1 and b2 of corners 1 and 2: position and normals.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> point_of_triangle(const TriangleCorners<Real>& corners, Real b1,
+                                                                  Real b2) {
+  const Real b0 = 1 - b1 - b2;
+  const Vec3<Real>* p = corners.position;
+  const Vec3<Real> q0 = p[0] * b0, q1 = p[1] * b1, q2 = p[2] * b2;
+  SurfaceInteraction<Real> si;
+  si.position = q0 + q1 + q2;
+  si.position_error = (abs(q0) + abs(q1) + abs(q2)) * rounding_bound<Real>(7);
+  Vec3<Real> normal = normalize(cross(p[1] - p[0], p[2] - p[0])), shading_normal = normal;
+  if (corners.has_normals) {
+    const Vec3<Real>* n = corners.normal;
+    normal = face_forward(normal, n[0] + n[1] + n[2]);
+    const Vec3<Real> between = n[0] * b0 + n[1] * b1 + n[2] * b2;
+    shading_normal = select(length_squared(between) > 0, normalize(between), normal);
+  }
+  const Real side = corners.flip_normal ? Real(-1) : Real(1);
+  si.normal = normal * side;
+  si.shading_normal = shading_normal * side;
+  return si;
+}
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Vec2<Real> triangle_uv(const SceneView<Real>& scene, const TriangleRecord& triangle,
+                                              const Hit<Real>& hit) {
+  const SurfaceRecord& surface = scene.surfaces[triangle.surface];
+  const Real b0 = 1 - hit.b1 - hit.b2;
+  const Vec2<Real> uv0 = vertex_uv(scene, surface, triangle.vertex, 0);
+  const Vec2<Real> uv1 = vertex_uv(scene, surface, triangle.vertex, 1);
+  const Vec2<Real> uv2 = vertex_uv(scene, surface, triangle.vertex, 2);
+  return {uv0.x * b0 + uv1.x * hit.b1 + uv2.x * hit.b2, uv0.y * b0 + uv1.y * hit.b1 + uv2.y * hit.b2};
 }
 
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> triangle_interaction(const SceneView<Real>& scene,
                                                                      const Hit<Real>& hit) {
   const TriangleRecord& triangle = scene.triangles[hit.primitive.index()];
-  const SurfaceRecord& surface = scene.surfaces[triangle.surface];
-  const Real b0 = 1 - hit.b1 - hit.b2;
-  const uint32_t* v = triangle.vertex;
-  const Vec3<Real> q0 = scene.positions[v[0]] * b0;
-  const Vec3<Real> q1 = scene.positions[v[1]] * hit.b1;
-  const Vec3<Real> q2 = scene.positions[v[2]] * hit.b2;
-  SurfaceInteraction<Real> si;
-  si.position = q0 + q1 + q2;
-  si.position_error = (abs(q0) + abs(q1) + abs(q2)) * rounding_bound<Real>(7);
-  si.normal = normalize(triangle_cross(scene, triangle));
-  si.shading_normal = si.normal;
-  if (surface.normal_offset != no_offset) {
-    const Vec3<Real> n0 = vertex_normal(scene, surface, v[0]);
-    const Vec3<Real> n1 = vertex_normal(scene, surface, v[1]);
-    const Vec3<Real> n2 = vertex_normal(scene, surface, v[2]);
-    si.normal = face_forward(si.normal, n0 + n1 + n2);
-    const Vec3<Real> n = n0 * b0 + n1 * hit.b1 + n2 * hit.b2;
-    si.shading_normal = length_squared(n) > 0 ? normalize(n) : si.normal;
-  }
-  if (surface.flip_normal) {
-    si.normal = -si.normal;
-    si.shading_normal = -si.shading_normal;
-  }
-  const Vec2<Real> uv0 = vertex_uv(scene, surface, v, 0);
-  const Vec2<Real> uv1 = vertex_uv(scene, surface, v, 1);
-  const Vec2<Real> uv2 = vertex_uv(scene, surface, v, 2);
-  si.uv = {uv0.x * b0 + uv1.x * hit.b1 + uv2.x * hit.b2, uv0.y * b0 + uv1.y * hit.b1 + uv2.y * hit.b2};
+  SurfaceInteraction<Real> si = point_of_triangle(triangle_corners(scene, triangle), hit.b1, hit.b2);
+  si.uv = triangle_uv(scene, triangle, hit);
   si.surface = triangle.surface;
   return si;
 }
@@ -199,8 +232,7 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> consistent_shading_normal(const SurfaceInterac
   const Real side = dot(wo, si.normal) < 0 ? Real(-1) : Real(1);
   const Real seen = side * dot(wo, si.shading_normal);
   constexpr Real least = Real(1e-3);
-  if (seen >= least) return si.shading_normal;
-  return normalize(si.shading_normal + wo * (side * (least - seen)));
+  return select(seen >= least, si.shading_normal, normalize(si.shading_normal + wo * (side * (least - seen))));
 }
 
 }  // namespace ALHAZEN_CORE

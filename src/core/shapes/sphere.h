@@ -53,7 +53,7 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_sphere(const Vec3<Real>& center, Real r
   Real cos_max, one_minus_cos_max;
   if (!subtended_cone(center, radius, point, cos_max, one_minus_cos_max)) {
     const Real z = 1 - 2 * u.x, r = safe_sqrt(1 - z * z);
-    const auto [sine, cosine] = sine_cosine(phi);
+    const auto [sine, cosine] = sine_cosine_of_turn(phi);
     normal_at = {r * cosine, r * sine, z};
     const Vec3<Real> to_light = center + normal_at * radius - point;
     const Real distance_squared = length_squared(to_light);
@@ -66,7 +66,7 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_sphere(const Vec3<Real>& center, Real r
   const Real one_minus_cos = u.x * one_minus_cos_max;
   const Real cos_theta = 1 - one_minus_cos;
   const Real sin_theta = safe_sqrt(one_minus_cos * (1 + cos_theta));
-  const auto [sin_phi, cos_phi] = sine_cosine(phi);
+  const auto [sin_phi, cos_phi] = sine_cosine_of_turn(phi);
   // The normal from the angles alone (PBR 4th ed., 6.2.4): positions far out do not resolve a small sphere.
   const Real sin2_max = one_minus_cos_max * (1 + cos_max);
   const Real share = sin_theta * sin_theta / sin2_max;

@@ -26,6 +26,7 @@ inline constexpr int most_register_bytes = 16;
 
 template <class T, int count>
 struct Lanes {
+  using Component = T;
   static constexpr int bytes = count * static_cast<int>(sizeof(T));
   static constexpr int register_bytes = bytes < most_register_bytes ? bytes : most_register_bytes;
   static constexpr int registers = bytes / register_bytes;
