@@ -14,7 +14,8 @@ const float* Picture::plane(const std::string& channel) const {
 
 Picture render(const std::string& scene_file, const Settings& settings, const ProgressFunction& progress) {
   Diagnostics diagnostics;
-  const ReadOptions choice{settings.camera, settings.variant, settings.animation, settings.animation_time};
+  const ReadOptions choice{settings.camera, settings.variant, settings.animation, settings.animation_time,
+                           aspect_of(settings.width, settings.height)};
   Scene scene = read_scene(scene_file, choice, diagnostics);
   if (!settings.environment.empty()) use_environment(scene, settings.environment);
   scene.coats = parse_coats(settings.coats);

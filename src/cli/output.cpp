@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace alhazen {
@@ -54,6 +56,29 @@ std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, c
   }
   for (const std::string& path : paths) check_output(path);
   return paths;
+}
+
+double fitting_exposure(const ImageSource& source) {
+  const auto channel = [&](const char* name) {
+    return static_cast<size_t>(std::find(source.channels.begin(), source.channels.end(), name) -
+                               source.channels.begin());
+  };
+  const size_t r = channel("R"), g = channel("G"), b = channel("B"), count = source.channels.size();
+  if (std::max({r, g, b}) >= count) return 0;
+  const size_t width = static_cast<size_t>(source.width);
+  std::vector<float> row(count * width), brightness;
+  for (int y = 0; y < source.height; ++y) {
+    source.fill_row(y, row);
+    for (size_t x = 0; x < width; ++x) {
+      const float value = std::max({row[r * width + x], row[g * width + x], row[b * width + x]});
+      if (value > 0 && std::isfinite(value)) brightness.push_back(value);
+    }
+  }
+  if (brightness.empty()) return 0;
+  const auto middle = brightness.begin() + static_cast<std::ptrdiff_t>(brightness.size() / 2);
+  std::nth_element(brightness.begin(), middle, brightness.end());
+  const double median = static_cast<double>(*middle);
+  return median > 3 ? -std::round(std::log2(median / 0.6)) : 0;
 }
 
 void write_outputs(const OutputOptions& options, const Rendering& rendering) {

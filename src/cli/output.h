@@ -25,4 +25,8 @@ std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, c
 /// Writes every picture. Throws RenderError.
 void write_outputs(const OutputOptions& options, const Rendering& rendering);
 
+/// The exposure in stops, 0 or less, that makes a picture of which most would be white a good one: in about half of
+/// what is not black the strongest channel comes to less than 0.6.
+double fitting_exposure(const ImageSource& source);
+
 }  // namespace alhazen

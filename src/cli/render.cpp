@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "cli/interrupt.h"
 #include "cli/listing.h"
@@ -29,6 +31,7 @@ struct RenderOptions {
   std::string tone_map = "none", exr_type = "half";
   std::string progress = "auto", stats;
   bool quiet = false, verbose = false, list = false;
+  std::optional<double> exposure;  ///< absent: the picture may choose it
 };
 
 /// Numbers parted by `separator`, exactly `values.size()` of them.
@@ -69,6 +72,7 @@ void parse_settings(RenderOptions& o) {
       s.checkpoint_seconds =
           parse_numbers<double, 1>(o.checkpoint.substr(comma + 1), ',', "--checkpoint FILE,SECONDS")[0];
   }
+  if (o.exposure) o.output.png.exposure = *o.exposure;
   if (!std::isfinite(o.output.png.exposure)) throw InputError("--exposure must be a finite number of stops");
   if (o.exr_type != "half" && o.exr_type != "float")
     throw InputError("unknown pixel type '" + o.exr_type + "': it may be half, float");
@@ -119,6 +123,8 @@ void print_end(const RenderOptions& options, const RenderStatistics& statistics)
                format_seconds(statistics.render_seconds));
     for (size_t i = 0; i < options.output.paths.size(); ++i)
       fmt::print(stderr, "{}{}", i == 0 ? "; wrote " : ", ", options.output.paths[i]);
+    if (!options.exposure && options.output.png.exposure < 0)
+      fmt::print(stderr, "; PNG with --exposure {}", options.output.png.exposure);
     fmt::print(stderr, "\n");
   }
   if (options.stats == "json") fmt::print("{}\n", statistics.to_json());
@@ -135,13 +141,15 @@ int run(RenderOptions& options) {
   Diagnostics diagnostics;
   const auto start = std::chrono::steady_clock::now();
   const Settings& s = options.settings;
-  Scene scene = read_scene(options.scene, {s.camera, s.variant, s.animation, s.animation_time}, diagnostics);
+  const ReadOptions choice{s.camera, s.variant, s.animation, s.animation_time, aspect_of(s.width, s.height)};
+  Scene scene = read_scene(options.scene, choice, diagnostics);
   if (!options.settings.environment.empty()) use_environment(scene, options.settings.environment);
   scene.coats = parse_coats(options.settings.coats);
   const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene);
 
+  const bool fits_exposure = scene.film.fits_exposure && !options.exposure;
   size_t warnings_shown = 0;
   RenderEvents events;
   events.progress = [&](const Progress& progress) {
@@ -157,6 +165,9 @@ int run(RenderOptions& options) {
   const Rendering rendering = render_scene(std::move(scene), settings, load_seconds, events, diagnostics);
   printer.finish();
   print_warnings(diagnostics, warnings_shown);
+  const auto is_png = [](const std::string& path) { return extension_of(path) == "png"; };
+  if (fits_exposure && std::any_of(options.output.paths.begin(), options.output.paths.end(), is_png))
+    options.output.png.exposure = fitting_exposure(rendering.source());
   write_outputs(options.output, rendering);
   print_end(options, rendering.statistics);
   if (!is_interrupted()) return exit_done;
@@ -284,9 +295,7 @@ void add_output_options(CLI::App& command, RenderOptions& o) {
       ->type_name("NAME")
       ->group(group);
   command.add_option("--exr-type", o.exr_type, "half or float")->type_name("NAME")->group(group);
-  command.add_option("--exposure", o.output.png.exposure, "PNG: brightness; a stop doubles it")
-      ->type_name("STOPS")
-      ->group(group);
+  command.add_option("--exposure", o.exposure, "PNG: brightness; a stop doubles it")->type_name("STOPS")->group(group);
   command.add_option("--tone-map", o.tone_map, "PNG: none, reinhard or filmic")->type_name("NAME")->group(group);
 }
 

@@ -337,6 +337,8 @@ class MaterialBuilder {
     layers.iridescence_thickness = textures_.range(p.iridescence_thickness);
     layers.anisotropy = textures_.range(p.anisotropy);
     layers.anisotropy_direction = textures_.range(p.anisotropy_direction);
+    layers.diffuse_transmission = textures_.range(p.diffuse_transmission);
+    layers.diffuse_transmission_colour = textures_.range(p.diffuse_transmission_colour);
     const double turn = p.anisotropy_rotation * std::numbers::pi / 180;
     layers.rotation_cosine = static_cast<Real>(std::cos(turn));
     layers.rotation_sine = static_cast<Real>(std::sin(turn));
@@ -446,7 +448,9 @@ bool material_needs_uv(const Scene& scene, const Material& material) {
                                  p.sheen_colour,
                                  p.sheen_roughness,
                                  p.iridescence,
-                                 p.iridescence_thickness})
+                                 p.iridescence_thickness,
+                                 p.diffuse_transmission,
+                                 p.diffuse_transmission_colour})
     if (texture_needs_uv(scene, texture, 0)) return true;
   if (material.type == MaterialType::mix)
     for (const uint32_t other : material.mixed)

@@ -116,6 +116,9 @@ struct Principled {
   /// What is left of white light after `attenuation_distance`, scene units; infinite: nothing is absorbed.
   Vec3d attenuation_colour{1, 1, 1};
   double attenuation_distance = std::numeric_limits<double>::infinity();
+  /// scalar, 0: share of what enters the diffuse base that leaves it on the other side, diffusely.
+  uint32_t diffuse_transmission = no_index;
+  uint32_t diffuse_transmission_colour = no_index;  ///< (1, 1, 1)
 };
 
 struct Material {
@@ -261,6 +264,8 @@ struct FilmSettings {
   std::optional<std::array<int64_t, 4>> pixel_bounds;
   std::string filename;  ///< as the file says, may be empty
   double exposure = 1;   ///< factor on the radiance that is recorded
+  /// The lights are of no agreed brightness: pictures of 8 bits may be darkened where they would come out white.
+  bool fits_exposure = false;
 };
 
 enum class FilterType { box, triangle, gaussian, mitchell, sinc };

@@ -55,7 +55,7 @@ class Gltf : public Command {
   }
 };
 
-TEST_F(Gltf, RendersTheFirstVariantByTheFirstCamera) {
+TEST_F(Gltf, RendersItsOwnMaterialsByTheFirstCamera) {
   const auto [red, blue] = colours({});
   EXPECT_GT(red, 10);
   EXPECT_LT(blue, red / 4);
@@ -68,6 +68,30 @@ TEST_F(Gltf, RendersAnotherVariantCameraAndTime) {
   EXPECT_LT(colours({"--camera", "far"})[0], 0.1 * colours({"--camera", "0"})[0]);
   EXPECT_EQ(colours({"--time", "1"})[0], 0);
   EXPECT_GT(colours({"--time", "0", "--animation", "leave"})[0], 10);
+}
+
+TEST_F(Gltf, DarkensThePngOfLightsThatAreMuchTooBright) {
+  std::string text = scene;
+  text.replace(text.find("\"intensity\": 3"), 14, "\"intensity\": 3e4");
+  folder_.write_text("sun.gltf", text);
+  const auto red = [&](const std::string& file, const std::vector<std::string>& further) {
+    std::vector<std::string> all{"render", file, "--size", "16x16", "--spp", "4", "-o", "out.png"};
+    all.insert(all.end(), further.begin(), further.end());
+    const CommandResult result = run(all);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const Image picture = image("out.png");
+    float most = 0;
+    for (const float value : picture.planes.at(static_cast<size_t>(picture.channel("R")))) most = std::max(most, value);
+    return std::pair{most, result.err.find("PNG with --exposure -") != std::string::npos};
+  };
+  const auto [fitted, is_said] = red("sun.gltf", {});
+  EXPECT_LT(fitted, 0.99f);
+  EXPECT_GT(fitted, 0.3f);
+  EXPECT_TRUE(is_said);
+  const auto [asked, is_said_again] = red("sun.gltf", {"--exposure", "0"});
+  EXPECT_EQ(asked, 1);
+  EXPECT_FALSE(is_said_again);
+  EXPECT_FALSE(red("scene.gltf", {}).second);
 }
 
 TEST_F(Gltf, ListsWhatMayBeChosen) {

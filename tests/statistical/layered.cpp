@@ -24,6 +24,7 @@ std::string name_of(const PrincipledValues& v, double cosine, double azimuth) {
                                     {"anisotropy", v.anisotropy},
                                     {"iridescence", v.iridescence},
                                     {"ior", v.ior},
+                                    {"diffuse transmission", v.diffuse_transmission},
                                     {"cosine", cosine},
                                     {"azimuth", azimuth}})
     name += std::string(what) + " " + std::to_string(value) + " ";
@@ -84,6 +85,47 @@ TYPED_TEST(Layered, AnisotropyIridescenceAndIndicesGainNothing) {
         }
 }
 
+/// What a film lets into glass is what it does not reflect, in each channel.
+TYPED_TEST(Layered, FilmsOnGlassGainNothing) {
+  using Real = TypeParam;
+  Random random(8);
+  for (const double roughness : {0.0, 0.3, 0.7})
+    for (const double ior : {1.33, 1.5, 2.4}) {
+      PrincipledValues v;
+      v.roughness = roughness, v.ior = ior, v.transmission = 1, v.thin = false, v.iridescence = 1;
+      const FlatMaterial<Real> material = principled_of<Real>(v);
+      for (const double cosine : {1.0, 0.7, 0.4, 0.15, -0.5}) {
+        const Bsdf<Real> bsdf = material.bsdf(cosine);
+        const Vec3<Real> wo = direction_at(bsdf.frame, cosine, 0.4);
+        Vec3d sum{};
+        const int samples = static_cast<int>(effort(16384));
+        for (int i = 0; i < samples; ++i) {
+          const Real u_lobe = random.uniform<Real>();
+          const BsdfSample<Real> s = sample_bsdf(bsdf, wo, u_lobe, random.uniform_2d<Real>());
+          if (s.pdf > 0) sum += convert<double>(s.weight * (s.eta * s.eta));
+        }
+        EXPECT_LT(max_component(sum) / samples, 1.05) << name_of(v, cosine, 0.4);
+        if (roughness == 0 && cosine > 0.3) {
+          EXPECT_GT(max_component(sum) / samples, 0.9) << name_of(v, cosine, 0.4);
+        }
+      }
+    }
+}
+
+TYPED_TEST(Layered, DiffuseTransmissionNeitherGainsNorLoses) {
+  using Real = TypeParam;
+  Random random(7);
+  for (const double roughness : {0.1, 0.5, 1.0})
+    for (const double share : {0.3, 1.0})
+      for (const double cosine : {0.9, 0.3, -0.6}) {
+        PrincipledValues v;
+        v.roughness = roughness, v.diffuse_transmission = share;
+        const Bsdf<Real> bsdf = principled_of<Real>(v).bsdf(cosine);
+        const Energy e = energy_of(bsdf, direction_at(bsdf.frame, cosine, 0.4), 16384, random);
+        EXPECT_NEAR(e.mean, 1, 0.015 + 4 * e.error) << name_of(v, cosine, 0.4);
+      }
+}
+
 /// White metal of any roughness, and white dielectric, give (nearly) all light back.
 TYPED_TEST(Layered, WhiteOpaqueLosesLittle) {
   using Real = TypeParam;
@@ -103,7 +145,7 @@ TYPED_TEST(Layered, WhiteOpaqueLosesLittle) {
 
 template <class Real>
 std::vector<PrincipledValues> mixtures() {
-  std::vector<PrincipledValues> all(7);
+  std::vector<PrincipledValues> all(9);
   all[0].metallic = 0.4, all[0].roughness = 0.5;
   all[1].clearcoat = 0.8, all[1].clearcoat_roughness = 0.4, all[1].metallic = 0.2, all[1].roughness = 0.7;
   all[2].sheen = 0.7, all[2].sheen_roughness = 0.4;
@@ -112,6 +154,8 @@ std::vector<PrincipledValues> mixtures() {
   all[4].clearcoat_roughness = 0.6;
   all[5].anisotropy = 0.6, all[5].metallic = 0.7, all[5].roughness = 0.6;
   all[6].transmission = 1, all[6].roughness = 0.5, all[6].thin = false;
+  all[7].diffuse_transmission = 0.6, all[7].roughness = 0.4, all[7].metallic = 0.1;
+  all[8].diffuse_transmission = 0.8, all[8].transmission = 0.3, all[8].roughness = 0.5, all[8].sheen = 0.4;
   return all;
 }
 
@@ -122,7 +166,7 @@ TYPED_TEST(Layered, SamplesFollowTheirDensity) {
     const FlatMaterial<Real> material = principled_of<Real>(v);
     for (const double cosine : {0.95, 0.3, -0.6}) {
       const Bsdf<Real> bsdf = material.bsdf(cosine);
-      check_density(bsdf, direction_at(bsdf.frame, cosine, 0.7), random, 2 * 7 * 3, name_of(v, cosine, 0.7));
+      check_density(bsdf, direction_at(bsdf.frame, cosine, 0.7), random, 2 * 9 * 3, name_of(v, cosine, 0.7));
     }
   }
 }

@@ -29,7 +29,8 @@ struct LayeredBsdf {
   Vec3<Real> f0;
   Real f90;
   Real ior;
-  Vec3<Real> diffuse;  ///< colour below the interface, times the share of the base that has it
+  Vec3<Real> diffuse;          ///< colour below the interface, times the share of the base that has it
+  Vec3<Real> diffuse_through;  ///< the same of light that leaves diffusely on the other side
   const Real*
       transmission;  ///< what a coat lets through to the diffuse base, and out again; null: what it does not reflect
   Real exit;         ///< of a coat: 1 / (share of light that leaves from below, times ior^2)
@@ -38,6 +39,7 @@ struct LayeredBsdf {
   Vec3<Real> through;           ///< colour, times the share of the base
   Real glass;                   ///< share of the base that refracts; its interface is the exact one
   Vec3<Real> glass_reflection;  ///< factor on what that reflects
+  Vec3<Real> glass_entry;       ///< and on what it lets in
   // Metal
   Real metal;           ///< share of the base
   Vec3<Real> metal_f0;  ///< or, of coated conductors, eta
@@ -58,6 +60,7 @@ struct LayeredBsdf {
 template <class Real>
 struct LayeredLobes {
   Real coat = 0, specular = 0, diffuse = 0, through = 0;  ///< probabilities
+  Real diffuse_through = 0;                               ///< another
   Real below_coat = 1;                                    ///< share that the coat lets through
   Real coat_albedo = 0;
   Real interface;  ///< albedo of the dielectric
@@ -195,9 +198,11 @@ ALHAZEN_HD ALHAZEN_COLD LayeredLobes<Real> layered_lobes(const LayeredBsdf<Real>
                           (b.metal_is_exact ? Real(0) : b.metal * max_component(b.metal_f0) * (1 - lobes.ggx)));
   lobes.through = base * (b.thin ? max_component(b.through) * (1 - lobes.interface)
                                  : b.glass * larger(max_component(b.through), Real(0.2) * b.glass));
-  const Real sum = lobes.coat + lobes.specular + lobes.diffuse + lobes.through;
+  lobes.diffuse_through = base * max_component(b.diffuse_through) * (1 - lobes.interface);
+  const Real sum = lobes.coat + lobes.specular + lobes.diffuse + lobes.diffuse_through + lobes.through;
   const Real scale = sum > 0 ? 1 / sum : Real(0);
   lobes.coat *= scale, lobes.specular *= scale, lobes.diffuse *= scale, lobes.through *= scale;
+  lobes.diffuse_through *= scale;
   return lobes;
 }
 
@@ -220,6 +225,15 @@ ALHAZEN_HD GgxReflection<Real> ggx_reflection(const Vec3<Real>& o, const Vec3<Re
   return r;
 }
 
+/// Share of light that gets into the diffuse base along that of `lobes` and out of it again along `i`.
+template <class Real>
+ALHAZEN_HD Real share_of_diffuse_base(const LayeredBsdf<Real>& b, const LayeredLobes<Real>& lobes,
+                                      const Vec3<Real>& i) {
+  if (b.transmission) return lobes.entering * coat_transmission(b, i) * b.exit;
+  return lobes.entering * ((1 - interface_albedo(b, i)) /
+                           larger(Real(1e-3), 1 - mean_interface_albedo(b, std::sqrt(b.alpha.x * b.alpha.y))));
+}
+
 /// Sheen and base where both directions are on the same side, what the coat keeps not yet left out.
 template <class Real>
 ALHAZEN_HD BsdfValue<Real> evaluate_below_coat(const LayeredBsdf<Real>& b, const LayeredLobes<Real>& lobes,
@@ -232,10 +246,7 @@ ALHAZEN_HD BsdfValue<Real> evaluate_below_coat(const LayeredBsdf<Real>& b, const
   v.pdf += lobes.diffuse * lambert;
   const Real mean_alpha = std::sqrt(b.alpha.x * b.alpha.y);
   if (max_component(b.diffuse) > 0) {
-    const Real shared =
-        lobes.entering *
-        (b.transmission ? coat_transmission(b, i) * b.exit
-                        : (1 - interface_albedo(b, i)) / larger(Real(1e-3), 1 - mean_interface_albedo(b, mean_alpha)));
+    const Real shared = share_of_diffuse_base(b, lobes, i);
     v.value += b.diffuse * (shared * lambert);
   }
   if (b.metal > 0) {
@@ -286,12 +297,18 @@ ALHAZEN_HD ALHAZEN_COLD BsdfValue<Real> evaluate_layered(const LayeredBsdf<Real>
   if (i.z > 0) v = evaluate_below_coat(b, lobes, o, i);
   if (b.glass > 0) {
     const BsdfValue<Real> g = evaluate_dielectric(DielectricBsdf<Real, Vec2<Real>>{b.ior, b.alpha}, o, i);
-    v.value += g.value * (i.z > 0 ? b.glass_reflection * b.glass : b.through) * below_sheen(b, lobes);
+    v.value += g.value * (i.z > 0 ? b.glass_reflection * b.glass : b.through * b.glass_entry) * below_sheen(b, lobes);
     v.pdf += lobes.through * g.pdf;
   } else if (i.z < 0 && lobes.through > 0) {
     const GgxReflection<Real> ggx = ggx_reflection(o, Vec3<Real>{i.x, i.y, -i.z}, b.alpha);
     v.value += b.through * ((1 - lobes.interface) * ggx.value / larger(lobes.ggx, Real(1e-3)) * below_sheen(b, lobes));
     v.pdf += lobes.through * ggx.pdf;
+  }
+  if (i.z < 0 && lobes.diffuse_through > 0) {
+    const Vec3<Real> mirrored{i.x, i.y, -i.z};
+    const Real lambert = mirrored.z * inv_pi<Real>;
+    v.value += b.diffuse_through * (lambert * share_of_diffuse_base(b, lobes, mirrored) * below_sheen(b, lobes));
+    v.pdf += lobes.diffuse_through * lambert;
   }
   if (b.coat > 0) {
     if (!b.metal_is_exact) v.value *= lobes.below_coat;
@@ -336,6 +353,9 @@ ALHAZEN_HD BsdfSample<Real> sample_layered(const LayeredBsdf<Real>& b, const Vec
       if (way.z < 0) return s;
     } else if (u_lobe < lobes.coat + lobes.specular + lobes.diffuse) {
       way = sample_cosine_hemisphere(u);
+    } else if (u_lobe < lobes.coat + lobes.specular + lobes.diffuse + lobes.diffuse_through) {
+      way = sample_cosine_hemisphere(u);
+      way.z = -way.z;
     } else if (b.glass > 0 && lobes.through > 0) {
       const Real rest = (u_lobe - (1 - lobes.through)) / lobes.through;
       way = sample_dielectric(glass, o, clamp(rest, Real(0), one_minus_epsilon<Real>), u).direction;

@@ -94,6 +94,21 @@ ALHAZEN_HD Vec3<Real> disperse(Real dispersion, Real u_channel, Real& ior) {
   return {channel == 0 ? Real(3) : Real(0), channel == 1 ? Real(3) : Real(0), channel == 2 ? Real(3) : Real(0)};
 }
 
+/// The interface of glass reflects as the film on it does, by the share `film`, and lets in what is left of that. What
+/// it reflects without one is known by Fresnel's term where it is smooth and by the tables where it is rough: the one
+/// that makes less light counts.
+template <class Real>
+ALHAZEN_HD void add_film_to_glass(LayeredBsdf<Real>& b, const Vec3<Real>& reflectance, Real film, Real cosine,
+                                  Real bare_f0) {
+  Real cos_t;
+  const Real smooth = fresnel_dielectric(cosine, b.ior, cos_t);
+  const Real rough = bare_f0 * lookup_albedo(b.tables + AlbedoTables::base, cosine, b.alpha.y) +
+                     b.f90 * lookup_albedo(b.tables + AlbedoTables::edge, cosine, b.alpha.y);
+  const Vec3<Real> reflected = lerp(splat(smooth), reflectance, film);
+  b.glass_reflection = b.glass_reflection * reflected / clamp(larger(smooth, rough), Real(1e-3), Real(1));
+  b.glass_entry = (splat(Real(1)) - reflected) / (1 - clamp(smaller(smooth, rough), Real(0), Real(0.999)));
+}
+
 /// Fills `b`. `cosine` is that of the outgoing direction; `u_channel` is a random number for dispersion.
 template <class Real>
 ALHAZEN_HD ALHAZEN_COLD void make_layered(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
@@ -102,8 +117,8 @@ ALHAZEN_HD ALHAZEN_COLD void make_layered(const SceneView<Real>& scene, const Ma
   const LayersRecord<Real>& layers = scene.layers[material.layers];
   b.tables = scene.albedo_tables;
   b.dielectric = 0, b.interface_albedo = nullptr, b.f0 = {}, b.f90 = 0, b.ior = material.ior;
-  b.diffuse = {}, b.transmission = nullptr, b.exit = 1, b.thin = true, b.through = {}, b.glass = 0,
-  b.glass_reflection = {};
+  b.diffuse = {}, b.diffuse_through = {}, b.transmission = nullptr, b.exit = 1, b.thin = true, b.through = {};
+  b.glass = 0, b.glass_reflection = {}, b.glass_entry = {};
   b.metal = 0, b.metal_f0 = {}, b.metal_k = {}, b.metal_is_exact = false, b.coated_metal = {};
   b.coat = 0, b.coat_alpha = least_layered_alpha<Real>, b.coat_ior = layers.clearcoat_ior, b.coat_albedo = nullptr;
   b.coat_normal = coat_normal, b.sheen = {}, b.sheen_roughness = 0;
@@ -123,6 +138,8 @@ ALHAZEN_HD ALHAZEN_COLD void make_layered(const SceneView<Real>& scene, const Ma
   b.f0 = min(tint * sqr((b.ior - 1) / (b.ior + 1)), splat(Real(1))) * specular;
   b.f90 = specular;
   b.metal_f0 = colour;
+  const Vec3<Real> bare_f0 = b.f0;
+  Vec3<Real> film_of_dielectric{};
   const Real film = scalar_or(scene, layers.iridescence, at, Real(0));
   if (film > 0) {
     const Real thickness = layers.iridescence_thickness.count == 0
@@ -132,6 +149,7 @@ ALHAZEN_HD ALHAZEN_COLD void make_layered(const SceneView<Real>& scene, const Ma
       const Vec3<Real> reflectance = film_reflectance(cosine, layers.iridescence_ior, larger(thickness, Real(0)), f0);
       return lerp(f0, f0_of_reflectance(reflectance, cosine), film);
     };
+    film_of_dielectric = film_reflectance(cosine, layers.iridescence_ior, larger(thickness, Real(0)), b.f0);
     b.f0 = min(with_film(b.f0), splat(larger(b.f90, max_component(b.f0))));
     b.metal_f0 = min(with_film(b.metal_f0), splat(Real(1)));
   }
@@ -139,8 +157,16 @@ ALHAZEN_HD ALHAZEN_COLD void make_layered(const SceneView<Real>& scene, const Ma
   b.glass = b.thin ? Real(0) : rest * transmission;
   b.dielectric = rest - b.glass;
   b.diffuse = colour * (rest * (1 - transmission));
+  const Real diffuse_transmission = scalar_or(scene, layers.diffuse_transmission, at, Real(0));
+  if (diffuse_transmission > 0) {
+    b.diffuse *= 1 - diffuse_transmission;
+    b.diffuse_through = colour_or(scene, layers.diffuse_transmission_colour, at, Real(1)) *
+                        (rest * (1 - transmission) * diffuse_transmission);
+  }
   b.through = colour * (rest * transmission);
   b.glass_reflection = min(tint * specular, splat(Real(1)));
+  b.glass_entry = splat(Real(1));
+  if (film > 0 && b.glass > 0) add_film_to_glass(b, film_of_dielectric, film, cosine, max_component(bare_f0));
   if (b.glass > 0 && layers.dispersion > 0) b.through *= disperse(layers.dispersion, u_channel, b.ior);
   b.coat = scalar_or(scene, layers.clearcoat, at, Real(0));
   const Real coat_roughness = scalar_or(scene, layers.clearcoat_roughness, at, Real(0));
@@ -153,7 +179,8 @@ ALHAZEN_HD ALHAZEN_COLD void make_layered(const SceneView<Real>& scene, const Ma
 /// Share of light that comes back at normal incidence, as a guide for denoisers.
 template <class Real>
 ALHAZEN_HD Vec3<Real> layered_albedo(const LayeredBsdf<Real>& b) {
-  const Vec3<Real> base = b.f0 * b.dielectric + b.diffuse + b.through + fresnel_of_metal(b, Real(1)) * b.metal;
+  const Vec3<Real> base =
+      b.f0 * b.dielectric + b.diffuse + b.diffuse_through + b.through + fresnel_of_metal(b, Real(1)) * b.metal;
   return min(max(base, b.sheen), splat(Real(1)));
 }
 

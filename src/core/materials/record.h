@@ -64,6 +64,7 @@ struct LayersRecord {
   TextureRange sheen_colour, sheen_roughness;
   TextureRange iridescence, iridescence_thickness;
   TextureRange anisotropy, anisotropy_direction;
+  TextureRange diffuse_transmission, diffuse_transmission_colour;
   Real rotation_cosine, rotation_sine;  ///< of the anisotropy
   Real iridescence_ior, clearcoat_normal_scale, dispersion, clearcoat_ior;
   uint32_t coat_transmission;  ///< coated diffuse: where in SceneView::albedo_tables what the coat lets through lies

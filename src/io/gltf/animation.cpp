@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/gltf/nodes.h"
+#include "io/gltf/pointers.h"
 #include "io/text/quoted.h"
 
 namespace alhazen::gltf {
@@ -88,19 +89,27 @@ struct Sampler {
   }
 };
 
-Sampler read_sampler(const Document& document, Accessors& accessors, const Json& description) {
+Sampler read_sampler(const Document& document, Accessors& accessors, const Json& description,
+                     std::initializer_list<const char*> types = {"VEC3", "VEC4", "SCALAR"}) {
   Sampler sampler{document, description, {}, {}, document.string(description, "interpolation", "LINEAR")};
   if (sampler.interpolation != "LINEAR" && sampler.interpolation != "STEP" && sampler.interpolation != "CUBICSPLINE")
     document.fail(description, "unknown \"interpolation\" " + quoted(sampler.interpolation) +
                                    ": it may be LINEAR, STEP or CUBICSPLINE");
   sampler.times = accessors.floats(document.required_index(description, "input", "accessors"), {"SCALAR"}).data;
-  sampler.values =
-      accessors.floats(document.required_index(description, "output", "accessors"), {"VEC3", "VEC4", "SCALAR"});
+  sampler.values = accessors.floats(document.required_index(description, "output", "accessors"), types);
   for (size_t i = 1; i < sampler.times.size(); ++i)
     if (!(sampler.times[i] > sampler.times[i - 1]))
       document.fail(description,
                     "the times of the keyframes must increase; the one with index " + std::to_string(i) + " does not");
   return sampler;
+}
+
+/// The sampler that a channel names.
+const Json& sampler_of(const Document& document, const Json& samplers, const Json& channel) {
+  const uint64_t index = document.required_whole(channel, "sampler");
+  if (index >= samplers.items.size())
+    document.fail(channel, "index out of range: \"samplers\" has " + std::to_string(samplers.items.size()) + " items");
+  return samplers.items[static_cast<size_t>(index)];
 }
 
 const Json& list_of(const Document& document, const Json& animation, const char* key) {
@@ -131,11 +140,7 @@ void Nodes::animate(const Json& animation, double time) {
     if (target == nullptr) document_.fail(channel, "\"target\" is missing here");
     const auto node = document_.index(*target, "node", "nodes");
     if (!node) continue;  // for extensions
-    const uint64_t index = document_.required_whole(channel, "sampler");
-    if (index >= samplers.items.size())
-      document_.fail(channel,
-                     "index out of range: \"samplers\" has " + std::to_string(samplers.items.size()) + " items");
-    const Sampler sampler = read_sampler(document_, accessors_, samplers.items[static_cast<size_t>(index)]);
+    const Sampler sampler = read_sampler(document_, accessors_, sampler_of(document_, samplers, channel));
     const std::string path = document_.string(*target, "path");
     NodePose& pose = poses_[*node];
     if (path == "weights") {
@@ -153,6 +158,27 @@ void Nodes::animate(const Json& animation, double time) {
     else
       (path == "scale" ? pose.scale : pose.translation) = {value[0], value[1], value[2]};
   }
+}
+
+std::vector<PointedValue> pointed_values(const Document& document, const Json& animation, double time) {
+  Buffers buffers(document);
+  Accessors accessors(document, buffers);
+  std::vector<PointedValue> all;
+  const Json& samplers = list_of(document, animation, "samplers");
+  for (const Json& channel : list_of(document, animation, "channels").items) {
+    const Json* target = document.object(channel, "target");
+    const Json* extension = target == nullptr ? nullptr : document.extension(*target, "KHR_animation_pointer");
+    if (extension == nullptr || document.string(*target, "path") != "pointer") continue;
+    const Sampler sampler =
+        read_sampler(document, accessors, sampler_of(document, samplers, channel), {"SCALAR", "VEC2", "VEC3", "VEC4"});
+    const std::string pointer = document.string(*extension, "pointer");
+    const size_t keys = sampler.times.size() * sampler.elements_a_key();
+    const size_t width = keys == 0 ? 0 : sampler.values.count / keys * sampler.values.components;
+    if (width == 0) document.fail(channel, "the output of the animation is too short for its keyframes");
+    const bool is_rotation = pointer.starts_with("/nodes/") && pointer.ends_with("/rotation") && width == 4;
+    all.push_back({pointer, sampler.at(time, width, is_rotation), &channel});
+  }
+  return all;
 }
 
 }  // namespace alhazen::gltf

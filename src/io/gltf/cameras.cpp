@@ -82,7 +82,7 @@ size_t choose(const Document& document, const std::string& choice, const std::ve
 
 std::vector<CameraNode> camera_nodes(const Document& document, const Nodes& nodes) {
   std::vector<CameraNode> cameras;
-  for (const uint32_t node : nodes.drawn()) {
+  for (const uint32_t node : nodes.of_scene()) {
     const Json& description = document.item("nodes", node);
     const auto camera = document.index(description, "camera", "cameras");
     if (!camera) continue;

@@ -1,7 +1,9 @@
 // What a file without cameras or lights is seen by.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/lights/sphere_mapping.h"
 #include "core/math/bounds.h"
@@ -28,27 +30,46 @@ void for_each_vertex(const Scene& scene, const Visit& visit) {
       visit_shape(shape, instance.world_from_group.start * shape.world_from_object.start);
 }
 
+/// From the middle of a box to where it is looked at from. glTF has models face +z: what is flat that way, such as a
+/// panel with writing, is seen from the front, bodies more from aside and above; what is long in z from its side, and
+/// what lies flat from above.
+Vec3d way_to_eye(const Vec3d& half) {
+  const auto ratio = [](double a, double b) { return b > 0 ? std::clamp(a / b, 0.0, 1.0) : 1.0; };
+  const double depth = ratio(1.5 * half.z, std::max(half.x, half.y));
+  const double length_in_z = 1 - ratio(half.x, half.z), flatness = 1 - ratio(half.y, std::max(half.x, half.z));
+  return normalize(Vec3d{0.12 + 0.33 * depth + 0.5 * length_in_z, 0.08 + 0.3 * depth + 0.2 * depth * flatness, 1});
+}
+
 }  // namespace
 
-void fit_camera(Scene& scene) {
+void fit_camera(Scene& scene, double aspect) {
+  if (!(aspect > 0)) aspect = static_cast<double>(scene.film.width) / static_cast<double>(scene.film.height);
   Bounds3<double> box;
   for_each_vertex(scene, [&](const Vec3d& p) { box.extend(p); });
   if (box.is_empty()) box.extend(Vec3d{});
   const Vec3d center = box.center(), half = box.diagonal() * 0.5;
-  const double radius = std::max(length(half), 1e-6);
-  scene.camera.fov = 40;
-  const double tangent = std::tan(20 * 3.14159265358979 / 180);
-  // glTF has models face +z.
-  const Vec3d backward = normalize(Vec3d{0.35, 0.25, 1});
+  const Vec3d backward = way_to_eye(half);
   const Vec3d right = normalize(cross(Vec3d{0, 1, 0}, backward)), up = cross(backward, right);
-  // As near as leaves every corner of the box within the angle, and a little around it.
-  double distance = radius * 1e-3;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3d p{corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z};
-    const double sideways = std::max(std::abs(dot(p, right)), std::abs(dot(p, up)));
-    distance = std::max(distance, 1.05 * sideways / tangent + dot(p, backward));
-  }
-  const Vec3d eye = center + backward * distance;
+  scene.camera.fov = 40;
+  // The angle is that over the shorter axis of the picture. A little of the picture is left free at every edge.
+  const double tangent = std::tan(20 * std::numbers::pi / 180) / 1.08;
+  const double across = tangent * std::max(aspect, 1.0), along = tangent / std::min(aspect, 1.0);
+  // A point is seen where |x - eye.x| <= tangent * (distance - z), by its coordinates along right, up and backward: so
+  // of all points, the largest x + tangent * z and the largest -x + tangent * z place the eye between them and set its
+  // distance.
+  double to_right = -1e300, to_left = -1e300, to_top = -1e300, to_bottom = -1e300, nearest = -1e300;
+  const auto visit = [&](const Vec3d& point) {
+    const Vec3d p = point - center;
+    const double x = dot(p, right), y = dot(p, up), z = dot(p, backward);
+    to_right = std::max(to_right, x + across * z), to_left = std::max(to_left, -x + across * z);
+    to_top = std::max(to_top, y + along * z), to_bottom = std::max(to_bottom, -y + along * z);
+    nearest = std::max(nearest, z);
+  };
+  for_each_vertex(scene, visit);
+  if (nearest == -1e300) visit(center);
+  const double distance = std::max({(to_right + to_left) / (2 * across), (to_top + to_bottom) / (2 * along),
+                                    nearest + std::max(length(half), 1e-6) * 1e-3});
+  const Vec3d eye = center + right * ((to_right - to_left) / 2) + up * ((to_top - to_bottom) / 2) + backward * distance;
   scene.camera.world_from_camera.start = Transform(Matrix4{{{right.x, up.x, -backward.x, eye.x},
                                                             {right.y, up.y, -backward.y, eye.y},
                                                             {right.z, up.z, -backward.z, eye.z},
@@ -62,16 +83,24 @@ void add_neutral_light(Scene& scene) {
   map.height = 64;
   map.srgb = false;
   map.name = "the neutral light";
-  const Vec3d window = normalize(Vec3d{-0.5, 0.8, 0.7});
+  // Before and above the model, beside it, and behind: for light, for what shines, and for its edge.
+  struct Window {
+    Vec3d direction;
+    double cosine, brightness;  ///< at the edge; of the middle
+  };
+  const std::array<Window, 3> windows{Window{normalize(Vec3d{-0.5, 0.8, 0.7}), 0.94, 7},
+                                      Window{normalize(Vec3d{0.95, 0.2, 0.2}), 0.92, 1.5},
+                                      Window{normalize(Vec3d{0.85, 0.6, -0.55}), 0.93, 2}};
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) {
       // z of the map is up in the world.
       const Vec3d d =
           direction_of_square(SphereMapping::equirectangular, Vec2d{(x + 0.5) / map.width, (y + 0.5) / map.height});
       const Vec3d world{d.x, d.z, -d.y};
-      const double sky = 0.25 + 0.35 * smoothstep(-1.0, 1.0, world.y);
-      const double glow = 5 * smoothstep(0.93, 0.97, dot(world, window));
-      for (int c = 0; c < 3; ++c) map.floats.push_back(static_cast<float>(sky + glow));
+      double sky = 0.16 + 0.36 * smoothstep(-0.8, 0.9, world.y);
+      for (const Window& w : windows)
+        sky += w.brightness * smoothstep(w.cosine, w.cosine + 0.03, dot(world, w.direction));
+      for (int c = 0; c < 3; ++c) map.floats.push_back(static_cast<float>(sky));
     }
   Light light;
   light.type = LightType::environment;

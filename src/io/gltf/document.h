@@ -24,6 +24,8 @@ class Document {
            Diagnostics& diagnostics);
 
   const Json& root() const { return root_; }
+  /// Values may change as long as nobody holds on to one that moves.
+  Json& mutable_root() { return root_; }
   const std::string& path() const { return path_; }
   const std::string& folder() const { return folder_; }
   /// The binary chunk of a .glb file; without one, null.

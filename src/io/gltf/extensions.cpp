@@ -9,7 +9,7 @@ namespace alhazen::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 24> known_extensions{
+constexpr std::array<std::string_view, 27> known_extensions{
     "KHR_lights_punctual",
     "KHR_materials_transmission",
     "KHR_materials_volume",
@@ -21,7 +21,10 @@ constexpr std::array<std::string_view, 24> known_extensions{
     "KHR_materials_iridescence",
     "KHR_materials_anisotropy",
     "KHR_materials_unlit",
+    "KHR_materials_diffuse_transmission",
     "KHR_materials_dispersion",
+    "KHR_animation_pointer",
+    "KHR_node_visibility",
     "KHR_materials_variants",
     "KHR_materials_pbrSpecularGlossiness",
     "KHR_texture_transform",
@@ -37,9 +40,18 @@ constexpr std::array<std::string_view, 24> known_extensions{
     "EXT_texture_avif",
 };
 
-/// Data about the file that no picture shows.
-constexpr std::array<std::string_view, 4> metadata_extensions{"KHR_xmp", "KHR_xmp_json_ld", "EXT_mesh_features",
-                                                              "EXT_structural_metadata"};
+/// Data that no picture shows.
+constexpr std::array<std::string_view, 9> metadata_extensions{
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "EXT_mesh_features",
+    "EXT_structural_metadata",
+    "KHR_interactivity",
+    "KHR_node_hoverability",
+    "KHR_node_selectability",
+    "KHR_physics_rigid_bodies",
+    "KHR_implicit_shapes",
+};
 
 template <size_t count>
 bool contains(const std::array<std::string_view, count>& names, const std::string& name) {

@@ -11,6 +11,7 @@
 #include "io/gltf/materials.h"
 #include "io/gltf/meshes.h"
 #include "io/gltf/nodes.h"
+#include "io/gltf/pointers.h"
 #include "io/gltf/punctual.h"
 #include "io/gltf/validate.h"
 #include "io/images/input_file.h"
@@ -45,6 +46,14 @@ std::vector<std::string> animation_names(const Document& document) {
   return names;
 }
 
+/// Null where none is asked for.
+const Json* chosen_animation(const Document& document, const ReadOptions& options) {
+  if (!options.time && options.animation.empty()) return nullptr;
+  const std::vector<std::string> names = animation_names(document);
+  const size_t index = choose(document, options.animation.empty() ? "0" : options.animation, names, "animation");
+  return &document.item("animations", index);
+}
+
 /// Whether the matrix can be inverted well enough to be a Transform.
 bool is_invertible(const Matrix4& m) {
   const double volume = length(column(m, 0)) * length(column(m, 1)) * length(column(m, 2));
@@ -66,8 +75,18 @@ class SceneReader {
     for (const uint32_t node : nodes_.drawn()) add_node(node);
     place_all();
     add_lights(document_, nodes_, scene_, nullptr);
-    if (scene_.lights.empty() && !emits_) add_neutral_light(scene_);
-    if (!set_camera(document_, nodes_, options_.camera, scene_)) fit_camera(scene_);
+    const bool has_camera = set_camera(document_, nodes_, options_.camera, scene_);
+    if (!has_camera) fit_camera(scene_, options_.aspect);
+    // What has a camera and lights is a scene, lit as it says; else it is a model to be looked at.
+    scene_.film.fits_exposure = !scene_.lights.empty() || emits_;
+    const bool is_lit = !scene_.lights.empty() || emits_;
+    if (has_camera && !is_lit && light_closed_room(scene_))
+      document_.warn(
+          document_.root(),
+          "nothing shines within the walls that the camera stands in; the outermost of them shine by their own "
+          "colour");
+    else if (!has_camera || !is_lit)
+      add_neutral_light(scene_);
     if (scene_.meshes.empty())
       document_.warn(document_.root(), "the file has no surface to be drawn; the picture is empty");
     return std::move(scene_);
@@ -75,18 +94,12 @@ class SceneReader {
 
  private:
   void choose_variant() {
-    const std::vector<std::string> names = variant_names(document_);
-    if (!options_.variant.empty())
-      variant_ = choose(document_, options_.variant, names, "variant");
-    else if (!names.empty())
-      variant_ = 0;
+    if (!options_.variant.empty()) variant_ = choose(document_, options_.variant, variant_names(document_), "variant");
   }
 
   void choose_animation() {
-    if (!options_.time && options_.animation.empty()) return;
-    const std::vector<std::string> names = animation_names(document_);
-    const size_t index = choose(document_, options_.animation.empty() ? "0" : options_.animation, names, "animation");
-    nodes_.animate(document_.item("animations", index), options_.time.value_or(0));
+    if (const Json* animation = chosen_animation(document_, options_))
+      nodes_.animate(*animation, options_.time.value_or(0));
   }
 
   const std::vector<Json>& primitives(uint32_t mesh) const {
@@ -190,7 +203,7 @@ class SceneReader {
     std::vector<Shape> result;
     for (const Json& primitive : primitives(placement.mesh)) {
       const MaterialUse& use = materials_.use(material_index(primitive), has_vertex_colours(document_, primitive));
-      const auto mesh = meshes_.read(primitive, use.uv_sets, placement.deformation);
+      const auto mesh = meshes_.read(primitive, use, placement.deformation);
       if (!mesh) continue;
       Shape shape;
       shape.mesh = *mesh;
@@ -268,10 +281,12 @@ bool is_glb(std::span<const uint8_t> bytes) { return bytes.size() >= 4 && std::m
 
 Scene parse_gltf(std::span<const uint8_t> bytes, const std::string& path, const std::string& folder,
                  const ReadOptions& options, Diagnostics& diagnostics) {
-  const gltf::Document document(bytes, path, folder, diagnostics);
+  gltf::Document document(bytes, path, folder, diagnostics);
   try {
     gltf::check_extensions(document);
     gltf::validate(document);
+    if (const gltf::Json* animation = gltf::chosen_animation(document, options))
+      gltf::write_pointed_values(document, gltf::pointed_values(document, *animation, options.time.value_or(0)));
     return gltf::SceneReader(document, options).run();
   } catch (const std::bad_alloc&) {
     throw InputError({path}, "the scene is too large for the memory of this machine");

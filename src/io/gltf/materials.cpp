@@ -32,6 +32,7 @@ class MaterialReader {
       read_common();
       read_extensions();
     }
+    use_.tangent_set = tangent_set();
     scene.materials.push_back(std::move(material_));
     use_.material = static_cast<uint32_t>(scene.materials.size() - 1);
     return use_;
@@ -69,6 +70,15 @@ class MaterialReader {
       chosen[place] = set;
     }
     return chosen;
+  }
+
+  /// That of the first of the textures that follow tangents: a mesh has them once.
+  std::optional<int> tangent_set() const {
+    const Principled& p = material_.principled;
+    for (const uint32_t texture : {material_.normal_map, p.clearcoat_normal_map, p.anisotropy_direction})
+      if (texture != no_index) return textures_.at(texture).uv_set;
+    if (p.anisotropy != no_index) return 0;
+    return std::nullopt;
   }
 
   double in_range(const Json& at, const char* key, double value, double low, double high) const {
@@ -215,6 +225,11 @@ class MaterialReader {
     }
     if (const Json* e = extension("KHR_materials_transmission"))
       p.transmission = scalar(*e, "transmissionFactor", 0, "transmissionTexture", 0, 0);
+    if (const Json* e = extension("KHR_materials_diffuse_transmission")) {
+      p.diffuse_transmission = alpha_scalar(*e, "diffuseTransmissionFactor", 0, "diffuseTransmissionTexture", 0);
+      p.diffuse_transmission_colour =
+          coloured(*e, "diffuseTransmissionColorFactor", white, "diffuseTransmissionColorTexture", white);
+    }
     if (const Json* e = extension("KHR_materials_dispersion"))
       p.dispersion = in_range(*e, "dispersion", document_.number(*e, "dispersion", 0), 0, 1e30);
     if (const Json* e = extension("KHR_materials_volume")) read_volume(*e);
@@ -240,7 +255,7 @@ class MaterialReader {
     p.attenuation_distance = document_.number(e, "attenuationDistance", std::numeric_limits<double>::infinity());
     if (!(p.attenuation_distance > 0)) document_.fail(e, "\"attenuationDistance\" must be above 0");
     // What enters a volume must meet the surface from within too.
-    if (p.transmission != no_index) material_.double_sided = true;
+    if (p.transmission != no_index || p.diffuse_transmission != no_index) material_.double_sided = true;
   }
 
   void read_clearcoat(const Json& e) {

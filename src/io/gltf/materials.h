@@ -14,6 +14,8 @@ struct MaterialUse {
   uint32_t material = no_index;  ///< index into Scene::materials
   std::optional<Emission> emission;
   UvSets uv_sets{0, 1};
+  /// The set of the mesh, 0 or 1, which the tangents of normal maps and anisotropy follow; none where there are none.
+  std::optional<int> tangent_set;
 };
 
 class Materials {

@@ -5,6 +5,7 @@
 
 #include "io/gltf/draco.h"
 #include "io/gltf/matrices.h"
+#include "io/gltf/tangents.h"
 
 namespace alhazen::gltf {
 
@@ -280,7 +281,9 @@ size_t target_count(const Document& document, const Json& primitive) {
   return targets == nullptr ? 0 : targets->items.size();
 }
 
-std::optional<uint32_t> Meshes::read(const Json& primitive, const UvSets& uv_sets, const Deformation& deformation) {
+std::optional<uint32_t> Meshes::read(const Json& primitive, const MaterialUse& material,
+                                     const Deformation& deformation) {
+  const UvSets& uv_sets = material.uv_sets;
   const uint64_t mode = document_.whole(primitive, "mode").value_or(4);
   if (mode > 6) document_.fail(primitive, "unknown \"mode\" " + std::to_string(mode) + ": it may be from 0 to 6");
   if (mode < 4) {
@@ -289,6 +292,7 @@ std::optional<uint32_t> Meshes::read(const Json& primitive, const UvSets& uv_set
   }
   const bool is_shared = deformation.joints.empty() && !deformation.baked;
   std::string key = std::to_string(mode) + '/' + std::to_string(uv_sets[0]) + '/' + std::to_string(uv_sets[1]) + '/';
+  if (material.tangent_set) key += 't' + std::to_string(*material.tangent_set) + '/';
   if (is_shared) {
     append_key(document_.object(primitive, "attributes"), key);
     key += '/' + std::to_string(document_.index(primitive, "indices", "accessors").value_or(no_index)) + '/';
@@ -300,6 +304,7 @@ std::optional<uint32_t> Meshes::read(const Json& primitive, const UvSets& uv_set
   }
   Mesh mesh = PrimitiveReader(document_, buffers_, accessors_, primitive, uv_sets, deformation).run(mode);
   if (mesh.indices.empty()) return std::nullopt;
+  if (material.tangent_set) add_tangents(mesh, *material.tangent_set);
   scene_.meshes.push_back(std::move(mesh));
   const auto index = static_cast<uint32_t>(scene_.meshes.size() - 1);
   if (is_shared) by_key_[key] = index;

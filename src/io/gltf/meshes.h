@@ -24,9 +24,9 @@ class Meshes {
   Meshes(const Document& document, Buffers& buffers, Accessors& accessors, Scene& scene)
       : document_(document), buffers_(buffers), accessors_(accessors), scene_(scene) {}
 
-  /// The index into Scene::meshes of a primitive, or nothing where it has no area (points, lines). The same data give
-  /// the same mesh.
-  std::optional<uint32_t> read(const Json& primitive, const UvSets& uv_sets, const Deformation& deformation);
+  /// The index into Scene::meshes of a primitive, as its material needs it, or nothing where it has no area (points,
+  /// lines). The same data give the same mesh.
+  std::optional<uint32_t> read(const Json& primitive, const MaterialUse& material, const Deformation& deformation);
 
  private:
   const Document& document_;

@@ -94,7 +94,12 @@ std::vector<uint32_t> Nodes::roots_of_scene() const {
   return roots;
 }
 
-std::vector<uint32_t> Nodes::drawn() const {
+bool Nodes::is_hidden(uint32_t node) const {
+  const Json* visibility = document_.extension(document_.item("nodes", node), "KHR_node_visibility");
+  return visibility != nullptr && !document_.flag(*visibility, "visible", true);
+}
+
+std::vector<uint32_t> Nodes::collect(bool hidden_too) const {
   std::vector<uint32_t> order, stack = roots_of_scene();
   std::vector<bool> reached(poses_.size());
   std::vector<uint32_t> reversed(stack.rbegin(), stack.rend());
@@ -104,6 +109,7 @@ std::vector<uint32_t> Nodes::drawn() const {
     stack.pop_back();
     if (reached[node]) continue;
     reached[node] = true;
+    if (!hidden_too && is_hidden(node)) continue;
     order.push_back(node);
     stack.insert(stack.end(), children_[node].rbegin(), children_[node].rend());
   }

@@ -32,14 +32,18 @@ class Nodes {
   size_t size() const { return poses_.size(); }
   const Matrix4& world(uint32_t node) const { return world_[node]; }
   const NodePose& pose(uint32_t node) const { return poses_[node]; }
-  /// The nodes of the scene to be drawn, each once, parents before their children.
-  std::vector<uint32_t> drawn() const;
+  /// The nodes of the scene, each once, parents before their children.
+  std::vector<uint32_t> of_scene() const { return collect(true); }
+  /// Those of them to be drawn: KHR_node_visibility hides a node and what is below it.
+  std::vector<uint32_t> drawn() const { return collect(false); }
   /// World from mesh, of each joint of a skin.
   std::vector<Matrix4> joints(uint32_t skin);
 
  private:
   void check_trees();
   std::vector<uint32_t> roots_of_scene() const;
+  std::vector<uint32_t> collect(bool hidden_too) const;
+  bool is_hidden(uint32_t node) const;
 
   const Document& document_;
   Accessors& accessors_;

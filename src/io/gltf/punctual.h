@@ -29,10 +29,16 @@ size_t choose(const Document& document, const std::string& choice, const std::ve
 /// KHR_lights_punctual. Candela and lux are taken as W / sr and W / m^2 as they stand.
 void add_lights(const Document& document, const Nodes& nodes, Scene& scene, std::vector<std::string>* names);
 
-/// A camera before the whole scene, from the front, above and aside.
-void fit_camera(Scene& scene);
+/// A camera before the whole scene, from the front, above and aside, for a picture of that shape (width over height; 0:
+/// that of the film).
+void fit_camera(Scene& scene, double aspect);
 
-/// White light from everywhere, more of it from above and from a window before and above the scene.
+/// White light from everywhere, more of it from above, and from windows: a bright one before and above the scene,
+/// others beside and behind it.
 void add_neutral_light(Scene& scene);
+
+/// Where the camera stands within closed walls and no light can get in, makes the outermost of them shine by their own
+/// colour. False where it does not.
+bool light_closed_room(Scene& scene);
 
 }  // namespace alhazen::gltf

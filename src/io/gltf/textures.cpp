@@ -19,7 +19,6 @@ bool starts_with(std::span<const uint8_t> bytes, std::string_view head) {
 }
 
 const char* unread_format(std::span<const uint8_t> bytes) {
-  if (starts_with(bytes, "RIFF")) return "WebP";
   if (starts_with(bytes, "\xabKTX 20")) return "KTX2";
   if (starts_with(bytes, "DDS ")) return "DDS";
   if (bytes.size() > 12 && std::memcmp(bytes.data() + 4, "ftypavif", 8) == 0) return "AVIF";
@@ -149,12 +148,37 @@ void Textures::set_mapping(const Json& info, const UvSets& uv_sets, Texture& nod
 
 uint32_t Textures::scene_image(const Json& texture, Texels texels) {
   if (const auto source = document_.index(texture, "source", "images")) return load(*source, texels);
-  for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif"})
+  if (const Json* webp = document_.extension(texture, "EXT_texture_webp"))
+    return load(document_.required_index(*webp, "source", "images"), texels);
+  for (const char* name : {"KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif"})
     if (document_.extension(texture, name) != nullptr)
       document_.fail(texture, std::string("the texture has its picture by the extension ") + name +
                                   " alone, which is not read: convert it to PNG or JPEG, or add one as \"source\"");
   document_.warn(texture, "a texture has no \"source\"; it counts as white");
   return no_index;
+}
+
+/// Nothing for the alpha of an opaque picture.
+std::optional<ImageTexels> Textures::decode(const Json& image, const std::string& name, std::span<const uint8_t> bytes,
+                                            Texels texels) const {
+  const bool is_png = starts_with(bytes, "\x89PNG\r\n\x1a\n");
+  const bool is_webp = starts_with(bytes, "RIFF") && bytes.size() >= 12 && starts_with(bytes.subspan(8), "WEBP");
+  const bool is_jpeg = starts_with(bytes, "\xff\xd8\xff");
+  if (!is_png && !is_webp && !is_jpeg) {
+    const char* format = unread_format(bytes);
+    document_.fail(image, format != nullptr
+                              ? std::string("pictures in ") + format + " are not read: convert it to PNG or JPEG"
+                              : std::string("the picture is neither PNG nor JPEG nor WebP"));
+  }
+  if (texels == Texels::alpha) {
+    if (is_jpeg) return std::nullopt;
+    std::optional<ImageTexels> alpha = is_png ? decode_png_alpha(name, bytes) : decode_webp_alpha(name, bytes);
+    const auto is_opaque = [](uint8_t value) { return value == 255; };
+    if (alpha && std::all_of(alpha->bytes.begin(), alpha->bytes.end(), is_opaque)) return std::nullopt;
+    return alpha;
+  }
+  if (is_png) return decode_png(name, bytes, texels == Texels::srgb);
+  return is_webp ? decode_webp(name, bytes) : decode_jpeg(name, bytes);
 }
 
 uint32_t Textures::load(uint32_t source, Texels texels) {
@@ -171,27 +195,10 @@ uint32_t Textures::load(uint32_t source, Texels texels) {
   }
   std::string name = document_.place(image).to_string() + ": image " + std::to_string(source);
   if (image.find("uri") != nullptr && resource.name != "a data URI") name = resource.name;
-  ImageTexels decoded;
-  if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) {
-    if (texels == Texels::alpha) {
-      std::optional<ImageTexels> alpha = decode_png_alpha(name, bytes);
-      const auto is_opaque = [](uint8_t value) { return value == 255; };
-      if (!alpha || std::all_of(alpha->bytes.begin(), alpha->bytes.end(), is_opaque)) return no_index;
-      decoded = std::move(*alpha);
-    } else {
-      decoded = decode_png(name, bytes, texels == Texels::srgb);
-    }
-  } else if (starts_with(bytes, "\xff\xd8\xff")) {
-    if (texels == Texels::alpha) return no_index;
-    decoded = decode_jpeg(name, bytes);
-  } else {
-    const char* format = unread_format(bytes);
-    document_.fail(image, format != nullptr
-                              ? std::string("pictures in ") + format + " are not read: convert it to PNG or JPEG"
-                              : std::string("the picture is neither PNG nor JPEG"));
-  }
-  decoded.srgb = !decoded.bytes.empty() && texels == Texels::srgb;
-  scene_.images.push_back(std::move(decoded));
+  std::optional<ImageTexels> decoded = decode(image, name, bytes, texels);
+  if (!decoded) return no_index;
+  decoded->srgb = !decoded->bytes.empty() && texels == Texels::srgb;
+  scene_.images.push_back(std::move(*decoded));
   entry->second = static_cast<uint32_t>(scene_.images.size() - 1);
   return entry->second;
 }

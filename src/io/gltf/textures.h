@@ -4,6 +4,8 @@
 
 #include <array>
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 
@@ -32,7 +34,7 @@ class Textures {
   uint32_t mix(uint32_t at_0, uint32_t at_1, uint32_t amount);
   uint32_t threshold(uint32_t texture, double least);
   uint32_t node(TextureKind kind);
-  Texture& at(uint32_t index) { return scene_.textures[index]; }
+  Texture& at(uint32_t index) const { return scene_.textures[index]; }
 
   /// The picture of the member `key` of `object`, a textureInfo; absent where there is no such member, and for `alpha`
   /// where the picture is opaque.
@@ -42,6 +44,8 @@ class Textures {
   uint32_t add(Texture&& texture);
   uint32_t scene_image(const Json& texture, Texels texels);
   uint32_t load(uint32_t source, Texels texels);
+  std::optional<ImageTexels> decode(const Json& image, const std::string& name, std::span<const uint8_t> bytes,
+                                    Texels texels) const;
   void set_sampler(const Json& texture, Texture& node) const;
   void set_mapping(const Json& info, const UvSets& uv_sets, Texture& node) const;
 

@@ -4,6 +4,7 @@
 // decode whole; `path` is for messages and the name of the texels. `srgb` of the result is true for bytes.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -21,6 +22,10 @@ PictureFormat picture_format(const std::string& path);
 /// `decode_16_bit`: whether values of 16 bits are sRGB-encoded and to be decoded, or linear already.
 ImageTexels decode_png(const std::string& path, std::span<const uint8_t> bytes, bool decode_16_bit);
 ImageTexels decode_jpeg(const std::string& path, std::span<const uint8_t> bytes);
+/// Where the program was built with libwebp; else an error that says so.
+ImageTexels decode_webp(const std::string& path, std::span<const uint8_t> bytes);
+/// The alpha of such a picture, in all three channels; nothing where it has none.
+std::optional<ImageTexels> decode_webp_alpha(const std::string& path, std::span<const uint8_t> bytes);
 ImageTexels decode_tga(const std::string& path, std::span<const uint8_t> bytes);
 ImageTexels decode_bmp(const std::string& path, std::span<const uint8_t> bytes);
 ImageTexels decode_hdr(const std::string& path, std::span<const uint8_t> bytes);
