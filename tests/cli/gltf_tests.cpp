@@ -55,7 +55,7 @@ class Gltf : public Command {
   }
 };
 
-TEST_F(Gltf, RendersItsOwnMaterialsByTheFirstCamera) {
+TEST_F(Gltf, RendersTheFirstVariantByTheFirstCamera) {
   const auto [red, blue] = colours({});
   EXPECT_GT(red, 10);
   EXPECT_LT(blue, red / 4);

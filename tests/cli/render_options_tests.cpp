@@ -44,7 +44,7 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--maxdepth", "--size", "--crop", "--cropwindow", "--pixelbounds", "--integrator", "--sampler", "--seed",
       "--backend", "--strategy", "--schedule", "--threads", "--nthreads", "--precision", "--progress", "--quiet",
       "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--device", "--block", "--chunk", "--denoise",
-      "--environment", "--texture-budget",
+      "--environment", "--texture-budget", "--coats",
       // In gltf_tests.cpp:
       "--camera", "--time", "--animation", "--variant", "--list"};
   const CommandResult help = run({"render", "--help"});
@@ -76,6 +76,25 @@ Material "diffuse" "texture reflectance" "t" Shape "sphere")");
       << result.err;
   fitted.back() = "0";
   EXPECT_EQ(run(fitted).err.find("budget"), std::string::npos) << "0 is none";
+}
+
+/// A rough coat over white in a white furnace: it loses nothing, or what pbrt-v4's does.
+TEST_F(RenderOptions, CoatsLoseLightOnlyWherePbrtsAreAskedFor) {
+  folder_.write_text("coat.pbrt", R"(LookAt 0 0 3  0 0 0  0 1 0 Camera "perspective" "float fov" 20
+Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+WorldBegin LightSource "infinite" "rgb L" [ 1 1 1 ]
+Material "coateddiffuse" "rgb reflectance" [ 1 1 1 ] "float roughness" 0.3 "bool remaproughness" false Shape "sphere")");
+  const auto mean = [&](const std::string& coats) {
+    const CommandResult result =
+        run({"render", "coat.pbrt", "-o", "coat.exr", "--spp", "64", "--coats", coats, "--max-depth", "20"});
+    EXPECT_EQ(result.exit_code, 0) << result.everything();
+    return mean_of(image("coat.exr"), "G");
+  };
+  EXPECT_NEAR(mean("lossless"), 1, 0.03);
+  const double lossy = mean("pbrt");
+  EXPECT_LT(lossy, 0.85);
+  EXPECT_GT(lossy, 0.5);
+  EXPECT_EQ(run({"render", "coat.pbrt", "-o", "no.exr", "--coats", "none"}).exit_code, 2);
 }
 
 TEST_F(RenderOptions, StatisticsAreOneObjectWithEveryKey) {

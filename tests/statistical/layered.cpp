@@ -40,8 +40,8 @@ void check_energy(const PrincipledValues& values, Random& random, double& most) 
       const Bsdf<Real> bsdf = material.bsdf(cosine);
       const Vec3<Real> wo = direction_at(bsdf.frame, cosine, azimuth);
       const Energy e = energy_of(bsdf, wo, static_cast<int>(effort(1024)), random);
-      EXPECT_LT(e.mean - 4 * e.error, 1.01) << name_of(values, cosine, azimuth) << e.mean << " +- " << e.error;
-      most = std::max(most, e.mean - 4 * e.error);
+      EXPECT_LT(e.mean - widened(4) * e.error, 1.01) << name_of(values, cosine, azimuth) << e.mean << " +- " << e.error;
+      most = std::max(most, e.mean - widened(4) * e.error);
     }
 }
 

@@ -94,7 +94,11 @@ class SceneReader {
 
  private:
   void choose_variant() {
-    if (!options_.variant.empty()) variant_ = choose(document_, options_.variant, variant_names(document_), "variant");
+    const std::vector<std::string> names = variant_names(document_);
+    if (!options_.variant.empty())
+      variant_ = choose(document_, options_.variant, names, "variant");
+    else if (!names.empty())
+      variant_ = 0;
   }
 
   void choose_animation() {
