@@ -43,20 +43,25 @@ std::vector<double> table_of(const Albedo& albedo) {
   return table;
 }
 
-/// Mean of weight(cosine at the microfacet, that of the way on) over what GGX of that alpha reflects, by strata of its
-/// visible normals.
-template <class Weight>
-double reflected_share(const Vec3d& o, double alpha, const Weight& weight) {
+/// Mean of share(normal) over the normals of GGX of that alpha that are seen from `o`, by strata.
+template <class Share>
+double mean_over_visible_normals(const Vec3d& o, double alpha, const Share& share) {
   constexpr int strata = 24;
   double sum = 0;
   for (int a = 0; a < strata; ++a)
-    for (int b = 0; b < strata; ++b) {
-      const Vec3d m = sample_visible_normal(o, alpha, Vec2d{(a + 0.5) / strata, (b + 0.5) / strata});
-      const double cosine = dot(o, m);
-      const Vec3d i = m * (2 * cosine) - o;
-      if (i.z > 0 && cosine > 0) sum += weight(cosine, i.z) * ggx_g2(o, i, alpha) / ggx_g1(o, alpha);
-    }
+    for (int b = 0; b < strata; ++b)
+      sum += share(sample_visible_normal(o, alpha, Vec2d{(a + 0.5) / strata, (b + 0.5) / strata}));
   return sum / (strata * strata);
+}
+
+/// Mean of weight(cosine at the microfacet, that of the way on) over what GGX of that alpha reflects.
+template <class Weight>
+double reflected_share(const Vec3d& o, double alpha, const Weight& weight) {
+  return mean_over_visible_normals(o, alpha, [&](const Vec3d& m) {
+    const double cosine = dot(o, m);
+    const Vec3d i = m * (2 * cosine) - o;
+    return i.z > 0 && cosine > 0 ? weight(cosine, i.z) * ggx_g2(o, i, alpha) / ggx_g1(o, alpha) : 0;
+  });
 }
 
 /// Albedo of sheen of colour 1, by midpoints over the hemisphere.
@@ -75,19 +80,14 @@ double sheen_share(const Vec3d& o, double alpha) {
 
 /// Share of light from `o` that single scattering at a rough interface lets through to what lies below a medium.
 double transmitted_share(const Vec3d& o, double alpha, double ior, double optical_thickness) {
-  constexpr int strata = 24;
-  double sum = 0;
-  for (int a = 0; a < strata; ++a)
-    for (int b = 0; b < strata; ++b) {
-      const Vec3d m = sample_visible_normal(o, alpha, Vec2d{(a + 0.5) / strata, (b + 0.5) / strata});
-      const double cosine = dot(o, m);
-      double cos_t;
-      const double passes = cosine > 0 ? 1 - fresnel_dielectric(cosine, ior, cos_t) : 0;
-      if (passes == 0) continue;
-      const Vec3d i = m * (cosine / ior - cos_t) - o * (1 / ior);
-      if (i.z < 0) sum += passes * std::exp(optical_thickness / i.z) * ggx_g2(o, i, alpha) / ggx_g1(o, alpha);
-    }
-  return sum / (strata * strata);
+  return mean_over_visible_normals(o, alpha, [&](const Vec3d& m) {
+    const double cosine = dot(o, m);
+    double cos_t;
+    const double passes = cosine > 0 ? 1 - fresnel_dielectric(cosine, ior, cos_t) : 0;
+    if (passes == 0) return 0.0;
+    const Vec3d i = m * (cosine / ior - cos_t) - o * (1 / ior);
+    return i.z < 0 ? passes * std::exp(optical_thickness / i.z) * ggx_g2(o, i, alpha) / ggx_g1(o, alpha) : 0;
+  });
 }
 
 /// Share of diffuse light from below that the interface sends down again, after a way up and one down.

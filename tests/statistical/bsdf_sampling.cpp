@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/bsdfs.h"
-#include "support/direction_histogram.h"
-#include "support/effort.h"
+#include "support/density_check.h"
 #include "support/random.h"
 #include "support/reals.h"
 
@@ -21,25 +20,8 @@ template <class Real>
 void check_sampling(const NamedBsdf<Real>& named, double cosine, uint64_t seed) {
   const Bsdf<Real>& bsdf = named.bsdf;
   const Vec3<Real> wo = direction_at(bsdf.frame, cosine, 0.7);
-  DirectionHistogram histogram(
-      {convert<double>(bsdf.frame.tangent), convert<double>(bsdf.frame.bitangent), convert<double>(bsdf.frame.normal)},
-      pi<double>);
   Random random(seed);
-  for (size_t i = 0; i < effort(1'000'000); ++i) {
-    const Real u_lobe = random.uniform<Real>();
-    const BsdfSample<Real> s = sample_bsdf(bsdf, wo, u_lobe, random.uniform_2d<Real>());
-    if (s.pdf > 0)
-      histogram.add(convert<double>(s.direction));
-    else
-      histogram.add_nothing();
-  }
-  double integral = 0;
-  const ChiSquared test =
-      histogram.test([&](const Vec3d& wi) { return evaluate_bsdf(bsdf, wo, convert<Real>(wi)).pdf; }, integral);
-  EXPECT_LE(integral, 1 + 1e-3) << named.name << ", cosine " << cosine;
-  EXPECT_GT(test.p_value, sidak(0.01, cases))
-      << named.name << ", cosine " << cosine << ": " << test.statistic << " for " << test.degrees_of_freedom
-      << " degrees of freedom, integral of the pdf " << integral;
+  check_density(bsdf, wo, random, cases, named.name + ", cosine " + std::to_string(cosine), 1'000'000, 1e-3);
 }
 
 template <class Real>

@@ -1,6 +1,7 @@
 // pbrt's coats against a random walk between their interface and their base, as pbrt-v4's LayeredBxDF takes it.
 
 #include "core/materials/conductor.h"
+#include "support/density_check.h"
 #include "support/layered_checks.h"
 #include "support/reals.h"
 

@@ -110,7 +110,8 @@ class DiffuseSurfaces {
     light_pdf_[i] = 0;
     light_is_delta_[i] = light_is_finite_[i] = 0;
     if (scene.lights_count == 0) return;
-    const LightChoice<Real> choice = choose_light_for(scene, sampler, drawn, point);
+    const LightChoiceInput<Real> by = light_choice_input(scene, sampler, drawn, point);
+    const LightChoice<Real> choice = choose_light(scene, point.si.position, by.normal, by.u);
     if (!(choice.pmf > 0)) return;
     const LightRecord<Real>& light = scene.lights[choice.light];
     light_pmf_[i] = choice.pmf;

@@ -83,7 +83,7 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> surface_emission(const SceneView<Real>& scene,
                                                    const ShadingPoint<Real>& point) {
   if (point.light == no_light) return {};
   const LightRecord<Real>& light = scene.lights[point.light];
-  const Vec3<Real> radiance = emitted_radiance(light, point.si.normal, point.wo);
+  const Vec3<Real> radiance = emitted_radiance(light.radiance, light.two_sided, point.si.normal, point.wo);
   if (light.texture.count == 0 || is_zero(radiance)) return radiance;
   return radiance * emission_factor(scene, light, point_of_emission(point.si, hit));
 }
@@ -161,13 +161,19 @@ struct DirectLight {
   bool is_lit = false;
 };
 
-/// Chooses one of the scene's lights, of which there is one at least, for a surface. pmf 0: none.
+/// By what one of the scene's lights is chosen for a surface.
+template <class Real>
+struct LightChoiceInput {
+  Vec3<Real> normal;  ///< as for `choose_light`
+  Real u;
+};
+
 template <class Real, class Sampler>
-ALHAZEN_HD ALHAZEN_HOT LightChoice<Real> choose_light_for(const SceneView<Real>& scene, const Sampler& sampler,
-                                                          const VertexDimensions& dimensions,
-                                                          const ShadingPoint<Real>& point) {
-  return choose_light(scene, point.si.position, scene.light_tree_count > 0 ? side_of_light(point) : Vec3<Real>{},
-                      scene.lights_count > 1 ? sampler.template get_1d<Real>(dimensions.light_choice()) : Real(0));
+ALHAZEN_HD ALHAZEN_HOT LightChoiceInput<Real> light_choice_input(const SceneView<Real>& scene, const Sampler& sampler,
+                                                                 const VertexDimensions& dimensions,
+                                                                 const ShadingPoint<Real>& point) {
+  return {scene.light_tree_count > 0 ? side_of_light(point) : Vec3<Real>{},
+          scene.lights_count > 1 ? sampler.template get_1d<Real>(dimensions.light_choice()) : Real(0)};
 }
 
 /// One light, and a point of it as seen from a surface. pdf 0: there is none.
@@ -176,12 +182,9 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light_for(const SceneView<Real>&
                                                           const VertexDimensions& dimensions,
                                                           const ShadingPoint<Real>& point) {
   if (scene.lights_count == 0 || point.bsdf.is_specular()) return {};
-  const LightChoice<Real> choice = choose_light_for(scene, sampler, dimensions, point);
-  if (!(choice.pmf > 0)) return {};
-  LightSample<Real> light = sample_chosen_light(scene, scene.lights[choice.light], point.si.position, point.si.time,
-                                                sampler.template get_2d<Real>(dimensions.light_point()));
-  light.pdf *= choice.pmf;
-  return light;
+  const LightChoiceInput<Real> by = light_choice_input(scene, sampler, dimensions, point);
+  return sample_light(scene, point.si.position, by.normal, point.si.time, by.u,
+                      sampler.template get_2d<Real>(dimensions.light_point()));
 }
 
 template <class Real>

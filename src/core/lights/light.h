@@ -26,9 +26,9 @@ struct LightSample {
 };
 
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT Vec3<Real> emitted_radiance(const LightRecord<Real>& light, const Vec3<Real>& front_normal,
-                                                   const Vec3<Real>& towards) {
-  return light.two_sided || dot(front_normal, towards) > 0 ? light.radiance : Vec3<Real>{};
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> emitted_radiance(const Vec3<Real>& radiance, uint32_t two_sided,
+                                                   const Vec3<Real>& front_normal, const Vec3<Real>& towards) {
+  return select(two_sided || dot(front_normal, towards) > 0, radiance, Vec3<Real>{});
 }
 
 /// Where on a surface that shines its texture is looked up: in full detail, whoever asks, so that what is sampled is
@@ -70,7 +70,7 @@ ALHAZEN_HD Vec3<Real> sphere_emission_factor(const SceneView<Real>& scene, const
 template <class Real>
 struct ShiningTriangle {
   Vec3<Real> corner[3];
-  Vec3<Real> outward;  ///< the sum of the mesh's normals, which says where the front is; zero: the winding does
+  Vec3<Real> outward;  ///< mesh_outward
   uint32_t flip_normal;
   uint32_t two_sided;
   Vec3<Real> radiance;
@@ -84,7 +84,7 @@ ALHAZEN_HD ALHAZEN_HOT ShiningTriangle<Real> shining_triangle(const SceneView<Re
   const uint32_t* v = triangle.vertex;
   ShiningTriangle<Real> t;
   for (int i = 0; i < 3; ++i) t.corner[i] = scene.positions[v[i]];
-  t.outward = surface.normal_offset == no_offset ? Vec3<Real>{} : sum_of_vertex_normals(scene, surface, v);
+  t.outward = mesh_outward(scene, surface, v);
   t.flip_normal = surface.flip_normal;
   t.two_sided = light.two_sided;
   t.radiance = light.radiance;
@@ -102,7 +102,7 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_shining_triangle(const ShiningTr
   s.point = q0 + q1 + q2;
   s.point_error = (abs(q0) + abs(q1) + abs(q2)) * rounding_bound<Real>(7);
   const Vec3<Real> winding = cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]);
-  s.normal = face_forward(normalize(winding), t.outward) * (t.flip_normal ? Real(-1) : Real(1));
+  s.normal = front_normal(winding, t.outward, t.flip_normal);
   const Vec3<Real> to_light = s.point - reference;
   const Real distance_squared = length_squared(to_light);
   if (!(distance_squared > 0)) return s;
@@ -110,7 +110,7 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_shining_triangle(const ShiningTr
   const Real cos_area = abs_dot(s.normal, s.direction) * Real(0.5) * length(winding);
   if (!(cos_area > 0)) return s;
   s.pdf = distance_squared / cos_area;
-  s.radiance = t.radiance * (t.two_sided || dot(s.normal, s.direction) < 0 ? Real(1) : Real(0));
+  s.radiance = emitted_radiance(t.radiance, t.two_sided, s.normal, -s.direction);
   s.is_finite = true;
   return s;
 }
@@ -138,7 +138,7 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_sphere_light(const SceneView<Rea
   s.point = center + outward * radius;
   s.point_error = (abs(center) + splat(radius)) * rounding_bound<Real>(8);
   s.normal = scene.surfaces[surface].flip_normal ? -outward : outward;
-  s.radiance = emitted_radiance(light, s.normal, -s.direction);
+  s.radiance = emitted_radiance(light.radiance, light.two_sided, s.normal, -s.direction);
   if (light.texture.count > 0) s.radiance = s.radiance * sphere_emission_factor(scene, light, frame, outward, s.point);
   s.is_finite = true;
   return s;

@@ -44,6 +44,19 @@ struct Bsdf {
   }
 };
 
+/// Index and absorption of a conductor, or those that give it its colour.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT void set_metal(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
+                                      const TexturePoint<Real>& at, Bsdf<Real>& bsdf) {
+  if (material.reflectance.count > 0) {
+    bsdf.a = splat(Real(1));
+    bsdf.b = absorption_for_reflectance(evaluate_texture(scene, material.reflectance, at));
+  } else {
+    bsdf.a = evaluate_texture(scene, material.eta, at);
+    bsdf.b = evaluate_texture(scene, material.k, at);
+  }
+}
+
 /// Fills the kinds of which there are few.
 template <class Real>
 ALHAZEN_HD ALHAZEN_COLD void make_rare_bsdf(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
@@ -55,14 +68,7 @@ ALHAZEN_HD ALHAZEN_COLD void make_rare_bsdf(const SceneView<Real>& scene, const 
       bsdf.alpha = larger(alpha_of(scene, material.roughness, remap, at), smooth_alpha<Real>);
       bsdf.alpha_v = larger(alpha_of(scene, material.roughness_v, remap, at), smooth_alpha<Real>);
       if (material.kind == MaterialKind::anisotropic_dielectric) break;
-      if (material.reflectance.count > 0) {
-        const Vec3<Real> r = evaluate_texture(scene, material.reflectance, at);
-        bsdf.a = splat(Real(1));
-        bsdf.b = {absorption_for_reflectance(r.x), absorption_for_reflectance(r.y), absorption_for_reflectance(r.z)};
-      } else {
-        bsdf.a = evaluate_texture(scene, material.eta, at);
-        bsdf.b = evaluate_texture(scene, material.k, at);
-      }
+      set_metal(scene, material, at, bsdf);
       break;
     case MaterialKind::diffuse_transmission: {
       bsdf.a = colour_or(scene, material.reflectance, at, Real(0));
@@ -92,14 +98,7 @@ ALHAZEN_HD ALHAZEN_HOT void make_bsdf(const SceneView<Real>& scene, const Materi
       break;
     case MaterialKind::conductor:
       bsdf.alpha = alpha_of(scene, material.roughness, material.remap_roughness != 0, at);
-      if (material.reflectance.count > 0) {
-        const Vec3<Real> r = evaluate_texture(scene, material.reflectance, at);
-        bsdf.a = splat(Real(1));
-        bsdf.b = {absorption_for_reflectance(r.x), absorption_for_reflectance(r.y), absorption_for_reflectance(r.z)};
-      } else {
-        bsdf.a = evaluate_texture(scene, material.eta, at);
-        bsdf.b = evaluate_texture(scene, material.k, at);
-      }
+      set_metal(scene, material, at, bsdf);
       break;
     case MaterialKind::dielectric:
       bsdf.alpha = alpha_of(scene, material.roughness, material.remap_roughness != 0, at);

@@ -59,4 +59,10 @@ ALHAZEN_HD Real absorption_for_reflectance(Real reflectance) {
   return 2 * std::sqrt(r) / std::sqrt(1 - r);
 }
 
+template <class Real>
+ALHAZEN_HD Vec3<Real> absorption_for_reflectance(const Vec3<Real>& reflectance) {
+  return {absorption_for_reflectance(reflectance.x), absorption_for_reflectance(reflectance.y),
+          absorption_for_reflectance(reflectance.z)};
+}
+
 }  // namespace ALHAZEN_CORE

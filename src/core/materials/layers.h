@@ -79,9 +79,7 @@ ALHAZEN_HD void make_coated(const SceneView<Real>& scene, const MaterialRecord<R
     b.metal_k = evaluate_texture(scene, material.k, at) / b.coat_ior;
   } else {
     b.metal_f0 = splat(1 / b.coat_ior);
-    b.metal_k = Vec3<Real>{absorption_for_reflectance(reflectance.x), absorption_for_reflectance(reflectance.y),
-                           absorption_for_reflectance(reflectance.z)} /
-                b.coat_ior;
+    b.metal_k = absorption_for_reflectance(reflectance) / b.coat_ior;
   }
 }
 

@@ -71,9 +71,11 @@ ALHAZEN_HD const Vec3<Real>& vertex_normal(const SceneView<Real>& scene, const S
   return scene.normals[vertex + surface.normal_offset];
 }
 
+/// Where the mesh says that the front of a triangle is, by the sum of its normals there; zero: the winding says it.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sum_of_vertex_normals(const SceneView<Real>& scene, const SurfaceRecord& surface,
-                                                        const uint32_t vertex[3]) {
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> mesh_outward(const SceneView<Real>& scene, const SurfaceRecord& surface,
+                                               const uint32_t vertex[3]) {
+  if (surface.normal_offset == no_offset) return {};
   return vertex_normal(scene, surface, vertex[0]) + vertex_normal(scene, surface, vertex[1]) +
          vertex_normal(scene, surface, vertex[2]);
 }
@@ -86,14 +88,19 @@ ALHAZEN_HD Vec2<Real> vertex_uv(const SceneView<Real>& scene, const SurfaceRecor
   return scene.uvs[vertex[corner] + surface.uv_offset];
 }
 
-/// Unit geometric normal on the front of the surface: flipped where the surface says so, and towards the shading
-/// normals of the mesh where it has them.
+/// Unit geometric normal on the front of a triangle: towards `outward`, as mesh_outward has it, and flipped where the
+/// surface says so. `winding` is its triangle_cross.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> front_normal(const Vec3<Real>& winding, const Vec3<Real>& outward,
+                                               uint32_t flip_normal) {
+  return face_forward(normalize(winding), outward) * (flip_normal ? Real(-1) : Real(1));
+}
+
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> triangle_front_normal(const SceneView<Real>& scene, const TriangleRecord& triangle) {
   const SurfaceRecord& surface = scene.surfaces[triangle.surface];
-  Vec3<Real> n = normalize(triangle_cross(scene, triangle));
-  if (surface.normal_offset != no_offset) n = face_forward(n, sum_of_vertex_normals(scene, surface, triangle.vertex));
-  return surface.flip_normal ? -n : n;
+  return front_normal(triangle_cross(scene, triangle), mesh_outward(scene, surface, triangle.vertex),
+                      surface.flip_normal);
 }
 
 /// The corners of a triangle, and what its mesh has at them.

@@ -77,9 +77,9 @@ class SceneReader {
     add_lights(document_, nodes_, scene_, nullptr);
     const bool has_camera = set_camera(document_, nodes_, options_.camera, scene_);
     if (!has_camera) fit_camera(scene_, options_.aspect);
-    // What has a camera and lights is a scene, lit as it says; else it is a model to be looked at.
-    scene_.film.fits_exposure = !scene_.lights.empty() || emits_;
     const bool is_lit = !scene_.lights.empty() || emits_;
+    scene_.film.fits_exposure = is_lit;
+    // What has a camera and lights is a scene, lit as it says; else it is a model to be looked at.
     if (has_camera && !is_lit && light_closed_room(scene_))
       document_.warn(
           document_.root(),
