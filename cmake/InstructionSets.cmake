@@ -13,6 +13,12 @@ set(ALHAZEN_FLAGS_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
 set(ALHAZEN_LOOP_OPTIONS)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(ALHAZEN_LOOP_OPTIONS "SHELL:--param max-tree-if-conversion-phi-args=16")
+  # A copy by wide registers waits until the narrow ones that its source was just written by have reached the cache.
+  include(CheckCXXCompilerFlag)
+  check_cxx_compiler_flag("-mmove-max=128 -mstore-max=128" ALHAZEN_HAS_MOVE_MAX)
+  if(ALHAZEN_HAS_MOVE_MAX)
+    list(APPEND ALHAZEN_LOOP_OPTIONS -mmove-max=128 -mstore-max=128)
+  endif()
 endif()
 
 function(alhazen_compile_for target set)

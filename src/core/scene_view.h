@@ -75,6 +75,7 @@ struct SceneView {
   Real light_tree_share = 0;             ///< probability that a light is chosen by the tree instead of by light_cdf
   Real exposure = 1;                     ///< factor on recorded radiance
   uint32_t has_cutouts = 0;              ///< 1 where a material lets rays through
+  uint32_t has_lobes = 0;                ///< 1 where a material chooses among lobes at random
 };
 
 }  // namespace ALHAZEN_CORE

@@ -37,8 +37,10 @@ class Flattener {
     for (const Material& material : scene_.materials) needs_uv_.push_back(material_needs_uv(scene_, material));
     fit_images(scene_, options_.texture_budget, diagnostics_);
     emission_textures_ = flatten_materials(scene_, out_);
-    for (const MaterialRecord<Real>& material : out_.materials)
+    for (const MaterialRecord<Real>& material : out_.materials) {
       if (material.features & MaterialFeatures::cutout) flat.view.has_cutouts = 1;
+      if (has_lobes(material.kind)) flat.view.has_lobes = 1;
+    }
     add_described_lights(scene_, out_, flat.view, light_measures_);
     place_shapes();
     weigh_emission_textures(out_, light_measures_);

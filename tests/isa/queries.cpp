@@ -22,8 +22,10 @@ void answer(const test::QueryRequest& request) {
   if constexpr (way == test::Way::coherent) {
     intersector.trace_coherent(request.count, ray, limit, keep);
   } else if constexpr (way == test::Way::many) {
+    intersector.template trace<any_hit>(request.count, ray, limit, keep);
+  } else if constexpr (way == test::Way::in_turns) {
     if (static_cast<const SceneView<Real>*>(request.scene)->instances_count > 0)
-      intersector.template trace<any_hit>(request.count, ray, limit, keep);
+      intersector.template trace_in_turns<any_hit, true>(request.count, ray, limit, keep);
     else
       intersector.template trace_in_turns<any_hit>(request.count, ray, limit, keep);
   } else {
@@ -38,6 +40,8 @@ test::AnswerQueries select(test::Way way, bool any_hit) {
   switch (way) {
     case test::Way::coherent:
       return answer<test::Way::coherent, false, Real>;
+    case test::Way::in_turns:
+      return any_hit ? answer<test::Way::in_turns, true, Real> : answer<test::Way::in_turns, false, Real>;
     case test::Way::many:
       return any_hit ? answer<test::Way::many, true, Real> : answer<test::Way::many, false, Real>;
     case test::Way::one:

@@ -87,7 +87,7 @@ void check(const SceneView<Real>& scene, const Queries<Real>& queries) {
   }
   EXPECT_GT(met, queries.rays.size() / 10);
   for (const InstructionSet set : instruction_sets())
-    for (const Way way : {Way::one, Way::many, Way::coherent})
+    for (const Way way : ways)
       for (const bool any_hit : {false, true}) {
         if (any_hit && way == Way::coherent) continue;
         const Answers<Real> answers(scene, set, way, any_hit, queries);
@@ -111,6 +111,42 @@ TYPED_TEST(ManyRays, MixedPrimitives) {
   Random random(21);
   Queries<TypeParam> queries = bundles<TypeParam>(random, effort(20'000), 15);
   add_odd_rays(queries);
+  check(scene.view, queries);
+}
+
+TYPED_TEST(ManyRays, FewPrimitives) {
+  Random random(26);
+  for (const int count : {1, 3, 8, 14, 25}) {
+    PrimitiveScene primitives;
+    for (int i = 0; i < count; ++i) {
+      const Vec3d p = random.in_box(-3, 3);
+      primitives.add_triangle(p, p + random.on_sphere() * 4, p + random.on_sphere() * 4);
+      primitives.add_sphere(random.in_box(-3, 3), 1);
+      primitives.add_sphere(random.in_box(-3, 3), 1, random.in_box(-2, 2));
+    }
+    const FlatScene<TypeParam> scene = primitives.flat<TypeParam>();
+    Queries<TypeParam> queries = bundles<TypeParam>(random, effort(5'000), 5);
+    add_odd_rays(queries);
+    check(scene.view, queries);
+  }
+}
+
+TYPED_TEST(ManyRays, EdgesOfASmallMesh) {
+  Random random(28);
+  const Mesh mesh = icosphere(0);
+  PrimitiveScene primitives;
+  primitives.add_mesh(mesh);
+  const FlatScene<TypeParam> scene = primitives.flat<TypeParam>();
+  // From the middle and from outside at corners and at points of edges, where triangles lie at one distance.
+  Queries<TypeParam> queries;
+  while (queries.rays.size() < effort(5'000)) {
+    const Vec3d& corner = mesh.positions[random.below(static_cast<uint32_t>(mesh.positions.size()))];
+    const Vec3d& other = mesh.positions[random.below(static_cast<uint32_t>(mesh.positions.size()))];
+    const double share = random.below(3) * 0.5;
+    const Vec3d origin = random.below(2) ? Vec3d{} : random.in_box(-4, 4);
+    const Vec3d way = corner * share + other * (1 - share) - origin;
+    if (length(way) > 0.1) queries.add(origin, normalize(way), 0, infinity<double>);
+  }
   check(scene.view, queries);
 }
 
@@ -141,7 +177,7 @@ TYPED_TEST(ManyRays, InAnEmptyScene) {
   Random random(23);
   const Queries<TypeParam> queries = bundles<TypeParam>(random, 100, 10);
   for (const InstructionSet set : instruction_sets())
-    for (const Way way : {Way::one, Way::many, Way::coherent}) {
+    for (const Way way : ways) {
       const Answers<TypeParam> answers(scene.view, set, way, false, queries);
       for (size_t i = 0; i < queries.rays.size(); ++i) EXPECT_FALSE(answers.found[i]);
     }

@@ -37,7 +37,7 @@ ALHAZEN_INLINE bool intersect_block(const TriangleBlock<Real>& block, const Ray<
                                     Hit<Real>& hit) {
   using V = Lanes<Real, TriangleBlock<Real>::lanes>;
   const int axis[3] = {ray.kx, ray.ky, ray.kz};
-  const V origin[3] = {V::all(ray.origin[ray.kx]), V::all(ray.origin[ray.ky]), V::all(ray.origin[ray.kz])};
+  const V origin[3] = {V::all(ray.origin.x), V::all(ray.origin.y), V::all(ray.origin.z)};
   const V shear[3] = {V::all(ray.shear.x), V::all(ray.shear.y), V::all(ray.shear.z)};
   const TriangleLanes<V> met([&](int v, int k) { return V::load(block.vertex[v][axis[k]]); }, origin, shear);
   if (met.inside == 0) return false;

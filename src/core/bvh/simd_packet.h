@@ -114,7 +114,11 @@ class RayPacket {
   }
 
   ALHAZEN_INLINE ShearedRay<Real> sheared_ray_of(int ray) const {
-    return {rays_[ray]->origin, {shear_[0][ray], shear_[1][ray], shear_[2][ray]}, axis_[0], axis_[1], axis_[2]};
+    return {{origin_[axis_[0]][ray], origin_[axis_[1]][ray], origin_[axis_[2]][ray]},
+            {shear_[0][ray], shear_[1][ray], shear_[2][ray]},
+            axis_[0],
+            axis_[1],
+            axis_[2]};
   }
 
   /// So few rays are tested one by one.

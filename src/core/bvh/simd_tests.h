@@ -72,7 +72,7 @@ struct TriangleLanes {
 template <class V>
 struct SphereLanes {
   V t;
-  uint32_t crossed = 0;  ///< a bit for each lane; where none is set, `t` is not there
+  uint32_t crossed = 0;  ///< a bit for each lane that might be met; where none is set, `t` is not there
 
   /// Spheres about `f` from their centres to the rays' origins.
   ALHAZEN_INLINE SphereLanes(const V (&f)[3], const V (&d)[3], const V& radius) {
@@ -83,9 +83,12 @@ struct SphereLanes {
         radius * radius - (closest[0] * closest[0] + closest[1] * closest[1] + closest[2] * closest[2]);
     crossed = less_equal(zero, discriminant);
     if (crossed == 0) return;
+    const V c = f[0] * f[0] + f[1] * f[1] + f[2] * f[2] - radius * radius;
+    // Of what lies behind rays that begin outside both distances are negative: no need to wait for them.
+    crossed &= ~(less(b, zero) & less(zero, c));
+    if (crossed == 0) return;
     const V root = square_root(discriminant);
     const V q = where_less(b, zero, b - root, b + root);
-    const V c = f[0] * f[0] + f[1] * f[1] + f[2] * f[2] - radius * radius;
     const V other = c / q;
     const V near = where_less(b, zero, q, other), far = where_less(b, zero, other, q);
     t = where_less(zero, c, near, far);

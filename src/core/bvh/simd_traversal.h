@@ -7,6 +7,7 @@
 
 #include <bit>
 
+#include "core/bvh/simd_few.h"
 #include "core/bvh/simd_packet.h"
 #include "core/bvh/simd_prefetch.h"
 #include "core/bvh/simd_walk.h"
@@ -24,7 +25,7 @@ template <class Real>
 class SimdBvhIntersector {
  public:
   explicit SimdBvhIntersector(const SceneView<Real>& scene, const void* = nullptr)
-      : scene_(&scene), fits_cache_(bytes(scene) <= most_cached_bytes) {}
+      : scene_(&scene), few_(scene), fits_cache_(bytes(scene) <= most_cached_bytes) {}
 
   /// The nearest hit before t_max; among hits at the same distance that of the lowest primitive.
   bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
@@ -41,7 +42,13 @@ class SimdBvhIntersector {
   /// need not look at the hit of an any-hit query.
   template <bool any_hit, class RayOf, class Limit, class Answer>
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    if (has_instances())
+    if (few_.is_few())
+      few_.template trace<any_hit>(count, ray, t_max, answer, [&](uint32_t i) {
+        Hit<Real> hit;
+        const bool found = walk<any_hit, false>(ray(i), t_max(i), hit);
+        answer(i, found, hit);
+      });
+    else if (has_instances())
       trace_in_turns<any_hit, true>(count, ray, t_max, answer);
     else if (fits_cache_)
       trace_singly<any_hit>(count, ray, t_max, answer);
@@ -108,11 +115,15 @@ class SimdBvhIntersector {
 
   template <bool any_hit, class RayOf, class Limit, class Answer>
   void trace_singly(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
+    // A hit is handed over one ray later: what has just been written cannot be copied at once.
+    Hit<Real> hits[2];
+    bool found = false;
     for (uint32_t i = 0; i < count; ++i) {
-      Hit<Real> hit;
-      const bool found = walk<any_hit, false>(ray(i), t_max(i), hit);
-      answer(i, found, hit);
+      const bool found_before = found;
+      found = walk<any_hit, false>(ray(i), t_max(i), hits[i & 1]);
+      if (i > 0) answer(i - 1, found_before, hits[(i - 1) & 1]);
     }
+    if (count > 0) answer(count - 1, found, hits[(count - 1) & 1]);
   }
 
   template <bool any_hit, bool instances>
@@ -135,6 +146,7 @@ class SimdBvhIntersector {
   }
 
   const SceneView<Real>* scene_;
+  FewPrimitives<Real> few_;
   bool fits_cache_;
 };
 

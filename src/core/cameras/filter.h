@@ -29,30 +29,62 @@ struct FilterSample {
   Real weight;        ///< 1, or -1 where the filter is negative
 };
 
+/// The table of one axis.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT Real sample_filter_axis(const Real* table, uint32_t cells, Real radius, Real u, Real& weight) {
-  const Real count = static_cast<Real>(cells);
-  const uint32_t part = static_cast<uint32_t>(u * (count * filter_parts_per_cell));
-  uint32_t cell = static_cast<uint32_t>(table[2 * cells + 1 + part]);
-  while (table[cell + 1] <= u) ++cell;
-  const Real width = table[cell + 1] - table[cell];
-  const Real within = width > 0 ? (u - table[cell]) / width : Real(0.5);
-  weight *= table[cells + 1 + cell];
-  return radius * (2 * (static_cast<Real>(cell) + within) / count - 1);
+struct FilterAxis {
+  const Real* table;
+  uint32_t cells;
+  Real radius;
+
+  /// A cell that is not behind that of u in [0, 1).
+  ALHAZEN_HD ALHAZEN_HOT uint32_t guess(Real u) const {
+    const uint32_t part = static_cast<uint32_t>(u * (static_cast<Real>(cells) * filter_parts_per_cell));
+    return static_cast<uint32_t>(table[2 * cells + 1 + part]);
+  }
+  /// Whether u lies in a cell behind this one.
+  ALHAZEN_HD ALHAZEN_HOT bool lies_beyond(uint32_t cell, Real u) const { return table[cell + 1] <= u; }
+  /// The cell of u, from one that is not behind it.
+  ALHAZEN_HD ALHAZEN_HOT uint32_t find(uint32_t cell, Real u) const {
+    while (lies_beyond(cell, u)) ++cell;
+    return cell;
+  }
+
+  ALHAZEN_HD ALHAZEN_HOT Real sign(uint32_t cell) const { return table[cells + 1 + cell]; }
+  /// Pixels from the pixel's centre, where `cell` is that of u.
+  ALHAZEN_HD ALHAZEN_HOT Real offset(uint32_t cell, Real u) const {
+    const Real begin = table[cell], width = table[cell + 1] - begin;
+    const Real within = width > 0 ? (u - begin) / width : Real(0.5);
+    return radius * (2 * (static_cast<Real>(cell) + within) / static_cast<Real>(cells) - 1);
+  }
+};
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT FilterAxis<Real> filter_x(const FilterRecord<Real>& filter, const Real* filter_cdf) {
+  return {filter_cdf, filter.cells, filter.x_radius};
+}
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT FilterAxis<Real> filter_y(const FilterRecord<Real>& filter, const Real* filter_cdf) {
+  return {filter_cdf + (2 + filter_parts_per_cell) * filter.cells + 1, filter.cells, filter.y_radius};
+}
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT FilterSample<Real> sample_box(const FilterRecord<Real>& filter, const Vec2<Real>& u) {
+  return {{filter.x_radius * (2 * u.x - 1), filter.y_radius * (2 * u.y - 1)}, 1};
+}
+
+/// The sample within the cells of u.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT FilterSample<Real> sample_cells(const FilterAxis<Real>& x, const FilterAxis<Real>& y,
+                                                       uint32_t cell_x, uint32_t cell_y, const Vec2<Real>& u) {
+  return {{x.offset(cell_x, u.x), y.offset(cell_y, u.y)}, x.sign(cell_x) * y.sign(cell_y)};
 }
 
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT FilterSample<Real> sample_filter(const FilterRecord<Real>& filter, const Real* filter_cdf,
                                                         const Vec2<Real>& u) {
-  FilterSample<Real> s{{}, 1};
-  if (filter.cells == 0) {
-    s.offset = {filter.x_radius * (2 * u.x - 1), filter.y_radius * (2 * u.y - 1)};
-    return s;
-  }
-  s.offset.x = sample_filter_axis(filter_cdf, filter.cells, filter.x_radius, u.x, s.weight);
-  s.offset.y = sample_filter_axis(filter_cdf + (2 + filter_parts_per_cell) * filter.cells + 1, filter.cells,
-                                  filter.y_radius, u.y, s.weight);
-  return s;
+  if (filter.cells == 0) return sample_box(filter, u);
+  const FilterAxis<Real> x = filter_x(filter, filter_cdf), y = filter_y(filter, filter_cdf);
+  return sample_cells(x, y, x.find(x.guess(u.x), u.x), y.find(y.guess(u.y), u.y), u);
 }
 
 }  // namespace ALHAZEN_CORE

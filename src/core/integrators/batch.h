@@ -5,17 +5,11 @@
 // drawn for all at once; then each path is shaded. A path that ends makes room for the next sample. What a path does is
 // what `integrate` does, in the same order, to the same bits.
 
-#include "core/integrators/camera_sample.h"
+#include "core/integrators/camera_rays.h"
 #include "core/integrators/diffuse_surfaces.h"
 #include "core/integrators/met_surfaces.h"
-#include "core/sampling/drawn_numbers.h"
 
 namespace ALHAZEN_CORE {
-
-/// Sample number `sample` of pixel (x, y).
-struct PixelSample {
-  uint32_t x, y, sample;
-};
 
 /// `Pixel` and `End` are those of integrate_batch.
 template <IntegratorKind kind, class Sampler, class Real, class Intersector, class Pixel, class End>
@@ -38,7 +32,8 @@ class PathBatch {
     start();
     while (live_ > 0) {
       trace();
-      numbers_.draw(live_, wanted_numbers());
+      leave();
+      draw_numbers();
       shade_all();
       look_for_light();
       finish();
@@ -67,79 +62,21 @@ class PathBatch {
   void start() {
     going_on_ = live_;
     const uint32_t count = ended_count_ < count_ - next_ ? ended_count_ : count_ - next_;
-    for (uint32_t i = 0; i < count; ++i) pixels_[i] = pixel_(next_ + i);
-    for (uint32_t i = 0; i < count; ++i)
-      camera_numbers_.samplers[i] = Sampler(seed_, pixels_[i].x, pixels_[i].y, pixels_[i].sample);
-    for (uint32_t i = 0; i < count; ++i) camera_numbers_.first_dimension[i] = 0;
-    camera_numbers_.draw(count, wanted_camera_numbers());
-    for (uint32_t i = 0; i < count; ++i) {
-      const FilmSample<Real> film =
-          sample_film(scene_, pixels_[i].x, pixels_[i].y, camera_numbers_.pair(CameraDimensions::film, i));
-      film_x_[i] = film.position.x;
-      film_y_[i] = film.position.y;
-      lanes_[ended_[i]].filter_weight = film.filter_weight;
-    }
-    make_camera_rays(count);
+    camera_.make(scene_, seed_, count, [&](uint32_t i) { return pixel_(next_ + i); });
     for (uint32_t i = 0; i < count; ++i) {
       Lane& lane = lanes_[ended_[i]];
-      lane.sampler = camera_numbers_.samplers[i];
+      lane.sampler = camera_.sampler(i);
       lane.sample = next_ + i;
+      lane.filter_weight = camera_.filter_weight(i);
       lane.path = {};
-      lane.path.ray = {camera_origin_[i], camera_direction_[i], time_of(i)};
-      lane.record = {};
-      lane.record.keeps_first_hit = wants_first_hit_;
-      wait(lane, ended_[i]);
+      lane.path.ray.origin = camera_.origin(i);
+      lane.path.ray.direction = camera_.direction(i);
+      lane.path.ray.time = camera_.time(scene_, i);
+      lane.record.begin(wants_first_hit_);
+      active_[live_++] = ended_[i];
     }
     next_ += count;
     ended_count_ = 0;
-  }
-
-  Real time_of(uint32_t i) const {
-    return scene_moves(scene_) ? camera_numbers_.first(CameraDimensions::time, i) : Real(0);
-  }
-
-  /// What `camera_ray` makes of the film positions; side by side where the camera is a perspective one.
-  void make_camera_rays(uint32_t count) {
-    const auto make = [&](const CameraRecord<Real>& camera, const Vec2<Real>& lens, uint32_t i) {
-      const Ray<Real> ray = camera_ray(camera, Vec2<Real>{film_x_[i], film_y_[i]}, lens, Real(0));
-      camera_origin_.set(i, ray.origin);
-      camera_direction_.set(i, ray.direction);
-    };
-    // The copies tell the compiler what the branches ask.
-    CameraRecord<Real> camera = scene_.camera;
-    if (camera.kind != CameraKind::perspective) {
-      const bool has_lens = camera.lens_radius > 0;
-      for (uint32_t i = 0; i < count; ++i)
-        make(camera, has_lens ? camera_numbers_.pair(CameraDimensions::lens, i) : Vec2<Real>{}, i);
-      return;
-    }
-    camera.kind = CameraKind::perspective;
-    if (camera.lens_radius > 0) {
-      ALHAZEN_SIDE_BY_SIDE
-      for (uint32_t i = 0; i < count; ++i) make(camera, camera_numbers_.pair(CameraDimensions::lens, i), i);
-    } else {
-      camera.lens_radius = 0;
-      ALHAZEN_SIDE_BY_SIDE
-      for (uint32_t i = 0; i < count; ++i) make(camera, {}, i);
-    }
-  }
-
-  uint32_t wanted_camera_numbers() const {
-    return 1u << CameraDimensions::film | (scene_.camera.lens_radius > 0 ? 1u << CameraDimensions::lens : 0) |
-           (scene_moves(scene_) ? 1u << CameraDimensions::time : 0);
-  }
-  uint32_t wanted_numbers() const {
-    constexpr VertexDimensions d = VertexDimensions::from(0);
-    const bool lights = kind == IntegratorKind::path && scene_.lights_count > 0;
-    return 1u << d.bsdf_lobe() | 1u << d.bsdf_direction() | 1u << d.roulette() |
-           (lights ? 1u << d.light_choice() | 1u << d.light_point() : 0);
-  }
-
-  /// The path of this lane is to take its next segment.
-  ALHAZEN_INLINE void wait(const Lane& lane, uint32_t index) {
-    numbers_.samplers[live_] = lane.sampler;
-    numbers_.first_dimension[live_] = VertexDimensions(lane.path.vertex).base;
-    active_[live_++] = index;
   }
 
   void trace() {
@@ -158,18 +95,48 @@ class PathBatch {
         [&](uint32_t i, bool found, const Hit<Real>& hit) { answer(first + i, found, hit); });
   }
 
+  /// Ends the paths that have met nothing; the others stand together then, in their order.
+  void leave() {
+    uint32_t met = 0;
+    const auto leave_or_keep = [&](uint32_t i) {
+      const uint32_t index = active_[i];
+      Lane& lane = lanes_[index];
+      ++lane.record.segments;
+      if (lane.has_met) {
+        numbers_.samplers[met] = lane.sampler;
+        numbers_.first_dimension[met] = VertexDimensions(lane.path.vertex).base;
+        active_[met++] = index;
+      } else {
+        leave_scene(scene_, lane.path, lane.record);
+        ended_[ended_count_++] = index;
+      }
+    };
+    for (uint32_t i = 0; i < going_on_; ++i) leave_or_keep(i);
+    const uint32_t still_going_on = met;
+    for (uint32_t i = going_on_; i < live_; ++i) leave_or_keep(i);
+    going_on_ = still_going_on;
+    live_ = met;
+  }
+
+  /// Draws what surfaces may ask for.
+  void draw_numbers() {
+    constexpr VertexDimensions d = VertexDimensions::from(0);
+    numbers_.draw(live_, 1u << d.bsdf_direction() | (scene_.has_lobes ? 1u << d.bsdf_lobe() : 0));
+    if (kind != IntegratorKind::path) return;
+    if (scene_.lights_count > 0) numbers_.draw(live_, 1u << d.light_point());
+    if (scene_.lights_count > 1) numbers_.draw(live_, 1u << d.light_choice());
+    numbers_.draw(going_on_, 1u << d.roulette());  // which no path meets at its first surface
+  }
+
   /// Works out where the paths have met triangles.
   void meet_triangles() {
     constexpr uint32_t ahead = 8;
-    const auto prefetch = [&](uint32_t i) {
-      const Lane& lane = lanes_[active_[i]];
-      if (lane.has_met) prefetch_vertices(scene_, lane.hit.primitive);
-    };
+    const auto prefetch = [&](uint32_t i) { prefetch_vertices(scene_, lanes_[active_[i]].hit.primitive); };
     for (uint32_t i = 0; i < ahead && i < live_; ++i) prefetch(i);
     for (uint32_t i = 0; i < live_; ++i) {
       if (i + ahead < live_) prefetch(i + ahead);
       const Lane& lane = lanes_[active_[i]];
-      if (lane.has_met && met_.takes(lane.hit)) met_.meet(i, scene_, lane.path.ray, lane.hit);
+      if (met_.takes(lane.hit)) met_.meet(i, scene_, lane.path.ray, lane.hit);
     }
     met_.work_out(live_);
   }
@@ -179,23 +146,13 @@ class PathBatch {
     lit_count_ = 0;
     const uint32_t count = live_;
     live_ = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-      const uint32_t index = active_[i];
-      Lane& lane = lanes_[index];
-      ++lane.record.segments;
-      if (lane.has_met) {
-        shade_one(numbers_.of(i), i, index);
-      } else {
-        leave_scene(scene_, lane.path, lane.record);
-        go_on_or_end(false, index);
-      }
-    }
+    for (uint32_t i = 0; i < count; ++i) shade_one(numbers_.of(i), i, active_[i]);
     if constexpr (kind == IntegratorKind::path) shade_diffuse(count);
   }
 
   ALHAZEN_INLINE void go_on_or_end(bool goes_on, uint32_t index) {
     if (goes_on)
-      wait(lanes_[index], index);
+      active_[live_++] = index;
     else
       ended_[ended_count_++] = index;
   }
@@ -267,8 +224,7 @@ class PathBatch {
 
   void finish() {
     for (uint32_t i = 0; i < ended_count_; ++i) {
-      Lane& lane = lanes_[ended_[i]];
-      lane.record.radiance *= scene_.exposure;
+      const Lane& lane = lanes_[ended_[i]];
       end_(lane.sample, lane.record, lane.filter_weight);
     }
   }
@@ -281,11 +237,8 @@ class PathBatch {
   const Pixel& pixel_;
   const End& end_;
   Lane lanes_[most_paths];
-  PixelSample pixels_[most_paths];
-  Real film_x_[most_paths], film_y_[most_paths];
-  VectorColumns<Real, most_paths> camera_origin_, camera_direction_;
-  DrawnNumbers<Real, Sampler, most_paths, CameraDimensions> camera_numbers_;  ///< of those that begin
-  DrawnNumbers<Real, Sampler, most_paths, VertexDimensions> numbers_;         ///< of all, as `active_` has them
+  CameraRays<Real, Sampler, most_paths> camera_;                       ///< of those that begin
+  DrawnNumbers<Real, Sampler, most_paths, VertexDimensions> numbers_;  ///< of all, as `active_` has them
   uint32_t active_[most_paths], live_ = 0, going_on_ = 0;  ///< lanes; the first `going_on_` of them are no camera rays
   uint32_t lit_[most_paths], lit_count_ = 0;
   uint32_t ended_[most_paths], ended_count_ = 0;
@@ -295,7 +248,7 @@ class PathBatch {
 };
 
 /// Takes `count` samples: `pixel(i)` says which sample i is, `end(i, record, filter_weight)` is called once for each,
-/// in any order. Records keep the first hit where that is wanted.
+/// in any order, before the scene's exposure. Records keep the first hit where that is wanted.
 template <IntegratorKind kind, class Sampler, class Real, class Intersector, class Pixel, class End>
 void integrate_batch(const SceneView<Real>& scene, const Intersector& intersector, uint32_t seed, uint32_t max_segments,
                      bool wants_first_hit, uint32_t count, const Pixel& pixel, const End& end) {

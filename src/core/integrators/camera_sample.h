@@ -32,9 +32,7 @@ struct FilmSample {
 };
 
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT FilmSample<Real> sample_film(const SceneView<Real>& scene, uint32_t x, uint32_t y,
-                                                    const Vec2<Real>& u) {
-  const FilterSample<Real> filter = sample_filter(scene.filter, scene.filter_cdf, u);
+ALHAZEN_HD ALHAZEN_HOT FilmSample<Real> film_sample(uint32_t x, uint32_t y, const FilterSample<Real>& filter) {
   return {{static_cast<Real>(x) + Real(0.5) + filter.offset.x, static_cast<Real>(y) + Real(0.5) + filter.offset.y},
           filter.weight};
 }
@@ -42,7 +40,8 @@ ALHAZEN_HD ALHAZEN_HOT FilmSample<Real> sample_film(const SceneView<Real>& scene
 template <class Real, class Sampler>
 ALHAZEN_HD ALHAZEN_HOT CameraSample<Real> sample_camera(const SceneView<Real>& scene, const Sampler& sampler,
                                                         uint32_t x, uint32_t y) {
-  const FilmSample<Real> film = sample_film(scene, x, y, sampler.template get_2d<Real>(CameraDimensions::film));
+  const FilmSample<Real> film = film_sample(
+      x, y, sample_filter(scene.filter, scene.filter_cdf, sampler.template get_2d<Real>(CameraDimensions::film)));
   const Vec2<Real> lens =
       scene.camera.lens_radius > 0 ? sampler.template get_2d<Real>(CameraDimensions::lens) : Vec2<Real>{};
   const Real time = scene_moves(scene) ? sampler.template get_1d<Real>(CameraDimensions::time) : Real(0);

@@ -33,9 +33,10 @@ class DiffuseSurfaces {
   uint32_t place(uint32_t i) const { return places_[i]; }
   void clear() { count_ = triangles_ = skies_ = 0; }
 
-  /// Lights and scatters at all of them, which are among the first `end` places. `numbers` has what is drawn there.
+  /// Lights and scatters at all of them, which are among the first `count` places. `numbers` has what is drawn there.
   template <class Numbers>
-  void shade(const Met& met, const Numbers& numbers, uint32_t end) {
+  void shade(const Met& met, const Numbers& numbers, uint32_t count) {
+    const uint32_t end = whole_rows(count);
     if (triangles_ > 0) sample_triangles(met, numbers, end);
     if (skies_ > 0) sample_sky(numbers, end);
     ALHAZEN_SIDE_BY_SIDE

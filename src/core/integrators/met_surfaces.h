@@ -34,7 +34,7 @@ class MetSurfaces {
 
   /// Works out the triangles among the first `count` places.
   void work_out(uint32_t count) {
-    if (any_) any_normals_ ? work_out<true>(count) : work_out<false>(count);
+    if (any_) any_normals_ ? work_out<true>(whole_rows(count)) : work_out<false>(whole_rows(count));
     any_ = any_normals_ = false;
   }
 
@@ -42,14 +42,16 @@ class MetSurfaces {
   ALHAZEN_INLINE ShadingPoint<Real> shading_point(uint32_t i, const SceneView<Real>& scene, const Ray<Real>& ray,
                                                   const Hit<Real>& hit) const {
     const TriangleRecord& triangle = scene.triangles[hit.primitive.index()];
-    const SurfaceInteraction<Real> si{position_[i],
-                                      position_error_[i],
-                                      normal_[i],
-                                      shading_normal_[i],
-                                      triangle_uv(scene, triangle, hit),
-                                      triangle.surface,
-                                      ray.time};
-    return shading_point_at(scene, ray, hit, si, frame(i));
+    ShadingPoint<Real> point;
+    point.si = {position_[i],
+                position_error_[i],
+                normal_[i],
+                shading_normal_[i],
+                triangle_uv(scene, triangle, hit),
+                triangle.surface,
+                ray.time};
+    set_material(scene, ray, hit, frame(i), point);
+    return point;
   }
 
   /// What `meet` and `work_out` would have left here, but of any surface.
@@ -76,9 +78,9 @@ class MetSurfaces {
 
  private:
   template <bool with_normals>
-  void work_out(uint32_t count) {
+  void work_out(uint32_t end) {
     ALHAZEN_SIDE_BY_SIDE
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < end; ++i) {
       TriangleCorners<Real> corners;
       for (int k = 0; k < 3; ++k) corners.position[k] = corner_[k][i];
       for (int k = 0; k < 3 && with_normals; ++k) corners.normal[k] = corner_normal_[k][i];

@@ -26,9 +26,17 @@ struct FirstHit {
 
 template <class Real>
 struct SampleRecord : PathRecord<Real> {
-  FirstHit<Real> first;
+  FirstHit<Real> first;  ///< where `has_hit`
   uint32_t has_hit = 0;  ///< 1 where there was one
   bool keeps_first_hit = true;
+
+  /// For another sample. Member by member: a whole one is written elsewhere first and waited for.
+  ALHAZEN_HD void begin(bool wants_first_hit) {
+    this->radiance = {};
+    this->segments = this->shadow_rays = 0;
+    has_hit = 0;
+    keeps_first_hit = wants_first_hit;
+  }
 
   /// What an integrator calls at the first surface.
   ALHAZEN_HD void keep_first_hit(const FirstHit<Real>& hit) {

@@ -47,13 +47,11 @@ ALHAZEN_HD ALHAZEN_COLD void add_layers(const SceneView<Real>& scene, const Text
                random_of_hit<Real>(hash, HitChoice::channel), frame.to_local(coat_normal), point.bsdf.layered);
 }
 
-/// The shading point where the surface has been met at `si`; `frame` is that about its consistent_shading_normal.
+/// Sets what belongs to the material, where the surface has been met at `point.si`; `frame` is that about its
+/// consistent_shading_normal.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point_at(const SceneView<Real>& scene, const Ray<Real>& ray,
-                                                           const Hit<Real>& hit, const SurfaceInteraction<Real>& si,
-                                                           const Frame<Real>& frame) {
-  ShadingPoint<Real> point;
-  point.si = si;
+ALHAZEN_HD ALHAZEN_HOT void set_material(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>& hit,
+                                         const Frame<Real>& frame, ShadingPoint<Real>& point) {
   point.wo = -ray.direction;
   const SurfaceRecord& surface = scene.surfaces[point.si.surface];
   point.light = surface.light;
@@ -67,14 +65,15 @@ ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point_at(const SceneView<Real>
     point.bsdf.frame = detailed_frame(scene, *point.material, hit, at, point.wo, point.si, coat_normal);
   make_bsdf(scene, *point.material, at, point.bsdf);
   if (point.material->kind == MaterialKind::layered) add_layers(scene, at, hash_of_hit(ray, hit), coat_normal, point);
-  return point;
 }
 
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point(const SceneView<Real>& scene, const Ray<Real>& ray,
                                                         const Hit<Real>& hit) {
-  const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
-  return shading_point_at(scene, ray, hit, si, frame_about(consistent_shading_normal(si, -ray.direction)));
+  ShadingPoint<Real> point;
+  meet_surface(scene, ray, hit, point.si);
+  set_material(scene, ray, hit, frame_about(consistent_shading_normal(point.si, -ray.direction)), point);
+  return point;
 }
 
 /// Radiance that the surface itself sends back along the ray.
@@ -204,7 +203,7 @@ template <class Real, class Sampler>
 ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> scatter(const ShadingPoint<Real>& point, const Sampler& sampler,
                                                 const VertexDimensions& dimensions) {
   // What no one reads is not drawn.
-  const Real u_lobe = point.bsdf.has_lobes() ? sampler.template get_1d<Real>(dimensions.bsdf_lobe()) : Real(0);
+  const Real u_lobe = has_lobes(point.bsdf.kind) ? sampler.template get_1d<Real>(dimensions.bsdf_lobe()) : Real(0);
   const Vec2<Real> u =
       point.bsdf.is_specular() ? Vec2<Real>{} : sampler.template get_2d<Real>(dimensions.bsdf_direction());
   BsdfSample<Real> s = sample_bsdf(point.bsdf, point.wo, u_lobe, u);

@@ -31,9 +31,6 @@ struct Bsdf {
   ALHAZEN_HD DielectricBsdf<Real, Vec2<Real>> anisotropic_dielectric() const { return {ior, {alpha, alpha_v}}; }
   ALHAZEN_HD DiffuseTransmissionBsdf<Real> diffuse_transmission() const { return {a, b}; }
 
-  /// True where a lobe is chosen at random before a direction is.
-  ALHAZEN_HD bool has_lobes() const { return kind != MaterialKind::diffuse && kind != MaterialKind::conductor; }
-
   /// True where light is only sent in single directions, so that sampling lights is of no use.
   ALHAZEN_HD bool is_specular() const {
     if (kind == MaterialKind::diffuse) return false;
@@ -89,7 +86,8 @@ template <class Real>
 ALHAZEN_HD ALHAZEN_HOT void make_bsdf(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
                                       const TexturePoint<Real>& at, Bsdf<Real>& bsdf) {
   bsdf.kind = material.kind;
-  bsdf.a = bsdf.b = {};
+  bsdf.a = {};
+  bsdf.b = {};
   bsdf.alpha = bsdf.alpha_v = 0;
   bsdf.ior = material.ior;
   switch (material.kind) {

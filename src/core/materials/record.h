@@ -21,6 +21,11 @@ enum class MaterialKind : uint32_t {
   mix,                     ///< one of two materials, chosen at each hit
 };
 
+/// True where a lobe is chosen at random before a direction is.
+ALHAZEN_HD constexpr bool has_lobes(MaterialKind kind) {
+  return kind != MaterialKind::diffuse && kind != MaterialKind::conductor;
+}
+
 /// What costs something only where it is asked for: bits of MaterialRecord::features.
 struct MaterialFeatures {
   static constexpr uint32_t cutout = 1;    ///< lets rays through: by alpha, or all of them from behind

@@ -4,6 +4,7 @@
 // instructions, which hashes like very much.
 
 #include "core/math/vec.h"
+#include "core/simd/columns.h"
 
 namespace ALHAZEN_CORE {
 
@@ -12,21 +13,22 @@ namespace ALHAZEN_CORE {
 template <class Real, class Sampler, uint32_t most, class Dimensions>
 struct DrawnNumbers {
   Sampler samplers[most];
-  uint32_t first_dimension[most];
+  uint32_t first_dimension[most]{};
   Real x[Dimensions::count][most], y[Dimensions::count][most];
 
   /// Draws for paths 0 to count - 1, where bit d of `wanted` says whether draw d is.
   void draw(uint32_t count, uint32_t wanted) {
+    const uint32_t end = whole_rows(count);
     for (uint32_t d = 0; d < Dimensions::count; ++d) {
       if (!(wanted >> d & 1)) continue;
       if (Dimensions::pairs >> d & 1) {
-        for (uint32_t i = 0; i < count; ++i) {
+        for (uint32_t i = 0; i < end; ++i) {
           const Vec2<Real> u = samplers[i].template get_2d<Real>(first_dimension[i] + d);
           x[d][i] = u.x;
           y[d][i] = u.y;
         }
       } else {
-        for (uint32_t i = 0; i < count; ++i) x[d][i] = samplers[i].template get_1d<Real>(first_dimension[i] + d);
+        for (uint32_t i = 0; i < end; ++i) x[d][i] = samplers[i].template get_1d<Real>(first_dimension[i] + d);
       }
     }
   }

@@ -190,12 +190,12 @@ ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> sphere_interaction(const SceneVi
   return si;
 }
 
-/// A point of an object where instance `index` has it at `time`.
+/// Where a triangle of an object was met, as the instance has it at `time`.
 template <class Real>
-ALHAZEN_HD ALHAZEN_COLD SurfaceInteraction<Real> instance_interaction(const SceneView<Real>& scene, uint32_t index,
-                                                                      Real time,
-                                                                      const SurfaceInteraction<Real>& object) {
-  const InstanceRecord<Real> instance = instance_at(scene, index, time);
+ALHAZEN_HD ALHAZEN_COLD SurfaceInteraction<Real> instance_interaction(const SceneView<Real>& scene,
+                                                                      const Hit<Real>& hit, Real time) {
+  const SurfaceInteraction<Real> object = triangle_interaction(scene, hit);
+  const InstanceRecord<Real> instance = instance_at(scene, hit.instance, time);
   SurfaceInteraction<Real> si = object;
   si.position = transform_point(instance.world_from_object, object.position);
   si.position_error = world_position_error(instance, object.position, object.position_error, si.position);
@@ -208,10 +208,10 @@ ALHAZEN_HD ALHAZEN_COLD SurfaceInteraction<Real> instance_interaction(const Scen
   return si;
 }
 
+/// Sets `si` in its place: a copy of what has just been written would wait for it.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> surface_interaction(const SceneView<Real>& scene, const Ray<Real>& ray,
-                                                                    const Hit<Real>& hit) {
-  SurfaceInteraction<Real> si;
+ALHAZEN_HD ALHAZEN_HOT void meet_surface(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>& hit,
+                                         SurfaceInteraction<Real>& si) {
   switch (hit.primitive.kind()) {
     case PrimitiveKind::sphere: {
       const SphereRecord<Real>& s = scene.spheres[hit.primitive.index()];
@@ -224,11 +224,20 @@ ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> surface_interaction(const SceneV
       break;
     }
     default:
-      si = triangle_interaction(scene, hit);
-      if (hit.instance != no_instance) si = instance_interaction(scene, hit.instance, ray.time, si);
+      if (hit.instance == no_instance)
+        si = triangle_interaction(scene, hit);
+      else
+        si = instance_interaction(scene, hit, ray.time);
       break;
   }
   si.time = ray.time;
+}
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> surface_interaction(const SceneView<Real>& scene, const Ray<Real>& ray,
+                                                                    const Hit<Real>& hit) {
+  SurfaceInteraction<Real> si;
+  meet_surface(scene, ray, hit, si);
   return si;
 }
 

@@ -12,7 +12,7 @@ namespace ALHAZEN_CORE {
 /// that turns the direction into that axis. Made once a ray.
 template <class Real>
 struct ShearedRay {
-  Vec3<Real> origin;
+  Vec3<Real> origin;  ///< along kx, ky and kz
   Vec3<Real> shear;
   int kx, ky, kz;
 };
@@ -20,10 +20,10 @@ struct ShearedRay {
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT ShearedRay<Real> shear_ray(const Ray<Real>& ray) {
   ShearedRay<Real> s;
-  s.origin = ray.origin;
   s.kz = max_axis(abs(ray.direction));
   s.kx = s.kz == 2 ? 0 : s.kz + 1;
   s.ky = s.kx == 2 ? 0 : s.kx + 1;
+  s.origin = {ray.origin[s.kx], ray.origin[s.ky], ray.origin[s.kz]};
   const Real inverse = Real(1) / ray.direction[s.kz];
   s.shear = {ray.direction[s.kx] * inverse, ray.direction[s.ky] * inverse, inverse};
   return s;
@@ -51,9 +51,8 @@ template <class Real>
 ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>& p0, const Vec3<Real>& p1,
                                    const Vec3<Real>& p2, Real t_max, Real& t, Real& b1, Real& b2) {
   const auto sheared = [&](const Vec3<Real>& p) {
-    const Vec3<Real> q = p - ray.origin;
-    const Real z = q[ray.kz];
-    return Vec3<Real>{multiply_add(-ray.shear.x, z, q[ray.kx]), multiply_add(-ray.shear.y, z, q[ray.ky]), z};
+    const Vec3<Real> q = Vec3<Real>{p[ray.kx], p[ray.ky], p[ray.kz]} - ray.origin;
+    return Vec3<Real>{multiply_add(-ray.shear.x, q.z, q.x), multiply_add(-ray.shear.y, q.z, q.y), q.z};
   };
   const Vec3<Real> p_t[3] = {sheared(p0), sheared(p1), sheared(p2)};
   Vec3<Real> e{difference_of_products(p_t[1].x, p_t[2].y, p_t[1].y, p_t[2].x),

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -81,6 +82,11 @@ struct Lanes {
     return map([&](int i) { return a.r[i] < b.r[i] ? x.r[i] : y.r[i]; });
   }
 
+  /// a in the lanes whose bits are set, b in the others.
+  ALHAZEN_INLINE friend Lanes choose(uint32_t lanes, const Lanes& a, const Lanes& b) {
+    return map([&](int i) { return chosen(lanes >> (i * per_register), a.r[i], b.r[i]); });
+  }
+
   /// a * b + c, with one rounding where the processor can: for bounds, which need not be the same everywhere.
   ALHAZEN_INLINE friend Lanes fused_multiply_add(const Lanes& a, const Lanes& b, const Lanes& c) {
     return map([&](int i) { return fused(a.r[i], b.r[i], c.r[i]); });
@@ -141,6 +147,20 @@ struct Lanes {
     Register v;
     for (int k = 0; k < per_register; ++k) v[k] = std::sqrt(a[k]);
     return v;
+  }
+
+  ALHAZEN_INLINE static Register chosen(uint32_t lanes, const Register& a, const Register& b) {
+#if defined(__AVX512F__)
+    if constexpr (register_bytes == 64 && is_float)
+      return (Register)_mm512_mask_blend_ps(static_cast<__mmask16>(lanes), (__m512)b, (__m512)a);
+    if constexpr (register_bytes == 64 && !is_float)
+      return (Register)_mm512_mask_blend_pd(static_cast<__mmask8>(lanes), (__m512d)b, (__m512d)a);
+#endif
+    typedef std::conditional_t<is_float, int32_t, int64_t> Integer;
+    typedef Integer Integers __attribute__((vector_size(register_bytes)));
+    Integers bit;
+    for (int k = 0; k < per_register; ++k) bit[k] = Integer{1} << k;
+    return (static_cast<Integer>(lanes) & bit) != 0 ? a : b;
   }
 
   ALHAZEN_INLINE static uint32_t less_equal_bits(const Register& a, const Register& b) {

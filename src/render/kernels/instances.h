@@ -43,7 +43,13 @@ void take_blocks_together(const KernelRequest& request, const SceneView<Real>& s
         return {block.x, block.y, block.first + place % samples_per_block};
       },
       [&](uint32_t sample, const SampleRecord<Real>& record, Real filter_weight) {
-        records[places[sample]] = record;
+        // Not as a whole: what a path has just added to would be waited for.
+        SampleRecord<Real>& kept = records[places[sample]];
+        kept.radiance = record.radiance * scene.exposure;
+        kept.segments = record.segments;
+        kept.shadow_rays = record.shadow_rays;
+        kept.has_hit = record.has_hit;
+        if (record.has_hit) kept.first = record.first;
         weights[places[sample]] = filter_weight;
       });
   for (uint32_t i = 0; i < count; ++i) sums[places[i] / samples_per_block].add(records[places[i]], weights[places[i]]);
