@@ -41,8 +41,9 @@ class PathBatch {
     }
   }
 
-  /// How many paths are under way. Their state stays in the second level cache.
-  static constexpr uint32_t most_paths = 128;
+  /// How many paths are under way. Their state stays in the second level cache. No power of two: columns that lie one
+  /// apart are slow to write and read in turns, since processors compare the low bits of addresses first.
+  static constexpr uint32_t most_paths = 176;
 
  private:
   /// A path under way, and the light that it waits for.
