@@ -15,7 +15,7 @@ class FewPrimitives {
  public:
   explicit FewPrimitives(const SceneView<Real>& scene)
       : triangles_(scene.triangles_count), spheres_(scene.spheres_count), moving_(scene.moving_spheres_count) {
-    is_few_ = scene.instances_count == 0 && triangles_ < most_triangles && spheres_ + moving_ < most_spheres &&
+    is_few_ = scene.instances_count == 0 && triangles_ <= most_triangles && spheres_ + moving_ <= most_spheres &&
               triangles_ * most_spheres + (spheres_ + moving_) * most_triangles <= most_triangles * most_spheres;
     if (!is_few_) return;
     for (uint32_t i = 0; i < triangles_; ++i)
@@ -59,10 +59,10 @@ class FewPrimitives {
 
   /// The rays of a group, a row a coordinate.
   struct Rays {
-    alignas(64) Real origin[3][width], direction[3][width], shear[3][width], time[width], limit[width];
+    alignas(64) Real origin[3][width], direction[3][width], time[width], limit[width];
   };
 
-  /// What the rays have met so far.
+  /// What the rays have met so far: primitives are counted through, triangles before spheres before moving ones.
   struct Met {
     V t, b1, b2, which;
     uint32_t lanes = 0;
