@@ -53,6 +53,7 @@ namespace ALHAZEN_CORE {
   ARRAY(Real, srgb_decode_table)                       \
   ARRAY(uint8_t, noise_permutation)                    \
   ARRAY(LightRecord<Real>, lights)                     \
+  ARRAY(ShiningTriangle<Real>, shining_triangles)      \
   ARRAY(EnvironmentRecord<Real>, environments)         \
   ARRAY(Real, environment_cdf)                         \
   ARRAY(Real, light_cdf)                               \

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/lights/picture_light.h"
+#include "core/lights/light.h"
 #include "scene/flatten_environment.h"
 #include "scene/light_tree_builder.h"
 
@@ -171,6 +171,22 @@ void assign_light_probabilities(const std::vector<double>& measures, LightSampli
 
 template void add_described_lights(Scene&, SceneArrays<float>&, SceneView<float>&, std::vector<double>&);
 template void add_described_lights(Scene&, SceneArrays<double>&, SceneView<double>&, std::vector<double>&);
+template <class Real>
+void add_shining_triangles(SceneArrays<Real>& out) {
+  SceneView<Real> view;
+  view.triangles = out.triangles.data();
+  view.positions = out.positions.data();
+  view.normals = out.normals.data();
+  view.surfaces = out.surfaces.data();
+  for (LightRecord<Real>& light : out.lights) {
+    if (light.kind != LightKind::triangle) continue;
+    light.shining = static_cast<uint32_t>(out.shining_triangles.size());
+    out.shining_triangles.push_back(make_shining_triangle(view, light));
+  }
+}
+
+template void add_shining_triangles(SceneArrays<float>&);
+template void add_shining_triangles(SceneArrays<double>&);
 template void assign_light_probabilities(const std::vector<double>&, LightSampling, SceneArrays<float>&,
                                          SceneView<float>&);
 template void assign_light_probabilities(const std::vector<double>&, LightSampling, SceneArrays<double>&,

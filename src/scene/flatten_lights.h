@@ -21,6 +21,10 @@ template <class Real>
 void assign_light_probabilities(const std::vector<double>& measures, LightSampling sampling, SceneArrays<Real>& out,
                                 SceneView<Real>& view);
 
+/// Lays down what sampling the triangles among the lights needs, where they are after the trees have been built.
+template <class Real>
+void add_shining_triangles(SceneArrays<Real>& out);
+
 /// A light tree is built for more lights of finite distance than that.
 inline constexpr size_t most_lights_without_tree = 2;
 

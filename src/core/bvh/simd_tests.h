@@ -11,6 +11,20 @@
 
 namespace ALHAZEN_CORE {
 
+/// Vertices as seen along the rays, about their origins; z is yet to be scaled by the third of `shear`.
+template <class V>
+struct ShearedLanes {
+  V x, y, z;
+
+  ShearedLanes() = default;
+  /// `p`, `origin` and `shear` are along the rays' axes kx, ky, kz.
+  ALHAZEN_INLINE ShearedLanes(const V (&p)[3], const V (&origin)[3], const V (&shear)[3]) {
+    z = p[2] - origin[2];
+    x = p[0] - origin[0] - shear[0] * z;
+    y = p[1] - origin[1] - shear[1] * z;
+  }
+};
+
 /// Where the rays meet the triangles' planes (Woop, Benthin, Wald 2013), and what the error bound of that needs.
 template <class V>
 struct TriangleLanes {
@@ -21,13 +35,13 @@ struct TriangleLanes {
 
   /// `vertex(v, k)` is coordinate k of vertex v; k is 0 to 2 and stands for the ray's axes kx, ky, kz.
   template <class Vertex>
-  ALHAZEN_INLINE TriangleLanes(const Vertex& vertex, const V (&origin)[3], const V (&shear)[3]) {
-    V z[3];
-    for (int v = 0; v < 3; ++v) {
-      z[v] = vertex(v, 2) - origin[2];
-      x[v] = vertex(v, 0) - origin[0] - shear[0] * z[v];
-      y[v] = vertex(v, 1) - origin[1] - shear[1] * z[v];
-    }
+  ALHAZEN_INLINE TriangleLanes(const Vertex& vertex, const V (&origin)[3], const V (&shear)[3])
+      : TriangleLanes(sheared(vertex, 0, origin, shear), sheared(vertex, 1, origin, shear),
+                      sheared(vertex, 2, origin, shear), shear[2]) {}
+
+  ALHAZEN_INLINE TriangleLanes(const ShearedLanes<V>& a, const ShearedLanes<V>& b, const ShearedLanes<V>& c,
+                               const V& scale)
+      : x{a.x, b.x, c.x}, y{a.y, b.y, c.y} {
     const V zero = V::all(0);
     e[0] = x[1] * y[2] - y[1] * x[2];
     e[1] = x[2] * y[0] - y[2] * x[0];
@@ -36,7 +50,9 @@ struct TriangleLanes {
     if (inside == 0) return;
     // Where the sum is 0, t is infinite or not a number, and not taken.
     inverse = V::all(1) / (e[0] + e[1] + e[2]);
-    for (int v = 0; v < 3; ++v) scaled_z[v] = z[v] * shear[2];
+    scaled_z[0] = a.z * scale;
+    scaled_z[1] = b.z * scale;
+    scaled_z[2] = c.z * scale;
     t = (e[0] * scaled_z[0] + e[1] * scaled_z[1] + e[2] * scaled_z[2]) * inverse;
   }
 
@@ -65,6 +81,14 @@ struct TriangleLanes {
     const Real inverse_det = inverse.lane(lane);
     hit.b1 = e[1].lane(lane) * inverse_det;
     hit.b2 = e[2].lane(lane) * inverse_det;
+  }
+
+ private:
+  template <class Vertex>
+  ALHAZEN_INLINE static ShearedLanes<V> sheared(const Vertex& vertex, int v, const V (&origin)[3],
+                                                const V (&shear)[3]) {
+    const V p[3] = {vertex(v, 0), vertex(v, 1), vertex(v, 2)};
+    return {p, origin, shear};
   }
 };
 

@@ -46,8 +46,8 @@ class PathBatch {
   static constexpr uint32_t most_paths = 176;
 
  private:
-  /// A path under way, and the light that it waits for.
-  struct Lane {
+  /// A path under way, in cache lines of its own.
+  struct alignas(64) Lane {
     Sampler sampler;
     StateOf<kind, Real> path;
     SampleRecord<Real> record;
@@ -55,8 +55,13 @@ class PathBatch {
     bool has_met;
     uint32_t sample;  ///< which of the batch
     Real filter_weight;
+  };
+
+  /// The way to a light that a path waits for.
+  struct WayToLight {
     ShadowRay<Real> shadow;
-    Vec3<Real> lit;  ///< what the path gains where the shadow ray is free
+    Vec3<Real> radiance;  ///< what the path gains where the shadow ray is free
+    uint32_t lane;
   };
 
   /// Lets samples begin where paths have ended. Those that begin stand behind those that go on.
@@ -144,7 +149,7 @@ class PathBatch {
 
   void shade_all() {
     meet_triangles();
-    lit_count_ = 0;
+    ways_count_ = 0;
     const uint32_t count = live_;
     live_ = 0;
     for (uint32_t i = 0; i < count; ++i) shade_one(numbers_.of(i), i, active_[i]);
@@ -159,9 +164,10 @@ class PathBatch {
   }
 
   ALHAZEN_INLINE void ask_for_light(uint32_t index, const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
-    lanes_[index].shadow = shadow;
-    lanes_[index].lit = radiance;
-    lit_[lit_count_++] = index;
+    WayToLight& way = ways_[ways_count_++];
+    way.shadow = shadow;
+    way.radiance = radiance;
+    way.lane = index;
   }
 
   /// `place` is that in `active_`.
@@ -208,18 +214,17 @@ class PathBatch {
 
   void look_for_light() {
     if (scene_.has_cutouts) {
-      for (uint32_t i = 0; i < lit_count_; ++i) {
-        Lane& lane = lanes_[lit_[i]];
-        const Real share = free_share(scene_, intersector_, lane.shadow);
-        if (share > 0) lane.record.radiance += lane.lit * share;
+      for (const WayToLight* way = ways_; way != ways_ + ways_count_; ++way) {
+        const Real share = free_share(scene_, intersector_, way->shadow);
+        if (share > 0) lanes_[way->lane].record.radiance += way->radiance * share;
       }
       return;
     }
     intersector_.template trace<true>(
-        lit_count_, [&](uint32_t i) -> const Ray<Real>& { return lanes_[lit_[i]].shadow.ray; },
-        [&](uint32_t i) { return lanes_[lit_[i]].shadow.t_max; },
+        ways_count_, [&](uint32_t i) -> const Ray<Real>& { return ways_[i].shadow.ray; },
+        [&](uint32_t i) { return ways_[i].shadow.t_max; },
         [&](uint32_t i, bool found, const Hit<Real>&) {
-          if (!found) lanes_[lit_[i]].record.radiance += lanes_[lit_[i]].lit;
+          if (!found) lanes_[ways_[i].lane].record.radiance += ways_[i].radiance;
         });
   }
 
@@ -241,7 +246,8 @@ class PathBatch {
   CameraRays<Real, Sampler, most_paths> camera_;                       ///< of those that begin
   DrawnNumbers<Real, Sampler, most_paths, VertexDimensions> numbers_;  ///< of all, as `active_` has them
   uint32_t active_[most_paths], live_ = 0, going_on_ = 0;  ///< lanes; the first `going_on_` of them are no camera rays
-  uint32_t lit_[most_paths], lit_count_ = 0;
+  WayToLight ways_[most_paths];
+  uint32_t ways_count_ = 0;
   uint32_t ended_[most_paths], ended_count_ = 0;
   MetSurfaces<Real, most_paths> met_;
   DiffuseSurfaces<Real, most_paths> diffuse_;

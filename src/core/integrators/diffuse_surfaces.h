@@ -117,7 +117,7 @@ class DiffuseSurfaces {
     const LightRecord<Real>& light = scene.lights[choice.light];
     light_pmf_[i] = choice.pmf;
     if (light.kind == LightKind::triangle && light.texture.count == 0) {
-      const ShiningTriangle<Real> triangle = shining_triangle(scene, light);
+      const ShiningTriangle<Real>& triangle = scene.shining_triangles[light.shining];
       for (int k = 0; k < 3; ++k) corner_[k].set(i, triangle.corner[k]);
       outward_.set(i, triangle.outward);
       flip_normal_[i] = triangle.flip_normal;

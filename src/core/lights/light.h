@@ -66,19 +66,9 @@ ALHAZEN_HD Vec3<Real> sphere_emission_factor(const SceneView<Real>& scene, const
   return emission_factor(scene, light, at);
 }
 
-/// A triangle that shines, without its texture.
+/// For SceneView::shining_triangles.
 template <class Real>
-struct ShiningTriangle {
-  Vec3<Real> corner[3];
-  Vec3<Real> outward;  ///< mesh_outward
-  uint32_t flip_normal;
-  uint32_t two_sided;
-  Vec3<Real> radiance;
-};
-
-template <class Real>
-ALHAZEN_HD ALHAZEN_HOT ShiningTriangle<Real> shining_triangle(const SceneView<Real>& scene,
-                                                              const LightRecord<Real>& light) {
+ALHAZEN_HD ShiningTriangle<Real> make_shining_triangle(const SceneView<Real>& scene, const LightRecord<Real>& light) {
   const TriangleRecord& triangle = scene.triangles[light.primitive];
   const SurfaceRecord& surface = scene.surfaces[triangle.surface];
   const uint32_t* v = triangle.vertex;
@@ -119,7 +109,7 @@ template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_triangle_light(const SceneView<Real>& scene,
                                                                const LightRecord<Real>& light,
                                                                const Vec3<Real>& reference, const Vec2<Real>& u) {
-  LightSample<Real> s = sample_shining_triangle(shining_triangle(scene, light), reference, u);
+  LightSample<Real> s = sample_shining_triangle(scene.shining_triangles[light.shining], reference, u);
   if (light.texture.count > 0) {
     const Vec2<Real> b = sample_triangle(u);
     s.radiance = s.radiance * triangle_emission_factor(scene, light, b.y, 1 - b.x - b.y);

@@ -39,6 +39,17 @@ struct LightRecord {
   Vec3<Real> direction;       ///< the way the light travels, unit length
   Real cos_outer, cos_inner;  ///< spot: cosines where the light ends and where the falloff begins
   TextureRange texture;       ///< shapes: factor on the radiance
+  uint32_t shining;           ///< triangles: index into SceneView::shining_triangles
+};
+
+/// A triangle that shines, without its texture: what sampling it needs, side by side.
+template <class Real>
+struct ShiningTriangle {
+  Vec3<Real> corner[3];
+  Vec3<Real> outward;  ///< mesh_outward
+  uint32_t flip_normal;
+  uint32_t two_sided;
+  Vec3<Real> radiance;
 };
 
 /// A group of lights, or one of them, as seen from afar: a sphere that holds them, a cone that holds their normals,

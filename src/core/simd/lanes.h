@@ -34,6 +34,9 @@ struct Lanes {
   static constexpr int per_register = count / registers;
   typedef T Register __attribute__((vector_size(register_bytes)));
 
+  typedef std::conditional_t<sizeof(T) == sizeof(float), int32_t, int64_t> Integer;
+  typedef Integer Integers __attribute__((vector_size(register_bytes)));
+
   Register r[registers];
 
   ALHAZEN_INLINE static Lanes load(const T* from) {
@@ -75,7 +78,7 @@ struct Lanes {
     return map([&](int i) { return a.r[i] > b.r[i] ? a.r[i] : b.r[i]; });
   }
   ALHAZEN_INLINE friend Lanes magnitude(const Lanes& a) {
-    return map([&](int i) { return a.r[i] < 0 ? -a.r[i] : a.r[i]; });
+    return map([&](int i) { return (Register)((Integers)a.r[i] & ~((Integers)(-Register{}))); });
   }
   /// x where a < b, else y.
   ALHAZEN_INLINE friend Lanes where_less(const Lanes& a, const Lanes& b, const Lanes& x, const Lanes& y) {
@@ -156,8 +159,6 @@ struct Lanes {
     if constexpr (register_bytes == 64 && !is_float)
       return (Register)_mm512_mask_blend_pd(static_cast<__mmask8>(lanes), (__m512d)b, (__m512d)a);
 #endif
-    typedef std::conditional_t<is_float, int32_t, int64_t> Integer;
-    typedef Integer Integers __attribute__((vector_size(register_bytes)));
     Integers bit;
     for (int k = 0; k < per_register; ++k) bit[k] = Integer{1} << k;
     return (static_cast<Integer>(lanes) & bit) != 0 ? a : b;

@@ -52,7 +52,14 @@ void take_blocks_together(const KernelRequest& request, const SceneView<Real>& s
         if (record.has_hit) kept.first = record.first;
         weights[places[sample]] = filter_weight;
       });
-  for (uint32_t i = 0; i < count; ++i) sums[places[i] / samples_per_block].add(records[places[i]], weights[places[i]]);
+  // Some blocks in turns: the next sample of one waits for the one before it.
+  constexpr uint32_t in_turns = 16;
+  for (uint32_t first = 0; first < request.block_count; first += in_turns)
+    for (uint32_t i = 0; i < samples_per_block; ++i)
+      for (uint32_t b = first; b < first + in_turns && b < request.block_count; ++b) {
+        const uint32_t place = b * samples_per_block + i;
+        if (i < request.blocks[b].count) sums[b].add(records[place], weights[place]);
+      }
 }
 
 /// `Intersector` is made from the scene and the tracer and answers the ray queries.
