@@ -131,6 +131,22 @@ TYPED_TEST(ManyRays, FewPrimitives) {
   }
 }
 
+/// Triangles that share no vertices: as many as just go without a tree by some instruction set, and one more.
+TYPED_TEST(ManyRays, FewVertices) {
+  Random random(29);
+  for (const int count : {4, 5, 9, 10, 18, 19, 37, 38}) {
+    PrimitiveScene primitives;
+    for (int i = 0; i < count; ++i) {
+      const Vec3d p = random.in_box(-3, 3);
+      primitives.add_triangle(p, p + random.on_sphere() * 6, p + random.on_sphere() * 6);
+    }
+    const FlatScene<TypeParam> scene = primitives.flat<TypeParam>();
+    Queries<TypeParam> queries = bundles<TypeParam>(random, effort(5'000), 5);
+    add_odd_rays(queries);
+    check(scene.view, queries);
+  }
+}
+
 TYPED_TEST(ManyRays, EdgesOfASmallMesh) {
   Random random(28);
   const Mesh mesh = icosphere(0);
