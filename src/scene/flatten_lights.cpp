@@ -169,8 +169,6 @@ void assign_light_probabilities(const std::vector<double>& measures, LightSampli
   build_light_tree(weights, out);
 }
 
-template void add_described_lights(Scene&, SceneArrays<float>&, SceneView<float>&, std::vector<double>&);
-template void add_described_lights(Scene&, SceneArrays<double>&, SceneView<double>&, std::vector<double>&);
 template <class Real>
 void add_shining_triangles(SceneArrays<Real>& out) {
   SceneView<Real> view;
@@ -185,6 +183,8 @@ void add_shining_triangles(SceneArrays<Real>& out) {
   }
 }
 
+template void add_described_lights(Scene&, SceneArrays<float>&, SceneView<float>&, std::vector<double>&);
+template void add_described_lights(Scene&, SceneArrays<double>&, SceneView<double>&, std::vector<double>&);
 template void add_shining_triangles(SceneArrays<float>&);
 template void add_shining_triangles(SceneArrays<double>&);
 template void assign_light_probabilities(const std::vector<double>&, LightSampling, SceneArrays<float>&,
