@@ -1,4 +1,5 @@
 // Renders a scene into memory, shows progress, and stops early where a second argument gives the seconds it may take.
+// What the progress function throws stops the render too, and is caught below as are the errors of the library.
 
 #include <alhazen/alhazen.h>
 
@@ -6,6 +7,7 @@
 #include <cstdlib>
 #include <exception>
 #include <limits>
+#include <stdexcept>
 
 int main(int argc, char** argv) try {
   if (argc < 2) return std::fprintf(stderr, "usage: render_to_memory SCENE.pbrt [SECONDS]\n"), 2;
@@ -17,7 +19,7 @@ int main(int argc, char** argv) try {
   settings.aovs = {"depth"};
 
   const alhazen::Picture picture = alhazen::render(argv[1], settings, [&](const alhazen::Progress& progress) {
-    std::printf("%3.0f%%\n", 100 * progress.fraction);
+    if (std::printf("%3.0f%%\n", 100 * progress.fraction) < 0) throw std::runtime_error("nobody reads the progress");
     return progress.seconds < seconds;  // false cancels
   });
   for (const std::string& warning : picture.warnings) std::printf("warning: %s\n", warning.c_str());

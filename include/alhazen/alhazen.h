@@ -48,11 +48,15 @@ struct Settings {
   std::optional<std::array<int64_t, 4>> pixel_bounds;
   /// Further layers: albedo, normal, depth, bounces, samples, variance.
   std::vector<std::string> aovs;
-  std::string denoiser;    ///< none, or optix: on a GPU, whatever rendered; adds the layers albedo and normal
-  double time_limit = 0;   ///< seconds of rendering; stops after the last whole pass within it; 0: none
-  std::string checkpoint;  ///< file to save the state in, and to go on from with `resume`
+  std::string denoiser;   ///< none, or optix: on a GPU, whatever rendered; adds the layers albedo and normal
+  double time_limit = 0;  ///< seconds of rendering; stops after the last whole pass within it; 0: none
+  /// File to save the state in, and to go on from with `resume`. A save that fails is a warning, and the render goes
+  /// on.
+  std::string checkpoint;
   double checkpoint_seconds = 60;
   bool resume = false;
+  /// Without `resume`, a file that is there already is refused, whatever is in it, unless this is set.
+  bool overwrite = false;
   /// MiB that the pictures of textures may take; larger ones are halved until they fit. 0: no limit.
   int64_t texture_budget = 16384;
 };
@@ -63,7 +67,9 @@ struct Progress {
   uint64_t samples_done = 0, samples_total = 0;
 };
 
-/// Called about ten times a second from another thread. False stops the render; the picture so far is returned.
+/// Called about ten times a second from another thread, and once at the end. False stops the render; the picture so far
+/// is returned. An exception, of any type, stops the render too: the state is saved where `checkpoint` names a file,
+/// the function is not called again, and `render` throws the same exception to its caller.
 using ProgressFunction = std::function<bool(const Progress&)>;
 
 /// Planes of linear values, rows from the top down: R, G, B (radiance, linear sRGB) and the layers that were asked for
@@ -80,7 +86,7 @@ struct Picture {
 };
 
 /// Renders a pbrt-v4 or glTF 2.0 scene. Throws std::runtime_error, whose what() is one message (for bad input
-/// `file:line:column: what is wrong and what to do`), and std::bad_alloc.
+/// `file:line:column: what is wrong and what to do`), std::bad_alloc, and what `progress` throws.
 Picture render(const std::string& scene_file, const Settings& settings = {}, const ProgressFunction& progress = {});
 
 const char* version();

@@ -1,6 +1,7 @@
 #include "alhazen/alhazen.h"
 
 #include "io/environment.h"
+#include "io/files/file_identity.h"
 #include "io/read_scene.h"
 #include "render/renderer.h"
 
@@ -14,13 +15,15 @@ const float* Picture::plane(const std::string& channel) const {
 
 Picture render(const std::string& scene_file, const Settings& settings, const ProgressFunction& progress) {
   Diagnostics diagnostics;
+  refuse_same_file({settings.checkpoint, "the checkpoint"},
+                   {{scene_file, "the scene"}, {settings.environment, "the environment map"}});
   const ReadOptions choice{settings.camera, settings.variant, settings.animation, settings.animation_time,
                            aspect_of(settings.width, settings.height)};
   Scene scene = read_scene(scene_file, choice, diagnostics);
   if (!settings.environment.empty()) use_environment(scene, settings.environment);
   scene.coats = parse_coats(settings.coats);
   const RenderSettings resolved = resolve_settings(settings, scene);
-  const Rendering rendering = render_scene(std::move(scene), resolved, 0, RenderEvents{progress, {}}, diagnostics);
+  const Rendering rendering = render_scene(std::move(scene), resolved, 0, RenderEvents{progress, {}, {}}, diagnostics);
   const ImageSource source = rendering.source();
   Picture picture;
   picture.width = source.width;

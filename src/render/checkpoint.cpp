@@ -1,8 +1,14 @@
 #include "render/checkpoint.h"
 
+#include <sys/stat.h>
+#include <zlib.h>
+
+#include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
+#include <optional>
 
 #include "core/sampling/hash.h"
 #include "io/images/atomic_file.h"
@@ -12,14 +18,50 @@ namespace alhazen {
 
 namespace {
 
-constexpr uint64_t file_magic = 0x31746b6e657a6861u;  // "ahzenkt1"
+/// The last character counts versions of the format.
+constexpr char file_magic[8] = {'a', 'h', 'z', 'e', 'n', 'k', 't', '2'};
 
 struct Header {
-  uint64_t magic;
+  char magic[8];
+  char program_version[24];  ///< of the program that wrote the file, filled up with zeros
   uint64_t fingerprint;
   uint64_t samples_done;
-  uint64_t bytes;
+  uint64_t bytes;     ///< of the planes
+  uint32_t unused;    ///< 0; there are no bytes between the members
+  uint32_t checksum;  ///< CRC-32 of the members above
 };
+static_assert(sizeof(Header) == 64);
+
+/// CRC-32 finds every flipped bit and every run of up to 32 damaged ones.
+uint32_t crc(uint32_t before, const void* data, size_t size) {
+  // zlib takes a null pointer, as a plane that nobody asked for has, for the wish to start anew.
+  return size == 0 ? before : static_cast<uint32_t>(crc32_z(before, static_cast<const Bytef*>(data), size));
+}
+
+uint32_t checksum_of(const Header& header) { return crc(0, &header, offsetof(Header, checksum)); }
+
+bool is_intact(const Header& header) {
+  return std::memcmp(header.magic, file_magic, sizeof(file_magic)) == 0 && header.checksum == checksum_of(header);
+}
+
+std::string program_version(const Header& header) {
+  return {header.program_version, std::find(header.program_version, std::end(header.program_version), '\0')};
+}
+
+Header make_header(uint64_t fingerprint, uint64_t samples_done, uint64_t bytes) {
+  Header header{{}, {}, fingerprint, samples_done, bytes, 0, 0};
+  std::copy(std::begin(file_magic), std::end(file_magic), header.magic);
+  std::strncpy(header.program_version, version(), sizeof(header.program_version) - 1);
+  header.checksum = checksum_of(header);
+  return header;
+}
+
+std::optional<Header> read_header(std::istream& in) {
+  Header header{};
+  in.read(reinterpret_cast<char*>(&header), sizeof(header));
+  if (!in) return std::nullopt;
+  return header;
+}
 
 class Hasher {
  public:
@@ -49,6 +91,7 @@ class Hasher {
 uint64_t join_settings(const RenderSettings& s, uint64_t scene) {
   Hasher h;
   h.add(scene);
+  h.add_bytes(version(), std::strlen(version()));
   for (const int64_t value :
        {static_cast<int64_t>(s.precision), static_cast<int64_t>(s.integrator), static_cast<int64_t>(s.sampler),
         static_cast<int64_t>(s.max_segments), static_cast<int64_t>(s.width), static_cast<int64_t>(s.height),
@@ -108,36 +151,69 @@ CheckpointFile::CheckpointFile(const RenderSettings& settings, uint64_t scene_fi
       fingerprint_(join_settings(settings, scene_fingerprint)),
       samples_per_pixel_(settings.samples_per_pixel) {}
 
+void check_checkpoint(const RenderSettings& settings) {
+  const std::string& path = settings.checkpoint;
+  struct stat file = {};
+  const bool exists = ::stat(path.c_str(), &file) == 0;
+  if (exists && !S_ISDIR(file.st_mode) && !S_ISREG(file.st_mode))
+    throw InputError({path}, "a checkpoint is read again later: name a file, not a device or a pipe");
+  check_target(path);
+  if (!exists || file.st_size == 0 || settings.resume || settings.overwrite) return;
+  std::ifstream in(path, std::ios::binary);
+  const std::optional<Header> header = read_header(in);
+  if (!header || !is_intact(*header))
+    throw InputError({path},
+                     "this file is not a checkpoint of this version of Alhazen, and would be overwritten: give "
+                     "--checkpoint another name, or --overwrite to replace it");
+  throw InputError({path}, "this file holds a render of " + std::to_string(header->samples_done) +
+                               " samples per pixel already: give --resume to go on with it, --overwrite to replace it, "
+                               "or --checkpoint another name");
+}
+
 template <class Real>
 void CheckpointFile::save(Film<Real>& film, uint32_t samples_done) const {
   AtomicFile file(path_);
-  const Header header{file_magic, fingerprint_, samples_done, plane_bytes(film)};
-  file.write(&header, sizeof(header));
-  film.visit_planes([&](const void* data, size_t size) { file.write(data, size); });
+  const Header header = make_header(fingerprint_, samples_done, plane_bytes(film));
+  uint32_t checksum = 0;
+  const auto write = [&](const void* data, size_t size) {
+    file.write(data, size);
+    checksum = crc(checksum, data, size);
+  };
+  write(&header, sizeof(header));
+  film.visit_planes(write);
+  file.write(&checksum, sizeof(checksum));
   file.commit();
 }
 
 template <class Real>
 uint32_t CheckpointFile::load(Film<Real>& film) const {
+  const InputError damaged({path_}, "the checkpoint is damaged: start anew with --overwrite instead of --resume");
   std::ifstream in(path_, std::ios::binary);
   if (!in) throw InputError({path_}, std::string("cannot open the checkpoint: ") + std::strerror(errno));
-  Header header{};
-  in.read(reinterpret_cast<char*>(&header), sizeof(header));
-  if (!in || header.magic != file_magic) throw InputError({path_}, "this is not a checkpoint of Alhazen");
-  if (header.fingerprint != fingerprint_ || header.bytes != plane_bytes(film))
+  const std::optional<Header> header = read_header(in);
+  if (!header || std::memcmp(header->magic, file_magic, sizeof(file_magic) - 1) != 0)
+    throw InputError({path_}, "this is not a checkpoint of Alhazen");
+  if (header->magic[7] == file_magic[7] && !is_intact(*header)) throw damaged;
+  if (header->magic[7] != file_magic[7] || program_version(*header) != version())
+    throw InputError({path_}, std::string("the checkpoint is of another version of Alhazen than ") + version() +
+                                  ": end the render with that one, or start anew with --overwrite");
+  if (header->fingerprint != fingerprint_ || header->bytes != plane_bytes(film))
     throw InputError({path_},
                      "the checkpoint is of another scene or of other settings: give those that it was made "
-                     "with, or start anew without --resume");
-  film.visit_planes(
-      [&](void* data, size_t size) { in.read(static_cast<char*>(data), static_cast<std::streamsize>(size)); });
+                     "with, or start anew with --overwrite instead of --resume");
+  uint32_t checksum = crc(0, &*header, sizeof(*header)), expected = 0;
+  film.visit_planes([&](void* data, size_t size) {
+    in.read(static_cast<char*>(data), static_cast<std::streamsize>(size));
+    checksum = crc(checksum, data, size);
+  });
+  in.read(reinterpret_cast<char*>(&expected), sizeof(expected));
+  if (!in || in.peek() != std::ifstream::traits_type::eof() || checksum != expected) throw damaged;
   const uint32_t held = film.most_samples();
-  if (!in || in.peek() != std::ifstream::traits_type::eof() || header.samples_done > held ||
-      header.samples_done % samples_per_block != 0)
-    throw InputError({path_}, "the checkpoint is damaged: start anew without --resume");
+  if (header->samples_done > held || header->samples_done % samples_per_block != 0) throw damaged;
   if (held > samples_per_pixel_)
     throw InputError({path_}, "the checkpoint holds " + std::to_string(held) +
                                   " samples per pixel already: ask for at least as many with --spp");
-  return static_cast<uint32_t>(header.samples_done);
+  return static_cast<uint32_t>(header->samples_done);
 }
 
 template uint64_t scene_fingerprint(const FlatScene<float>&);

@@ -15,12 +15,18 @@ namespace alhazen {
 template <class Real>
 uint64_t scene_fingerprint(const FlatScene<Real>& scene);
 
+/// Refuses a checkpoint that could not be saved, or whose saving would destroy what is in the file: a render that is to
+/// be resumed, or a file that is none. Leaves everything as it is. Throws InputError.
+void check_checkpoint(const RenderSettings& settings);
+
+/// The file is a header, the planes of the film, and a CRC-32 of both. The header has a CRC-32 of its own, so that a
+/// damaged file is told from one of another render.
 class CheckpointFile {
  public:
   CheckpointFile(const RenderSettings& settings, uint64_t scene_fingerprint);
 
   /// Writes the film whole or not at all. Every pixel of it holds whole blocks of samples, and samples_done of them or
-  /// more: more where a pass was stopped. Throws RenderError.
+  /// more: more where a pass was stopped. Throws WriteError.
   template <class Real>
   void save(Film<Real>& film, uint32_t samples_done) const;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <future>
 #include <mutex>
 #include <optional>
@@ -24,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Tells the progress from a thread of its own, and stops the render where the listener says so.
+/// Tells the progress from a thread of its own, and stops the render where the listener says so or throws.
 class ProgressReporter {
  public:
   ProgressReporter(const ProgressFunction& listener, RenderControl& control, uint64_t total)
@@ -32,21 +33,29 @@ class ProgressReporter {
     if (listener_) thread_ = std::thread([this] { run(); });
   }
 
-  ~ProgressReporter() {
-    if (!thread_.joinable()) return;
+  ~ProgressReporter() { finish(); }
+
+  /// Tells the progress for the last time; what the listener has thrown, or null.
+  std::exception_ptr finish() {
+    if (!thread_.joinable()) return problem_;
     {
       const std::lock_guard lock(mutex_);
       done_ = true;
     }
     wake_.notify_one();
     thread_.join();
+    return problem_;
   }
 
  private:
-  void run() {
+  /// An exception that left a thread would end the process: it is kept for the thread that renders.
+  void run() noexcept try {
     std::unique_lock lock(mutex_);
     while (!wake_.wait_for(lock, std::chrono::milliseconds(100), [this] { return done_; })) tell();
     tell();
+  } catch (...) {
+    problem_ = std::current_exception();
+    control_.stop();
   }
 
   void tell() {
@@ -65,6 +74,7 @@ class ProgressReporter {
   std::mutex mutex_;
   std::condition_variable wake_;
   bool done_ = false;
+  std::exception_ptr problem_;  ///< read once the thread has ended
   std::thread thread_;
 };
 
@@ -89,19 +99,29 @@ uint32_t pass_size(const RenderSettings& settings, uint32_t most, uint32_t sampl
 template <class Real>
 class PassLoop {
  public:
-  PassLoop(Backend& backend, const FlatScene<Real>& scene, const RenderSettings& settings, Film<Real>& film)
-      : backend_(backend), scene_(scene), settings_(settings), film_(film), control_(settings.threads) {}
+  PassLoop(Backend& backend, const FlatScene<Real>& scene, const RenderSettings& settings, Film<Real>& film,
+           const RenderEvents& events, Diagnostics& diagnostics)
+      : backend_(backend),
+        scene_(scene),
+        settings_(settings),
+        film_(film),
+        events_(events),
+        diagnostics_(diagnostics),
+        control_(settings.threads) {}
 
-  void run(const RenderEvents& events, RenderStatistics& statistics) {
+  void run(RenderStatistics& statistics) {
     if (!settings_.checkpoint.empty()) checkpoint_.emplace(settings_, scene_fingerprint(scene_));
     if (settings_.resume) samples_done_ = checkpoint_->load(film_);
     const uint64_t pixels = static_cast<uint64_t>(settings_.window.pixels());
     control_.add_samples(pixels * samples_done_);
+    std::exception_ptr problem;
     {
-      const ProgressReporter reporter(events.progress, control_, pixels * settings_.samples_per_pixel);
+      ProgressReporter reporter(events_.progress, control_, pixels * settings_.samples_per_pixel);
       take_passes();
+      problem = reporter.finish();
     }
     save_checkpoint();
+    if (problem) std::rethrow_exception(problem);
     statistics.render_seconds = elapsed_;
     statistics.samples_per_pixel = samples_done_;
     statistics.complete = samples_done_ == settings_.samples_per_pixel;
@@ -141,15 +161,26 @@ class PassLoop {
     }
   }
 
-  /// Not once there is a part of a block in the film: the sums of a longer render would be rounded elsewhere.
+  /// Not once there is a part of a block in the film: the sums of a longer render would be rounded elsewhere. A state
+  /// that cannot be saved is no reason to lose the picture.
   void save_checkpoint() {
-    if (checkpoint_ && in_whole_blocks_) checkpoint_->save(film_, samples_done_);
+    if (!checkpoint_ || !in_whole_blocks_) return;
+    try {
+      checkpoint_->save(film_, samples_done_);
+    } catch (const std::exception& failure) {
+      const size_t before = diagnostics_.warnings().size();
+      diagnostics_.warn({settings_.checkpoint},
+                        std::string("the checkpoint was not saved, and the render goes on: ") + failure.what());
+      if (events_.warned && diagnostics_.warnings().size() > before) events_.warned();
+    }
   }
 
   Backend& backend_;
   const FlatScene<Real>& scene_;
   const RenderSettings& settings_;
   Film<Real>& film_;
+  const RenderEvents& events_;
+  Diagnostics& diagnostics_;
   RenderControl control_;
   std::optional<CheckpointFile> checkpoint_;
   uint32_t samples_done_ = 0;  ///< of every pixel
@@ -192,7 +223,7 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   check_memory(film_bytes<Real>(settings.window, settings.aovs, weighted));
   auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, weighted);
   if (events.started) events.started(statistics);
-  PassLoop<Real>(*backend, flat, settings, *film).run(events, statistics);
+  PassLoop<Real>(*backend, flat, settings, *film, events, diagnostics).run(statistics);
   statistics.peak_rss_bytes = peak_rss_bytes();
   if (statistics.nonfinite_samples > 0)
     diagnostics.warn({statistics.scene}, std::to_string(statistics.nonfinite_samples) +
@@ -202,6 +233,10 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
 }
 
 }  // namespace
+
+bool Rendering::has_samples() const {
+  return std::visit([](const auto& any_film) { return any_film->most_samples() > 0; }, film);
+}
 
 ImageSource Rendering::source() const {
   ImageSource source = std::visit(

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <thread>
 
 #include "render/backend.h"
+#include "render/checkpoint.h"
 #include "render/denoiser.h"
 
 namespace alhazen {
@@ -111,15 +111,6 @@ void resolve_picture(const Settings& asked, const Scene& scene, RenderSettings& 
     throw InputError("a picture of 10^9 pixels or more cannot be rendered at once: render parts of it with --crop");
 }
 
-/// What cannot be saved in the end is refused before anything is rendered.
-void check_checkpoint(const std::string& path) {
-  namespace fs = std::filesystem;
-  const fs::path folder = fs::path(path).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder))
-    throw InputError({path}, "the folder of the checkpoint does not exist: create it first");
-  if (fs::is_directory(path)) throw InputError({path}, "this is a folder: give the name of a file for the checkpoint");
-}
-
 BlockSize parse_size(const std::string& text, const std::string& what, uint32_t most) {
   BlockSize size;
   const char* const end = text.data() + text.size();
@@ -197,11 +188,15 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   s.checkpoint = asked.checkpoint;
   if (!(asked.checkpoint_seconds >= 0)) throw InputError("the time between checkpoints must not be negative");
   s.checkpoint_seconds = asked.checkpoint_seconds;
-  if (!s.checkpoint.empty()) check_checkpoint(s.checkpoint);
   s.texture_budget =
       static_cast<uint64_t>(in_range(asked.texture_budget, 0, int64_t{1} << 30, "the budget of textures")) << 20;
   s.resume = asked.resume;
+  s.overwrite = asked.overwrite;
   if (s.resume && s.checkpoint.empty()) throw InputError("to resume, name the file to go on from: --checkpoint FILE");
+  if (s.overwrite && s.checkpoint.empty())
+    throw InputError("--overwrite is for checkpoints: name the file with --checkpoint FILE");
+  if (s.resume && s.overwrite) throw InputError("give --resume or --overwrite, not both");
+  if (!s.checkpoint.empty()) check_checkpoint(s);
   resolve_denoiser(asked.denoiser, s);
   s.schedule = parse_schedule(asked.schedule.empty() ? "dynamic" : asked.schedule);
   choose_backend(asked, s);

@@ -63,7 +63,7 @@ struct RenderSettings {
   double time_limit = 0;
   std::string checkpoint;
   double checkpoint_seconds = 60;
-  bool resume = false;
+  bool resume = false, overwrite = false;
   uint64_t texture_budget = 0;  ///< bytes; 0: no limit
 };
 

@@ -120,6 +120,65 @@ TEST_F(Api, ProgressCanCancel) {
   }
 }
 
+/// An exception that left the thread of the progress would end the process.
+TEST_F(Api, ExceptionsOfTheProgressReachTheCaller) {
+  struct NoException {};
+  Settings settings;
+  settings.samples_per_pixel = 1 << 24;
+  for (const char* backend : {"serial", "openmp"}) {
+    settings.backend = backend;
+    int calls = 0;
+    const auto fail_with = [&](const auto& problem) {
+      calls = 0;
+      return [&calls, problem](const Progress&) -> bool {
+        ++calls;
+        throw problem;
+      };
+    };
+    try {
+      render(scene_, settings, fail_with(std::out_of_range("the listener's own")));
+      ADD_FAILURE() << "it was not thrown";
+    } catch (const std::out_of_range& error) {
+      EXPECT_STREQ(error.what(), "the listener's own");
+    }
+    EXPECT_EQ(calls, 1) << "it is not called again";
+    EXPECT_THROW(render(scene_, settings, fail_with(NoException{})), NoException);
+    EXPECT_THROW(render(scene_, settings, fail_with(7)), int);
+    EXPECT_THROW(render(scene_, quick(), fail_with(std::bad_alloc())), std::bad_alloc) << "in the last call";
+  }
+  EXPECT_TRUE(render(scene_, quick()).complete) << "the next render is as any";
+}
+
+TEST_F(Api, WhatWasRenderedBeforeAnExceptionIsInTheCheckpoint) {
+  Settings settings = quick();
+  settings.samples_per_pixel = 1 << 20;
+  settings.checkpoint = folder_.file("state");
+  const auto fail = [](const Progress& progress) -> bool {
+    if (progress.samples_done > 100 * 144) throw std::runtime_error("enough");
+    return true;
+  };
+  EXPECT_THROW(render(scene_, settings, fail), std::runtime_error);
+  settings.resume = true;
+  uint64_t first = 0;
+  render(scene_, settings, [&](const Progress& progress) {
+    first = progress.samples_done;
+    return false;
+  });
+  EXPECT_GE(first, 4u * 144);
+}
+
+TEST_F(Api, CheckpointsReplaceNothingUnasked) {
+  Settings settings = quick();
+  settings.checkpoint = scene_;
+  EXPECT_NE(error_of(settings).find("same file"), std::string::npos);
+  settings.overwrite = true;
+  EXPECT_NE(error_of(settings).find("same file"), std::string::npos);
+  settings.checkpoint = folder_.write_text("notes", "a text of the user");
+  EXPECT_EQ(error_of(settings), "");
+  settings.overwrite = false;
+  EXPECT_NE(error_of(settings).find("4 samples"), std::string::npos);
+}
+
 TEST_F(Api, TimeLimitEndsEarly) {
   Settings settings;
   settings.samples_per_pixel = 1 << 24;

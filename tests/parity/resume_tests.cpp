@@ -19,6 +19,7 @@ class Resume : public ::testing::TestWithParam<std::tuple<std::string, std::stri
     s.aovs = all_aovs;
     s.checkpoint = folder_.file("state");
     s.resume = resume;
+    s.overwrite = !resume;
     return s;
   }
 
@@ -26,6 +27,7 @@ class Resume : public ::testing::TestWithParam<std::tuple<std::string, std::stri
   Outcome uninterrupted(int64_t samples) const {
     Settings s = settings(samples, false);
     s.checkpoint.clear();
+    s.overwrite = false;
     return render_bits(scene(), s);
   }
 
@@ -72,6 +74,7 @@ TEST_P(Resume, AfterBeingStoppedGivesTheBitsOfOneRender) {
   ASSERT_FALSE(outcome.statistics.complete) << "the machine is too fast for this test: give it more samples";
   // Once more, from where the first one was.
   stopped.resume = true;
+  stopped.overwrite = false;
   int calls = 0;
   outcome = render_bits(scene(), stopped, [&](const Progress&) { return ++calls < 2; });
   const Outcome whole = render_bits(scene(), settings(samples, true));
