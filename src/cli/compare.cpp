@@ -6,7 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "cli/console.h"
 #include "cli/subcommands.h"
+#include "io/files/file_identity.h"
+#include "io/images/atomic_file.h"
 #include "io/images/compare.h"
 #include "io/images/image.h"
 
@@ -68,11 +71,13 @@ void run_compare(const CompareOptions& options) {
   const std::string extension = extension_of(options.diff);
   if (!options.diff.empty() && extension != "png" && extension != "exr")
     throw InputError("--diff " + options.diff + ": give a file name that ends in .png or .exr");
+  if (!options.diff.empty()) check_target(options.diff);
+  refuse_same_file({options.diff, "the picture of --diff"}, {{options.a, "the picture"}, {options.b, "the reference"}});
   Image a = read_image(options.a), b = read_image(options.b);
   if (options.reduce > 1) a = reduced(a, options.reduce), b = reduced(b, options.reduce);
   const ImageDifference difference = compare_images(a, b);
+  print_out("{}{}", options.json ? json_text(difference) : table_text(difference), options.json ? "\n" : "");
   if (!options.diff.empty()) write_difference(options.diff, a, b);
-  fmt::print("{}{}", options.json ? json_text(difference) : table_text(difference), options.json ? "\n" : "");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/console.h"
 #include "cli/subcommands.h"
 #include "render/backend.h"
 
@@ -15,9 +16,9 @@ namespace {
 void print_table() {
   for (const auto& backend : all_backends()) {
     const BackendDescription d = backend->describe();
-    fmt::print("{:<8} {:<14} {}\n", d.name, d.available ? "available" : "not available", d.details);
-    for (size_t i = 0; i < d.devices.size(); ++i) fmt::print("{:<8} device {:<7} {}\n", "", i, d.devices[i]);
-    if (!d.strategies.empty()) fmt::print("{:<8} {:<14} {}\n", "", "strategies", fmt::join(d.strategies, ", "));
+    print_out("{:<8} {:<14} {}\n", d.name, d.available ? "available" : "not available", d.details);
+    for (size_t i = 0; i < d.devices.size(); ++i) print_out("{:<8} device {:<7} {}\n", "", i, d.devices[i]);
+    if (!d.strategies.empty()) print_out("{:<8} {:<14} {}\n", "", "strategies", fmt::join(d.strategies, ", "));
   }
 }
 
@@ -31,7 +32,7 @@ void print_json() {
                     {"devices", d.devices},
                     {"strategies", d.strategies}});
   }
-  fmt::print("{}\n", list.dump());
+  print_out("{}\n", list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/console.h"
 #include "cli/listing.h"
 #include "cli/subcommands.h"
 #include "io/read_scene.h"
@@ -71,13 +72,12 @@ void show(const InfoOptions& options) {
                                  {"build_seconds", sizes.build_seconds},
                                  {"peak_rss_bytes", peak_rss_bytes()}};
   if (options.json) {
-    fmt::print("{}\n", j.dump());
+    print_out("{}\n", j.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   } else {
     for (const auto& [key, value] : j.items())
-      fmt::print("{:<15} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+      print_out("{:<15} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
   }
-  for (const Diagnostics::Warning& warning : diagnostics.warnings())
-    fmt::print(stderr, "warning: {}\n", warning.to_string());
+  for (const Diagnostics::Warning& warning : diagnostics.warnings()) tell("warning: {}\n", warning.to_string());
 }
 
 }  // namespace

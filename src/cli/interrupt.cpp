@@ -2,25 +2,66 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
+
+#include "io/images/atomic_file.h"
 
 namespace alhazen {
 
 namespace {
 
-std::atomic<bool> interrupted{false};
+constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
 
-extern "C" void handle_interrupt(int signal_number) {
-  interrupted.store(true, std::memory_order_relaxed);
+std::atomic<int64_t> interrupted_at{0};  ///< nanoseconds; 0: not yet
+static_assert(std::atomic<int64_t>::is_always_lock_free, "a signal handler takes no locks");
+
+/// SIGINT and SIGQUIT came ignored: a shell without job control has started the program beside others, and Ctrl-C is
+/// for the one in front.
+bool is_in_background = false;
+
+int64_t now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
+/// A terminal that closes sends SIGHUP by its shell and by the kernel, within moments; a limit on processor time sends
+/// SIGXCPU every second. Neither says that somebody has lost patience.
+bool is_repeated_by_itself(int signal_number) {
+  return signal_number == SIGXCPU || (signal_number == SIGHUP && now() - interrupted_at.load() < 1'000'000'000);
+}
+
+extern "C" void handle_interrupt(int signal_number, siginfo_t* info, void*) {
+  const bool is_of_terminal = info->si_code > 0;
+  if (is_in_background && signal_number == SIGINT && is_of_terminal) return;
+  int64_t never = 0;
+  if (interrupted_at.compare_exchange_strong(never, now())) return;
+  if (is_repeated_by_itself(signal_number)) return;
   std::signal(signal_number, SIG_DFL);
+  std::raise(signal_number);  // takes effect as this function returns
+}
+
+bool is_ignored(int signal_number) {
+  struct sigaction action = {};
+  return sigaction(signal_number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
 }  // namespace
 
 void catch_interrupts() {
-  std::signal(SIGINT, handle_interrupt);
-  std::signal(SIGTERM, handle_interrupt);
+  is_in_background = is_ignored(SIGINT) && is_ignored(SIGQUIT);
+  for (const int signal_number : signals) {
+    if (is_ignored(signal_number) && !(signal_number == SIGINT && is_in_background)) continue;
+    struct sigaction action = {};
+    action.sa_sigaction = handle_interrupt;
+    action.sa_flags = SA_SIGINFO | SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(signal_number, &action, nullptr);
+  }
+  set_pipe_wait_is_over(is_interrupted);
 }
 
-bool is_interrupted() { return interrupted.load(std::memory_order_relaxed); }
+bool is_interrupted() { return interrupted_at.load(std::memory_order_relaxed) != 0; }
 
 }  // namespace alhazen

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/console.h"
 #include "io/read_scene.h"
 
 namespace alhazen {
@@ -19,11 +20,11 @@ void print_listing(const std::string& scene, bool as_json) {
   for (const auto& [kind, names] : kinds) {
     json[kind] = *names;
     if (as_json) continue;
-    fmt::print("{}: {}\n", kind, names->size());
-    for (size_t i = 0; i < names->size(); ++i) fmt::print("  {} {}\n", i, (*names)[i]);
+    print_out("{}: {}\n", kind, names->size());
+    for (size_t i = 0; i < names->size(); ++i) print_out("  {} {}\n", i, (*names)[i]);
   }
   // Names are bytes of the file, which need not be valid UTF-8.
-  if (as_json) fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (as_json) print_out("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace alhazen

@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <exception>
-#include <iostream>
 #include <new>
+#include <string>
 
+#include "cli/console.h"
 #include "cli/subcommands.h"
 #include "scene/diagnostics.h"
 
@@ -22,45 +20,50 @@ int parse_and_run(CLI::App& app, int argc, char** argv, int& exit_code) {
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
     const bool is_unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
-    fmt::print(stderr, "alhazen: {}\nRun 'alhazen --help' or 'alhazen SUBCOMMAND --help' for what may be given.\n",
-               is_unknown ? fmt::format("there is no subcommand '{}'", argv[1]) : error.what());
+    alhazen::tell("alhazen: {}\nRun 'alhazen --help' or 'alhazen SUBCOMMAND --help' for what may be given.\n",
+                  is_unknown ? fmt::format("there is no subcommand '{}'", argv[1]) : error.what());
     return alhazen::exit_bad_input;
+  }
+}
+
+int run_guarded(CLI::App& app, int argc, char** argv, int& exit_code) {
+  try {
+    return parse_and_run(app, argc, argv, exit_code);
+  } catch (const alhazen::InputError& error) {
+    alhazen::tell("{}\n", error.what());
+    return alhazen::exit_bad_input;
+  } catch (const std::bad_alloc&) {
+    alhazen::tell("alhazen: out of memory: render fewer pixels or layers at once (--size, --crop), or in float\n");
+    return alhazen::exit_failed;
+  } catch (const std::exception& error) {
+    alhazen::tell("alhazen: {}\n", error.what());
+    return alhazen::exit_failed;
   }
 }
 
 /// A report that does not arrive, on a full disk for one, is a failure.
 int after_flushing(int exit_code) {
-  std::cout.flush();
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
-  fmt::print(stderr, "alhazen: cannot write to the standard output: {}\n", std::strerror(errno));
+  const std::string problem = alhazen::flush_output();
+  if (problem.empty()) return exit_code;
+  alhazen::tell("alhazen: {}\n", problem);
   return exit_code == alhazen::exit_done ? alhazen::exit_failed : exit_code;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  alhazen::prepare_streams();
   CLI::App app("A path tracer whose light transport is written once and run by many engines.", "alhazen");
   app.set_version_flag("--version", "alhazen " ALHAZEN_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 failed while rendering, 2 bad usage or bad input, 130 interrupted (the picture so "
-      "far is written).");
+      "Exit codes: 0 done, 1 failed while rendering or writing, 2 bad usage or bad input, 130 interrupted by Ctrl-C, "
+      "SIGTERM, SIGHUP or SIGXCPU (the picture so far is written).");
   int exit_code = alhazen::exit_done;
   alhazen::register_render(app, exit_code);
   alhazen::register_compare(app);
   alhazen::register_devices(app);
   alhazen::register_info(app);
   alhazen::register_study(app, exit_code);
-  try {
-    return after_flushing(parse_and_run(app, argc, argv, exit_code));
-  } catch (const alhazen::InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return alhazen::exit_bad_input;
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "alhazen: out of memory: render fewer pixels or layers at once (--size, --crop), or in float\n");
-    return alhazen::exit_failed;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "alhazen: {}\n", error.what());
-    return alhazen::exit_failed;
-  }
+  return after_flushing(run_guarded(app, argc, argv, exit_code));
 }

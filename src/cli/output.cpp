@@ -1,11 +1,13 @@
 #include "cli/output.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+
+#include "io/files/file_identity.h"
+#include "io/images/atomic_file.h"
 
 namespace alhazen {
 
@@ -17,11 +19,7 @@ void check_output(const std::string& path) {
   const std::string extension = extension_of(path);
   if (extension != "exr" && extension != "png")
     throw InputError({path}, "pictures are written as .exr or .png: give a name that ends in one of them");
-  const fs::path parent = fs::path(path).parent_path();
-  const fs::path folder = parent.empty() ? fs::path(".") : parent;
-  if (!fs::is_directory(folder)) throw InputError({path}, "the folder does not exist: create it first");
-  if (fs::is_directory(path)) throw InputError({path}, "this is a folder: give the name of a file");
-  if (access(folder.c_str(), W_OK) != 0) throw InputError({path}, "the folder cannot be written to");
+  check_target(path);
 }
 
 std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
@@ -81,23 +79,55 @@ double fitting_exposure(const ImageSource& source) {
   return median > 3 ? -std::round(std::log2(median / 0.6)) : 0;
 }
 
-void write_outputs(const OutputOptions& options, const Rendering& rendering) {
-  const ImageSource source = rendering.source();
-  const RenderSettings& settings = rendering.statistics.settings;
-  for (const std::string& path : options.paths) {
-    if (extension_of(path) == "png") {
-      write_png(path, source, options.png);
-      continue;
-    }
-    ExrOptions exr;
-    exr.pixel_type = options.exr_type;
-    exr.metadata = metadata_of(rendering.statistics);
-    exr.x_offset = settings.window.x0;
-    exr.y_offset = settings.window.y0;
-    exr.full_width = settings.width;
-    exr.full_height = settings.height;
-    write_exr(path, source, exr);
+void check_files(const std::vector<std::string>& outputs, const std::string& checkpoint,
+                 const std::vector<NamedFile>& inputs) {
+  std::vector<NamedFile> taken = inputs;
+  for (const std::string& path : outputs) {
+    refuse_same_file({path, "the output"}, taken);
+    taken.push_back({path, "another output"});
   }
+  refuse_same_file({checkpoint, "the checkpoint"}, taken);
+}
+
+namespace {
+
+void write_output(const std::string& path, const OutputOptions& options, const Rendering& rendering) {
+  const ImageSource source = rendering.source();
+  if (extension_of(path) == "png") return write_png(path, source, options.png);
+  const RenderSettings& settings = rendering.statistics.settings;
+  ExrOptions exr;
+  exr.pixel_type = options.exr_type;
+  exr.metadata = metadata_of(rendering.statistics);
+  exr.x_offset = settings.window.x0;
+  exr.y_offset = settings.window.y0;
+  exr.full_width = settings.width;
+  exr.full_height = settings.height;
+  write_exr(path, source, exr);
+}
+
+/// A pipe may wait for its reader for long: the files are written before it.
+bool is_file(const std::string& path) {
+  std::error_code ignored;
+  return fs::status(path, ignored).type() != fs::file_type::fifo;
+}
+
+}  // namespace
+
+OutputReport write_outputs(const OutputOptions& options, const Rendering& rendering) {
+  std::vector<std::string> order = options.paths;
+  std::stable_partition(order.begin(), order.end(), is_file);
+  OutputReport report;
+  for (const std::string& path : order) {
+    try {
+      write_output(path, options, rendering);
+      report.written.push_back(path);
+    } catch (const std::bad_alloc&) {
+      report.failures.push_back("cannot write " + path + ": out of memory");
+    } catch (const std::exception& failure) {
+      report.failures.push_back(failure.what());
+    }
+  }
+  return report;
 }
 
 }  // namespace alhazen

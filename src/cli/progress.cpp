@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/console.h"
 #include "scene/diagnostics.h"
 
 namespace alhazen {
@@ -39,6 +40,7 @@ std::string format_seconds(double seconds) {
 }
 
 void ProgressPrinter::show(const Progress& progress) {
+  const std::lock_guard lock(mutex_);
   switch (style_) {
     case ProgressStyle::bar:
       return show_bar(progress);
@@ -52,15 +54,27 @@ void ProgressPrinter::show(const Progress& progress) {
 }
 
 void ProgressPrinter::finish() {
-  if (bar_open_) fmt::print(stderr, "\n");
+  const std::lock_guard lock(mutex_);
+  end_bar();
+}
+
+void ProgressPrinter::tell_lines(const std::string& lines) {
+  const std::lock_guard lock(mutex_);
+  end_bar();
+  tell_text(lines);
+}
+
+void ProgressPrinter::end_bar() {
+  if (bar_open_) tell_text("\n");
   bar_open_ = false;
 }
 
 void ProgressPrinter::show_bar(const Progress& p) {
   const int filled = std::clamp(static_cast<int>(p.fraction * bar_width), 0, bar_width);
-  fmt::print(stderr, "\r[{}{}] {:3.0f}%  {:.2f} Msamples/s  {} left\x1b[K",
-             std::string(static_cast<size_t>(filled), '#'), std::string(static_cast<size_t>(bar_width - filled), '.'),
-             p.fraction * 100, samples_per_second(p) * 1e-6, format_seconds(seconds_left(p)));
+  tell_progress(fmt::format("\r[{}{}] {:3.0f}%  {:.2f} Msamples/s  {} left\x1b[K",
+                            std::string(static_cast<size_t>(filled), '#'),
+                            std::string(static_cast<size_t>(bar_width - filled), '.'), p.fraction * 100,
+                            samples_per_second(p) * 1e-6, format_seconds(seconds_left(p))));
   bar_open_ = true;
 }
 
@@ -68,8 +82,8 @@ void ProgressPrinter::show_bar(const Progress& p) {
 void ProgressPrinter::show_line(const Progress& p) {
   if (p.seconds < last_shown_ + interval_ && !(p.fraction >= 1 && last_shown_ >= 0)) return;
   if (p.seconds < 1 && p.fraction < 1) return;
-  fmt::print(stderr, "{:3.0f}%  {:.2f} Msamples/s  {} left\n", p.fraction * 100, samples_per_second(p) * 1e-6,
-             format_seconds(seconds_left(p)));
+  tell_progress(fmt::format("{:3.0f}%  {:.2f} Msamples/s  {} left\n", p.fraction * 100, samples_per_second(p) * 1e-6,
+                            format_seconds(seconds_left(p))));
   last_shown_ = p.fraction >= 1 ? 1e300 : p.seconds;
   interval_ = std::min(interval_ * 1.5, 60.0);
 }
@@ -79,7 +93,7 @@ void ProgressPrinter::show_json(const Progress& p) {
   const nlohmann::ordered_json j{{"fraction", p.fraction},           {"seconds", p.seconds},
                                  {"seconds_left", seconds_left(p)},  {"samples_done", p.samples_done},
                                  {"samples_total", p.samples_total}, {"samples_per_second", samples_per_second(p)}};
-  fmt::print(stderr, "{}\n", j.dump());
+  tell_progress(j.dump() + "\n");
   last_shown_ = p.seconds;
 }
 

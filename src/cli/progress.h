@@ -2,6 +2,7 @@
 
 // How a render shows itself while it runs, on stderr: a bar on a terminal, lines elsewhere, JSON for programs.
 
+#include <mutex>
 #include <string>
 
 #include "alhazen/alhazen.h"
@@ -20,12 +21,16 @@ class ProgressPrinter {
   void show(const Progress& progress);
   /// Ends the bar's line.
   void finish();
+  /// Other lines, from any thread, while progress is shown.
+  void tell_lines(const std::string& lines);
 
  private:
   void show_bar(const Progress& progress);
   void show_line(const Progress& progress);
   void show_json(const Progress& progress);
+  void end_bar();
 
+  std::mutex mutex_;
   ProgressStyle style_;
   double last_shown_ = -1;
   double interval_ = 1;

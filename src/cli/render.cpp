@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/console.h"
 #include "cli/interrupt.h"
 #include "cli/listing.h"
 #include "cli/output.h"
@@ -86,10 +87,24 @@ void parse_settings(RenderOptions& o) {
     throw InputError("unknown statistics '" + o.stats + "': it may be text, json");
 }
 
-void print_warnings(const Diagnostics& diagnostics, size_t first) {
-  for (size_t i = first; i < diagnostics.warnings().size(); ++i)
-    fmt::print(stderr, "warning: {}\n", diagnostics.warnings()[i].to_string());
-}
+/// Tells the warnings that were not told yet, once, whenever it is called.
+class WarningPrinter {
+ public:
+  WarningPrinter(const Diagnostics& diagnostics, ProgressPrinter& printer)
+      : diagnostics_(diagnostics), printer_(printer) {}
+
+  void show() {
+    std::string lines;
+    for (; shown_ < diagnostics_.warnings().size(); ++shown_)
+      lines += "warning: " + diagnostics_.warnings()[shown_].to_string() + "\n";
+    if (!lines.empty()) printer_.tell_lines(lines);
+  }
+
+ private:
+  const Diagnostics& diagnostics_;
+  ProgressPrinter& printer_;
+  size_t shown_ = 0;
+};
 
 std::string engine_of(const RenderSettings& r) {
   if (!r.runs_on_device) return fmt::format("{} thread{}", r.threads, r.threads == 1 ? "" : "s");
@@ -99,12 +114,12 @@ std::string engine_of(const RenderSettings& r) {
 
 void print_start(const RenderStatistics& s) {
   const RenderSettings& r = s.settings;
-  fmt::print(stderr, "{}: {} triangles, {} spheres, {} lights; read in {:.2f} s, BVH of {} nodes in {:.2f} s\n",
-             s.scene, s.scene_sizes.triangles, s.scene_sizes.spheres, s.scene_sizes.lights, s.load_seconds,
-             s.scene_sizes.nodes, s.build_seconds);
-  fmt::print(stderr, "{} x {} pixels, {} samples each, {} in {}, depth {}; {}{}{} on {}\n", r.window.width(),
-             r.window.height(), r.samples_per_pixel, to_string(r.integrator), to_string(r.precision),
-             r.max_segments - 1, r.backend, r.strategy.empty() ? "" : " ", r.strategy, engine_of(r));
+  tell("{}: {} triangles, {} spheres, {} lights; read in {:.2f} s, BVH of {} nodes in {:.2f} s\n", s.scene,
+       s.scene_sizes.triangles, s.scene_sizes.spheres, s.scene_sizes.lights, s.load_seconds, s.scene_sizes.nodes,
+       s.build_seconds);
+  tell("{} x {} pixels, {} samples each, {} in {}, depth {}; {}{}{} on {}\n", r.window.width(), r.window.height(),
+       r.samples_per_pixel, to_string(r.integrator), to_string(r.precision), r.max_segments - 1, r.backend,
+       r.strategy.empty() ? "" : " ", r.strategy, engine_of(r));
 }
 
 std::string text_statistics(const RenderStatistics& s) {
@@ -117,18 +132,34 @@ std::string text_statistics(const RenderStatistics& s) {
       static_cast<double>(s.scene_sizes.bytes) * 1e-6);
 }
 
-void print_end(const RenderOptions& options, const RenderStatistics& statistics) {
+void print_end(const RenderOptions& options, const OutputReport& outputs, const RenderStatistics& statistics) {
+  for (const std::string& failure : outputs.failures) tell("alhazen: {}\n", failure);
   if (!options.quiet) {
-    fmt::print(stderr, "{} samples a pixel in {}", statistics.samples_per_pixel,
-               format_seconds(statistics.render_seconds));
-    for (size_t i = 0; i < options.output.paths.size(); ++i)
-      fmt::print(stderr, "{}{}", i == 0 ? "; wrote " : ", ", options.output.paths[i]);
+    std::string line = fmt::format("{} samples a pixel in {}", statistics.samples_per_pixel,
+                                   format_seconds(statistics.render_seconds));
+    for (const std::string& path : outputs.written) line += (&path == &outputs.written[0] ? "; wrote " : ", ") + path;
     if (!options.exposure && options.output.png.exposure < 0)
-      fmt::print(stderr, "; PNG with --exposure {}", options.output.png.exposure);
-    fmt::print(stderr, "\n");
+      line += fmt::format("; PNG with --exposure {}", options.output.png.exposure);
+    tell("{}\n", line);
   }
-  if (options.stats == "json") fmt::print("{}\n", statistics.to_json());
-  if (options.stats == "text") fmt::print("{}", text_statistics(statistics));
+  if (options.stats == "json") print_out("{}\n", statistics.to_json());
+  if (options.stats == "text") print_out("{}", text_statistics(statistics));
+}
+
+/// Writes the pictures and says how it went. A picture without a sample is black, and an older one better than it.
+int finish(RenderOptions& options, const Rendering& rendering, bool fits_exposure) {
+  const bool is_empty = is_interrupted() && !rendering.has_samples();
+  const auto is_png = [](const std::string& path) { return extension_of(path) == "png"; };
+  if (fits_exposure && std::any_of(options.output.paths.begin(), options.output.paths.end(), is_png))
+    options.output.png.exposure = fitting_exposure(rendering.source());
+  const OutputReport outputs = is_empty ? OutputReport{} : write_outputs(options.output, rendering);
+  print_end(options, outputs, rendering.statistics);
+  if (!outputs.failures.empty()) return exit_failed;
+  if (!is_interrupted()) return exit_done;
+  tell("interrupted{}\n", is_empty                        ? " before the first sample: no picture is written"
+                          : rendering.statistics.complete ? ", but the picture is whole"
+                                                          : ": the picture is of the samples so far");
+  return exit_interrupted;
 }
 
 int run(RenderOptions& options) {
@@ -141,6 +172,9 @@ int run(RenderOptions& options) {
   Diagnostics diagnostics;
   const auto start = std::chrono::steady_clock::now();
   const Settings& s = options.settings;
+  // Before the scene is read, which may take long; the rest of the outputs' names are known after it.
+  refuse_same_file({s.checkpoint, "the checkpoint"},
+                   {{options.scene, "the scene"}, {s.environment, "the environment map"}});
   const ReadOptions choice{s.camera, s.variant, s.animation, s.animation_time, aspect_of(s.width, s.height)};
   Scene scene = read_scene(options.scene, choice, diagnostics);
   if (!options.settings.environment.empty()) use_environment(scene, options.settings.environment);
@@ -148,31 +182,26 @@ int run(RenderOptions& options) {
   const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene);
+  check_files(options.output.paths, settings.checkpoint,
+              {{options.scene, "the scene"}, {s.environment, "the environment map"}});
 
   const bool fits_exposure = scene.film.fits_exposure && !options.exposure;
-  size_t warnings_shown = 0;
+  WarningPrinter warnings(diagnostics, printer);
   RenderEvents events;
   events.progress = [&](const Progress& progress) {
     printer.show(progress);
     return !is_interrupted();
   };
   events.started = [&](const RenderStatistics& statistics) {
-    print_warnings(diagnostics, 0);
-    warnings_shown = diagnostics.warnings().size();
+    warnings.show();
     if (options.verbose) print_start(statistics);
     catch_interrupts();
   };
+  events.warned = [&] { warnings.show(); };
   const Rendering rendering = render_scene(std::move(scene), settings, load_seconds, events, diagnostics);
   printer.finish();
-  print_warnings(diagnostics, warnings_shown);
-  const auto is_png = [](const std::string& path) { return extension_of(path) == "png"; };
-  if (fits_exposure && std::any_of(options.output.paths.begin(), options.output.paths.end(), is_png))
-    options.output.png.exposure = fitting_exposure(rendering.source());
-  write_outputs(options.output, rendering);
-  print_end(options, rendering.statistics);
-  if (!is_interrupted()) return exit_done;
-  fmt::print(stderr, "interrupted: the picture is of the samples so far\n");
-  return exit_interrupted;
+  warnings.show();
+  return finish(options, rendering, fits_exposure);
 }
 
 /// A check whose limits are told when they are broken, not in the help.
@@ -321,6 +350,8 @@ void add_running_options(CLI::App& command, RenderOptions& o) {
       ->type_name("FILE[,SECONDS]")
       ->group(group);
   command.add_flag("--resume", o.settings.resume, "Go on from the checkpoint file")->group(group);
+  command.add_flag("--overwrite", o.settings.overwrite, "Replace the file that --checkpoint names, whatever is in it")
+      ->group(group);
 }
 
 }  // namespace

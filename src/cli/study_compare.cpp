@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "cli/console.h"
 #include "cli/subcommands.h"
 #include "study/cell_text.h"
 #include "study/compare.h"
@@ -35,23 +36,23 @@ void print_json(const study::StudyComparison& c) {
                                  {"by_chance", c.by_chance},
                                  {"changes", changes},
                                  {"states", c.states}};
-  fmt::print("{}\n", j.dump());
+  print_out("{}\n", j.dump());
 }
 
 void print_text(const study::StudyComparison& c) {
-  for (const std::string& difference : c.differences) fmt::print("of another {}\n", difference);
+  for (const std::string& difference : c.differences) print_out("of another {}\n", difference);
   for (const study::Change& change : c.changes) {
     const double ratio = change.ratio();
-    fmt::print("{:<10} {:<28} {:<24} {:>9} {}, {} to {} ns", change.table, change.row, change.column,
-               fmt::format("{:.3f}x", ratio > 1 ? ratio : 1 / ratio), ratio > 1 ? "slower" : "faster",
-               study::short_number(change.a), study::short_number(change.b));
+    print_out("{:<10} {:<28} {:<24} {:>9} {}, {} to {} ns", change.table, change.row, change.column,
+              fmt::format("{:.3f}x", ratio > 1 ? ratio : 1 / ratio), ratio > 1 ? "slower" : "faster",
+              study::short_number(change.a), study::short_number(change.b));
     if (change.a_speedup > 0 && change.b_speedup > 0)
-      fmt::print("; speedup {} to {}", study::times_text(change.a_speedup), study::times_text(change.b_speedup));
-    fmt::print("\n");
+      print_out("; speedup {} to {}", study::times_text(change.a_speedup), study::times_text(change.b_speedup));
+    print_out("\n");
   }
-  for (const std::string& state : c.states) fmt::print("{}\n", state);
-  fmt::print("{} of {} cells changed beyond noise; {} would by chance, at most\n", c.changes.size(), c.compared,
-             c.by_chance);
+  for (const std::string& state : c.states) print_out("{}\n", state);
+  print_out("{} of {} cells changed beyond noise; {} would by chance, at most\n", c.changes.size(), c.compared,
+            c.by_chance);
 }
 
 void run(const StudyCompareOptions& o) {

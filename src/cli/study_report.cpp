@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/console.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/subcommands.h"
@@ -60,10 +61,7 @@ class ReportPrinter {
     const std::string left = now.seconds_left >= 0 ? ", about " + format_seconds(now.seconds_left) + " left" : "";
     const std::string line =
         fmt::format("round {} of {}: {} of {} runs{}: {}", now.round, now.rounds, now.done, now.total, left, now.trial);
-    if (is_terminal_)
-      fmt::print(stderr, "\r{:.110}\x1b[K", line);
-    else
-      fmt::print(stderr, "{}\n", line);
+    tell_progress(is_terminal_ ? fmt::format("\r{:.110}\x1b[K", line) : line + "\n");
     is_open_ = is_terminal_;
   }
 
@@ -72,7 +70,7 @@ class ReportPrinter {
   }
 
   void tell(const std::string& line) {
-    fmt::print(stderr, "{}{}\n", is_open_ ? "\n" : "", line);
+    alhazen::tell("{}{}\n", is_open_ ? "\n" : "", line);
     is_open_ = false;
   }
 

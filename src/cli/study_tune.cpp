@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "cli/console.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/subcommands.h"
@@ -35,14 +36,14 @@ std::string engine_options(const Settings& s) {
 
 void print_outcome(const TuneOptions& o, const study::TuneOutcome& outcome) {
   constexpr size_t shown = 8;
-  fmt::print("{:<78} {:>10}\n", "engine", "ns/sample");
+  print_out("{:<78} {:>10}\n", "engine", "ns/sample");
   for (size_t i = 0; i < outcome.candidates.size() && i < shown; ++i) {
     const study::Candidate& c = outcome.candidates[i];
     if (c.problem.empty() && c.rounds > 0)
-      fmt::print("{:<78} {:>10.1f}{}\n", engine_options(c.work.settings), c.cost(), c.is_default ? "  (auto)" : "");
+      print_out("{:<78} {:>10.1f}{}\n", engine_options(c.work.settings), c.cost(), c.is_default ? "  (auto)" : "");
   }
   const study::Candidate& winner = outcome.candidates[outcome.winner];
-  fmt::print("\nalhazen render {} {}\n", o.scene, engine_options(winner.work.settings));
+  print_out("\nalhazen render {} {}\n", o.scene, engine_options(winner.work.settings));
 }
 
 void store(const TuneOptions& o, const study::TuneOutcome& outcome, const std::string& integrator) {
@@ -59,8 +60,8 @@ void store(const TuneOptions& o, const study::TuneOutcome& outcome, const std::s
   entry.engine = winner.work.settings;
   study::store_tuned(study::tuned_path(), entry);
   if (!o.quiet)
-    fmt::print(stderr, "stored in {}: --backend auto uses it for {}\n", study::tuned_path(),
-               o.store_default ? "every scene that has no entry of its own" : "this scene");
+    tell("stored in {}: --backend auto uses it for {}\n", study::tuned_path(),
+         o.store_default ? "every scene that has no entry of its own" : "this scene");
 }
 
 int run(TuneOptions& o) {
@@ -69,22 +70,20 @@ int run(TuneOptions& o) {
   Diagnostics diagnostics;
   const Scene scene = read_scene(o.scene, diagnostics);
   const RenderSettings settings = resolve_settings(o.settings, scene);
-  for (const Diagnostics::Warning& warning : diagnostics.warnings())
-    fmt::print(stderr, "warning: {}\n", warning.to_string());
+  for (const Diagnostics::Warning& warning : diagnostics.warnings()) tell("warning: {}\n", warning.to_string());
   study::TuneEvents events;
   events.go_on = [] { return !is_interrupted(); };
   events.round = [&](int round, size_t candidates, int64_t samples) {
-    if (!o.quiet) fmt::print(stderr, "round {}: {} engines, {} samples a pixel\n", round, candidates, samples);
+    if (!o.quiet) tell("round {}: {} engines, {} samples a pixel\n", round, candidates, samples);
   };
   catch_interrupts();
   const study::TuneOutcome outcome = study::tune(scene, o.settings, o.budget, events);
   if (!o.quiet)
-    fmt::print(stderr, "pictures of {} x {} pixels, {} in all{}\n", outcome.width, outcome.height,
-               format_seconds(outcome.seconds),
-               outcome.is_complete ? "" : "; ended before two engines were left: a larger --budget tells more");
+    tell("pictures of {} x {} pixels, {} in all{}\n", outcome.width, outcome.height, format_seconds(outcome.seconds),
+         outcome.is_complete ? "" : "; ended before two engines were left: a larger --budget tells more");
   print_outcome(o, outcome);
   if (is_interrupted()) {
-    fmt::print(stderr, "interrupted: nothing is stored\n");
+    tell("interrupted: nothing is stored\n");
     return exit_interrupted;
   }
   if (o.store || o.store_default) store(o, outcome, to_string(settings.integrator));

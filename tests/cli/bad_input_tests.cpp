@@ -320,6 +320,64 @@ TEST_F(BadInput, Targets) {
   expect_bad_usage({"-o", "a"}, {".exr or .png"});
   expect_bad_usage({"-o", ""}, {".exr or .png"});
   expect_bad_usage({"-o", "scene.pbrt/a.exr"}, {"scene.pbrt/a.exr"});
+  std::filesystem::create_symlink("loop.exr", folder_.file("loop.exr"));
+  std::filesystem::create_symlink("pong.exr", folder_.file("ping.exr"));
+  std::filesystem::create_symlink("ping.exr", folder_.file("pong.exr"));
+  std::filesystem::create_symlink("no/such/folder/a.exr", folder_.file("lost.exr"));
+  expect_bad_usage({"-o", "loop.exr"}, {"loop.exr: ", "circle"});
+  expect_bad_usage({"-o", "ping.exr"}, {"ping.exr: ", "circle"});
+  expect_bad_usage({"-o", "lost.exr"}, {"lost.exr: ", "does not exist"});
+  expect_bad_usage({"-o", std::string(300, 'a') + ".exr"}, {"shorter name"});
+  expect_bad_usage({"-o", std::string(300, 'a') + "/a.exr"}, {"shorter name"});
+  std::string deep;
+  for (int i = 0; i < 2500; ++i) deep += "./";
+  expect_bad_usage({"-o", deep + "a.exr"}, {"shorter name"});
+  expect_bad_usage({"--checkpoint", "loop.exr"}, {"loop.exr: ", "circle"});
+  expect_bad_usage({"--checkpoint", std::string(300, 'a')}, {"shorter name"});
+}
+
+/// Two names of one file: one of the two would be lost.
+TEST_F(BadInput, TheSameFileTwice) {
+  folder_.write_text("a.exr", "an older picture");
+  std::filesystem::create_symlink("a.exr", folder_.file("link.exr"));
+  std::filesystem::create_symlink("new.exr", folder_.file("dangling.exr"));
+  std::filesystem::create_hard_link(folder_.file("a.exr"), folder_.file("hard.exr"));
+  std::filesystem::create_directory(folder_.file("sub"));
+  std::filesystem::create_directory_symlink(".", folder_.file("here"));
+  for (const auto& [one, other] : std::vector<std::pair<std::string, std::string>>{{"a.exr", "a.exr"},
+                                                                                   {"a.exr", "./a.exr"},
+                                                                                   {"a.exr", folder_.file("a.exr")},
+                                                                                   {"a.exr", "sub/../a.exr"},
+                                                                                   {"a.exr", "link.exr"},
+                                                                                   {"a.exr", "hard.exr"},
+                                                                                   {"new.exr", "./new.exr"},
+                                                                                   {"new.exr", "here/new.exr"},
+                                                                                   {"dangling.exr", "new.exr"}}) {
+    expect_bad_usage({"-o", one, "-o", other}, {other + ": ", "same file"});
+    expect_bad_usage({"-o", one, "--checkpoint", other, "--overwrite"}, {other + ": ", "same file"});
+  }
+  EXPECT_EQ(read_file(folder_.file("a.exr")).size(), std::string("an older picture").size());
+  if (!std::filesystem::exists("/dev/null")) return;
+  std::filesystem::create_symlink("/dev/null", folder_.file("null.exr"));
+  std::filesystem::create_symlink("/dev/null", folder_.file("null.png"));
+  EXPECT_EQ(render({"-o", "null.exr", "-o", "null.png", "--spp", "1"}).exit_code, 0) << "nothing is lost in /dev/null";
+}
+
+TEST_F(BadInput, OverWhatIsRead) {
+  const Bytes scene = read_file(folder_.file("scene.pbrt"));
+  Image sky{4, 2, {"R", "G", "B"}, std::vector(3, std::vector<float>(8, 0.5f))};
+  write_exr(folder_.file("sky.exr"), source_of(sky), {});
+  const Bytes map = read_file(folder_.file("sky.exr"));
+  std::filesystem::create_symlink("scene.pbrt", folder_.file("link"));
+  std::filesystem::create_hard_link(folder_.file("scene.pbrt"), folder_.file("hard.png"));
+  for (const std::string name : {"scene.pbrt", "./scene.pbrt", "link", "hard.png"})
+    expect_bad_usage({"--checkpoint", name, "--overwrite"}, {name + ": ", "same file", "the scene"});
+  expect_bad_usage({"-o", "hard.png"}, {"hard.png: ", "same file", "the scene"});
+  expect_bad_usage({"-o", "sky.exr", "--environment", "sky.exr"}, {"sky.exr: ", "same file", "environment"});
+  expect_bad_usage({"--checkpoint", "sky.exr", "--environment", "./sky.exr", "--overwrite"},
+                   {"sky.exr: ", "same file", "environment"});
+  EXPECT_EQ(read_file(folder_.file("scene.pbrt")), scene);
+  EXPECT_EQ(read_file(folder_.file("sky.exr")), map);
 }
 
 TEST_F(BadInput, ReadOnlyFolder) {
@@ -347,7 +405,9 @@ TEST_F(BadInput, Checkpoints) {
   expect_bad_usage({"--checkpoint", "folder", "--resume"}, {"folder"});
   folder_.write_text("state", "something else");
   expect_bad_usage({"--checkpoint", "state", "--resume"}, {"state: ", "not a checkpoint"});
-  ASSERT_EQ(render({"-o", "a.exr", "--spp", "4", "--checkpoint", "state"}).exit_code, 0);
+  expect_bad_usage({"--overwrite"}, {"--checkpoint"});
+  expect_bad_usage({"--checkpoint", "state", "--resume", "--overwrite"}, {"--resume", "--overwrite"});
+  ASSERT_EQ(render({"-o", "a.exr", "--spp", "4", "--checkpoint", "state", "--overwrite"}).exit_code, 0);
   std::string other = cornell_box(24);
   other.replace(other.find("0.725"), 5, "0.525");
   folder_.write_text("other.pbrt", other);

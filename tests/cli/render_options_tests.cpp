@@ -43,8 +43,8 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--help", "--output", "--outfile", "--aov", "--exr-type", "--exposure", "--tone-map", "--spp", "--max-depth",
       "--maxdepth", "--size", "--crop", "--cropwindow", "--pixelbounds", "--integrator", "--sampler", "--seed",
       "--backend", "--strategy", "--schedule", "--threads", "--nthreads", "--precision", "--progress", "--quiet",
-      "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--device", "--block", "--chunk", "--denoise",
-      "--environment", "--texture-budget", "--coats",
+      "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--overwrite", "--device", "--block",
+      "--chunk", "--denoise", "--environment", "--texture-budget", "--coats",
       // In gltf_tests.cpp:
       "--camera", "--time", "--animation", "--variant", "--list"};
   const CommandResult help = run({"render", "--help"});

@@ -40,6 +40,10 @@ struct Pipe {
     const rlimit limit{options.address_space, options.address_space};
     setrlimit(RLIMIT_AS, &limit);
   }
+  if (options.file_size > 0) {
+    const rlimit limit{options.file_size, options.file_size};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
   dup2(out.write_end, STDOUT_FILENO);
@@ -94,6 +98,10 @@ CommandResult run_command(const std::vector<std::string>& command, const Command
   result.seconds = seconds();
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
+}
+
+CommandResult run_script(const std::string& script, const CommandOptions& options) {
+  return run_command({"/bin/sh", "-c", "ALHAZEN='" ALHAZEN_BINARY "'\n" + script}, options);
 }
 
 CommandResult run_alhazen(std::vector<std::string> arguments, const CommandOptions& options) {

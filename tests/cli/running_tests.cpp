@@ -58,7 +58,7 @@ TEST_F(Running, PlainProgressHasNoControlCharacters) {
 }
 
 TEST_F(Running, InterruptWritesThePictureSoFar) {
-  for (const int signal_number : {SIGINT, SIGTERM}) {
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     CommandOptions options;
     options.signal_when = [&](const std::string& err) { return interrupt_at_progress(err) ? signal_number : 0; };
     const CommandResult result = render(

@@ -25,12 +25,16 @@ struct CommandOptions {
   std::string folder;        ///< to run in; empty: here
   double timeout = 120;      ///< seconds, then it is killed
   size_t address_space = 0;  ///< bytes it may map; 0: any number
+  size_t file_size = 0;      ///< bytes that a file may get; 0: any number
   /// Called with all that stderr holds each time it grows. A number above 0 is sent as a signal, once.
   std::function<int(const std::string& err)> signal_when;
 };
 
 /// `command` is the program and its arguments; nothing of it is seen by a shell.
 CommandResult run_command(const std::vector<std::string>& command, const CommandOptions& options = {});
+
+/// Runs a script of /bin/sh in which $ALHAZEN is the program under test.
+CommandResult run_script(const std::string& script, const CommandOptions& options = {});
 
 /// Runs the program under test with `arguments`.
 CommandResult run_alhazen(std::vector<std::string> arguments, const CommandOptions& options = {});

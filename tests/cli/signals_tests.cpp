@@ -1,0 +1,79 @@
+// Signals beyond the first Ctrl-C, and limits of the system that are told by signals.
+
+#include "cli/fixture.h"
+
+namespace alhazen::testing {
+
+namespace {
+
+class Signals : public Command {
+ protected:
+  /// A script in the folder. $RENDER renders for ever, after which wait_for_samples waits for its first report in err.
+  CommandResult script(const std::string& text) const {
+    CommandOptions options;
+    options.folder = folder_.path();
+    return run_script(
+        "RENDER=\"$ALHAZEN render scene.pbrt --size 16x16 -t 1 --spp 10000000 --progress json\"\n"
+        "wait_for_samples() { until grep -q samples_done err; do sleep 0.05; done; }\n" +
+            text,
+        options);
+  }
+};
+
+/// As nohup does it, and a script that protects what it starts.
+TEST_F(Signals, ThoseThatCameIgnoredStayIgnored) {
+  for (const std::string name : {"HUP", "INT", "TERM", "XCPU"}) {
+    const CommandResult result = script("(trap '' " + name +
+                                        "; exec $RENDER --time-limit 2 -o a.exr) 2>err & p=$!\n"
+                                        "wait_for_samples; kill -" +
+                                        name + " $p; wait $p; echo $?");
+    EXPECT_EQ(result.out, "0\n") << name << result.everything();
+  }
+}
+
+/// A shell without job control starts what is behind an & with SIGINT ignored; who sends it one by kill means it.
+TEST_F(Signals, InterruptByKillReachesWhatRunsInTheBackground) {
+  const CommandResult result =
+      script("$RENDER -o a.exr 2>err & p=$!\nwait_for_samples; kill -INT $p; wait $p; echo $?");
+  EXPECT_EQ(result.out, "130\n") << result.everything();
+  EXPECT_TRUE(exists("a.exr"));
+}
+
+/// A pipe without a reader is given up a second after the first signal; the second comes before that.
+TEST_F(Signals, ASecondOneEndsAtOnce) {
+  for (const auto& [first, second, code] :
+       {std::tuple{"TERM", "TERM", 128 + SIGTERM}, {"INT", "TERM", 128 + SIGTERM}, {"HUP", "INT", 128 + SIGINT}}) {
+    const CommandResult result =
+        script("rm -f p.exr; mkfifo p.exr; $RENDER -o p.exr 2>err & p=$!\nwait_for_samples; kill -" +
+               std::string(first) + " $p; sleep 0.4; kill -" + second + " $p; wait $p; echo $?");
+    EXPECT_EQ(result.out, std::to_string(code) + "\n") << first << second << result.everything();
+  }
+}
+
+/// A shell and the kernel both send it where a terminal closes, and a session's manager after its SIGTERM.
+TEST_F(Signals, HangUpAfterAnotherIsNoSecondOne) {
+  for (const std::string first : {"HUP", "TERM"}) {
+    const CommandResult result = script("rm -f a.exr; $RENDER -o a.exr 2>err & p=$!\nwait_for_samples; kill -" + first +
+                                        " $p; kill -HUP $p; wait $p; echo $?");
+    EXPECT_EQ(result.out, "130\n") << result.everything();
+    EXPECT_TRUE(exists("a.exr"));
+  }
+}
+
+TEST_F(Signals, ALimitOnTheSizeOfFilesIsASentence) {
+  CommandOptions options;
+  options.file_size = 1024;
+  for (const char* name : {"a.exr", "a.png"}) {
+    folder_.write_text(name, "an older picture");
+    const size_t files = folder_.count();
+    const CommandResult result = render({"-o", name, "--size", "64x64", "--spp", "1", "-q"}, options);
+    EXPECT_EQ(result.exit_code, 1) << result.everything();
+    EXPECT_NE(result.err.find("ulimit -f"), std::string::npos) << result.err;
+    EXPECT_EQ(read_file(folder_.file(name)).size(), std::string("an older picture").size());
+    EXPECT_EQ(folder_.count(), files) << "nothing else is left";
+  }
+}
+
+}  // namespace
+
+}  // namespace alhazen::testing
