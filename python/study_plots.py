@@ -8,6 +8,7 @@ The program carries this file within itself and runs it at the end of a report.
 """
 
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -51,9 +52,19 @@ class Study:
         return self.tables.get(table, {"columns": []})["columns"]
 
 
+def write_whole(path, write):
+    """A plot that is interrupted leaves no half of a file, and no other."""
+    temporary = path.with_name(f".{path.name}.tmp")
+    try:
+        write(temporary)
+        os.replace(temporary, os.path.realpath(path))
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
 def save(figure, folder, name):
-    figure.savefig(folder / f"{name}.svg", metadata={"Date": None})
-    figure.savefig(folder / f"{name}.png", dpi=150)
+    write_whole(folder / f"{name}.svg", lambda path: figure.savefig(path, format="svg", metadata={"Date": None}))
+    write_whole(folder / f"{name}.png", lambda path: figure.savefig(path, format="png", dpi=150))
     plt.close(figure)
 
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <set>
 
+#include "io/images/atomic_file.h"
 #include "io/read_scene.h"
 #include "render/checkpoint.h"
 #include "render/renderer.h"
@@ -88,12 +90,15 @@ class Report {
     std::error_code error;
     fs::create_directories(options_.output, error);
     if (error) throw InputError({options_.output}, "the folder cannot be made: " + error.message());
+    check_target(json_path(options_));
     earlier_seconds_ = study_.seconds;
     study_.is_complete = take_pictures() && measure_trials();
     save_seconds();
     if (const std::string warning = disturbance_warning(study_); !warning.empty()) events_.warning(warning);
     events_.stage("writing tables, plots and the page");
-    return {study_.is_complete, write_study(study_, options_.output, events_.warning)};
+    std::vector<std::string> files = write_study(study_, options_.output, events_.warning);
+    if (has_lost_figure_) throw RenderError("the study is written without figures that could not be: see the warnings");
+    return {study_.is_complete, std::move(files)};
   }
 
  private:
@@ -115,7 +120,7 @@ class Report {
       work.settings.samples_per_pixel = options_.scale.picture_samples;
       const std::optional<Outcome> outcome = picture_of(work, scene_);
       if (!outcome) return false;
-      write_png(file("figure2.png"), source_of(*outcome->picture), {});
+      has_lost_figure_ |= !attempt([&] { write_png(file("figure2.png"), source_of(*outcome->picture), {}); });
     }
     if (is_wanted(options_, figure3) && !take_figure3()) return false;
     if (!study_.table("error")) return true;
@@ -147,8 +152,9 @@ class Report {
     w.statistic_mean = outcome->statistics.mean_segments();
     w.naive = threads_of(bounces, picture.width, picture.height, 1, 1);
     w.chunked = threads_of(bounces, picture.width, picture.height, w.chunks_x, w.chunks_y);
-    write_grey_pfm(file("figure3-naive.pfm"), w.naive.width, w.naive.height, w.naive.mean_segments);
-    write_grey_pfm(file("figure3-chunked.pfm"), w.chunked.width, w.chunked.height, w.chunked.mean_segments);
+    for (const auto& [name, threads] : {std::pair{"figure3-naive.pfm", &w.naive}, {"figure3-chunked.pfm", &w.chunked}})
+      has_lost_figure_ |=
+          !attempt([&] { write_grey_pfm(file(name), threads->width, threads->height, threads->mean_segments); });
     return true;
   }
 
@@ -164,9 +170,22 @@ class Report {
   bool measure_trials() {
     MeasureEvents events{events_.go_on, events_.progress, [&] {
                            save_seconds();
-                           write_json(study_, options_.output);
+                           attempt([&] { write_json(study_, options_.output); });
                          }};
     return measure(study_, scene_, reference_ ? &*reference_ : nullptr, events);
+  }
+
+  /// Writes a file while measuring. One that cannot be written is told of, once, and measuring goes on, since that
+  /// takes longest. Returns whether it was written.
+  template <class Write>
+  bool attempt(const Write& write) {
+    try {
+      write();
+      return true;
+    } catch (const RenderError& failure) {
+      if (told_.insert(failure.what()).second) events_.warning(failure.what());
+      return false;
+    }
   }
 
   void save_seconds() {
@@ -181,6 +200,8 @@ class Report {
   Scene scene_;
   std::optional<Image> reference_;
   Study study_;
+  std::set<std::string> told_;  ///< failures of attempt
+  bool has_lost_figure_ = false;
 };
 
 }  // namespace

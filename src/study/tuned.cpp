@@ -148,7 +148,9 @@ void store_tuned(const std::string& path, const TunedEntry& entry) {
   std::error_code error;
   if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, error);
   if (error) throw RenderError(path + ": the folder of the file of tuned engines cannot be made: " + error.message());
-  write_text(path, Json{{"schema", tuned_schema}, {"entries", list}}.dump(1) + "\n");
+  write_text(
+      path,
+      Json{{"schema", tuned_schema}, {"entries", list}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 RenderSettings resolve_with_tuned(const Settings& asked, const Scene& scene, const std::string& scene_path,

@@ -35,18 +35,29 @@ void write_grey_pfm(const std::string& path, int width, int height, const std::v
 }
 
 void write_json(const Study& study, const std::string& folder) {
-  write_text(in_folder(folder, "study.json"), to_json(study).dump(1) + "\n");
+  write_text(in_folder(folder, "study.json"),
+             to_json(study).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 std::vector<std::string> write_study(const Study& study, const std::string& folder,
                                      const std::function<void(const std::string&)>& warning) {
-  write_json(study, folder);
-  write_text(in_folder(folder, "tables.csv"), csv_of(study));
-  write_text(in_folder(folder, "tables.md"), markdown_of(study));
-  std::vector<std::string> files{"study.json", "tables.csv", "tables.md"};
+  std::vector<std::string> files;
+  std::string failures;
+  // A file that cannot be written is no reason to lose the others.
+  const auto attempt = [&](const std::string& name, const auto& write) {
+    try {
+      write(in_folder(folder, name));
+      files.push_back(name);
+    } catch (const RenderError& failure) {
+      failures += (failures.empty() ? "" : "\n") + std::string(failure.what());
+    }
+  };
+  attempt("study.json", [&](const std::string&) { write_json(study, folder); });
+  attempt("tables.csv", [&](const std::string& path) { write_text(path, csv_of(study)); });
+  attempt("tables.md", [&](const std::string& path) { write_text(path, markdown_of(study)); });
   if (const std::string problem = draw_plots(folder); !problem.empty()) warning(problem);
-  write_text(in_folder(folder, "index.html"), html_of(study, folder));
-  files.push_back("index.html");
+  attempt("index.html", [&](const std::string& path) { write_text(path, html_of(study, folder)); });
+  if (!failures.empty()) throw RenderError(failures);
   return files;
 }
 
