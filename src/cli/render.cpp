@@ -193,9 +193,9 @@ int run(RenderOptions& options) {
     return !is_interrupted();
   };
   events.started = [&](const RenderStatistics& statistics) {
+    catch_interrupts();
     warnings.show();
     if (options.verbose) print_start(statistics);
-    catch_interrupts();
   };
   events.warned = [&] { warnings.show(); };
   const Rendering rendering = render_scene(std::move(scene), settings, load_seconds, events, diagnostics);

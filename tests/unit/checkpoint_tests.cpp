@@ -6,8 +6,10 @@
 #include <zlib.h>
 
 #include <cstring>
+#include <memory>
 #include <vector>
 
+#include "render/renderer.h"
 #include "support/temporary_folder.h"
 
 namespace alhazen::testing {
@@ -79,6 +81,15 @@ TYPED_TEST(CheckpointFiles, BringsBackTheFilm) {
     const char* bytes = static_cast<const char*>(data);
     EXPECT_EQ(planes.at(plane++), std::vector<char>(bytes, bytes + size));
   });
+}
+
+/// By which a picture that was stopped before its first sample is known: it is black, and not worth writing.
+TYPED_TEST(CheckpointFiles, AnEmptyFilmIsToldFromOneWithSamples) {
+  Rendering rendering;
+  rendering.film = std::make_unique<Film<TypeParam>>(this->settings_.window, this->settings_.aovs, false);
+  EXPECT_FALSE(rendering.has_samples());
+  std::get<std::unique_ptr<Film<TypeParam>>>(rendering.film)->view().samples[5] = 4;
+  EXPECT_TRUE(rendering.has_samples());
 }
 
 TYPED_TEST(CheckpointFiles, EveryFlippedBitIsFound) {
