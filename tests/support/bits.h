@@ -50,7 +50,7 @@ inline Outcome outcome_of(const Rendering& rendering) {
 inline Outcome render_bits(Scene scene, const Settings& settings, const ProgressFunction& progress = {}) {
   Diagnostics diagnostics;
   const RenderSettings resolved = resolve_settings(settings, scene);
-  return outcome_of(render_scene(std::move(scene), resolved, 0, RenderEvents{progress, {}}, diagnostics));
+  return outcome_of(render_scene(std::move(scene), resolved, 0, RenderEvents{progress, {}, {}}, diagnostics));
 }
 
 inline Scene scene_of(const std::string& text) {
