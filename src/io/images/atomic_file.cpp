@@ -55,7 +55,6 @@ const char* remedy(int error) {
       return "choose a shorter name";
     case ELOOP:
       return "its symbolic links lead in a circle: choose another name";
-    case ENXIO:
     case EPIPE:
       return "nobody reads from this pipe: start its reader first";
     default:
@@ -63,8 +62,8 @@ const char* remedy(int error) {
   }
 }
 
-/// The target does not hang on a link or a name that is not there when this process ends; where the filesystem does
-/// not sync folders, it says so, and does what it does.
+/// The new name lasts through a power cut only once its folder is on the disk. A filesystem that cannot sync folders is
+/// no reason to fail.
 void sync_folder(const std::string& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -105,12 +104,15 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
     return;
   }
   create_temporary();
-  if (!exists) return;
-  // What replaces a file keeps its owner and permissions; a new one has those of the umask. A filesystem that cannot
-  // keep them, or a user who may not give files away, is no reason to fail.
-  if (::fchown(descriptor_, existing.st_uid, existing.st_gid) != 0 ||
-      ::fchmod(descriptor_, existing.st_mode & 0777) != 0)
-    errno = 0;
+  if (exists) keep_owner_and_permissions(existing);
+}
+
+/// A new file has the permissions of the umask instead. A filesystem that cannot keep them, or a user who may not give
+/// files away, is no reason to fail.
+void AtomicFile::keep_owner_and_permissions(const struct stat& existing) {
+  const int owned = ::fchown(descriptor_, existing.st_uid, existing.st_gid);
+  const int permitted = ::fchmod(descriptor_, existing.st_mode & 0777);
+  if (owned != 0 || permitted != 0) errno = 0;
 }
 
 void AtomicFile::create_temporary() {
@@ -207,7 +209,8 @@ void AtomicFile::give_name() {
 void AtomicFile::write_pipe() {
   Clock::time_point since = Clock::now();
   while ((descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK)) < 0) {
-    if ((errno != ENXIO && errno != EINTR) || is_enough(since)) fail(errno);
+    if (errno != ENXIO && errno != EINTR) fail(errno);
+    if (is_enough(since)) fail(EPIPE);
     std::this_thread::sleep_for(pipe_poll_interval);
   }
   for (size_t sent = 0; sent < for_pipe_.size();) {

@@ -9,6 +9,8 @@
 
 #include "scene/diagnostics.h"
 
+struct stat;
+
 namespace alhazen {
 
 /// `cannot write PATH: ` the cause and what to do.
@@ -44,6 +46,7 @@ class AtomicFile {
   void commit();
 
  private:
+  void keep_owner_and_permissions(const struct stat& existing);
   void create_temporary();
   void create_named_temporary();
   void give_name();
