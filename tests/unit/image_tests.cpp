@@ -341,7 +341,7 @@ TEST(AtomicWrite, FailuresSayPathCauseAndRemedy) {
   for (const char* name : {"none/a.png", "none/a.exr"}) {
     const std::string path = folder.file(name);
     EXPECT_EQ(render_error_of(path, grey_image({1})),
-              "cannot write " + path + ": No such file or directory: create the folder first");
+              "cannot write " + path + ": No such file or directory: the folder does not exist: create it first");
   }
   folder.write("file", {1});
   EXPECT_NE(render_error_of(folder.file("file/a.png"), grey_image({1})), "");
