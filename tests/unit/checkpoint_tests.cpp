@@ -101,7 +101,8 @@ TYPED_TEST(CheckpointFiles, EveryFlippedBitIsFound) {
       flipped[at] = static_cast<uint8_t>(flipped[at] ^ (1 << bit));
       const std::string refusal = this->refusal_of(flipped);
       ASSERT_FALSE(refusal.empty()) << "bit " << bit << " of byte " << at;
-      if (at >= 8) ASSERT_NE(refusal.find("damaged"), std::string::npos) << refusal;
+      const bool is_magic = at < 8;
+      ASSERT_TRUE(is_magic || refusal.find("damaged") != std::string::npos) << refusal;
     }
   EXPECT_EQ(this->refusal_of(whole), "");
 }
