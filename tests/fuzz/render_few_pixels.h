@@ -6,7 +6,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <span>
@@ -66,10 +65,9 @@ inline void require_numbers(const Rendering& rendering) {
   }
 }
 
-/// `choice` picks precision and integrator. InputError is what a scene that cannot be rendered must end in.
+/// `choice` picks the precision. InputError is what a scene that cannot be rendered must end in.
 inline void render_few_pixels(Scene&& scene, uint8_t choice, Diagnostics& diagnostics) {
   if (!is_quickly_rendered(scene)) return;
-  constexpr std::array integrators{"path", "path", "iterative", "recursive"};
   omp_set_num_threads(1);
   scene.film.pixel_bounds.reset();
   Settings asked;
@@ -78,7 +76,7 @@ inline void render_few_pixels(Scene&& scene, uint8_t choice, Diagnostics& diagno
   asked.threads = 1;
   asked.samples_per_pixel = 1;
   asked.precision = choice % 2 == 0 ? "float" : "double";
-  asked.integrator = integrators[choice / 2 % integrators.size()];
+  asked.integrator = "path";
   asked.max_depth = std::clamp<int64_t>(scene.max_depth, 0, 8);
   asked.aovs = {"albedo", "normal", "depth", "bounces", "samples", "variance"};
   const RenderSettings settings = resolve_settings(asked, scene);
