@@ -25,8 +25,13 @@ for target in "${targets[@]}"; do
   if [[ -f tests/fuzz/$format.dict ]]; then options+=(-dict="tests/fuzz/$format.dict"); fi
   mkdir -p "build/fuzz/found/$target" build/fuzz/findings
   corpora=("build/fuzz/found/$target")
-  for corpus in "$target" "$format"; do
-    if [[ -d tests/fuzz/corpus/$corpus ]]; then corpora+=("tests/fuzz/corpus/$corpus"); fi
+  also=()
+  if [[ $target == render_image ]]; then also=(exr png hdr); fi
+  for corpus in "$target" "$format" "${also[@]}"; do
+    # The target's own name stands twice where it does not begin with render_.
+    if [[ -d tests/fuzz/corpus/$corpus && ${corpora[-1]} != "tests/fuzz/corpus/$corpus" ]]; then
+      corpora+=("tests/fuzz/corpus/$corpus")
+    fi
   done
   echo "== $target"
   "$programs/fuzz_$target" "${options[@]}" -artifact_prefix="build/fuzz/findings/$target-" "${corpora[@]}" ||
