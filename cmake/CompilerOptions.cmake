@@ -24,7 +24,10 @@ if(NOT ALHAZEN_ARCH STREQUAL "")
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-march=${ALHAZEN_ARCH}>)
 endif()
 if(ALHAZEN_SANITIZE OR ALHAZEN_FUZZ)
-  alhazen_cxx_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # Beyond what `undefined` holds: numbers out of an integer's range, NaN among them, and the standard library's checks
+  # of indices. The libraries behind the interfaces of C have been built without.
+  alhazen_cxx_options(-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS)
   target_link_options(alhazen_options INTERFACE -fsanitize=address,undefined)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # The sanitizers bring false alarms with them (GCC's manual, under -fsanitize), here on objects without members.

@@ -264,6 +264,8 @@ class Flattener {
     light.kind = kind;
     light.primitive = static_cast<uint32_t>(primitive);
     light.radiance = convert<Real>(emission.radiance);
+    if (!is_finite(light.radiance))
+      throw InputError(shape.where, "the radiance of the light is not finite in this precision: make it less");
     light.two_sided = emission.two_sided && material.double_sided ? 1 : 0;
     if (emission.texture != no_index) light.texture = emission_textures_.at(emission.texture);
     out_.lights.push_back(light);
@@ -282,8 +284,8 @@ class Flattener {
       diagnostics_.warn(shape.where, "a sphere is stretched by an instance; it stays round here, of the same volume");
     const double radius = shape.radius * scale;
     const auto [center, motion] = motion_of(p.world_from_object);
-    if (!is_finite(center) || !is_finite(motion) || !std::isfinite(radius))
-      throw InputError(shape.where, "the sphere's position or size is not finite");
+    check_sphere_range(shape, abs(center) + abs(motion), radius);
+    if (is_too_small(shape, radius)) return;
     const bool moves = !is_zero(motion);
     const size_t index = moves ? out_.moving_spheres.size() : out_.spheres.size();
     uint32_t light = no_light;
@@ -297,6 +299,23 @@ class Flattener {
           {convert<Real>(center), static_cast<Real>(radius), convert<Real>(motion), surface, frame});
     else
       out_.spheres.push_back({convert<Real>(center), static_cast<Real>(radius), surface, frame});
+  }
+
+  /// What is finite in the file may be too large for the precision of the render. `farthest` bounds the coordinates of
+  /// the centre.
+  void check_sphere_range(const Shape& shape, const Vec3d& farthest, double radius) const {
+    const Real squared = sqr(static_cast<Real>(radius));
+    if (!is_finite(convert<Real>(farthest + splat(radius))) || !std::isfinite(squared))
+      throw InputError(shape.where,
+                       "the sphere's position or size is not finite in this precision: scale the scene down");
+  }
+
+  /// Whether intersection tests of this precision see nothing of it; they divide by the square of the radius.
+  bool is_too_small(const Shape& shape, double radius) {
+    const Real squared = sqr(static_cast<Real>(radius));
+    if (squared > 0 && std::isfinite(1 / squared)) return false;
+    diagnostics_.warn(shape.where, "a sphere is too small for this precision and is left out: scale the scene up");
+    return true;
   }
 
   /// Centre when the shutter opens, and the way it goes until the shutter closes.

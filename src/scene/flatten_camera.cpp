@@ -85,6 +85,21 @@ CameraKind kind_of(CameraType type) {
   return CameraKind::perspective;
 }
 
+/// Rays of a camera that is not finite would not be either.
+template <class Real>
+void check_camera(const Scene& scene, const CameraRecord<Real>& camera) {
+  bool finite = true;
+  for (const Real value : {camera.x_scale, camera.x_offset, camera.y_scale, camera.y_offset, camera.lens_radius,
+                           camera.focal_distance, camera.inverse_scale})
+    finite = finite && std::isfinite(value);
+  for (const auto& row : camera.world_from_camera)
+    for (const Real value : row) finite = finite && std::isfinite(value);
+  if (!finite)
+    throw InputError({scene.name},
+                     "the camera is not finite in this precision: its transform, its screen window or its lens is too "
+                     "large or too small");
+}
+
 }  // namespace
 
 double filter_value(const Filter& filter, double x, double radius) {
@@ -138,6 +153,7 @@ void flatten_camera(const Scene& scene, int64_t width, int64_t height, SceneArra
                        (static_cast<double>(width) * static_cast<double>(height));
   const double unit = sees_all ? 4 * std::numbers::pi : camera.type == CameraType::orthographic ? axis * axis : 1;
   record.footprint = static_cast<Real>(pixel * unit / 4);
+  check_camera(scene, record);
   view.filter = filter_record(scene.filter, out.filter_cdf);
   view.exposure = static_cast<Real>(scene.film.exposure);
 }

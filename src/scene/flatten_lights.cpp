@@ -91,6 +91,8 @@ void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>&
     record.radiance = convert<Real>(light.radiance);
     record.position = convert<Real>(light.position);
     record.direction = convert<Real>(light.direction);
+    if (!is_finite(record.radiance) || !is_finite(record.position))
+      throw InputError(light.where, "the light is too bright or too far away for this precision");
     switch (light.type) {
       case LightType::constant_infinite:
         background += light.radiance;
@@ -127,6 +129,8 @@ void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>&
   LightRecord<Real> record{};
   record.kind = LightKind::constant_infinite;
   record.radiance = convert<Real>(background);
+  if (!is_finite(record.radiance))
+    throw InputError({scene.name}, "the infinite lights are together too bright for this precision");
   view.background = record.radiance;
   view.background_light = static_cast<uint32_t>(out.lights.size());
   out.lights.push_back(record);

@@ -4,6 +4,8 @@
 
 #if defined(ALHAZEN_WITH_EMBREE)
 
+#include <limits>
+
 #include "backends/embree/intersector.h"
 #include "backends/embree/scene.h"
 #include "support/closed_meshes.h"
@@ -74,6 +76,62 @@ TEST(Embree, IsNotHurtByNothing) {
   Hit<float> hit;
   EXPECT_FALSE(intersector.closest_hit({{}, {0, 0, 1}}, infinity<float>, hit));
   EXPECT_FALSE(intersector.occluded({{}, {0, 0, 1}}, infinity<float>));
+}
+
+TEST(Embree, IsNotAskedAboutRaysOutOfItsRange) {
+  const FlatScene<float> scene = test::mixed_primitives(7, 50).flat<float>();
+  const EmbreeScene embree(scene.view, 1);
+  const EmbreeIntersector intersector(scene.view, &embree.tracer());
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float odd : {nan, infinity<float>, -infinity<float>, 1e19f, -3e38f})
+    for (int place = 0; place < 7; ++place) {
+      Ray<float> ray{{0, 0, -20}, {0, 0, 1}, 0};
+      float* const numbers[] = {&ray.origin.x,    &ray.origin.y,    &ray.origin.z,
+                                &ray.direction.x, &ray.direction.y, &ray.direction.z};
+      float t_max = infinity<float>;
+      if (place < 6)
+        *numbers[place] = odd;
+      else
+        t_max = nan;
+      Hit<float> hit;
+      EXPECT_FALSE(intersector.closest_hit(ray, t_max, hit)) << odd << " in place " << place;
+      EXPECT_FALSE(intersector.occluded(ray, t_max)) << odd << " in place " << place;
+    }
+}
+
+TEST(Embree, RefusesWhatItWouldLeaveOut) {
+  const auto far_triangle = [](double x) {
+    test::PrimitiveScene scene;
+    scene.add_triangle({x, 0, 0}, {x, 1e9, 0}, {x, 0, 1e9});
+    return scene.flat<float>();
+  };
+  const auto far_sphere = [](const Vec3d& center, double radius, const Vec3d& motion) {
+    test::PrimitiveScene scene;
+    scene.add_sphere(center, radius, motion);
+    return scene.flat<float>();
+  };
+  EXPECT_NO_THROW(EmbreeScene(far_triangle(1e17).view, 1));
+  EXPECT_THROW(EmbreeScene(far_triangle(2e18).view, 1), InputError);
+  EXPECT_NO_THROW(EmbreeScene(far_sphere({0, 1e17, 0}, 1, {}).view, 1));
+  EXPECT_THROW(EmbreeScene(far_sphere({0, -2e18, 0}, 1, {}).view, 1), InputError);
+  EXPECT_THROW(EmbreeScene(far_sphere({}, 2e18, {}).view, 1), InputError);
+  EXPECT_THROW(EmbreeScene(far_sphere({}, 1, {2e18, 0, 0}).view, 1), InputError);
+  // Objects of 10^12 units made small: what is far off in the world is out of range in their space.
+  for (const double distance : {1.0, 1e10}) {
+    const Transform small = Transform::scale(Vec3d{1e-12, 1e-12, 1e-12}),
+                    placed = Transform::translate({distance, 0, 0}) * small;
+    Scene scene = test::instanced_scene(5, 3, 10);
+    for (Mesh& mesh : scene.meshes)
+      for (Vec3d& position : mesh.positions) position = position * 1e12;
+    scene.groups[0].shapes[0].world_from_object = {small, small};
+    for (Instance& instance : scene.instances) instance.world_from_group = {placed, placed};
+    const FlatScene<float> flat = test::flat_instanced_scene<float>(std::move(scene), false);
+    ASSERT_EQ(flat.view.instances_count, 3u);
+    if (distance > 1)
+      EXPECT_THROW(EmbreeScene(flat.view, 1), InputError);
+    else
+      EXPECT_NO_THROW(EmbreeScene(flat.view, 1));
+  }
 }
 
 TEST(Embree, ReportsItsMemory) {

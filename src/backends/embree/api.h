@@ -16,6 +16,18 @@ namespace ALHAZEN_CORE {
 /// The geometry's identifier of the first instance; lower ones are kinds of primitives.
 inline constexpr uint32_t embree_instances = 4;
 
+/// Embree takes no coordinate beyond this, its FLT_LARGE, and leaves out geometry that has one.
+inline constexpr float max_embree_coordinate = 1.844e18f;
+
+/// Whether Embree may be asked about a ray: where it was built with assertions, as Debian's is, it ends the process on
+/// one that is NaN or out of its range. EmbreeScene refuses scenes that reach that far out, so what is left are rays
+/// whose arithmetic overflowed; they hit nothing by our own BVHs either.
+inline bool is_traced_by_embree(const Ray<float>& ray, float t_max) {
+  const Vec3<float> size = abs(ray.origin) + abs(ray.direction);
+  return size.x <= max_embree_coordinate && size.y <= max_embree_coordinate && size.z <= max_embree_coordinate &&
+         t_max >= 0;
+}
+
 /// What the intersector is handed besides the scene.
 struct EmbreeTracer {
   RTCScene scene;

@@ -14,6 +14,7 @@ class EmbreeIntersector {
       : view_(&view), scene_(static_cast<const EmbreeTracer*>(tracer)->scene) {}
 
   bool closest_hit(const Ray<float>& ray, float t_max, Hit<float>& hit) const {
+    if (!is_traced_by_embree(ray, t_max)) return false;
     RTCRayHit query;
     query.ray = embree_ray(ray, t_max);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -29,6 +30,7 @@ class EmbreeIntersector {
   }
 
   bool occluded(const Ray<float>& ray, float t_max) const {
+    if (!is_traced_by_embree(ray, t_max)) return false;
     RTCRay query = embree_ray(ray, t_max);
     occluded_1(scene_, ray, query);
     return query.tfar < 0;

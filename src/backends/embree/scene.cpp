@@ -1,11 +1,13 @@
 #include "backends/embree/scene.h"
 
+#include <array>
 #include <stdexcept>
 #include <string>
 
 #include "core/shapes/instance.h"
 #include "core/shapes/sphere.h"
 #include "core/shapes/triangle.h"
+#include "scene/diagnostics.h"
 
 namespace alhazen {
 
@@ -96,6 +98,48 @@ void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
     arguments->valid[0] = 0;
 }
 
+/// Half the sides of a box about the origin that holds some triangles.
+Vec3<float> reach_of_triangles(const SceneView<float>& view, uint32_t first, uint32_t count) {
+  Vec3<float> reach{};
+  for (uint32_t i = first; i < first + count; ++i)
+    for (const uint32_t vertex : view.triangles[i].vertex) reach = max(reach, abs(view.positions[vertex]));
+  return reach;
+}
+
+/// The same of all that rays start from: the camera, and what stands in the world itself.
+Vec3<float> reach_of_world(const SceneView<float>& view, uint32_t triangles) {
+  const auto& camera = view.camera.world_from_camera;
+  Vec3<float> reach =
+      max(reach_of_triangles(view, 0, triangles), abs(Vec3<float>{camera[0][3], camera[1][3], camera[2][3]}));
+  for (uint32_t i = 0; i < view.spheres_count; ++i)
+    reach = max(reach, abs(view.spheres[i].center) + splat(view.spheres[i].radius));
+  for (uint32_t i = 0; i < view.moving_spheres_count; ++i) {
+    const MovingSphereRecord<float>& s = view.moving_spheres[i];
+    reach = max(reach, abs(s.center) + abs(s.motion) + splat(s.radius));
+  }
+  return reach;
+}
+
+/// Whether all of the scene is within Embree's range, in the world and in the space of each object, with room for what
+/// rounding adds.
+bool is_in_range(const SceneView<float>& view, uint32_t triangles_in_world) {
+  const std::array<float, 2> ends{0.0f, 1.0f};
+  Vec3<float> world = reach_of_world(view, triangles_in_world), inside{};
+  std::vector<Vec3<float>> objects;
+  for (uint32_t i = 0; i < view.objects_count; ++i) {
+    objects.push_back(reach_of_triangles(view, view.objects[i].first_triangle, view.objects[i].triangle_count));
+    inside = max(inside, objects.back());
+  }
+  for (uint32_t i = 0; i < view.instances_count; ++i)
+    for (const float time : ends)
+      world = max(world, transformed_magnitude(instance_at(view, i, time).world_from_object,
+                                               objects[view.instances[i].object]));
+  for (uint32_t i = 0; i < view.instances_count; ++i)
+    for (const float time : ends)
+      inside = max(inside, transformed_magnitude(instance_at(view, i, time).object_from_world, world));
+  return max_component(max(world, inside)) <= max_embree_coordinate / 2;
+}
+
 bool count_bytes(void* bytes, ssize_t change, bool) {
   // Threads of the builder call this side by side.
   __atomic_fetch_add(static_cast<int64_t*>(bytes), static_cast<int64_t>(change), __ATOMIC_RELAXED);
@@ -105,11 +149,15 @@ bool count_bytes(void* bytes, ssize_t change, bool) {
 }  // namespace
 
 EmbreeScene::EmbreeScene(const SceneView<float>& view, int threads) : view_(view) {
+  const uint32_t in_world = view.objects_count > 0 ? view.objects[0].first_triangle : view.triangles_count;
+  if (!is_in_range(view, in_world))
+    throw InputError(
+        "the scene has points farther than 9e17 from the origin of the world or of an object in it, which Embree does "
+        "not take: use another backend, such as --backend openmp");
   device_ = rtcNewDevice(threads > 0 ? ("threads=" + std::to_string(threads)).c_str() : nullptr);
   check();
   rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
   tracer_.scene = new_scene();
-  const uint32_t in_world = view.objects_count > 0 ? view.objects[0].first_triangle : view.triangles_count;
   if (in_world > 0) add_triangles(tracer_.scene, 0, in_world);
   if (view.instances_count > 0) add_instances();
   constexpr PrimitiveKind still = PrimitiveKind::sphere, moving = PrimitiveKind::moving_sphere;

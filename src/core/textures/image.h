@@ -18,10 +18,12 @@ ALHAZEN_HD inline int wrapped_texel(int i, int size, uint32_t wrap) {
     case WrapMode::repeat:
       i %= size;
       return i < 0 ? i + size : i;
-    case WrapMode::mirror:
-      i %= 2 * size;
-      i += i < 0 ? 2 * size : 0;
-      return i < size ? i : 2 * size - 1 - i;
+    case WrapMode::mirror: {
+      const int64_t period = 2 * int64_t{size};  // a side may have 2^30 texels
+      int64_t within = i % period;
+      within += within < 0 ? period : 0;
+      return static_cast<int>(within < size ? within : period - 1 - within);
+    }
   }
   return -1;
 }

@@ -23,10 +23,11 @@ ALHAZEN_HD Real noise_gradient(const uint8_t* permutation, int x, int y, int z, 
 template <class Real>
 ALHAZEN_HD Real perlin_noise(const uint8_t* permutation, const Vec3<Real>& p) {
   const Real fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
+  const Vec3<Real> d{p.x - fx, p.y - fy, p.z - fz};
+  if (!(d.x + d.y + d.z <= 3)) return 0;  // of a point that is infinite or NaN
   // Far out the lattice repeats every 256 cells anyway, so wrap before the conversion can overflow.
   const auto cell = [](Real f) { return static_cast<int>(f - Real(256) * std::floor(f * Real(1.0 / 256))); };
   const int x = cell(fx), y = cell(fy), z = cell(fz);
-  const Vec3<Real> d{p.x - fx, p.y - fy, p.z - fz};
   const auto corner = [&](int i, int j, int k) {
     return noise_gradient(permutation, x + i, y + j, z + k,
                           d - Vec3<Real>{static_cast<Real>(i), static_cast<Real>(j), static_cast<Real>(k)});

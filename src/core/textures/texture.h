@@ -29,7 +29,8 @@ template <class Real>
 ALHAZEN_HD Vec3<Real> marble(const uint8_t* permutation, const TextureRecord<Real>& node, Vec3<Real> p) {
   p *= node.parameters.y;
   const Real noise = octave_noise(permutation, p, node.parameters.x, node.octaves, false);
-  const Real t = Real(0.5) + Real(0.5) * sine_cosine(p.y + node.parameters.z * noise).sine;
+  const Real wave = sine_cosine(p.y + node.parameters.z * noise).sine;
+  const Real t = wave > -2 ? Real(0.5) + Real(0.5) * wave : Real(0.5);  // NaN where the point is infinite
   const auto colour = [](int i) -> Vec3<Real> {
     switch (i) {
       case 3:

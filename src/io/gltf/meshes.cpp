@@ -191,8 +191,9 @@ class PrimitiveReader {
       const std::string number = std::to_string(set);
       Influences influences;
       if (const Attribute joints = draco_attribute("JOINTS_" + number)) {
+        // Compressed data may hold any number; those beyond the joints of the skin are refused below.
         for (const float joint : joints->data)
-          influences.joints.push_back(static_cast<uint32_t>(std::max(joint, 0.0f)));
+          influences.joints.push_back(joint > 0 ? static_cast<uint32_t>(std::min(joint, 0x1p31f)) : 0);
       } else if (const auto index = document_.index(*attributes_, ("JOINTS_" + number).c_str(), "accessors")) {
         influences.joints = accessors_.integers(*index, "VEC4");
       } else {

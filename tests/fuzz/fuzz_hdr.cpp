@@ -1,0 +1,13 @@
+// Any bytes as a Radiance HDR file: as many texels as the image declares, or an InputError.
+
+#include "fuzz/sound_texels.h"
+#include "io/images/decoders.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace alhazen;
+  try {
+    fuzzing::require_sound(decode_hdr("fuzz.hdr", {data, size}));
+  } catch (const InputError&) {
+  }
+  return 0;
+}

@@ -1,0 +1,20 @@
+// Any bytes as a scene text, read, flattened and rendered at a few pixels; what the text cannot say must be refused.
+
+#include <string>
+
+#include "fuzz/render_few_pixels.h"
+#include "io/pbrt/pbrt.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace alhazen;
+  std::string text(reinterpret_cast<const char*>(data), size);
+  // Without slashes, and in a folder that does not exist, no name can lead to a file.
+  std::replace(text.begin(), text.end(), '/', '_');
+  Diagnostics diagnostics;
+  try {
+    fuzzing::render_few_pixels(parse_pbrt(text, "fuzz.pbrt", "/no-such-folder", diagnostics),
+                               fuzzing::last_of({data, size}), diagnostics);
+  } catch (const InputError&) {
+  }
+  return 0;
+}

@@ -1,0 +1,15 @@
+// Any bytes as a WebP file, for its colours and for its alpha: as many texels as the image declares, or an InputError.
+
+#include "fuzz/sound_texels.h"
+#include "io/images/decoders.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace alhazen;
+  const std::span<const uint8_t> bytes(data, size);
+  try {
+    fuzzing::require_sound(decode_webp("fuzz.webp", bytes));
+    if (const auto alpha = decode_webp_alpha("fuzz.webp", bytes)) fuzzing::require_sound(*alpha);
+  } catch (const InputError&) {
+  }
+  return 0;
+}
