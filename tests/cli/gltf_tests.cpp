@@ -80,24 +80,24 @@ TEST_F(Gltf, DarkensThePngOfLightsThatAreMuchTooBright) {
   std::string text = scene;
   text.replace(text.find("\"intensity\": 3"), 14, "\"intensity\": 3e4");
   folder_.write_text("sun.gltf", text);
-  const auto red = [&](const std::string& file, const std::vector<std::string>& further) {
+  const auto green = [&](const std::string& file, const std::vector<std::string>& further) {
     std::vector<std::string> all{"render", file, "--size", "16x16", "--spp", "4", "-o", "out.png"};
     all.insert(all.end(), further.begin(), further.end());
     const CommandResult result = run(all);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     const Image picture = image("out.png");
     float most = 0;
-    for (const float value : picture.planes.at(static_cast<size_t>(picture.channel("R")))) most = std::max(most, value);
+    for (const float value : picture.planes.at(static_cast<size_t>(picture.channel("G")))) most = std::max(most, value);
     return std::pair{most, result.err.find("PNG with --exposure -") != std::string::npos};
   };
-  const auto [fitted, is_said] = red("sun.gltf", {});
+  const auto [fitted, is_said] = green("sun.gltf", {});
   EXPECT_LT(fitted, 0.99f);
   EXPECT_GT(fitted, 0.3f);
   EXPECT_TRUE(is_said);
-  const auto [asked, is_said_again] = red("sun.gltf", {"--exposure", "0"});
+  const auto [asked, is_said_again] = green("sun.gltf", {"--exposure", "0"});
   EXPECT_EQ(asked, 1);
   EXPECT_FALSE(is_said_again);
-  EXPECT_FALSE(red("scene.gltf", {}).second);
+  EXPECT_FALSE(green("scene.gltf", {}).second);
 }
 
 TEST_F(Gltf, ListsWhatMayBeChosen) {
@@ -131,7 +131,7 @@ TEST_F(Gltf, TellsWhereAFileIsBad) {
   folder_.write_text("bad.gltf", text);
   const CommandResult result = run({"render", "bad.gltf"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("bad.gltf:19:22: index out of range: \"meshes\" has 1 items"), std::string::npos)
+  EXPECT_NE(result.err.find("bad.gltf:20:22: index out of range: \"meshes\" has 1 items"), std::string::npos)
       << result.err;
   EXPECT_EQ(lines_of(result.err).size(), 1u) << result.err;
 }
