@@ -36,7 +36,7 @@ struct Settings {
   std::string environment;
   std::string coats;      ///< pbrt: lossless, or pbrt: they lose as much light as in pbrt-v4; empty: lossless
   std::string camera;     ///< glTF: a name, or a number from 0; empty: the first
-  std::string variant;    ///< glTF: a name or a number of KHR_materials_variants; empty: the first
+  std::string variant;    ///< glTF: a name or a number of KHR_materials_variants; empty: none of them
   std::string animation;  ///< glTF: a name or a number; empty: the first, where `animation_time` is given
   std::optional<double> animation_time;  ///< glTF: seconds; absent: nothing is animated
   int64_t samples_per_pixel = 0;

@@ -85,7 +85,7 @@ void run_compare(const CompareOptions& options) {
 CLI::App* register_compare(CLI::App& app) {
   CLI::App* command = app.add_subcommand("compare", "How far two pictures are apart");
   const auto options = std::make_shared<CompareOptions>();
-  command->add_option("A", options->a, "the picture in question: EXR, PNG, JPEG, TGA, BMP, HDR or PFM")
+  command->add_option("A", options->a, "the picture in question: EXR, PNG, JPEG, TGA, BMP, QOI, HDR, PFM or WebP")
       ->required()
       ->type_name("");
   command->add_option("B", options->b, "the reference, of the same size")->required()->type_name("");

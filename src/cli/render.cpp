@@ -253,7 +253,9 @@ void add_picture_options(CLI::App& command, RenderOptions& o) {
   command.add_option("--animation", o.settings.animation, "glTF: the animation of this name or number, for --time")
       ->type_name("NAME")
       ->group(group);
-  command.add_option("--variant", o.settings.variant, "glTF: the materials of this variant, by name or number")
+  command
+      .add_option("--variant", o.settings.variant,
+                  "glTF: the materials of this variant, by name or number; without it each mesh's own")
       ->type_name("NAME")
       ->group(group);
   command.add_flag("--list", o.list, "Print cameras, variants, animations and lights of the file, and render nothing")

@@ -12,7 +12,7 @@ namespace alhazen {
 /// Empty ones are left to the file. Names may be numbers too, which count from 0 in the order of SceneListing.
 struct ReadOptions {
   std::string camera;
-  std::string variant;         ///< of KHR_materials_variants; empty: the first
+  std::string variant;         ///< of KHR_materials_variants; empty: materials as without the extension
   std::string animation;       ///< empty: the first; `time` says whether any
   std::optional<double> time;  ///< seconds; absent: nothing is animated
   /// Width over height of the picture that is asked for, which counts where the file has no camera; 0: nothing is

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "core/shapes/interaction.h"
 #include "scene/flatten_camera.h"
@@ -65,23 +66,36 @@ class Flattener {
                                           " pixels cannot be rendered: give sides between 1 and 100000");
   }
 
-  /// Meshes that move become groups with an instance each.
+  /// Meshes that move become groups of their own: with one instance where they stand in the world, and with one for
+  /// each instance of the object that they are part of.
   void group_moving_meshes() {
-    std::vector<Shape> still;
-    for (Shape& shape : scene_.groups.at(0).shapes) {
-      if (!shape.world_from_object.is_moving() || !lies_in_object(shape)) {
-        still.push_back(std::move(shape));
-        continue;
-      }
-      Instance instance;
-      instance.group = static_cast<uint32_t>(scene_.groups.size());
-      instance.world_from_group = shape.world_from_object;
-      instance.where = shape.where;
-      shape.world_from_object = {};
-      scene_.instances.push_back(instance);
-      scene_.groups.push_back({{}, {std::move(shape)}});
+    const size_t group_count = scene_.groups.size();
+    std::vector<std::vector<Instance>> instances(group_count);
+    instances.at(0).emplace_back();  // the world itself
+    for (const Instance& instance : scene_.instances)
+      if (instance.group < group_count) instances[instance.group].push_back(instance);
+    for (size_t g = 0; g < group_count; ++g) {
+      std::vector<Shape> still;
+      for (Shape& shape : std::exchange(scene_.groups[g].shapes, {}))
+        if (shape.world_from_object.is_moving() && lies_in_object(shape))
+          move_by_instances(std::move(shape), instances[g]);
+        else
+          still.push_back(std::move(shape));
+      scene_.groups[g].shapes = std::move(still);
     }
-    scene_.groups[0].shapes = std::move(still);
+  }
+
+  /// Where the instance moves too, start and end are right, and every point goes along a line between them.
+  void move_by_instances(Shape shape, const std::vector<Instance>& of_object) {
+    const MovingTransform inner = std::exchange(shape.world_from_object, {});
+    for (Instance instance : of_object) {
+      const MovingTransform& outer = instance.world_from_group;
+      if (instance.group == no_index) instance.where = shape.where;
+      instance.world_from_group = {outer.start * inner.start, outer.end * inner.end};
+      instance.group = static_cast<uint32_t>(scene_.groups.size());
+      scene_.instances.push_back(std::move(instance));
+    }
+    scene_.groups.push_back({{}, {std::move(shape)}});
   }
 
   /// Which groups become objects: those that move, and those that stand in several places, unless all their copies are
@@ -352,9 +366,7 @@ class Flattener {
     const Shape& shape = *p.shape;
     check_mesh(shape, mesh);
     if (p.world_from_object.is_moving())
-      diagnostics_.warn(
-          shape.where,
-          "a mesh moves that shines or is part of an object; it stands still here, where it is at the start");
+      diagnostics_.warn(shape.where, "a mesh moves that shines; it stands still here, where it is at the start");
     const Transform& transform = p.world_from_object.start;
     const uint32_t base = static_cast<uint32_t>(out_.positions.size());
     const auto offset_to = [&](size_t count) { return static_cast<uint32_t>(count) - base; };

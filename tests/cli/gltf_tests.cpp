@@ -8,7 +8,7 @@ namespace alhazen::testing {
 
 namespace {
 
-/// A triangle that moves to the right, before two cameras, in two variants of its material, under a light.
+/// A triangle that moves to the right, before two cameras, green but for its two variants, under a light.
 const char* const scene = R"({
   "asset": {"version": "2.0"},
   "extensionsUsed": ["KHR_materials_variants", "KHR_lights_punctual"],
@@ -23,8 +23,9 @@ const char* const scene = R"({
                 {"bufferView": 1, "componentType": 5126, "count": 2, "type": "SCALAR"},
                 {"bufferView": 2, "componentType": 5126, "count": 2, "type": "VEC3"}],
   "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1], "metallicFactor": 0}},
-                {"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 1, 1], "metallicFactor": 0}}],
-  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0, "extensions": {"KHR_materials_variants":
+                {"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 1, 1], "metallicFactor": 0}},
+                {"pbrMetallicRoughness": {"baseColorFactor": [0, 1, 0, 1], "metallicFactor": 0}}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 2, "extensions": {"KHR_materials_variants":
     {"mappings": [{"material": 0, "variants": [0]}, {"material": 1, "variants": [1]}]}}}]}],
   "cameras": [{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1}}],
   "nodes": [{"mesh": 0}, {"name": "near", "camera": 0, "translation": [0, 0, 4]},
@@ -38,8 +39,8 @@ class Gltf : public Command {
  protected:
   Gltf() { folder_.write_text("scene.gltf", scene); }
 
-  /// The sums of red and blue of a small picture.
-  std::array<double, 2> colours(const std::vector<std::string>& arguments) {
+  /// The sums of red, green and blue of a small picture.
+  std::array<double, 3> colours(const std::vector<std::string>& arguments) {
     std::vector<std::string> all{"render", "scene.gltf", "--size", "16x16", "--spp", "4", "-q", "-o", "out.exr"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     const CommandResult result = run(all);
@@ -51,47 +52,52 @@ class Gltf : public Command {
         total += static_cast<double>(value);
       return total;
     };
-    return {sum("R"), sum("B")};
+    return {sum("R"), sum("G"), sum("B")};
   }
 };
 
-TEST_F(Gltf, RendersTheFirstVariantByTheFirstCamera) {
-  const auto [red, blue] = colours({});
-  EXPECT_GT(red, 10);
-  EXPECT_LT(blue, red / 4);
+TEST_F(Gltf, RendersThePrimitivesOwnMaterialByTheFirstCamera) {
+  const auto [red, green, blue] = colours({});
+  EXPECT_GT(green, 10);
+  EXPECT_LT(red, green / 4);
+  EXPECT_LT(blue, green / 4);
 }
 
 TEST_F(Gltf, RendersAnotherVariantCameraAndTime) {
-  const auto [red, blue] = colours({"--variant", "blue"});
-  EXPECT_GT(blue, 10);
-  EXPECT_LT(red, blue / 4);
-  EXPECT_LT(colours({"--camera", "far"})[0], 0.1 * colours({"--camera", "0"})[0]);
-  EXPECT_EQ(colours({"--time", "1"})[0], 0);
-  EXPECT_GT(colours({"--time", "0", "--animation", "leave"})[0], 10);
+  for (const char* const name : {"blue", "1"}) {
+    const auto [red, green, blue] = colours({"--variant", name});
+    EXPECT_GT(blue, 10);
+    EXPECT_LT(red, blue / 4);
+    EXPECT_LT(green, blue / 4);
+  }
+  EXPECT_GT(colours({"--variant", "red"})[0], 10);
+  EXPECT_LT(colours({"--camera", "far"})[1], 0.1 * colours({"--camera", "0"})[1]);
+  EXPECT_EQ(colours({"--time", "1"})[1], 0);
+  EXPECT_GT(colours({"--time", "0", "--animation", "leave"})[1], 10);
 }
 
 TEST_F(Gltf, DarkensThePngOfLightsThatAreMuchTooBright) {
   std::string text = scene;
   text.replace(text.find("\"intensity\": 3"), 14, "\"intensity\": 3e4");
   folder_.write_text("sun.gltf", text);
-  const auto red = [&](const std::string& file, const std::vector<std::string>& further) {
+  const auto green = [&](const std::string& file, const std::vector<std::string>& further) {
     std::vector<std::string> all{"render", file, "--size", "16x16", "--spp", "4", "-o", "out.png"};
     all.insert(all.end(), further.begin(), further.end());
     const CommandResult result = run(all);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     const Image picture = image("out.png");
     float most = 0;
-    for (const float value : picture.planes.at(static_cast<size_t>(picture.channel("R")))) most = std::max(most, value);
+    for (const float value : picture.planes.at(static_cast<size_t>(picture.channel("G")))) most = std::max(most, value);
     return std::pair{most, result.err.find("PNG with --exposure -") != std::string::npos};
   };
-  const auto [fitted, is_said] = red("sun.gltf", {});
+  const auto [fitted, is_said] = green("sun.gltf", {});
   EXPECT_LT(fitted, 0.99f);
   EXPECT_GT(fitted, 0.3f);
   EXPECT_TRUE(is_said);
-  const auto [asked, is_said_again] = red("sun.gltf", {"--exposure", "0"});
+  const auto [asked, is_said_again] = green("sun.gltf", {"--exposure", "0"});
   EXPECT_EQ(asked, 1);
   EXPECT_FALSE(is_said_again);
-  EXPECT_FALSE(red("scene.gltf", {}).second);
+  EXPECT_FALSE(green("scene.gltf", {}).second);
 }
 
 TEST_F(Gltf, ListsWhatMayBeChosen) {
@@ -125,7 +131,7 @@ TEST_F(Gltf, TellsWhereAFileIsBad) {
   folder_.write_text("bad.gltf", text);
   const CommandResult result = run({"render", "bad.gltf"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("bad.gltf:19:22: index out of range: \"meshes\" has 1 items"), std::string::npos)
+  EXPECT_NE(result.err.find("bad.gltf:20:22: index out of range: \"meshes\" has 1 items"), std::string::npos)
       << result.err;
   EXPECT_EQ(lines_of(result.err).size(), 1u) << result.err;
 }

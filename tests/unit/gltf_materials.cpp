@@ -226,6 +226,8 @@ TEST(GltfMaterials, ChooseVariants) {
                                                                    {{"material", 2}, {"variants", {1}}}};
   file.add_node({{"mesh", file.add_mesh(primitive)}});
   ReadOptions options;
+  EXPECT_EQ(file.parse(options).material().name, "plain");
+  options.variant = "Red";
   EXPECT_EQ(file.parse(options).material().name, "red");
   options.variant = "Blue";
   EXPECT_EQ(file.parse(options).material().name, "blue");
@@ -234,6 +236,21 @@ TEST(GltfMaterials, ChooseVariants) {
   options.variant = "Green";
   EXPECT_NE(file.error(options).find("there is no variant 'Green'; it may be one of 0 'Red', 1 'Blue'"),
             std::string::npos);
+}
+
+TEST(GltfMaterials, VariantsLeaveWhatTheyDoNotName) {
+  GltfFile file;
+  file.root["materials"] = {{{"name", "plain"}}, {{"name", "red"}}};
+  file.root["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "Red"}}, {{"name", "Blue"}}};
+  json primitive = file.triangle();
+  primitive["extensions"]["KHR_materials_variants"]["mappings"] = {{{"material", 1}, {"variants", {0}}}};
+  file.add_node({{"mesh", file.add_mesh(primitive)}});
+  ReadOptions options;
+  EXPECT_EQ(file.parse(options).material().name, "") << "the default material";
+  options.variant = "Blue";
+  EXPECT_EQ(file.parse(options).material().name, "") << "no mapping of this variant";
+  options.variant = "0";
+  EXPECT_EQ(file.parse(options).material().name, "red");
 }
 
 TEST(GltfMaterials, PreferThePictureThatCanBeRead) {

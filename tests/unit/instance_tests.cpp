@@ -104,6 +104,47 @@ template <class Real>
 class Instances : public ::testing::Test {};
 TYPED_TEST_SUITE(Instances, Reals);
 
+/// A mesh that moves within an object is an instance by itself wherever the object stands.
+TYPED_TEST(Instances, OfMeshesThatMoveWithinAnObject) {
+  using Real = TypeParam;
+  Scene described = instanced_scene(21, 6, reach, true);
+  Random random(22);
+  Shape& moving = described.groups[1].shapes[1];
+  moving.world_from_object.end = Transform::translate({0.5, 1, -0.5}) * moving.world_from_object.start;
+  // The same by hand: the still mesh in the object, the moving one in a group of its own.
+  Scene expected = described;
+  const Shape taken = expected.groups[1].shapes[1];
+  expected.groups[1].shapes.pop_back();
+  ShapeGroup alone;
+  alone.shapes.push_back(taken);
+  alone.shapes[0].world_from_object = {};
+  expected.groups.push_back(alone);
+  for (const Instance& instance : described.instances) {
+    Instance copy = instance;
+    copy.group = 2;
+    copy.world_from_group = {instance.world_from_group.start * taken.world_from_object.start,
+                             instance.world_from_group.end * taken.world_from_object.end};
+    expected.instances.push_back(copy);
+  }
+  const FlatScene<Real> flat = flat_instanced_scene<Real>(described, false);
+  const FlatScene<Real> by_hand = flat_instanced_scene<Real>(expected, false);
+  ASSERT_EQ(flat.view.instances_count, 12u);
+  EXPECT_EQ(flat.view.instance_motions_count, 2u + 6u);
+  size_t met = 0;
+  for (size_t i = 0; i < effort(5'000); ++i) {
+    Ray<Real> ray = random_ray<Real>(random);
+    ray.time = random.uniform<Real>();
+    Hit<Real> a, b;
+    const bool found = LinearIntersector<Real>(by_hand.view).closest_hit(ray, infinity<Real>, b);
+    ASSERT_EQ(BvhIntersector<Real>(flat.view).closest_hit(ray, infinity<Real>, a), found);
+    if (!found) continue;
+    ASSERT_EQ(a.t, b.t);
+    ASSERT_EQ(a.instance, b.instance);
+    met += a.instance != no_instance && a.instance >= 6;
+  }
+  EXPECT_GT(met, effort(5'000) / 100);
+}
+
 TYPED_TEST(Instances, LookLikeCopies) {
   using Real = TypeParam;
   const Scene described = instanced_scene(5, 40, reach);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/images/image.h"
+#include "io/images/scalar_texture.h"
 #include "picture_files.h"
 
 namespace alhazen {
@@ -152,6 +153,33 @@ TEST(Texture, HdrFlatAndRunLengths) {
   EXPECT_EQ(texels.floats[22], 1.0f);
 }
 
+/// The picture of two rows of three texels, 1 2 3 above 4 5 6, in each of the eight orders that a file may have it in.
+TEST(Texture, HdrOfEveryOrientation) {
+  const std::pair<const char*, std::vector<int>> orders[] = {
+      {"-Y 2 +X 3", {1, 2, 3, 4, 5, 6}}, {"-Y 2 -X 3", {3, 2, 1, 6, 5, 4}}, {"+Y 2 +X 3", {4, 5, 6, 1, 2, 3}},
+      {"+Y 2 -X 3", {6, 5, 4, 3, 2, 1}}, {"+X 3 -Y 2", {1, 4, 2, 5, 3, 6}}, {"-X 3 -Y 2", {3, 6, 2, 5, 1, 4}},
+      {"+X 3 +Y 2", {4, 1, 5, 2, 6, 3}}, {"-X 3 +Y 2", {6, 3, 5, 2, 4, 1}}};
+  for (const auto& [size, values] : orders) {
+    Bytes texels;
+    for (const int value : values) texels = texels + Bytes{static_cast<uint8_t>(value), 0, 0, 136};
+    const ImageTexels image =
+        read("a.hdr", text("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + std::string(size) + "\n") + texels);
+    EXPECT_EQ(image.width, 3) << size;
+    EXPECT_EQ(image.height, 2) << size;
+    for (size_t i = 0; i < 6; ++i) EXPECT_EQ(image.floats.at(3 * i), static_cast<float>(i + 1)) << size;
+  }
+  // Run lengths along columns: 8 texels of 1 in the left column, of 2 in the right one.
+  const Bytes left{2, 2, 0, 8, 136, 128, 136, 0, 136, 0, 136, 129},
+      right{2, 2, 0, 8, 136, 128, 136, 0, 136, 0, 136, 130};
+  const ImageTexels image = read("b.hdr", text("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-X 2 -Y 8\n") + right + left);
+  EXPECT_EQ(image.width, 2);
+  EXPECT_EQ(image.height, 8);
+  EXPECT_EQ(image.floats[0], 1.0f);
+  EXPECT_EQ(image.floats[3], 2.0f);
+  for (const char* size : {"-Y 2 +Y 3", "-Y 2", "Y 2 X 3", "-Y two +X 3", "-Z 2 +X 3"})
+    EXPECT_NE(error_of("c.hdr", text("#?RADIANCE\n\n" + std::string(size) + "\n")).find("size"), std::string::npos);
+}
+
 TEST(Texture, PfmOfBothKindsAndByteOrders) {
   const std::vector<float> expected{4, 5, 6, 1, 2, 3};
   EXPECT_EQ(read("a.pfm", pfm("PF", 1, 2, "-1.0", floats({1, 2, 3, 4, 5, 6}))).floats, expected);
@@ -211,6 +239,8 @@ std::vector<NamedFile> one_of_each() {
           {"b.bmp", bmp(2, 1, 4, 0, {1, 2, 3, 0, 4, 5, 6, 0}, {0x10, 0, 0, 0}, 2)},
           {"a.hdr", hdr(8, 1, {2, 2, 0, 8, 136, 128, 136, 64, 136, 0, 4, 129, 129, 129, 129, 132, 130})},
           {"b.hdr", hdr(4, 1, {128, 64, 0, 129, 1, 1, 1, 3})},
+          {"c.hdr", text("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n+X 1 -Y 2\n") + Bytes{128, 64, 0, 129, 1, 2, 3, 4}},
+          {"a.qoi", text("qoif") + big_32(3) + big_32(1) + Bytes{4, 0, 0xff, 1, 2, 3, 4, 0xc1, 0, 0, 0, 0, 0, 0, 0, 1}},
           {"a.pfm", pfm("PF", 1, 2, "-1.0", floats({1, 2, 3, 4, 5, 6}))},
           {"a.exr", read_file(folder.file("a.exr"))}};
 }
@@ -234,6 +264,7 @@ TEST(Texture, DamagedFilesAreReadOrRefused) {
         damaged[i] = static_cast<uint8_t>(damaged[i] ^ flip);
         try {
           read_texture(folder.write(file.name, damaged), TextureEncoding::automatic);
+          read_scalar_texture(folder.file(file.name), TextureEncoding::automatic);
         } catch (const InputError&) {
         }  // anything else fails the test
       }

@@ -94,11 +94,7 @@ class SceneReader {
 
  private:
   void choose_variant() {
-    const std::vector<std::string> names = variant_names(document_);
-    if (!options_.variant.empty())
-      variant_ = choose(document_, options_.variant, names, "variant");
-    else if (!names.empty())
-      variant_ = 0;
+    if (!options_.variant.empty()) variant_ = choose(document_, options_.variant, variant_names(document_), "variant");
   }
 
   void choose_animation() {
@@ -189,6 +185,8 @@ class SceneReader {
     return matrices;
   }
 
+  /// Where no variant is asked for, and in primitives that the variant does not name, it is the primitive's own
+  /// material.
   std::optional<uint32_t> material_index(const Json& primitive) const {
     const Json* extension = document_.extension(primitive, "KHR_materials_variants");
     const Json* mappings = extension == nullptr ? nullptr : document_.list(*extension, "mappings");

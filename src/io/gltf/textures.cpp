@@ -8,7 +8,6 @@
 
 #include "io/gltf/uri.h"
 #include "io/images/decoders.h"
-#include "io/images/png_alpha.h"
 
 namespace alhazen::gltf {
 
@@ -172,10 +171,7 @@ std::optional<ImageTexels> Textures::decode(const Json& image, const std::string
   }
   if (texels == Texels::alpha) {
     if (is_jpeg) return std::nullopt;
-    std::optional<ImageTexels> alpha = is_png ? decode_png_alpha(name, bytes) : decode_webp_alpha(name, bytes);
-    const auto is_opaque = [](uint8_t value) { return value == 255; };
-    if (alpha && std::all_of(alpha->bytes.begin(), alpha->bytes.end(), is_opaque)) return std::nullopt;
-    return alpha;
+    return is_png ? decode_png_alpha(name, bytes) : decode_webp_alpha(name, bytes);
   }
   if (is_png) return decode_png(name, bytes, texels == Texels::srgb);
   return is_webp ? decode_webp(name, bytes) : decode_jpeg(name, bytes);

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include "io/images/byte_reader.h"
@@ -18,7 +19,8 @@ struct BmpHeader {
   bool from_top = false;
   size_t bits = 0;
   size_t palette_at = 0, palette_count = 0, palette_entry_size = 4;
-  std::array<uint32_t, 3> masks{};  ///< red, green, blue; of 16 and 32 bits
+  std::array<uint32_t, 4> masks{};  ///< red, green, blue, alpha; of 16 and 32 bits
+  bool alpha_is_declared = false;
 
   /// Rows are padded to four bytes.
   size_t row_size() const { return (static_cast<size_t>(width) * bits + 31) / 32 * 4; }
@@ -46,12 +48,14 @@ void read_info_header(ByteReader& in, size_t header_size, BmpHeader& header) {
   in.skip(12);  // size of the texels, resolution
   header.palette_count = in.u32();
   in.skip(4);  // colours that matter
+  const bool has_alpha_mask = has_masks && (header_size >= 56 || compression == 6);
   if (has_masks)
-    for (uint32_t& mask : header.masks) mask = in.u32();
+    for (size_t c = 0; c < (has_alpha_mask ? 4u : 3u); ++c) header.masks[c] = in.u32();
+  header.alpha_is_declared = header.masks[3] != 0;
   // The masks of the header of 40 bytes stand behind it.
   header.palette_at = 14 + header_size + (has_masks && header_size == 40 ? (compression == 6 ? 16 : 12) : 0);
-  if (!has_masks && header.bits == 16) header.masks = {0x7c00, 0x03e0, 0x001f};
-  if (!has_masks && header.bits == 32) header.masks = {0xff0000, 0x00ff00, 0x0000ff};
+  if (!has_masks && header.bits == 16) header.masks = {0x7c00, 0x03e0, 0x001f, 0};
+  if (!has_masks && header.bits == 32) header.masks = {0xff0000, 0x00ff00, 0x0000ff, 0xff000000};
 }
 
 BmpHeader read_header(ByteReader& in) {
@@ -74,6 +78,13 @@ BmpHeader read_header(ByteReader& in) {
   return header;
 }
 
+/// One texel of 16 or 32 bits.
+uint32_t packed_texel(const BmpHeader& header, std::span<const uint8_t> row, size_t x) {
+  uint32_t value = 0;
+  for (size_t i = header.bits / 8; i-- > 0;) value = value << 8 | row[x * header.bits / 8 + i];
+  return value;
+}
+
 /// The bits of `value` under `mask`, scaled to eight.
 uint8_t masked(uint32_t value, uint32_t mask) {
   if (mask == 0) return 0;
@@ -93,11 +104,15 @@ void decode_row(const BmpHeader& header, std::span<const uint8_t> palette, std::
     } else if (header.bits == 24) {
       for (size_t c = 0; c < 3; ++c) rgb[c] = row[3 * x + 2 - c];
     } else {
-      uint32_t value = 0;
-      for (size_t i = header.bits / 8; i-- > 0;) value = value << 8 | row[x * header.bits / 8 + i];
+      const uint32_t value = packed_texel(header, row, x);
       for (size_t c = 0; c < 3; ++c) rgb[c] = masked(value, header.masks[c]);
     }
   }
+}
+
+/// The row that is stored `y` rows from the start.
+size_t row_from_top(const BmpHeader& header, size_t y) {
+  return header.from_top ? y : static_cast<size_t>(header.height) - 1 - y;
 }
 
 }  // namespace
@@ -118,11 +133,33 @@ ImageTexels decode_bmp(const std::string& path, std::span<const uint8_t> bytes) 
   const size_t width = static_cast<size_t>(header.width), height = static_cast<size_t>(header.height);
   texels.bytes.resize(3 * width * height);
   for (size_t y = 0; y < height; ++y) {
-    const size_t row = header.from_top ? y : height - 1 - y;
+    const size_t row = row_from_top(header, y);
     decode_row(header, palette, rows.subspan(y * header.row_size(), header.row_size()), &texels.bytes[3 * row * width],
                in);
   }
   return texels;
+}
+
+std::optional<ImageTexels> decode_bmp_alpha(const std::string& path, std::span<const uint8_t> bytes) {
+  ByteReader in(path, bytes);
+  const BmpHeader header = read_header(in);
+  if ((header.bits != 16 && header.bits != 32) || header.masks[3] == 0) return std::nullopt;
+  check_size(path, header.width, header.height);
+  in.seek(header.texels_at);
+  const std::span<const uint8_t> rows = in.take(header.row_size() * static_cast<size_t>(header.height));
+  ImageTexels texels{static_cast<int>(header.width), static_cast<int>(header.height), {}, {}, false, path, 1};
+  const size_t width = static_cast<size_t>(header.width), height = static_cast<size_t>(header.height);
+  texels.bytes.resize(width * height);
+  uint8_t any = 0;
+  for (size_t y = 0; y < height; ++y)
+    for (size_t x = 0; x < width; ++x) {
+      const uint32_t value = packed_texel(header, rows.subspan(y * header.row_size(), header.row_size()), x);
+      uint8_t& alpha = texels.bytes[row_from_top(header, y) * width + x];
+      alpha = masked(value, header.masks[3]);
+      any |= alpha;
+    }
+  if (any == 0 && !header.alpha_is_declared) return std::nullopt;
+  return unless_opaque(std::move(texels));
 }
 
 }  // namespace alhazen

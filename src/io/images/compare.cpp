@@ -22,29 +22,29 @@ class Pair {
       throw InputError("the pictures differ in size: " + size_text(a) + " and " + size_text(b) +
                        "; only pictures of the same size can be compared");
     if (a.width <= 0 || a.height <= 0) throw InputError("the pictures have no pixels");
-    if (!colour_channels(a, rgb_a_) || !colour_channels(b, rgb_b_))
-      throw InputError("a picture has neither channels R, G, B nor a single channel, so there is nothing to compare");
+    for (const ColourChannels& channels : {channels_a_, channels_b_})
+      if (!channels) throw InputError("a picture " + channels.fault + ", so there is nothing to compare");
   }
 
   size_t width() const { return static_cast<size_t>(a_.width); }
   size_t height() const { return static_cast<size_t>(a_.height); }
   size_t size() const { return width() * height(); }
-  Vec3d a(size_t i) const { return colour(a_, rgb_a_, i); }
-  Vec3d b(size_t i) const { return colour(b_, rgb_b_, i); }
+  Vec3d a(size_t i) const { return colour(a_, channels_a_, i); }
+  Vec3d b(size_t i) const { return colour(b_, channels_b_, i); }
   bool counts(size_t i) const { return is_finite(a(i)) && is_finite(b(i)); }
 
  private:
   static std::string size_text(const Image& image) {
     return std::to_string(image.width) + " x " + std::to_string(image.height);
   }
-  static Vec3d colour(const Image& image, const int (&rgb)[3], size_t i) {
+  static Vec3d colour(const Image& image, const ColourChannels& channels, size_t i) {
     const auto value = [&](int channel) { return static_cast<double>(image.planes[static_cast<size_t>(channel)][i]); };
-    return {value(rgb[0]), value(rgb[1]), value(rgb[2])};
+    return {value(channels.rgb[0]), value(channels.rgb[1]), value(channels.rgb[2])};
   }
 
   const Image& a_;
   const Image& b_;
-  int rgb_a_[3], rgb_b_[3];
+  const ColourChannels channels_a_ = colour_channels(a_), channels_b_ = colour_channels(b_);
 };
 
 Vec3d clamped(const Vec3d& colour) { return min(max(colour, splat(0.0)), splat(1.0)); }

@@ -1,4 +1,4 @@
-// EXR input: every channel of the first part, as float.
+// EXR input: every channel of one part, as float.
 
 #include <ImathBox.h>
 #include <ImfChannelList.h>
@@ -104,11 +104,33 @@ void check_header(const std::string& path, const Imf::Header& header, size_t cha
   check_plausible(path, sizeof(float) * channels * tile.xSize * uint64_t{tile.ySize}, file_size);
 }
 
-Image read_first_part(const std::string& path, std::span<const uint8_t> bytes) {
+/// How much a part is the picture: with colours, with a luminance, with one channel of whatever it is, with channels
+/// that are no picture, with data that are not read.
+int rank_of(const Imf::Header& header) {
+  if (header.hasType() && Imf::isDeepData(header.type())) return 0;
+  Image image;
+  for (const ExrChannel& channel : channels_of(header)) image.channels.push_back(channel.name);
+  const ColourChannels channels = colour_channels(image);
+  if (!channels) return 1;
+  if (channels.rgb[0] != channels.rgb[1]) return 4;
+  const std::string& name = image.channels[static_cast<size_t>(channels.rgb[0])];
+  return name == "Y" || name.ends_with(".Y") ? 3 : 2;
+}
+
+/// The first part of the highest rank: of several pictures, as of a stereo pair, the first is the default.
+int picture_part(const Imf::MultiPartInputFile& file) {
+  int best = 0;
+  for (int part = 1; part < file.parts(); ++part)
+    if (rank_of(file.header(part)) > rank_of(file.header(best))) best = part;
+  return best;
+}
+
+Image read_picture_part(const std::string& path, std::span<const uint8_t> bytes) {
   check_attributes(path, bytes);
   MemoryStream stream(path, bytes);
   Imf::MultiPartInputFile file(stream);
-  const Imf::Header& header = file.header(0);
+  const int number = picture_part(file);
+  const Imf::Header& header = file.header(number);
   const std::vector<ExrChannel> channels = channels_of(header);
   check_header(path, header, channels.size(), bytes.size());
   const Imath::Box2i window = header.dataWindow();
@@ -123,7 +145,7 @@ Image read_first_part(const std::string& path, std::span<const uint8_t> bytes) {
     frame.insert(channel.name, Imf::Slice::Make(Imf::FLOAT, image.planes.back().data(), window, sizeof(float),
                                                 columns * sizeof(float), channel.x_sampling, channel.y_sampling));
   }
-  Imf::InputPart part(file, 0);
+  Imf::InputPart part(file, number);
   part.setFrameBuffer(frame);
   part.readPixels(window.min.y, window.max.y);
   for (size_t c = 0; c < channels.size(); ++c)
@@ -136,7 +158,7 @@ Image read_first_part(const std::string& path, std::span<const uint8_t> bytes) {
 
 Image read_exr(const std::string& path) {
   try {
-    return read_first_part(path, read_bytes(path));
+    return read_picture_part(path, read_bytes(path));
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {

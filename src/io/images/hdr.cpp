@@ -2,6 +2,7 @@
 // the old run lengths and the new ones. Values are taken as they stand: EXPOSURE lines are not divided out, as other
 // renderers do not.
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -24,17 +25,50 @@ void read_variables(ByteReader& in) {
       in.fail("an HDR picture with " + std::string(line.substr(0, 40)) + "; only 32-bit_rle_rgbe is supported");
 }
 
-/// "-Y height +X width": rows from the top down, columns from the left. The other seven orders hardly exist.
-void read_size(ByteReader& in, int64_t& width, int64_t& height) {
-  const std::string_view line = in.line();
-  const auto number = [&](std::string_view axis, int64_t& value) {
-    const size_t start = line.find(axis);
-    if (start == std::string_view::npos) return false;
-    const char* first = line.data() + start + axis.size();
-    return std::from_chars(first, line.data() + line.size(), value).ec == std::errc();
-  };
-  if (!line.starts_with("-Y ") || !number("-Y ", height) || !number(" +X ", width))
-    in.fail("an HDR picture whose size is not given as \"-Y height +X width\"");
+/// How the scanlines of a file make the picture. "-Y height +X width" are rows from the top down, each from the left;
+/// -X runs from the right, +Y from the bottom up, and where X is named first the scanlines are columns.
+struct Layout {
+  int64_t width = 0, height = 0;
+  bool from_bottom = false, from_right = false, columns = false;
+
+  int64_t scanlines() const { return columns ? width : height; }
+  int64_t scanline_length() const { return columns ? height : width; }
+
+  /// Index, counted from the top left, of texel `i` of scanline `line`.
+  size_t texel(int64_t line, int64_t i) const {
+    const int64_t x = columns ? line : i, y = columns ? i : line;
+    return static_cast<size_t>((from_bottom ? height - 1 - y : y) * width + (from_right ? width - 1 - x : x));
+  }
+};
+
+/// One axis, " -Y 32" with or without blanks before it, which is taken off `line`.
+bool read_axis(std::string_view& line, char& name, bool& negative, int64_t& size) {
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  if (line.size() < 3 || (line[0] != '-' && line[0] != '+') || (line[1] != 'X' && line[1] != 'Y')) return false;
+  negative = line[0] == '-';
+  name = line[1];
+  line.remove_prefix(2);
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), size);
+  line.remove_prefix(static_cast<size_t>(end - line.data()));
+  return error == std::errc();
+}
+
+Layout read_layout(ByteReader& in) {
+  std::string_view line = in.line();
+  char first = 0, second = 0;
+  bool first_negative = false, second_negative = false;
+  int64_t first_size = 0, second_size = 0;
+  if (!read_axis(line, first, first_negative, first_size) || !read_axis(line, second, second_negative, second_size) ||
+      first == second)
+    in.fail("an HDR picture whose size is not given as \"-Y height +X width\" or another order of the axes");
+  Layout layout;
+  layout.columns = first == 'X';
+  layout.width = layout.columns ? first_size : second_size;
+  layout.height = layout.columns ? second_size : first_size;
+  layout.from_right = layout.columns ? first_negative : second_negative;
+  layout.from_bottom = layout.columns ? !second_negative : !first_negative;
+  return layout;
 }
 
 /// Each of the four components by itself: runs (128 + count, value) and literals (count, values).
@@ -95,22 +129,18 @@ void decode_texel(const Rgbe& texel, float* rgb) {
 
 ImageTexels decode_hdr(const std::string& path, std::span<const uint8_t> bytes) {
   ByteReader in(path, bytes);
-  int64_t width = 0, height = 0;
   read_variables(in);
-  read_size(in, width, height);
-  check_size(path, width, height);
-  check_plausible(path, sizeof(Rgbe) * static_cast<uint64_t>(width * height), bytes.size());
+  const Layout layout = read_layout(in);
+  check_size(path, layout.width, layout.height);
+  check_plausible(path, sizeof(Rgbe) * static_cast<uint64_t>(layout.width * layout.height), bytes.size());
 
-  ImageTexels texels{static_cast<int>(width), static_cast<int>(height), {}, {}, false, path};
-  texels.floats.resize(static_cast<size_t>(3 * width * height));
-  std::vector<Rgbe> row(static_cast<size_t>(width));
-  float* rgb = texels.floats.data();
-  for (int64_t y = 0; y < height; ++y) {
-    read_row(in, row);
-    for (const Rgbe& texel : row) {
-      decode_texel(texel, rgb);
-      rgb += 3;
-    }
+  ImageTexels texels{static_cast<int>(layout.width), static_cast<int>(layout.height), {}, {}, false, path};
+  texels.floats.resize(static_cast<size_t>(3 * layout.width * layout.height));
+  std::vector<Rgbe> scanline(static_cast<size_t>(layout.scanline_length()));
+  for (int64_t line = 0; line < layout.scanlines(); ++line) {
+    read_row(in, scanline);
+    for (size_t i = 0; i < scanline.size(); ++i)
+      decode_texel(scanline[i], &texels.floats[3 * layout.texel(line, static_cast<int64_t>(i))]);
   }
   return texels;
 }

@@ -32,18 +32,6 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-bool colour_channels(const Image& image, int (&rgb)[3]) {
-  const int red = image.channel("R"), green = image.channel("G"), blue = image.channel("B");
-  // Where chroma stands beside it, Y alone is not the picture.
-  const bool has_chroma = image.channel("RY") >= 0 || image.channel("BY") >= 0;
-  const int grey = image.channels.size() == 1 ? 0 : has_chroma ? -1 : image.channel("Y");
-  const bool coloured = red >= 0 && green >= 0 && blue >= 0;
-  rgb[0] = coloured ? red : grey;
-  rgb[1] = coloured ? green : grey;
-  rgb[2] = coloured ? blue : grey;
-  return coloured || grey >= 0;
-}
-
 namespace {
 
 float linear_value(const ImageTexels& texels, size_t i) {

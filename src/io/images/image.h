@@ -61,7 +61,8 @@ void write_exr(const std::string& path, const ImageSource& source, const ExrOpti
 /// Takes channels R, G, B; values are tone mapped, clamped to [0, 1] and sRGB-encoded. NaN becomes black.
 void write_png(const std::string& path, const ImageSource& source, const PngOptions& options);
 
-/// Reads EXR (all channels), PNG, JPEG, TGA, HDR, PFM (as R, G, B; 8-bit and 16-bit files are decoded to linear).
+/// Reads EXR (all channels of its picture part) and what read_texture reads (as R, G, B; files of up to 16 bits are
+/// decoded to linear).
 /// Throws InputError.
 Image read_image(const std::string& path);
 

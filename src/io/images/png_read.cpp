@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csetjmp>
 #include <cstring>
+#include <utility>
 
 #include "io/images/decoders.h"
 #include "io/images/input_file.h"
@@ -38,14 +39,22 @@ class PngReader {
   int64_t height() const { return png_get_image_height(png_, info_); }
   uint64_t packed_row_bytes() const { return png_get_rowbytes(png_, info_); }
   bool has_16_bits() const { return png_get_bit_depth(png_, info_) == 16; }
+  bool has_alpha() const {
+    return (png_get_color_type(png_, info_) & PNG_COLOR_MASK_ALPHA) != 0 ||
+           png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
+  }
 
-  /// Palettes and small depths widened, grey tripled, alpha dropped: three samples a texel, big-endian where 16 bits.
-  bool start_rgb(size_t expected_row_bytes) {
+  /// Palettes and small depths widened, grey tripled, alpha kept or dropped: three or four samples a texel, big-endian
+  /// where they have 16 bits.
+  bool start(bool with_alpha, size_t expected_row_bytes) {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_palette_to_rgb(png_);
     png_set_expand_gray_1_2_4_to_8(png_);
     png_set_gray_to_rgb(png_);
-    png_set_strip_alpha(png_);
+    if (with_alpha)
+      png_set_tRNS_to_alpha(png_);
+    else
+      png_set_strip_alpha(png_);
     png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
     if (png_get_rowbytes(png_, info_) != expected_row_bytes) png_error(png_, "unexpected size of a row");
@@ -92,30 +101,57 @@ std::vector<float> decode_samples(const std::vector<uint8_t>& samples, bool srgb
   return values;
 }
 
-}  // namespace
+struct Samples {
+  int width = 0, height = 0;
+  bool has_16_bits = false;
+  std::vector<uint8_t> bytes;  ///< no texels where alpha was asked of a file that has none
+};
 
-ImageTexels decode_png(const std::string& path, std::span<const uint8_t> bytes, bool decode_16_bit) {
+Samples read_samples(const std::string& path, std::span<const uint8_t> bytes, bool with_alpha) {
   PngReader reader(bytes);
   const auto require = [&](bool succeeded) {
     if (!succeeded) throw_malformed(path, std::string("not a readable PNG file: ") + reader.message());
   };
   require(reader.read_header());
+  if (with_alpha && !reader.has_alpha()) return {};
   const int64_t width = reader.width(), height = reader.height();
   check_size(path, width, height);
   check_plausible(path, reader.packed_row_bytes() * static_cast<uint64_t>(height), bytes.size());
-  const size_t row_bytes = static_cast<size_t>(width) * (reader.has_16_bits() ? 6 : 3);
-  std::vector<uint8_t> samples(row_bytes * static_cast<size_t>(height));
+  const size_t row_bytes = static_cast<size_t>(width) * (with_alpha ? 4 : 3) * (reader.has_16_bits() ? 2 : 1);
+  Samples samples{static_cast<int>(width), static_cast<int>(height), reader.has_16_bits(), {}};
+  samples.bytes.resize(row_bytes * static_cast<size_t>(height));
   std::vector<png_bytep> rows(static_cast<size_t>(height));
-  for (size_t y = 0; y < rows.size(); ++y) rows[y] = samples.data() + y * row_bytes;
-  require(reader.start_rgb(row_bytes));
+  for (size_t y = 0; y < rows.size(); ++y) rows[y] = samples.bytes.data() + y * row_bytes;
+  require(reader.start(with_alpha, row_bytes));
   require(reader.read_rows(rows.data()));
+  return samples;
+}
 
-  ImageTexels texels{static_cast<int>(width), static_cast<int>(height), {}, {}, true, path};
-  if (reader.has_16_bits())
-    texels.floats = decode_samples(samples, decode_16_bit);
+}  // namespace
+
+ImageTexels decode_png(const std::string& path, std::span<const uint8_t> bytes, bool decode_16_bit) {
+  Samples samples = read_samples(path, bytes, false);
+  ImageTexels texels{samples.width, samples.height, {}, {}, true, path};
+  if (samples.has_16_bits)
+    texels.floats = decode_samples(samples.bytes, decode_16_bit);
   else
-    texels.bytes = std::move(samples);
+    texels.bytes = std::move(samples.bytes);
   return texels;
+}
+
+std::optional<ImageTexels> decode_png_alpha(const std::string& path, std::span<const uint8_t> bytes) {
+  Samples samples = read_samples(path, bytes, true);
+  if (samples.bytes.empty()) return std::nullopt;
+  const size_t size = samples.has_16_bits ? 2 : 1, count = samples.bytes.size() / (4 * size);
+  for (size_t i = 0; i < count; ++i)
+    for (size_t k = 0; k < size; ++k) samples.bytes[i * size + k] = samples.bytes[(4 * i + 3) * size + k];
+  samples.bytes.resize(count * size);
+  ImageTexels texels{samples.width, samples.height, {}, {}, false, path, 1};
+  if (samples.has_16_bits)
+    texels.floats = decode_samples(samples.bytes, false);
+  else
+    texels.bytes = std::move(samples.bytes);
+  return unless_opaque(std::move(texels));
 }
 
 }  // namespace alhazen

@@ -6,7 +6,9 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 #include "io/images/decoders.h"
 #include "io/images/input_file.h"
@@ -15,7 +17,7 @@ namespace alhazen {
 
 PictureFormat picture_format(const std::string& path) {
   checked_file_size(path);
-  std::array<char, 8> buffer{};
+  std::array<char, 12> buffer{};
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw_malformed(path, "cannot be opened: " + std::string(std::strerror(errno)));
   stream.read(buffer.data(), buffer.size());
@@ -25,33 +27,40 @@ PictureFormat picture_format(const std::string& path) {
   if (head.starts_with("\xff\xd8\xff")) return PictureFormat::jpeg;
   if (head.starts_with("#?")) return PictureFormat::hdr;
   if (head.starts_with("PF") || head.starts_with("Pf")) return PictureFormat::pfm;
+  if (head.starts_with("RIFF") && head.substr(8) == "WEBP") return PictureFormat::webp;
+  if (head.starts_with("qoif")) return PictureFormat::qoi;
   // The other signatures are long enough never to begin a TGA; "BM" is not.
   if (extension_of(path) == "tga") return PictureFormat::tga;
   if (head.starts_with("BM")) return PictureFormat::bmp;
-  throw_malformed(path, "is not a picture of a known kind; PNG, JPEG, TGA, BMP, HDR, PFM and EXR are");
+  throw_malformed(path, "is not a picture of a known kind; PNG, JPEG, TGA, BMP, QOI, WebP, HDR, PFM and EXR are");
 }
 
-namespace {
+bool is_opaque(const ImageTexels& texels) {
+  return std::all_of(texels.bytes.begin(), texels.bytes.end(), [](uint8_t value) { return value == 255; }) &&
+         std::all_of(texels.floats.begin(), texels.floats.end(), [](float value) { return value == 1; });
+}
 
-ImageTexels exr_texels(const std::string& path) {
-  const Image image = read_exr(path);
-  int rgb[3];
-  if (!colour_channels(image, rgb))
-    throw_malformed(path, "has neither channels R, G, B nor grey in Y or a single channel");
+std::optional<ImageTexels> unless_opaque(ImageTexels&& alpha) {
+  return is_opaque(alpha) ? std::nullopt : std::optional(std::move(alpha));
+}
+
+ImageTexels exr_texels(const Image& image, const std::string& path) {
+  const ColourChannels channels = colour_channels(image);
+  if (!channels) throw_malformed(path, channels.fault);
   ImageTexels texels{image.width, image.height, {}, {}, false, path};
   const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
   texels.floats.resize(3 * count);
   for (size_t c = 0; c < 3; ++c) {
-    const std::vector<float>& plane = image.planes[static_cast<size_t>(rgb[c])];
+    const std::vector<float>& plane = image.planes[static_cast<size_t>(channels.rgb[c])];
     for (size_t i = 0; i < count; ++i) texels.floats[3 * i + c] = plane[i];
   }
   return texels;
 }
 
-ImageTexels decode(const std::string& path, TextureEncoding encoding) {
-  const PictureFormat format = picture_format(path);
-  if (format == PictureFormat::exr) return exr_texels(path);
-  const std::vector<uint8_t> bytes = read_bytes(path);
+namespace {
+
+ImageTexels decode_format(const std::string& path, PictureFormat format, std::span<const uint8_t> bytes,
+                          TextureEncoding encoding) {
   switch (format) {
     case PictureFormat::png:
       return decode_png(path, bytes, encoding != TextureEncoding::linear);
@@ -63,6 +72,10 @@ ImageTexels decode(const std::string& path, TextureEncoding encoding) {
       return decode_bmp(path, bytes);
     case PictureFormat::hdr:
       return decode_hdr(path, bytes);
+    case PictureFormat::webp:
+      return decode_webp(path, bytes);
+    case PictureFormat::qoi:
+      return decode_qoi(path, bytes);
     default:
       return decode_pfm(path, bytes);
   }
@@ -70,11 +83,18 @@ ImageTexels decode(const std::string& path, TextureEncoding encoding) {
 
 }  // namespace
 
+ImageTexels decode_texture(const std::string& path, PictureFormat format, std::span<const uint8_t> bytes,
+                           TextureEncoding encoding) {
+  ImageTexels texels = decode_format(path, format, bytes, encoding);
+  texels.srgb = texels.srgb && !texels.bytes.empty() && encoding != TextureEncoding::linear;
+  return texels;
+}
+
 ImageTexels read_texture(const std::string& path, TextureEncoding encoding) {
   try {
-    ImageTexels texels = decode(path, encoding);
-    texels.srgb = !texels.bytes.empty() && encoding != TextureEncoding::linear;
-    return texels;
+    const PictureFormat format = picture_format(path);
+    if (format == PictureFormat::exr) return exr_texels(read_exr(path), path);
+    return decode_texture(path, format, read_bytes(path), encoding);
   } catch (const std::bad_alloc&) {
     throw_malformed(path, "is too large for the memory of this machine");
   }

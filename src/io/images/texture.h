@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures as textures: PNG, JPEG, TGA, BMP, HDR, PFM and EXR, to texels.
+// Pictures as textures: PNG, JPEG, TGA, BMP, QOI, WebP, HDR, PFM and EXR, to texels.
 
 #include <string>
 
@@ -12,7 +12,7 @@ enum class TextureEncoding { automatic, srgb, linear };
 
 /// Reads a picture for use as a texture. 8-bit files stay 8-bit and are marked sRGB unless `encoding` is linear; 16-bit
 /// and float files become floats, decoded from sRGB where the format says so (16-bit PNG). Grey becomes three equal
-/// channels; alpha is dropped.
+/// channels; alpha is left out (read_scalar_texture reads it).
 /// Throws InputError that names the file and what is wrong: missing, unreadable, of an unknown kind, over 2^30 texels.
 ImageTexels read_texture(const std::string& path, TextureEncoding encoding);
 

@@ -2,6 +2,7 @@
 // and without run lengths.
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "io/images/byte_reader.h"
@@ -15,11 +16,15 @@ struct TgaHeader {
   bool has_palette = false, run_lengths = false, grey = false, indexed = false;
   size_t palette_first = 0, palette_count = 0, palette_bits = 0;
   int width = 0, height = 0;
-  size_t bits = 0;
+  size_t bits = 0, alpha_bits = 0;
   bool from_top = false, from_right = false;
 
   size_t palette_entry_size() const { return (palette_bits + 7) / 8; }
   size_t texel_size() const { return (bits + 7) / 8; }
+  size_t colour_bits() const { return indexed ? palette_bits : bits; }
+  bool may_have_alpha() const {
+    return grey ? bits == 16 : colour_bits() == 32 || (colour_bits() == 16 && alpha_bits == 1);
+  }
 };
 
 TgaHeader read_header(ByteReader& in) {
@@ -39,6 +44,7 @@ TgaHeader read_header(ByteReader& in) {
   header.height = in.u16();
   header.bits = in.u8();
   const int descriptor = in.u8();
+  header.alpha_bits = static_cast<size_t>(descriptor & 15);
   header.from_right = (descriptor & 0x10) != 0;
   header.from_top = (descriptor & 0x20) != 0;
   in.skip(id_length);
@@ -83,18 +89,41 @@ void decode_colour(const uint8_t* value, size_t bits, uint8_t* rgb) {
   for (int c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>(((packed >> (10 - 5 * c) & 31) * 255 + 15) / 31);
 }
 
-void decode_texel(const TgaHeader& header, std::span<const uint8_t> palette, const uint8_t* value, uint8_t* rgb,
-                  const ByteReader& in) {
-  if (header.grey) {  // of 16 bits, the second eight are alpha
-    std::fill_n(rgb, 3, value[0]);
-    return;
-  }
-  if (!header.indexed) return decode_colour(value, header.bits, rgb);
+/// Where the colour of a texel is stored: in the palette, or in the texel itself.
+const uint8_t* colour_at(const TgaHeader& header, std::span<const uint8_t> palette, const uint8_t* value,
+                         const ByteReader& in) {
+  if (!header.indexed) return value;
   const size_t index = header.texel_size() == 1 ? value[0] : static_cast<size_t>(value[0] | value[1] << 8);
   if (index < header.palette_first || index - header.palette_first >= header.palette_count)
     in.fail("a texel has the index " + std::to_string(index) + ", which the palette does not hold");
-  const size_t offset = (index - header.palette_first) * header.palette_entry_size();
-  decode_colour(palette.data() + offset, header.palette_bits, rgb);
+  return palette.data() + (index - header.palette_first) * header.palette_entry_size();
+}
+
+/// Of grey texels of 16 bits the second eight are alpha.
+uint8_t alpha_of(const TgaHeader& header, const uint8_t* colour) {
+  if (header.grey) return colour[1];
+  return header.colour_bits() == 32 ? colour[3] : static_cast<uint8_t>((colour[1] & 0x80) != 0 ? 255 : 0);
+}
+
+/// Calls `store(texel, colour)` with the place of every texel, counted from the top left, and its bytes.
+template <class Store>
+void read_picture(const std::string& path, const TgaHeader& header, ByteReader& in, size_t file_size,
+                  ImageTexels& texels, const Store& store) {
+  check_header(header, in);
+  check_size(path, header.width, header.height);
+  check_plausible(path,
+                  header.texel_size() * static_cast<uint64_t>(header.width) * static_cast<uint64_t>(header.height),
+                  file_size);
+  std::span<const uint8_t> palette;
+  if (header.has_palette) palette = in.take(header.palette_count * header.palette_entry_size());
+  const std::vector<uint8_t> values = read_texels(header, in);
+  const size_t width = static_cast<size_t>(header.width), height = static_cast<size_t>(header.height);
+  texels.bytes.resize(static_cast<size_t>(texels.channels) * width * height);
+  for (size_t y = 0; y < height; ++y)
+    for (size_t x = 0; x < width; ++x) {
+      const size_t row = header.from_top ? y : height - 1 - y, column = header.from_right ? width - 1 - x : x;
+      store(row * width + column, colour_at(header, palette, &values[(y * width + x) * header.texel_size()], in));
+    }
 }
 
 }  // namespace
@@ -102,25 +131,29 @@ void decode_texel(const TgaHeader& header, std::span<const uint8_t> palette, con
 ImageTexels decode_tga(const std::string& path, std::span<const uint8_t> bytes) {
   ByteReader in(path, bytes);
   const TgaHeader header = read_header(in);
-  check_header(header, in);
-  check_size(path, header.width, header.height);
-  check_plausible(path,
-                  header.texel_size() * static_cast<uint64_t>(header.width) * static_cast<uint64_t>(header.height),
-                  bytes.size());
-  std::span<const uint8_t> palette;
-  if (header.has_palette) palette = in.take(header.palette_count * header.palette_entry_size());
-  const std::vector<uint8_t> values = read_texels(header, in);
-
   ImageTexels texels{header.width, header.height, {}, {}, true, path};
-  const size_t width = static_cast<size_t>(header.width), height = static_cast<size_t>(header.height);
-  texels.bytes.resize(3 * width * height);
-  for (size_t y = 0; y < height; ++y)
-    for (size_t x = 0; x < width; ++x) {
-      const size_t row = header.from_top ? y : height - 1 - y, column = header.from_right ? width - 1 - x : x;
-      decode_texel(header, palette, &values[(y * width + x) * header.texel_size()],
-                   &texels.bytes[3 * (row * width + column)], in);
-    }
+  read_picture(path, header, in, bytes.size(), texels, [&](size_t texel, const uint8_t* colour) {
+    uint8_t* rgb = &texels.bytes[3 * texel];
+    if (header.grey)
+      std::fill_n(rgb, 3, colour[0]);
+    else
+      decode_colour(colour, header.colour_bits(), rgb);
+  });
   return texels;
+}
+
+std::optional<ImageTexels> decode_tga_alpha(const std::string& path, std::span<const uint8_t> bytes) {
+  ByteReader in(path, bytes);
+  const TgaHeader header = read_header(in);
+  if (!header.may_have_alpha()) return std::nullopt;
+  ImageTexels texels{header.width, header.height, {}, {}, false, path, 1};
+  uint8_t any = 0;
+  read_picture(path, header, in, bytes.size(), texels, [&](size_t texel, const uint8_t* colour) {
+    texels.bytes[texel] = alpha_of(header, colour);
+    any |= texels.bytes[texel];
+  });
+  if (any == 0 && header.alpha_bits == 0) return std::nullopt;
+  return unless_opaque(std::move(texels));
 }
 
 }  // namespace alhazen

@@ -1,6 +1,6 @@
 // WebP input by libwebp.
 
-#include <limits>
+#include <utility>
 
 #include "io/images/decoders.h"
 #include "io/images/input_file.h"
@@ -37,26 +37,28 @@ Decoded decode(const std::string& path, std::span<const uint8_t> bytes) {
   return result;
 }
 
-/// Three of every four samples, or the fourth thrice.
-ImageTexels texels_of(Decoded&& decoded, bool alpha) {
+/// Channels `first` to `first + count` of the four.
+ImageTexels texels_of(Decoded&& decoded, size_t first, size_t count) {
   const std::vector<uint8_t>& rgba = decoded.rgba;
-  decoded.texels.bytes.resize(rgba.size() / 4 * 3);
+  decoded.texels.bytes.resize(rgba.size() / 4 * count);
   for (size_t i = 0; i < rgba.size() / 4; ++i)
-    for (size_t c = 0; c < 3; ++c) decoded.texels.bytes[3 * i + c] = rgba[4 * i + (alpha ? 3 : c)];
-  decoded.texels.srgb = !alpha;
+    for (size_t c = 0; c < count; ++c) decoded.texels.bytes[count * i + c] = rgba[4 * i + first + c];
   return std::move(decoded.texels);
 }
 
 }  // namespace
 
 ImageTexels decode_webp(const std::string& path, std::span<const uint8_t> bytes) {
-  return texels_of(decode(path, bytes), false);
+  return texels_of(decode(path, bytes), 0, 3);
 }
 
 std::optional<ImageTexels> decode_webp_alpha(const std::string& path, std::span<const uint8_t> bytes) {
   Decoded decoded = decode(path, bytes);
   if (!decoded.has_alpha) return std::nullopt;
-  return texels_of(std::move(decoded), true);
+  ImageTexels alpha = texels_of(std::move(decoded), 3, 1);
+  alpha.srgb = false;
+  alpha.channels = 1;
+  return unless_opaque(std::move(alpha));
 }
 
 #else

@@ -1,59 +1,13 @@
 #include "io/pbrt/image_texture.h"
 
-#include <array>
-#include <cmath>
 #include <utility>
 
-#include "io/images/image.h"
+#include "io/images/scalar_texture.h"
 #include "io/images/texture.h"
 
 namespace alhazen::pbrt {
 
 namespace {
-
-/// Decodes 8-bit values; the curve is called 256 times, not once a texel.
-class ByteDecoder {
- public:
-  explicit ByteDecoder(bool srgb) {
-    for (size_t i = 0; i < 256; ++i) {
-      const double encoded = static_cast<double>(i) / 255;
-      values_[i] = srgb ? srgb_decode(encoded) : encoded;
-    }
-  }
-  double operator()(uint8_t byte) const { return values_[byte]; }
-
- private:
-  std::array<double, 256> values_{};
-};
-
-Vec3d texel(const ImageTexels& image, const ByteDecoder& decode, size_t index) {
-  if (image.floats.empty())
-    return {decode(image.bytes[3 * index]), decode(image.bytes[3 * index + 1]), decode(image.bytes[3 * index + 2])};
-  return {static_cast<double>(image.floats[3 * index]), static_cast<double>(image.floats[3 * index + 1]),
-          static_cast<double>(image.floats[3 * index + 2])};
-}
-
-template <class Value>
-bool is_grey(const std::vector<Value>& values) {
-  for (size_t i = 0; i + 2 < values.size(); i += 3)
-    if (values[i] != values[i + 1] || values[i] != values[i + 2]) return false;
-  return true;
-}
-
-/// A float texture is the mean of the three linear channels. Pictures that are grey keep their bytes.
-void make_grey(ImageTexels& image) {
-  if (image.floats.empty() ? is_grey(image.bytes) : is_grey(image.floats)) return;
-  const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
-  const ByteDecoder decode(image.srgb);
-  std::vector<float> grey(count);
-  for (size_t i = 0; i < count; ++i) {
-    const Vec3d colour = texel(image, decode, i);
-    grey[i] = static_cast<float>((colour.x + colour.y + colour.z) / 3);
-  }
-  image.channels = 1;
-  image.bytes = {};
-  image.floats = std::move(grey);
-}
 
 TextureEncoding read_encoding(Build& build, ParameterList& list) {
   const std::string encoding = list.string("encoding", "");
@@ -86,13 +40,22 @@ bool read_nearest(ParameterList& list) {
   return false;
 }
 
+ImageTexels read_scalar(Build& build, ParameterList& list, const std::string& path, TextureEncoding encoding) {
+  ScalarTexture scalar = read_scalar_texture(path, encoding);
+  if (scalar.differs_from_pbrt)
+    build.warn(list.place_of("filename"),
+               "the float texture is the alpha channel of \"" + list.string("filename", "") +
+                   "\"; pbrt-v4 reads alpha of EXR, of RGBA in PNG and of QOI alone and takes the mean of the colours "
+                   "here: save the picture without alpha where they are meant");
+  return std::move(scalar.texels);
+}
+
 uint32_t image_index(Build& build, ParameterList& list, TextureEncoding encoding, bool is_float) {
   const std::string name = list.string("filename", "");
   const std::string path = build.existing_file(list.place_of("filename"), name);
   const auto [entry, is_new] = build.images_by_key.try_emplace({path, static_cast<int>(encoding), is_float}, 0u);
   if (is_new) {
-    ImageTexels image = read_texture(path, encoding);
-    if (is_float) make_grey(image);
+    ImageTexels image = is_float ? read_scalar(build, list, path, encoding) : read_texture(path, encoding);
     entry->second = static_cast<uint32_t>(build.scene.images.size());
     build.scene.images.push_back(std::move(image));
   }

@@ -13,7 +13,9 @@ namespace {
 /// No number is as long as this; it bounds how far ahead the buffer must reach.
 constexpr size_t longest_word = 512;
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+/// A line ends with a line feed, a carriage return, or both.
+bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
 }  // namespace
 
@@ -46,8 +48,9 @@ bool AsciiValues::skip_blank_lines() {
   while (true) {
     skip_blanks();
     if (!input_.require(1)) return false;
-    if (*input_.data() != '\n') return true;
-    input_.skip(1);
+    if (!is_line_end(*input_.data())) return true;
+    const bool is_pair = *input_.data() == '\r' && input_.require(2) && input_.data()[1] == '\n';
+    input_.skip(is_pair ? 2 : 1);
     if (line_ < std::numeric_limits<int>::max()) ++line_;
     line_offset_ = input_.offset();
   }
@@ -65,7 +68,7 @@ void AsciiValues::begin_row(const PlyElement& element, uint64_t index) {
 
 void AsciiValues::end_row() {
   skip_blanks();
-  if (!input_.require(1) || *input_.data() == '\n') return;
+  if (!input_.require(1) || is_line_end(*input_.data())) return;
   word_offset_ = input_.offset();
   fail("a value too many; the header gives " + std::to_string(element_->properties.size()) +
        " properties, and each row stands on its own line");
@@ -78,7 +81,7 @@ std::string_view AsciiValues::next_word(const PlyProperty& property) {
   const char* const begin = input_.data();
   const char* const end = begin + std::min(input_.available(), longest_word);
   const char* c = begin;
-  while (c < end && !is_blank(*c) && *c != '\n') ++c;
+  while (c < end && !is_blank(*c) && !is_line_end(*c)) ++c;
   const std::string_view word(begin, static_cast<size_t>(c - begin));
   if (word.empty()) fail("the line ends where a value of " + quoted(property.name) + " is expected");
   if (word.size() == longest_word) fail(quoted(word) + " is too long for a number");

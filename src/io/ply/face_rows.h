@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/ply/ply_header.h"
+#include "io/ply/polygons.h"
 
 namespace alhazen {
 
@@ -27,13 +28,13 @@ uint32_t checked_index(Values& values, int64_t index, uint64_t vertex_count) {
 
 /// How the indices of one list make triangles.
 enum class FaceKind {
-  polygon,  ///< a fan about the first vertex
+  polygon,  ///< a fan about the first vertex, which Polygons cuts anew where it is wrong
   strips,   ///< each vertex makes a triangle with the two before it; -1 begins the next strip
 };
 
 template <class Values>
 void read_polygon(Values& values, const PlyProperty& list, uint64_t length, uint64_t vertex_count,
-                  std::vector<uint32_t>& indices) {
+                  std::vector<uint32_t>& indices, Polygons& polygons) {
   if (length < 3) values.fail("a face needs 3 vertices or more, this one has " + std::to_string(length));
   uint32_t first = 0, previous = 0;
   for (uint64_t i = 0; i < length; ++i) {
@@ -42,6 +43,7 @@ void read_polygon(Values& values, const PlyProperty& list, uint64_t length, uint
     if (i >= 2) indices.insert(indices.end(), {first, previous, index});
     previous = index;
   }
+  if (length > 3) polygons.add(indices.size() / 3, length);
 }
 
 template <class Values>
@@ -68,7 +70,7 @@ void read_strips(Values& values, const PlyProperty& list, uint64_t length, uint6
 /// `list`: which property holds the indices. `bytes`: how many the whole file may have.
 template <class Values>
 void read_faces(Values& values, const PlyElement& element, FaceKind kind, int list, uint64_t vertex_count,
-                uint64_t bytes, std::vector<uint32_t>& indices) {
+                uint64_t bytes, std::vector<uint32_t>& indices, Polygons& polygons) {
   for (uint64_t i = 0; i < element.count; ++i) {
     values.begin_row(element, i);
     for (size_t p = 0; p < element.properties.size(); ++p) {
@@ -80,7 +82,7 @@ void read_faces(Values& values, const PlyElement& element, FaceKind kind, int li
       }
       if (i == 0 && length > 2) reserve_triangles(indices, element.count, length - 2, bytes, property.type);
       if (kind == FaceKind::polygon)
-        read_polygon(values, property, length, vertex_count, indices);
+        read_polygon(values, property, length, vertex_count, indices, polygons);
       else
         read_strips(values, property, length, vertex_count, indices);
     }

@@ -47,16 +47,18 @@ template <class Values>
 void read_rows(Values values, const PlyHeader& header, const Plan& plan, Mesh& mesh, Diagnostics& diagnostics) {
   const uint64_t vertex_count = plan.vertices->count;
   const uint64_t possible = plan.plausible_bytes / plan.vertices->smallest_row(header.format) + 1;
+  Polygons polygons;
   VertexRows vertices(plan.layout, std::min(vertex_count, possible), mesh);
   for (const PlyElement& element : header.elements) {
     if (&element == plan.vertices)
       read_vertices(values, element, plan.layout, vertices);
     else if (element.name == "face" || element.name == "tristrips")
       read_faces(values, element, element.name == "face" ? FaceKind::polygon : FaceKind::strips,
-                 index_list(element, mesh.name), vertex_count, plan.plausible_bytes, mesh.indices);
+                 index_list(element, mesh.name), vertex_count, plan.plausible_bytes, mesh.indices, polygons);
     else
       skip_rows(values, element);
   }
+  polygons.triangulate(mesh);
   vertices.warn(diagnostics);
   values.expect_end(diagnostics);
 }

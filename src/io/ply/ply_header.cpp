@@ -59,6 +59,7 @@ class HeaderReader {
   std::string line_;
   std::vector<Word> words_;
   bool format_known_ = false;
+  bool ends_with_return_ = false;  ///< lines, not with a line feed
   std::set<std::string, std::less<>> element_names_, property_names_;
   PlyHeader header_;
 };
@@ -77,9 +78,11 @@ void HeaderReader::read_magic() {
   const bool begins = input_.require(4) && std::string_view(input_.data(), 3) == "ply";
   if (!begins || (input_.data()[3] != '\n' && input_.data()[3] != '\r'))
     fail(1, "not a PLY file: the first line must be 'ply'");
+  // Old programs of the Macintosh end lines with a carriage return alone. The data begin right behind the last one, so
+  // that a line feed there is the first byte of binary data.
+  ends_with_return_ = input_.data()[3] == '\r' && !(input_.require(5) && input_.data()[4] == '\n');
   header_.lines = 0;
   read_line();
-  if (line_ != "ply") fail(4, "lines of a PLY header must end with a line feed");
 }
 
 /// The next line without its end, cut into words.
@@ -92,7 +95,7 @@ void HeaderReader::read_line() {
     if (input_.offset() >= longest_header) fail(1, "the header has no 'end_header' within its first MiB");
     const char c = *input_.data();
     input_.skip(1);
-    if (c == '\n') break;
+    if (c == (ends_with_return_ ? '\r' : '\n')) break;
     line_ += c;
   }
   if (!line_.empty() && line_.back() == '\r') line_.pop_back();
