@@ -5,12 +5,15 @@
 #include <nlohmann/json.hpp>
 
 #include "io/read_scene.h"
+#include "scene/printable.h"
 
 namespace alhazen {
 
-void print_listing(const std::string& scene, bool as_json) {
+void print_listing(const std::string& scene, bool confine, bool as_json) {
   Diagnostics diagnostics;
-  const SceneListing listing = list_scene(scene, diagnostics);
+  ReadOptions choice;
+  choice.confine = confine;
+  const SceneListing listing = list_scene(scene, choice, diagnostics);
   const std::pair<const char*, const std::vector<std::string>*> kinds[] = {{"cameras", &listing.cameras},
                                                                            {"variants", &listing.variants},
                                                                            {"animations", &listing.animations},
@@ -20,10 +23,10 @@ void print_listing(const std::string& scene, bool as_json) {
     json[kind] = *names;
     if (as_json) continue;
     fmt::print("{}: {}\n", kind, names->size());
-    for (size_t i = 0; i < names->size(); ++i) fmt::print("  {} {}\n", i, (*names)[i]);
+    for (size_t i = 0; i < names->size(); ++i) fmt::print("  {} {}\n", i, printable((*names)[i]));
   }
   // Names are bytes of the file, which need not be valid UTF-8.
-  if (as_json) fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (as_json) fmt::print("{}\n", json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace alhazen

@@ -9,8 +9,10 @@
 #include <iostream>
 #include <new>
 
+#include "cli/stack.h"
 #include "cli/subcommands.h"
 #include "scene/diagnostics.h"
+#include "scene/printable.h"
 
 namespace {
 
@@ -23,7 +25,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv, int& exit_code) {
   } catch (const CLI::ParseError& error) {
     const bool is_unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
     fmt::print(stderr, "alhazen: {}\nRun 'alhazen --help' or 'alhazen SUBCOMMAND --help' for what may be given.\n",
-               is_unknown ? fmt::format("there is no subcommand '{}'", argv[1]) : error.what());
+               alhazen::printable(is_unknown ? fmt::format("there is no subcommand '{}'", argv[1]) : error.what()));
     return alhazen::exit_bad_input;
   }
 }
@@ -38,7 +40,9 @@ int after_flushing(int exit_code) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+namespace {
+
+int run_program(int argc, char** argv) {
   CLI::App app("A path tracer whose light transport is written once and run by many engines.", "alhazen");
   app.set_version_flag("--version", "alhazen " ALHAZEN_VERSION);
   app.require_subcommand(1);
@@ -57,10 +61,18 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}\n", error.what());
     return alhazen::exit_bad_input;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "alhazen: out of memory: render fewer pixels or layers at once (--size, --crop), or in float\n");
+    fmt::print(
+        stderr,
+        "alhazen: out of memory: what was asked for needs more than this machine, or a limit set on it, allows\n");
     return alhazen::exit_failed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "alhazen: {}\n", error.what());
+    fmt::print(stderr, "alhazen: {}\n", alhazen::printable(error.what()));
     return alhazen::exit_failed;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return alhazen::run_on_enough_stack([&] { return run_program(argc, argv); });
 }

@@ -17,6 +17,7 @@
 #include "io/environment.h"
 #include "io/read_scene.h"
 #include "render/renderer.h"
+#include "scene/printable.h"
 #include "study/tuned.h"
 
 namespace alhazen {
@@ -100,7 +101,7 @@ std::string engine_of(const RenderSettings& r) {
 void print_start(const RenderStatistics& s) {
   const RenderSettings& r = s.settings;
   fmt::print(stderr, "{}: {} triangles, {} spheres, {} lights; read in {:.2f} s, BVH of {} nodes in {:.2f} s\n",
-             s.scene, s.scene_sizes.triangles, s.scene_sizes.spheres, s.scene_sizes.lights, s.load_seconds,
+             printable(s.scene), s.scene_sizes.triangles, s.scene_sizes.spheres, s.scene_sizes.lights, s.load_seconds,
              s.scene_sizes.nodes, s.build_seconds);
   fmt::print(stderr, "{} x {} pixels, {} samples each, {} in {}, depth {}; {}{}{} on {}\n", r.window.width(),
              r.window.height(), r.samples_per_pixel, to_string(r.integrator), to_string(r.precision),
@@ -122,7 +123,7 @@ void print_end(const RenderOptions& options, const RenderStatistics& statistics)
     fmt::print(stderr, "{} samples a pixel in {}", statistics.samples_per_pixel,
                format_seconds(statistics.render_seconds));
     for (size_t i = 0; i < options.output.paths.size(); ++i)
-      fmt::print(stderr, "{}{}", i == 0 ? "; wrote " : ", ", options.output.paths[i]);
+      fmt::print(stderr, "{}{}", i == 0 ? "; wrote " : ", ", printable(options.output.paths[i]));
     if (!options.exposure && options.output.png.exposure < 0)
       fmt::print(stderr, "; PNG with --exposure {}", options.output.png.exposure);
     fmt::print(stderr, "\n");
@@ -133,7 +134,7 @@ void print_end(const RenderOptions& options, const RenderStatistics& statistics)
 
 int run(RenderOptions& options) {
   if (options.list) {
-    print_listing(options.scene, false);
+    print_listing(options.scene, options.settings.confine, false);
     return exit_done;
   }
   parse_settings(options);
@@ -141,9 +142,9 @@ int run(RenderOptions& options) {
   Diagnostics diagnostics;
   const auto start = std::chrono::steady_clock::now();
   const Settings& s = options.settings;
-  const ReadOptions choice{s.camera, s.variant, s.animation, s.animation_time, aspect_of(s.width, s.height)};
+  const ReadOptions choice{s.camera, s.variant, s.animation, s.animation_time, aspect_of(s.width, s.height), s.confine};
   Scene scene = read_scene(options.scene, choice, diagnostics);
-  if (!options.settings.environment.empty()) use_environment(scene, options.settings.environment);
+  if (!s.environment.empty()) use_environment(scene, path_beside(options.scene, s.environment, s.confine));
   scene.coats = parse_coats(options.settings.coats);
   const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
@@ -226,6 +227,10 @@ void add_picture_options(CLI::App& command, RenderOptions& o) {
       ->group(group);
   command.add_option("--variant", o.settings.variant, "glTF: the materials of this variant, by name or number")
       ->type_name("NAME")
+      ->group(group);
+  command
+      .add_flag("--confine", o.settings.confine,
+                "Read nothing outside the folder of the scene, whatever the scene names: for scenes of strangers")
       ->group(group);
   command.add_flag("--list", o.list, "Print cameras, variants, animations and lights of the file, and render nothing")
       ->group(group);

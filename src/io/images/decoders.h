@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "io/files/input_file.h"
 #include "io/images/image.h"
 #include "scene/scene.h"
 
@@ -17,7 +18,7 @@ enum class PictureFormat { exr, png, jpeg, tga, bmp, hdr, pfm };
 
 /// By the first bytes of the file, whatever its name; TGA, which has no signature, by the extension of `path`.
 /// Throws InputError where the file is missing or of none of these.
-PictureFormat picture_format(const std::string& path);
+PictureFormat picture_format(const InputPath& path);
 
 /// `decode_16_bit`: whether values of 16 bits are sRGB-encoded and to be decoded, or linear already.
 ImageTexels decode_png(const std::string& path, std::span<const uint8_t> bytes, bool decode_16_bit);
@@ -32,7 +33,7 @@ ImageTexels decode_hdr(const std::string& path, std::span<const uint8_t> bytes);
 ImageTexels decode_pfm(const std::string& path, std::span<const uint8_t> bytes);
 
 /// All channels of the first part, whatever their type. The picture is the data window.
-Image read_exr(const std::string& path);
+Image read_exr(const InputPath& path);
 
 /// The channels that make up the colour: R, G, B, or one channel thrice (the only one, or Y).
 /// False where there are none of these.

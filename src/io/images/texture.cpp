@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <new>
 #include <string_view>
 
@@ -13,13 +10,12 @@
 
 namespace alhazen {
 
-PictureFormat picture_format(const std::string& path) {
-  checked_file_size(path);
+PictureFormat picture_format(const InputPath& input) {
+  const std::string& path = input.name;
+  InputFile file(input);
+  if (file.size() == 0) throw_malformed(path, "the file is empty");
   std::array<char, 8> buffer{};
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw_malformed(path, "cannot be opened: " + std::string(std::strerror(errno)));
-  stream.read(buffer.data(), buffer.size());
-  const std::string_view head(buffer.data(), static_cast<size_t>(stream.gcount()));
+  const std::string_view head(buffer.data(), file.read(buffer.data(), buffer.size()));
   if (head.starts_with("\x76\x2f\x31\x01")) return PictureFormat::exr;
   if (head.starts_with("\x89PNG\r\n\x1a\n")) return PictureFormat::png;
   if (head.starts_with("\xff\xd8\xff")) return PictureFormat::jpeg;
@@ -33,8 +29,9 @@ PictureFormat picture_format(const std::string& path) {
 
 namespace {
 
-ImageTexels exr_texels(const std::string& path) {
-  const Image image = read_exr(path);
+ImageTexels exr_texels(const InputPath& input) {
+  const std::string& path = input.name;
+  const Image image = read_exr(input);
   int rgb[3];
   if (!colour_channels(image, rgb))
     throw_malformed(path, "has neither channels R, G, B nor grey in Y or a single channel");
@@ -48,10 +45,11 @@ ImageTexels exr_texels(const std::string& path) {
   return texels;
 }
 
-ImageTexels decode(const std::string& path, TextureEncoding encoding) {
-  const PictureFormat format = picture_format(path);
-  if (format == PictureFormat::exr) return exr_texels(path);
-  const std::vector<uint8_t> bytes = read_bytes(path);
+ImageTexels decode(const InputPath& input, TextureEncoding encoding) {
+  const std::string& path = input.name;
+  const PictureFormat format = picture_format(input);
+  if (format == PictureFormat::exr) return exr_texels(input);
+  const std::vector<uint8_t> bytes = read_bytes(input);
   switch (format) {
     case PictureFormat::png:
       return decode_png(path, bytes, encoding != TextureEncoding::linear);
@@ -70,13 +68,13 @@ ImageTexels decode(const std::string& path, TextureEncoding encoding) {
 
 }  // namespace
 
-ImageTexels read_texture(const std::string& path, TextureEncoding encoding) {
+ImageTexels read_texture(const InputPath& path, TextureEncoding encoding) {
   try {
     ImageTexels texels = decode(path, encoding);
     texels.srgb = !texels.bytes.empty() && encoding != TextureEncoding::linear;
     return texels;
   } catch (const std::bad_alloc&) {
-    throw_malformed(path, "is too large for the memory of this machine");
+    throw_malformed(path.name, "is too large for the memory of this machine");
   }
 }
 

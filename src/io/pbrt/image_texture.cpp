@@ -88,8 +88,8 @@ bool read_nearest(ParameterList& list) {
 
 uint32_t image_index(Build& build, ParameterList& list, TextureEncoding encoding, bool is_float) {
   const std::string name = list.string("filename", "");
-  const std::string path = build.existing_file(list.place_of("filename"), name);
-  const auto [entry, is_new] = build.images_by_key.try_emplace({path, static_cast<int>(encoding), is_float}, 0u);
+  const InputPath path = build.existing_file(list.place_of("filename"), name);
+  const auto [entry, is_new] = build.images_by_key.try_emplace({path.name, static_cast<int>(encoding), is_float}, 0u);
   if (is_new) {
     ImageTexels image = read_texture(path, encoding);
     if (is_float) make_grey(image);
