@@ -319,7 +319,8 @@ class Flattener {
       diagnostics_.warn(shape.where, "a sphere is stretched by an instance; it stays round here, of the same volume");
     const double radius = shape.radius * scale;
     const auto [center, motion] = motion_of(p.world_from_object);
-    if (!is_finite(center) || !is_finite(motion) || !std::isfinite(radius))
+    if (!is_finite(convert<Real>(center)) || !is_finite(convert<Real>(motion)) ||
+        !std::isfinite(static_cast<Real>(radius)))
       throw InputError(shape.where, "the sphere's position or size is not finite");
     const bool moves = !is_zero(motion);
     const size_t index = moves ? out_.moving_spheres.size() : out_.spheres.size();
