@@ -43,10 +43,12 @@ class Study:
         self.json = json.loads((folder / "study.json").read_text(encoding="utf-8"))
         self.tables = {table["id"]: table for table in self.json["tables"]}
 
-    def cells(self, table, column=None):
-        """The measured cells of a table, of one of its columns where that is named."""
+    def cells(self, table, column=None, having=()):
+        """The measured cells of a table, of one of its columns where that is named, that have what is to be drawn: a study
+        that was interrupted has cells without a baseline, and some that were not measured."""
         return [cell for cell in self.tables.get(table, {"cells": []})["cells"]
-                if cell["status"] == "ok" and (column is None or cell["column"] == column)]
+                if cell["status"] == "ok" and cell.get("seconds") and (column is None or cell["column"] == column)
+                and all(cell.get(name) is not None for name in having)]
 
     def columns(self, table):
         return self.tables.get(table, {"columns": []})["columns"]
@@ -69,10 +71,10 @@ def save(figure, folder, name):
 
 
 def error_of_speedup(cell):
-    """How far the speedup would be off at the fastest and at the slowest repeat."""
-    seconds = cell["seconds"]
-    return [cell["speedup"] - cell["speedup"] * seconds["median"] / seconds["max"],
-            cell["speedup"] * seconds["median"] / seconds["min"] - cell["speedup"]]
+    """How far the speedup would be off at the slowest and at the fastest repeat; rounding does not make it negative."""
+    seconds, speedup = cell["seconds"], cell["speedup"]
+    return [max(0.0, speedup - speedup * seconds["median"] / seconds["max"]),
+            max(0.0, speedup * seconds["median"] / seconds["min"] - speedup)]
 
 
 def bars(axes, labels, cells, colours, unit="x"):
@@ -105,7 +107,7 @@ def draw_headline(study):
                 ("OptiX", "optix", lambda row: True, "red")]
     labels, cells, colours = [], [], []
     for label, table, is_member, colour in families:
-        members = [cell for cell in study.cells(table, "float") if is_member(cell["row"]) and "speedup" in cell]
+        members = [cell for cell in study.cells(table, "float", ["speedup"]) if is_member(cell["row"])]
         if members:
             best = max(members, key=lambda cell: cell["speedup"])
             labels.append(label if label and table not in ("table4", "table5") else
@@ -122,7 +124,7 @@ def draw_headline(study):
 
 
 def draw_forms(study):
-    cells = [cell for cell in study.cells("table2") if "speedup" in cell]
+    cells = [cell for cell in study.cells("table2", having=["speedup", "report"]) if cell["report"][0].get("seconds")]
     if len(cells) < 2:
         return
     report = {cell["row"]: cell["report"][0]["seconds"] for cell in cells}
@@ -143,14 +145,14 @@ def draw_forms(study):
 
 
 def draw_scaling(study):
-    columns = study.columns("table3")
-    if not study.cells("table3"):
+    columns = [column for column in study.columns("table3") if study.cells("table3", column, ["speedup"])]
+    if not columns:
         return
     processors = study.json["machine"]["processors"]
     figure, all_axes = plt.subplots(1, len(columns), figsize=(8.6, 3.6), sharey=True)
     for axes, column in zip(np.atleast_1d(all_axes), columns):
         lines = {}
-        for cell in study.cells("table3", column):
+        for cell in study.cells("table3", column, ["speedup"]):
             threads, schedule = cell["row"].split()
             lines.setdefault(schedule, []).append((int(threads), cell))
         largest = max(threads for line in lines.values() for threads, _ in line)
@@ -172,13 +174,13 @@ def draw_scaling(study):
 def draw_gpu(study, table, name):
     """Speedups of a table of the GPU, double and float beside each other."""
     rows = [row for row in study.tables.get(table, {"rows": []})["rows"]
-            if any(cell["row"] == row for cell in study.cells(table))]
+            if any(cell["row"] == row for cell in study.cells(table, having=["speedup"]))]
     if not rows:
         return
     figure, axes = plt.subplots(figsize=(8.6, 3.2))
     positions, width = np.arange(len(rows)), 0.38
     for i, column in enumerate(study.columns(table)):
-        values = {cell["row"]: cell["speedup"] for cell in study.cells(table, column) if "speedup" in cell}
+        values = {cell["row"]: cell["speedup"] for cell in study.cells(table, column, ["speedup"])}
         axes.bar(positions + (i - 0.5) * width, [values.get(row, 0) for row in rows], width, label=column)
     axes.set_xticks(positions, rows)
     axes.grid(axis="x", visible=False)
@@ -199,7 +201,7 @@ def read_pfm(path):
 
 def draw_figure3(study):
     figure3 = study.json.get("figure3")
-    if not figure3:
+    if not figure3 or not all((study.folder / figure3[name]["picture"]).is_file() for name in ("naive", "chunked")):
         return
     naive, chunked = (read_pfm(study.folder / figure3[name]["picture"]) for name in ("naive", "chunked"))
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 4.1))
@@ -218,7 +220,7 @@ def draw_figure3(study):
 
 
 def draw_balance(study):
-    cells = study.cells("balance", "float")
+    cells = study.cells("balance", "float", ["busiest_over_mean"])
     if not cells:
         return
     figure, axes = plt.subplots(figsize=(8.6, 2.6))
@@ -236,14 +238,14 @@ def draw_balance(study):
 
 def draw_queries(study):
     columns = study.columns("queries")
-    cells = study.cells("queries")
+    cells = study.cells("queries", having=["nanoseconds_per_ray"])
     if not cells:
         return
     rows = list(dict.fromkeys(cell["row"] for cell in cells))
     figure, axes = plt.subplots(figsize=(8.6, 2.8))
     positions, height = np.arange(len(rows))[::-1], 0.38
     for i, column in enumerate(columns):
-        values = {cell["row"]: cell["nanoseconds_per_ray"] for cell in study.cells("queries", column)}
+        values = {cell["row"]: cell["nanoseconds_per_ray"] for cell in study.cells("queries", column, ["nanoseconds_per_ray"])}
         for position, row in zip(positions, rows):
             if row in values:
                 place = position + (0.5 - i) * height
@@ -259,12 +261,13 @@ def draw_queries(study):
 
 
 def draw_depth(study, table, name):
-    columns = study.columns(table)
-    if not study.cells(table):
+    needed = ["rays_per_sample", "nanoseconds_per_sample"]
+    columns = [column for column in study.columns(table) if study.cells(table, column, needed)]
+    if not columns:
         return
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.6))
     for column in columns:
-        cells = study.cells(table, column)
+        cells = study.cells(table, column, needed)
         depths = [int(cell["row"]) for cell in cells]
         colour, line = {"branching": ("orange", "-"), "recursive": ("green", "--")}.get(column.split()[0], ("blue", "-"))
         style = {"marker": "o", "markersize": 4, "linewidth": 1.6, "label": column, "linestyle": line,
@@ -272,7 +275,7 @@ def draw_depth(study, table, name):
         left.plot(depths, [cell["rays_per_sample"] for cell in cells], **style)
         right.plot(depths, [cell["nanoseconds_per_sample"] / 1000 for cell in cells], **style)
     depths = np.arange(1, 13)
-    most = max(cell["rays_per_sample"] for cell in study.cells(table))
+    most = max(cell["rays_per_sample"] for cell in study.cells(table, having=needed))
     shown = depths[2.0 ** depths - 1 <= 2 * most]
     left.plot(shown, 2.0 ** shown - 1, color="#98a4af", linestyle=":", label="all of them branch: $2^D - 1$")
     for axes, title in ((left, "rays of a camera sample"), (right, "microseconds of a camera sample")):
@@ -290,11 +293,11 @@ def draw_depth(study, table, name):
 
 
 def draw_objects(study):
-    if not study.cells("objects"):
+    if not study.cells("objects", having=["nanoseconds_per_ray"]):
         return
     figure, axes = plt.subplots(figsize=(8.6, 3.6))
     for column in study.columns("objects"):
-        cells = study.cells("objects", column)
+        cells = study.cells("objects", column, ["nanoseconds_per_ray"])
         axes.plot([int(cell["row"]) for cell in cells], [cell["nanoseconds_per_ray"] for cell in cells], marker="o",
                   markersize=4, linewidth=1.6, label=column)
     axes.set_xscale("log")
@@ -308,7 +311,7 @@ def draw_objects(study):
 def draw_error(study):
     figure, axes = plt.subplots(figsize=(8.6, 3.6))
     for column in study.columns("error"):
-        cells = [cell for cell in study.cells("error", column) if "rmse" in cell]
+        cells = study.cells("error", column, ["rmse"])
         axes.plot([cell["seconds"]["median"] for cell in cells], [cell["rmse"] for cell in cells], marker="o",
                   markersize=5, linewidth=1.6, label=column)
         for cell in cells:
@@ -329,18 +332,19 @@ def main():
         sys.exit(__doc__.strip())
     set_style()
     study = Study(Path(sys.argv[1]))
-    draw_headline(study)
-    draw_forms(study)
-    draw_scaling(study)
-    draw_gpu(study, "table4", "blocks")
-    draw_gpu(study, "table5", "chunks")
-    draw_figure3(study)
-    draw_balance(study)
-    draw_queries(study)
-    draw_depth(study, "depth", "depth")
-    draw_depth(study, "glass", "glass")
-    draw_objects(study)
-    draw_error(study)
+    plots = {"headline": draw_headline, "forms": draw_forms, "scaling": draw_scaling,
+             "blocks": lambda s: draw_gpu(s, "table4", "blocks"), "chunks": lambda s: draw_gpu(s, "table5", "chunks"),
+             "figure3": draw_figure3, "balance": draw_balance, "queries": draw_queries,
+             "depth": lambda s: draw_depth(s, "depth", "depth"), "glass": lambda s: draw_depth(s, "glass", "glass"),
+             "objects": draw_objects, "error": draw_error}
+    failures = []
+    for name, draw in plots.items():
+        try:
+            draw(study)
+        except Exception as error:  # one that fails is no reason to lose the others
+            failures.append(f"{name} ({type(error).__name__}: {error})")
+    if failures:
+        sys.exit("; ".join(failures))
 
 
 if __name__ == "__main__":

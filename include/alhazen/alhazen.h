@@ -34,6 +34,9 @@ struct Settings {
   /// Map of the whole sphere that replaces the infinite lights of the scene: twice as wide as high (equirectangular) or
   /// square (equal-area octahedral). Its top is towards +y, its middle towards -z.
   std::string environment;
+  /// Read nothing outside of the folder of the scene file, whatever the scene names: for scenes of strangers. What is
+  /// linked or mounted into the folder is in it, hard links included.
+  bool confine = false;
   std::string coats;      ///< pbrt: lossless, or pbrt: they lose as much light as in pbrt-v4; empty: lossless
   std::string camera;     ///< glTF: a name, or a number from 0; empty: the first
   std::string variant;    ///< glTF: a name or a number of KHR_materials_variants; empty: none of them

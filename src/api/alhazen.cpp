@@ -17,10 +17,15 @@ Picture render(const std::string& scene_file, const Settings& settings, const Pr
   Diagnostics diagnostics;
   refuse_same_file({settings.checkpoint, "the checkpoint"},
                    {{scene_file, "the scene"}, {settings.environment, "the environment map"}});
-  const ReadOptions choice{settings.camera, settings.variant, settings.animation, settings.animation_time,
-                           aspect_of(settings.width, settings.height)};
+  const ReadOptions choice{settings.camera,
+                           settings.variant,
+                           settings.animation,
+                           settings.animation_time,
+                           aspect_of(settings.width, settings.height),
+                           settings.confine};
   Scene scene = read_scene(scene_file, choice, diagnostics);
-  if (!settings.environment.empty()) use_environment(scene, settings.environment);
+  if (!settings.environment.empty())
+    use_environment(scene, path_beside(scene_file, settings.environment, settings.confine));
   scene.coats = parse_coats(settings.coats);
   const RenderSettings resolved = resolve_settings(settings, scene);
   const Rendering rendering = render_scene(std::move(scene), resolved, 0, RenderEvents{progress, {}, {}}, diagnostics);

@@ -11,6 +11,7 @@
 #include "io/read_scene.h"
 #include "render/statistics.h"
 #include "scene/flatten.h"
+#include "scene/printable.h"
 
 namespace alhazen {
 
@@ -18,7 +19,7 @@ namespace {
 
 struct InfoOptions {
   std::string scene;
-  bool json = false, list = false;
+  bool json = false, list = false, confine = false;
 };
 
 const char* name_of(FilterType type) {
@@ -39,11 +40,13 @@ const char* name_of(FilterType type) {
 
 void show(const InfoOptions& options) {
   if (options.list) {
-    print_listing(options.scene, options.json);
+    print_listing(options.scene, options.confine, options.json);
     return;
   }
   Diagnostics diagnostics;
-  Scene scene = read_scene(options.scene, diagnostics);
+  ReadOptions choice;
+  choice.confine = options.confine;
+  Scene scene = read_scene(options.scene, choice, diagnostics);
   const RenderSettings settings = resolve_settings({}, scene);
   const size_t materials = scene.materials.size(), textures = scene.textures.size(), images = scene.images.size(),
                meshes = scene.meshes.size(), instances = scene.instances.size();
@@ -72,10 +75,10 @@ void show(const InfoOptions& options) {
                                  {"build_seconds", sizes.build_seconds},
                                  {"peak_rss_bytes", peak_rss_bytes()}};
   if (options.json) {
-    print_out("{}\n", j.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_out("{}\n", j.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
   } else {
     for (const auto& [key, value] : j.items())
-      print_out("{:<15} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+      print_out("{:<15} {}\n", key, value.is_string() ? printable(value.get<std::string>()) : value.dump());
   }
   for (const Diagnostics::Warning& warning : diagnostics.warnings()) tell("warning: {}\n", warning.to_string());
 }
@@ -88,6 +91,7 @@ CLI::App* register_info(CLI::App& app) {
   command->add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)")->required()->type_name("");
   command->add_flag("--json", options->json, "One JSON object instead of the list");
   command->add_flag("--list", options->list, "Cameras, variants, animations and lights of a glTF file instead");
+  command->add_flag("--confine", options->confine, "Read nothing outside the folder of the scene");
   command->callback([options] { show(*options); });
   return command;
 }

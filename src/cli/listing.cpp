@@ -6,12 +6,15 @@
 
 #include "cli/console.h"
 #include "io/read_scene.h"
+#include "scene/printable.h"
 
 namespace alhazen {
 
-void print_listing(const std::string& scene, bool as_json) {
+void print_listing(const std::string& scene, bool confine, bool as_json) {
   Diagnostics diagnostics;
-  const SceneListing listing = list_scene(scene, diagnostics);
+  ReadOptions choice;
+  choice.confine = confine;
+  const SceneListing listing = list_scene(scene, choice, diagnostics);
   const std::pair<const char*, const std::vector<std::string>*> kinds[] = {{"cameras", &listing.cameras},
                                                                            {"variants", &listing.variants},
                                                                            {"animations", &listing.animations},
@@ -21,10 +24,10 @@ void print_listing(const std::string& scene, bool as_json) {
     json[kind] = *names;
     if (as_json) continue;
     print_out("{}: {}\n", kind, names->size());
-    for (size_t i = 0; i < names->size(); ++i) print_out("  {} {}\n", i, (*names)[i]);
+    for (size_t i = 0; i < names->size(); ++i) print_out("  {} {}\n", i, printable((*names)[i]));
   }
   // Names are bytes of the file, which need not be valid UTF-8.
-  if (as_json) print_out("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (as_json) print_out("{}\n", json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace alhazen

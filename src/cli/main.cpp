@@ -7,8 +7,10 @@
 #include <string>
 
 #include "cli/console.h"
+#include "cli/stack.h"
 #include "cli/subcommands.h"
 #include "scene/diagnostics.h"
+#include "scene/printable.h"
 
 namespace {
 
@@ -21,7 +23,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv, int& exit_code) {
   } catch (const CLI::ParseError& error) {
     const bool is_unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
     alhazen::tell("alhazen: {}\nRun 'alhazen --help' or 'alhazen SUBCOMMAND --help' for what may be given.\n",
-                  is_unknown ? fmt::format("there is no subcommand '{}'", argv[1]) : error.what());
+                  alhazen::printable(is_unknown ? fmt::format("there is no subcommand '{}'", argv[1]) : error.what()));
     return alhazen::exit_bad_input;
   }
 }
@@ -33,10 +35,11 @@ int run_guarded(CLI::App& app, int argc, char** argv, int& exit_code) {
     alhazen::tell("{}\n", error.what());
     return alhazen::exit_bad_input;
   } catch (const std::bad_alloc&) {
-    alhazen::tell("alhazen: out of memory: render fewer pixels or layers at once (--size, --crop), or in float\n");
+    alhazen::tell(
+        "alhazen: out of memory: what was asked for needs more than this machine, or a limit set on it, allows\n");
     return alhazen::exit_failed;
   } catch (const std::exception& error) {
-    alhazen::tell("alhazen: {}\n", error.what());
+    alhazen::tell("alhazen: {}\n", alhazen::printable(error.what()));
     return alhazen::exit_failed;
   }
 }
@@ -49,9 +52,7 @@ int after_flushing(int exit_code) {
   return exit_code == alhazen::exit_done ? alhazen::exit_failed : exit_code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_program(int argc, char** argv) {
   alhazen::prepare_streams();
   CLI::App app("A path tracer whose light transport is written once and run by many engines.", "alhazen");
   app.set_version_flag("--version", "alhazen " ALHAZEN_VERSION);
@@ -66,4 +67,10 @@ int main(int argc, char** argv) {
   alhazen::register_info(app);
   alhazen::register_study(app, exit_code);
   return after_flushing(run_guarded(app, argc, argv, exit_code));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return alhazen::run_on_enough_stack([&] { return run_program(argc, argv); });
 }

@@ -18,6 +18,7 @@
 #include "io/environment.h"
 #include "io/read_scene.h"
 #include "render/renderer.h"
+#include "scene/printable.h"
 #include "study/tuned.h"
 
 namespace alhazen {
@@ -114,7 +115,7 @@ std::string engine_of(const RenderSettings& r) {
 
 void print_start(const RenderStatistics& s) {
   const RenderSettings& r = s.settings;
-  tell("{}: {} triangles, {} spheres, {} lights; read in {:.2f} s, BVH of {} nodes in {:.2f} s\n", s.scene,
+  tell("{}: {} triangles, {} spheres, {} lights; read in {:.2f} s, BVH of {} nodes in {:.2f} s\n", printable(s.scene),
        s.scene_sizes.triangles, s.scene_sizes.spheres, s.scene_sizes.lights, s.load_seconds, s.scene_sizes.nodes,
        s.build_seconds);
   tell("{} x {} pixels, {} samples each, {} in {}, depth {}; {}{}{} on {}\n", r.window.width(), r.window.height(),
@@ -137,7 +138,8 @@ void print_end(const RenderOptions& options, const OutputReport& outputs, const 
   if (!options.quiet) {
     std::string line = fmt::format("{} samples a pixel in {}", statistics.samples_per_pixel,
                                    format_seconds(statistics.render_seconds));
-    for (const std::string& path : outputs.written) line += (&path == &outputs.written[0] ? "; wrote " : ", ") + path;
+    for (const std::string& path : outputs.written)
+      line += (&path == &outputs.written[0] ? "; wrote " : ", ") + printable(path);
     if (!options.exposure && options.output.png.exposure < 0)
       line += fmt::format("; PNG with --exposure {}", options.output.png.exposure);
     tell("{}\n", line);
@@ -164,7 +166,7 @@ int finish(RenderOptions& options, const Rendering& rendering, bool fits_exposur
 
 int run(RenderOptions& options) {
   if (options.list) {
-    print_listing(options.scene, false);
+    print_listing(options.scene, options.settings.confine, false);
     return exit_done;
   }
   parse_settings(options);
@@ -175,9 +177,9 @@ int run(RenderOptions& options) {
   // Before the scene is read, which may take long; the rest of the outputs' names are known after it.
   refuse_same_file({s.checkpoint, "the checkpoint"},
                    {{options.scene, "the scene"}, {s.environment, "the environment map"}});
-  const ReadOptions choice{s.camera, s.variant, s.animation, s.animation_time, aspect_of(s.width, s.height)};
+  const ReadOptions choice{s.camera, s.variant, s.animation, s.animation_time, aspect_of(s.width, s.height), s.confine};
   Scene scene = read_scene(options.scene, choice, diagnostics);
-  if (!options.settings.environment.empty()) use_environment(scene, options.settings.environment);
+  if (!s.environment.empty()) use_environment(scene, path_beside(options.scene, s.environment, s.confine));
   scene.coats = parse_coats(options.settings.coats);
   const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
@@ -257,6 +259,10 @@ void add_picture_options(CLI::App& command, RenderOptions& o) {
       .add_option("--variant", o.settings.variant,
                   "glTF: the materials of this variant, by name or number; without it each mesh's own")
       ->type_name("NAME")
+      ->group(group);
+  command
+      .add_flag("--confine", o.settings.confine,
+                "Read nothing outside the folder of the scene, whatever the scene names: for scenes of strangers")
       ->group(group);
   command.add_flag("--list", o.list, "Print cameras, variants, animations and lights of the file, and render nothing")
       ->group(group);

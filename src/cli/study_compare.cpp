@@ -66,7 +66,7 @@ void run(const StudyCompareOptions& o) {
 void register_study_compare(CLI::App& study) {
   CLI::App* command = study.add_subcommand("compare", "What changed between two studies, beyond noise");
   auto o = std::make_shared<StudyCompareOptions>();
-  command->add_option("A", o->a, "a study.json")->required()->type_name("");
+  command->add_option("A", o->a, "a study.json, or the folder that holds it")->required()->type_name("");
   command->add_option("B", o->b, "a later one")->required()->type_name("");
   command->add_option("--threshold", o->threshold, "Changes of less are not told (5)")
       ->check(CLI::Range(0.0, 1000.0).description(""))

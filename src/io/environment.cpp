@@ -24,7 +24,7 @@ void decode_bytes(ImageTexels& map) {
 
 }  // namespace
 
-ImageTexels read_environment(const std::string& path) {
+ImageTexels read_environment(const InputPath& path) {
   ImageTexels map = read_texture(path, TextureEncoding::automatic);
   if (map.floats.empty()) decode_bytes(map);
   map.srgb = false;
@@ -66,10 +66,10 @@ double upward_irradiance(const ImageTexels& map) {
   return sum;
 }
 
-void use_environment(Scene& scene, const std::string& path) {
+void use_environment(Scene& scene, const InputPath& path) {
   ImageTexels map = read_environment(path);
   const std::string fault = environment_fault(map);
-  if (!fault.empty()) throw InputError({path}, fault);
+  if (!fault.empty()) throw InputError({path.name}, fault);
   std::erase_if(scene.lights, [](const Light& light) {
     return light.type == LightType::constant_infinite || light.type == LightType::environment;
   });
@@ -80,7 +80,7 @@ void use_environment(Scene& scene, const std::string& path) {
   // The map's middle is its -x; what is left of it, its +y, is on the camera's left.
   const bool is_right_handed = scene.camera.world_from_camera.start.swaps_handedness();
   light.axes = {{0, 0, 1}, {is_right_handed ? -1.0 : 1.0, 0, 0}, {0, 1, 0}};
-  light.where = {path};
+  light.where = {path.name};
   scene.environments.assign(1, std::move(map));
   scene.lights.push_back(std::move(light));
 }

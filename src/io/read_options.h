@@ -18,6 +18,9 @@ struct ReadOptions {
   /// Width over height of the picture that is asked for, which counts where the file has no camera; 0: nothing is
   /// asked.
   double aspect = 0;
+  /// Whether the files that the scene names must lie in its folder (io/files/confinement.h).
+  bool confine = false;
+  /// Whether nothing is chosen; `confine` chooses nothing of what the file offers.
   bool is_default() const { return camera.empty() && variant.empty() && animation.empty() && !time; }
 };
 

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
+#include <memory>
+#include <new>
+#include <stdexcept>
 
 #include "core/math/bounds.h"
 #include "io/gltf/gltf.h"
@@ -38,14 +40,15 @@ Scene scene_around(Mesh&& mesh, const std::string& path) {
   return scene;
 }
 
-std::string format_of(const std::string& path) {
+std::string format_of(const InputPath& input) {
+  const std::string& path = input.name;
   std::string extension = extension_of(path);
   if (extension == "gz") extension = extension_of(std::filesystem::path(path).stem().string());
   if (extension == "pbrt" || extension == "ply") return extension;
   if (extension == "gltf" || extension == "glb") return "gltf";
   std::array<char, 4> head{};
-  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
-  if (std::string_view(head.data(), head.size()) == "glTF") return "gltf";
+  InputFile file(input);
+  if (std::string_view(head.data(), file.read(head.data(), head.size())) == "glTF") return "gltf";
   throw InputError({path},
                    "the format is not known by this name: give a .pbrt scene, a .gltf or .glb scene, or a .ply mesh "
                    "(.pbrt and .ply also as .gz)");
@@ -53,17 +56,39 @@ std::string format_of(const std::string& path) {
 
 }  // namespace
 
-Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
-  const std::string format = format_of(path);
-  if (format == "gltf") return read_gltf(path, options, diagnostics);
+namespace {
+
+Scene read_by_format(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
+  const InputPath input = path_beside(path, path, options.confine);
+  const std::string format = format_of(input);
+  if (format == "gltf") return read_gltf(input, options, diagnostics);
   if (!options.is_default())
     throw InputError({path}, "cameras, variants, animations and their time can be chosen of glTF files alone");
-  if (format == "pbrt") return read_pbrt(path, diagnostics);
-  return scene_around(read_ply(path, diagnostics), path);
+  if (format == "pbrt") return read_pbrt(input, diagnostics);
+  return scene_around(read_ply(input, diagnostics), path);
 }
 
-SceneListing list_scene(const std::string& path, Diagnostics& diagnostics) {
-  return format_of(path) == "gltf" ? list_gltf(path, diagnostics) : SceneListing{};
+}  // namespace
+
+Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
+  try {
+    return read_by_format(path, options, diagnostics);
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {
+  }
+  throw InputError({path},
+                   "what the scene holds is too large for the memory of this machine, or for a limit set on it (ulimit "
+                   "-v): give it fewer or smaller meshes and pictures");
+}
+
+SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
+  const InputPath input = path_beside(path, path, options.confine);
+  return format_of(input) == "gltf" ? list_gltf(input, diagnostics) : SceneListing{};
+}
+
+InputPath path_beside(const std::string& scene, const std::string& path, bool confine) {
+  if (!confine) return path;
+  return {path, std::make_shared<const Confinement>(std::filesystem::path(scene).parent_path().string())};
 }
 
 }  // namespace alhazen

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "io/files/input_file.h"
 #include "io/read_options.h"
 #include "scene/scene.h"
 
@@ -15,6 +16,9 @@ Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostic
 inline Scene read_scene(const std::string& path, Diagnostics& diagnostics) { return read_scene(path, {}, diagnostics); }
 
 /// What `options` may choose from. Throws InputError.
-SceneListing list_scene(const std::string& path, Diagnostics& diagnostics);
+SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics);
+
+/// `path` for reading: bound to the folder of the scene file `scene` where `confine` says so, else as it is.
+InputPath path_beside(const std::string& scene, const std::string& path, bool confine);
 
 }  // namespace alhazen

@@ -198,6 +198,18 @@ void check_memory(uint64_t bytes) {
 }
 
 template <class Real>
+std::unique_ptr<Film<Real>> make_film(const RenderSettings& settings, bool weighted) {
+  const uint64_t bytes = film_bytes<Real>(settings.window, settings.aovs, weighted);
+  check_memory(bytes);
+  try {
+    return std::make_unique<Film<Real>>(settings.window, settings.aovs, weighted);
+  } catch (const std::bad_alloc&) {
+    throw InputError("the picture with its layers takes " + std::to_string(bytes >> 20) +
+                     " MiB, which are not left beside the scene: render parts of it with --crop, or with fewer layers");
+  }
+}
+
+template <class Real>
 Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, double load_seconds,
                               const RenderEvents& events, Diagnostics& diagnostics) {
   Rendering rendering;
@@ -220,8 +232,7 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   backend->prepare(flat);
   statistics.build_seconds = flat.statistics.build_seconds + seconds_since(build_start);
   const bool weighted = flat.view.filter.has_negative != 0;
-  check_memory(film_bytes<Real>(settings.window, settings.aovs, weighted));
-  auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, weighted);
+  auto film = make_film<Real>(settings, weighted);
   if (events.started) events.started(statistics);
   PassLoop<Real>(*backend, flat, settings, *film, events, diagnostics).run(statistics);
   statistics.peak_rss_bytes = peak_rss_bytes();

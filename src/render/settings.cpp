@@ -8,6 +8,7 @@
 #include "render/backend.h"
 #include "render/checkpoint.h"
 #include "render/denoiser.h"
+#include "scene/thread_limit.h"
 
 namespace alhazen {
 
@@ -133,6 +134,18 @@ BlockSize parse_block(const std::string& text) {
   return block;
 }
 
+/// Threads that the system does not give are refused where they were asked for, else fewer are used.
+void check_threads(int asked, RenderSettings& s) {
+  if (s.runs_on_device) return;
+  const int available = threads_available(s.threads);
+  if (available >= s.threads) return;
+  if (asked != 0)
+    throw InputError("the system does not give " + std::to_string(s.threads) + " threads: give --threads " +
+                     std::to_string(available) +
+                     " or fewer, or raise what limits them (ulimit -u, ulimit -v, the container's pids or memory)");
+  s.threads = available;
+}
+
 /// The denoiser is refused before the render where it is not there.
 void resolve_denoiser(const std::string& name, RenderSettings& s) {
   if (name.empty() || name == "none") return;
@@ -200,6 +213,7 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   resolve_denoiser(asked.denoiser, s);
   s.schedule = parse_schedule(asked.schedule.empty() ? "dynamic" : asked.schedule);
   choose_backend(asked, s);
+  check_threads(asked.threads, s);
   if (!asked.block.empty()) s.block = parse_block(asked.block);
   if (!asked.chunk.empty()) s.chunk = parse_size(asked.chunk, "the number of chunks", 4096);
   return s;

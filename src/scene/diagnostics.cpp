@@ -1,5 +1,7 @@
 #include "scene/diagnostics.h"
 
+#include "scene/printable.h"
+
 namespace alhazen {
 
 std::string SourceLocation::to_string() const {
@@ -11,11 +13,15 @@ std::string SourceLocation::to_string() const {
 
 static std::string located(const SourceLocation& where, const std::string& message) {
   const std::string place = where.to_string();
-  return place.empty() ? message : place + ": " + message;
+  return printable(place.empty() ? message : place + ": " + message);
 }
 
 InputError::InputError(const SourceLocation& where, const std::string& message, const std::string& excerpt)
-    : std::runtime_error(located(where, message) + (excerpt.empty() ? "" : "\n" + excerpt)) {}
+    : std::runtime_error(located(where, message) + (excerpt.empty() ? "" : "\n" + printable_lines(excerpt))) {}
+
+InputError::InputError(const std::string& message) : std::runtime_error(printable(message)) {}
+
+RenderError::RenderError(const std::string& message) : std::runtime_error(printable_lines(message)) {}
 
 std::string Diagnostics::Warning::to_string() const { return located(where, message); }
 

@@ -22,17 +22,18 @@ struct SourceLocation {
 
 /// Input that cannot be used: a malformed file, a missing one, a setting out of range.
 /// `what()` is one complete message: `file:line:column: what is wrong and what to do`, with the excerpt below it
-/// where there is one. The command line turns it into exit code 2.
+/// where there is one. Nothing in it acts on a terminal (scene/printable.h), whatever names the input holds.
+/// The command line turns it into exit code 2.
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(const std::string& message) : std::runtime_error(message) {}
+  explicit InputError(const std::string& message);
   InputError(const SourceLocation& where, const std::string& message, const std::string& excerpt = {});
 };
 
 /// Something that failed while the machine was at work: a full disk, no memory. Exit code 1.
 class RenderError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit RenderError(const std::string& message);
 };
 
 /// Collects warnings. The same text is kept once, however often and wherever it comes up; the place is the first.
@@ -41,7 +42,7 @@ class Diagnostics {
   struct Warning {
     SourceLocation where;
     std::string message;
-    std::string to_string() const;
+    std::string to_string() const;  ///< one printable line
   };
 
   void warn(const SourceLocation& where, const std::string& message);

@@ -1,6 +1,9 @@
 #include "scene/flatten.h"
 
+#include <unistd.h>
+
 #include <cmath>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -12,6 +15,7 @@
 #include "scene/flatten_lights.h"
 #include "scene/flatten_materials.h"
 #include "scene/flatten_trees.h"
+#include "scene/thread_limit.h"
 
 namespace alhazen {
 
@@ -30,12 +34,23 @@ class Flattener {
   Flattener(Scene& scene, const FlattenOptions& options, Diagnostics& diagnostics)
       : scene_(scene), options_(options), diagnostics_(diagnostics) {}
 
+  /// Why memory did not hold the scene.
+  std::string too_large() const {
+    uint64_t texels = 0;
+    for (const ImageTexels& image : scene_.images)
+      texels += static_cast<uint64_t>(image.width) * static_cast<uint64_t>(image.height);
+    return "the scene is too large for the memory of this machine, or for a limit set on it (ulimit -v): it places " +
+           std::to_string(placed_shapes_) + " shapes, meshes of " + std::to_string(placed_triangles_) +
+           " triangles among them, and has pictures of " + std::to_string(texels >> 20) +
+           " million texels; give it fewer instances, less geometry or smaller pictures (--texture-budget)";
+  }
+
   FlatScene<Real> run() {
     check_film();
     FlatScene<Real> flat;
     flatten_camera(scene_, width_, height_, out_, flat.view, diagnostics_);
     check_mixes(scene_);
-    for (const Material& material : scene_.materials) needs_uv_.push_back(material_needs_uv(scene_, material));
+    needs_uv_ = materials_that_need_uv(scene_);
     fit_images(scene_, options_.texture_budget, diagnostics_);
     emission_textures_ = flatten_materials(scene_, out_);
     for (const MaterialRecord<Real>& material : out_.materials) {
@@ -153,6 +168,7 @@ class Flattener {
   void place_shapes() {
     group_moving_meshes();
     is_object_ = find_objects();
+    check_placements();
     const std::vector<Placement> world = world_placements();
     std::vector<std::vector<Placement>> objects(scene_.groups.size());
     for (size_t g = 0; g < objects.size(); ++g)
@@ -190,16 +206,37 @@ class Flattener {
     };
     count(world);
     for (const std::vector<Placement>& object : objects) count(object);
+    placed_triangles_ = triangles;
     if (triangles > max_primitives_of_a_kind || vertices > 0xfffffff0u || world.size() > max_primitives_of_a_kind)
       throw InputError({scene_.name}, "the scene has " + std::to_string(triangles) + " triangles with " +
                                           std::to_string(vertices) + " vertices, more than 2^30 or 2^32: split it");
     if (scene_.instances.size() > SimdChild::most_of_a_kind)
       throw InputError({scene_.name}, "the scene has " + std::to_string(scene_.instances.size()) +
                                           " instances, more than 2^26: split it");
+    check_memory(triangles, vertices);
     out_.triangles.reserve(triangles);
     out_.positions.reserve(vertices);
     out_.normals.reserve(normals);
     out_.uvs.reserve(uvs);
+  }
+
+  /// Spheres and lights of objects are placed copy by copy.
+  void check_placements() {
+    placed_shapes_ = scene_.groups.at(0).shapes.size();
+    for (const Instance& instance : scene_.instances)
+      if (!is_object_[instance.group]) placed_shapes_ += scene_.groups[instance.group].shapes.size();
+    if (placed_shapes_ * sizeof(Placement) > physical_memory() / 10 * 9) throw InputError({scene_.name}, too_large());
+  }
+
+  static uint64_t physical_memory() {
+    return static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+  }
+
+  /// Systems promise more memory than they have and end the program when it is used, so that much is not asked for.
+  void check_memory(uint64_t triangles, uint64_t vertices) const {
+    const uint64_t least =
+        triangles * (sizeof(TriangleRecord) + sizeof(TriangleBlock<Real>) / 4) + vertices * sizeof(Vec3<Real>);
+    if (least > physical_memory() / 10 * 9) throw InputError({scene_.name}, too_large());
   }
 
   void place(const Placement& p) {
@@ -451,6 +488,7 @@ class Flattener {
   std::vector<uint32_t> uses_;                   ///< by mesh: placements to come
   std::vector<TextureRange> emission_textures_;  ///< by texture
   std::vector<double> light_measures_;           ///< by light, see assign_light_probabilities
+  uint64_t placed_shapes_ = 0, placed_triangles_ = 0;
   size_t without_area_ = 0;
   SourceLocation without_area_place_;
 };
@@ -459,7 +497,14 @@ class Flattener {
 
 template <class Real>
 FlatScene<Real> flatten(Scene&& scene, const FlattenOptions& options, Diagnostics& diagnostics) {
-  return Flattener<Real>(scene, options, diagnostics).run();
+  limit_default_team();
+  Flattener<Real> flattener(scene, options, diagnostics);
+  try {
+    return flattener.run();
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {
+  }
+  throw InputError({scene.name}, flattener.too_large());
 }
 
 template FlatScene<float> flatten(Scene&&, const FlattenOptions&, Diagnostics&);

@@ -53,6 +53,7 @@ class TextureBuilder {
     if (root == no_index) return {};
     if (root >= scene_.textures.size()) throw InputError("texture index " + std::to_string(root) + " is out of range");
     if (ranges_.empty()) ranges_.resize(scene_.textures.size());
+    if (nodes_of(root, 0) > max_nodes) throw too_many(scene_.textures[root]);
     TextureRange& known = ranges_[root];
     if (known.count == 0) {
       known.first = static_cast<uint32_t>(out_.textures.size());
@@ -85,13 +86,31 @@ class TextureBuilder {
     return static_cast<uint32_t>(out_.texture_mappings.size() - 1);
   }
 
+  InputError too_many(const Texture& texture) const {
+    return InputError({scene_.name}, "texture '" + texture.name + "' is made of too many textures within each other");
+  }
+
+  /// How long the program of a texture is, before any of it is written: what is used twice by each of a few dozen
+  /// textures would fill all memory.
+  uint64_t nodes_of(uint32_t index, int nesting) {
+    if (index >= scene_.textures.size()) throw InputError({scene_.name}, "a texture refers to one that does not exist");
+    if (nodes_.empty()) nodes_.resize(scene_.textures.size());
+    if (nodes_[index] > 0) return nodes_[index];
+    const Texture& texture = scene_.textures[index];
+    if (nesting > max_nesting) throw too_many(texture);
+    uint64_t nodes = 1;
+    for (uint32_t i = 0; i < texture_input_count(texture.kind); ++i) nodes += nodes_of(texture.inputs[i], nesting + 1);
+    nodes_[index] = std::min(nodes, 2 * max_nodes);
+    return nodes_[index];
+  }
+
   /// Appends the program of `index` in postorder; `waiting` values lie on the stack when it starts.
   void append(uint32_t index, uint32_t waiting, int nesting) {
     if (index >= scene_.textures.size()) throw InputError("a texture refers to one that does not exist");
     const Texture& texture = scene_.textures[index];
     const uint32_t inputs = texture_input_count(texture.kind);
-    if (nesting > 64 || waiting + std::max(inputs, 1u) > max_texture_stack || out_.textures.size() > (1u << 24))
-      throw InputError("texture '" + texture.name + "' is made of too many textures within each other");
+    if (nesting > max_nesting || waiting + std::max(inputs, 1u) > max_texture_stack || out_.textures.size() > max_nodes)
+      throw too_many(texture);
     for (uint32_t i = 0; i < inputs; ++i) append(texture.inputs[i], waiting + i, nesting + 1);
     TextureRecord<Real> node{texture.kind, 0, 0, static_cast<uint32_t>(std::clamp(texture.octaves, 1, 64)), {}};
     switch (texture.kind) {
@@ -139,7 +158,10 @@ class TextureBuilder {
 
   Scene& scene_;
   SceneArrays<Real>& out_;
+  static constexpr int max_nesting = 96;
+  static constexpr uint64_t max_nodes = uint64_t{1} << 24;
   std::vector<TextureRange> ranges_;
+  std::vector<uint64_t> nodes_;  ///< by texture; 0: not known yet
   ImageBuilder<Real> images_;
 };
 
@@ -385,42 +407,36 @@ class MaterialBuilder {
   std::map<CoatedMetal, uint32_t> coated_metal_tables_;
 };
 
-bool texture_needs_uv(const Scene& scene, uint32_t index, int nesting) {
-  if (index >= scene.textures.size() || nesting > 64) return false;
-  const Texture& texture = scene.textures[index];
-  const bool is_flat = texture.kind == TextureKind::image || texture.kind == TextureKind::coordinates ||
-                       texture.kind == TextureKind::dots ||
-                       (texture.kind == TextureKind::checkerboard && !texture.solid_checks);
-  if (is_flat && texture.mapping == TextureMappingKind::uv) return true;
-  for (const uint32_t input : texture.inputs)
-    if (texture_needs_uv(scene, input, nesting + 1)) return true;
-  return false;
-}
-
-}  // namespace
-
-void check_mixes(const Scene& scene) {
-  constexpr uint32_t most_levels = 16;
-  std::vector<uint32_t> levels(scene.materials.size());  // 0: not known yet
-  const auto levels_of = [&](const auto& self, uint32_t index, uint32_t above) -> uint32_t {
-    if (index >= levels.size()) return 0;
-    const Material& material = scene.materials[index];
-    if (levels[index] == 0) {
-      uint32_t below = 0;
-      if (material.type == MaterialType::mix && above < most_levels)
-        for (const uint32_t next : material.mixed) below = std::max(below, self(self, next, above + 1));
-      levels[index] = below + 1;
-      if (above < most_levels) return levels[index];
-    }
-    if (above + levels[index] > most_levels)
-      throw InputError("material '" + material.name + "': mixes are more than " + std::to_string(most_levels) +
-                       " deep, or made of themselves");
-    return levels[index];
+/// By texture: whether it, or one that it is made of, looks at uv. Each is visited once, however often it is used.
+std::vector<bool> textures_that_need_uv(const Scene& scene) {
+  const size_t count = scene.textures.size();
+  std::vector<std::vector<uint32_t>> users(count);
+  std::vector<bool> needs(count);
+  std::vector<uint32_t> pending;
+  const auto mark = [&](uint32_t index) {
+    if (needs[index]) return;
+    needs[index] = true;
+    pending.push_back(index);
   };
-  for (uint32_t i = 0; i < levels.size(); ++i) levels_of(levels_of, i, 0);
+  for (uint32_t i = 0; i < count; ++i) {
+    const Texture& texture = scene.textures[i];
+    const bool is_flat = texture.kind == TextureKind::image || texture.kind == TextureKind::coordinates ||
+                         texture.kind == TextureKind::dots ||
+                         (texture.kind == TextureKind::checkerboard && !texture.solid_checks);
+    if (is_flat && texture.mapping == TextureMappingKind::uv) mark(i);
+    for (const uint32_t input : texture.inputs)
+      if (input < count) users[input].push_back(i);
+  }
+  while (!pending.empty()) {
+    const uint32_t index = pending.back();
+    pending.pop_back();
+    for (const uint32_t user : users[index]) mark(user);
+  }
+  return needs;
 }
 
-bool material_needs_uv(const Scene& scene, const Material& material) {
+/// Of the material itself, not of what it mixes.
+bool looks_at_uv(const Material& material, const std::vector<bool>& textures) {
   const Principled& p = material.principled;
   // What follows the tangents needs the frame of uv itself.
   if (material.normal_map != no_index || material.displacement != no_index || p.anisotropy != no_index ||
@@ -451,11 +467,57 @@ bool material_needs_uv(const Scene& scene, const Material& material) {
                                  p.iridescence_thickness,
                                  p.diffuse_transmission,
                                  p.diffuse_transmission_colour})
-    if (texture_needs_uv(scene, texture, 0)) return true;
-  if (material.type == MaterialType::mix)
-    for (const uint32_t other : material.mixed)
-      if (other < scene.materials.size() && material_needs_uv(scene, scene.materials[other])) return true;
+    if (texture < textures.size() && textures[texture]) return true;
   return false;
+}
+
+}  // namespace
+
+std::vector<uint32_t> order_of_mixes(const std::vector<Material>& materials, uint32_t& of_itself) {
+  enum class State : uint8_t { unknown, open, done };
+  std::vector<State> states(materials.size());
+  std::vector<uint32_t> order, path;
+  of_itself = no_index;
+  for (uint32_t i = 0; i < materials.size(); ++i) {
+    path.push_back(i);
+    while (!path.empty()) {
+      const uint32_t index = path.back();
+      const bool is_mix = materials[index].type == MaterialType::mix;
+      // A mix is met twice: before what it mixes, and when that is done.
+      if (states[index] != State::unknown || !is_mix) {
+        if (states[index] == State::open) order.push_back(index);
+        states[index] = State::done;
+        path.pop_back();
+        continue;
+      }
+      states[index] = State::open;
+      for (const uint32_t part : materials[index].mixed) {
+        if (part >= materials.size()) continue;
+        if (states[part] == State::open) of_itself = part;
+        if (states[part] == State::unknown) path.push_back(part);
+      }
+      if (of_itself != no_index) return order;
+    }
+  }
+  return order;
+}
+
+void check_mixes(const Scene& scene) {
+  uint32_t of_itself = no_index;
+  order_of_mixes(scene.materials, of_itself);
+  if (of_itself != no_index)
+    throw InputError({scene.name}, "the mix '" + scene.materials[of_itself].name + "' is made of itself");
+}
+
+std::vector<bool> materials_that_need_uv(const Scene& scene) {
+  const std::vector<bool> textures = textures_that_need_uv(scene);
+  std::vector<bool> needs;
+  for (const Material& material : scene.materials) needs.push_back(looks_at_uv(material, textures));
+  uint32_t of_itself = no_index;
+  for (const uint32_t mix : order_of_mixes(scene.materials, of_itself))
+    for (const uint32_t part : scene.materials[mix].mixed)
+      if (part < needs.size() && needs[part]) needs[mix] = true;
+  return needs;
 }
 
 template <class Real>

@@ -1,5 +1,6 @@
 #include "scene/transform.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -24,6 +25,13 @@ Matrix4 transpose(const Matrix4& m) {
   for (size_t i = 0; i < 4; ++i)
     for (size_t j = 0; j < 4; ++j) t[i][j] = m[j][i];
   return t;
+}
+
+/// `v` over its length, also where the square of that is out of the range of double.
+Vec3d unit(const Vec3d& v) {
+  const double square = length_squared(v);
+  if (square > 1e-280 && square < 1e280) return normalize(v);
+  return normalize(v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}));
 }
 
 /// Gauss-Jordan elimination with partial pivoting.
@@ -76,7 +84,7 @@ Transform Transform::scale(const Vec3d& factors) {
 
 Transform Transform::rotate(double degrees, const Vec3d& axis) {
   if (is_zero(axis)) throw std::domain_error("the axis of rotation is zero");
-  const Vec3d a = normalize(axis);
+  const Vec3d a = unit(axis);
   const double angle = degrees * std::numbers::pi / 180;
   const double s = std::sin(angle), c = std::cos(angle), k = 1 - c;
   const Matrix4 m{{{a.x * a.x * k + c, a.x * a.y * k - a.z * s, a.x * a.z * k + a.y * s, 0},
@@ -89,8 +97,8 @@ Transform Transform::rotate(double degrees, const Vec3d& axis) {
 Transform Transform::look_at(const Vec3d& eye, const Vec3d& target, const Vec3d& up) {
   const Vec3d view = target - eye;
   if (is_zero(view)) throw std::domain_error("eye and target are the same point");
-  const Vec3d forward = normalize(view);
-  const Vec3d side = is_zero(up) ? up : cross(normalize(up), forward);
+  const Vec3d forward = unit(view);
+  const Vec3d side = is_zero(up) ? up : cross(unit(up), forward);
   if (length(side) < 1e-12) throw std::domain_error("the up vector lies along the direction of view");
   const Vec3d right = normalize(side);
   const Vec3d true_up = cross(forward, right);

@@ -1,7 +1,10 @@
 #include "study/json.h"
 
 #include <cmath>
-#include <fstream>
+#include <filesystem>
+#include <vector>
+
+#include "io/files/input_file.h"
 
 namespace alhazen::study {
 
@@ -158,10 +161,17 @@ Json to_json(const Study& study) {
   return j;
 }
 
-nlohmann::json read_study_json(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError({path}, "cannot be read: give the study.json that 'alhazen study report' wrote");
-  nlohmann::json j = nlohmann::json::parse(file, nullptr, false);
+nlohmann::json read_study_json(const std::string& given) {
+  std::error_code error;
+  const bool is_folder = std::filesystem::is_directory(given, error);
+  const std::string path = is_folder ? (std::filesystem::path(given) / "study.json").string() : given;
+  if (const InputProblem problem = input_problem(path); problem.is_missing)
+    throw InputError({given}, is_folder ? "there is no study.json in this folder: give the folder that 'alhazen study "
+                                          "report' wrote"
+                                        : "there is no such file: give the study.json that 'alhazen study report' "
+                                          "wrote, or its folder");
+  const std::vector<uint8_t> bytes = InputFile(path).read_all();
+  nlohmann::json j = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
   if (j.is_discarded()) throw InputError({path}, "this is not JSON: give the study.json of 'alhazen study report'");
   if (!j.is_object() || j.value("schema", nlohmann::json()) != schema_name)
     throw InputError({path}, std::string("this is no study of the schema ") + schema_name +
@@ -198,9 +208,11 @@ void resume_from(const nlohmann::json& earlier, const std::string& path, Study& 
   for (const auto& j : earlier.at("trials")) {
     const std::string key = j.at("key");
     for (Trial& trial : study.trials) {
-      if (trial.key != key || j.at("status") != "ok") continue;
-      trial.status = TrialStatus::ok;
+      // Without seconds nothing was measured, whatever the status says.
+      if (trial.key != key || j.at("status") != "ok" || !j.contains("seconds")) continue;
       take_undisturbed(j, trial);
+      if (trial.seconds.empty()) continue;
+      trial.status = TrialStatus::ok;
       trial.build_seconds = j.at("build_seconds");
       trial.width = j.at("width");
       trial.height = j.at("height");

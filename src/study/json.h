@@ -13,7 +13,7 @@ inline constexpr const char* schema_name = "alhazen-study-1";
 
 nlohmann::ordered_json to_json(const Study& study);
 
-/// Reads a study.json of this schema. Throws InputError.
+/// Reads a study.json of this schema, or that of a folder. Throws InputError.
 nlohmann::json read_study_json(const std::string& path);
 
 /// Takes the measurements of an earlier, unfinished run into the trials of `study`, which was planned anew. Throws

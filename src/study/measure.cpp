@@ -40,9 +40,11 @@ double rmse_of(const Image& picture, const Image& reference) {
 
 /// False: the run was disturbed and is to be made again.
 bool record(const Outcome& outcome, const Image* reference, const Study& study, Trial& trial) {
-  trial.status = outcome.status;
-  trial.reason = outcome.reason;
-  if (outcome.status != TrialStatus::ok) return true;
+  if (outcome.status != TrialStatus::ok) {
+    trial.status = outcome.status;
+    trial.reason = outcome.reason;
+    return true;
+  }
   const RenderStatistics& s = outcome.statistics;
   std::vector<double> busy;
   for (const ThreadStatistics& thread : s.threads) busy.push_back(thread.busy_seconds);
@@ -53,6 +55,9 @@ bool record(const Outcome& outcome, const Image* reference, const Study& study, 
     trial.disturbed_seconds.push_back(s.render_seconds);
     return false;
   }
+  // Only now: a trial that is ok has times, whenever the study is interrupted.
+  trial.status = TrialStatus::ok;
+  trial.reason.clear();
   trial.seconds.push_back(s.render_seconds);
   trial.busy_seconds.push_back(std::move(busy));
   trial.processor_shares.push_back(share);

@@ -4,9 +4,9 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "io/files/input_file.h"
 #include "study/machine.h"
 #include "study/write.h"
 
@@ -112,22 +112,21 @@ std::string machine_key() {
 }
 
 std::string scene_key(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return {};
+  if (!input_problem(path).message.empty()) return {};
+  InputFile file(path);
   uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
-  char buffer[65536];
-  while (file.read(buffer, sizeof(buffer)), file.gcount() > 0)
-    for (std::streamsize i = 0; i < file.gcount(); ++i)
-      hash = (hash ^ static_cast<uint8_t>(buffer[i])) * 0x100000001b3u;
+  uint8_t buffer[65536];
+  while (const size_t count = file.read(buffer, sizeof(buffer)))
+    for (size_t i = 0; i < count; ++i) hash = (hash ^ buffer[i]) * 0x100000001b3u;
   return fmt::format("{:016x}", hash);
 }
 
 std::vector<TunedEntry> read_tuned(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (path.empty() || !file) return {};
+  if (path.empty() || input_problem(path).is_missing) return {};
   const char* const advice = ": remove it, or tune again with 'alhazen study tune SCENE --store'";
   try {
-    const Json j = Json::parse(file);
+    const std::vector<uint8_t> bytes = InputFile(path).read_all();
+    const Json j = Json::parse(bytes.begin(), bytes.end());
     if (j.at("schema") != tuned_schema) throw InputError({path}, std::string("this is of another version") + advice);
     std::vector<TunedEntry> entries;
     for (const Json& entry : j.at("entries")) entries.push_back(entry_of(entry));

@@ -249,6 +249,10 @@ TEST_F(StudyReport, TwoCanBeCompared) {
   ASSERT_EQ(j["changes"].size(), 1u);
   EXPECT_NEAR(j["changes"][0]["ratio"].get<double>(), 100, 1e-6);
   EXPECT_EQ(j["differences"].size(), 1u);
+  EXPECT_NE(run({"study", "compare", "a", "a/"}).out.find("0 of 4 cells"), std::string::npos);
+  const CommandResult empty = run({"study", "compare", "a", "."});
+  EXPECT_EQ(empty.exit_code, 2);
+  EXPECT_NE(empty.err.find("no study.json in this folder"), std::string::npos) << empty.err;
   EXPECT_EQ(run({"study", "compare", "a/study.json", "missing.json"}).exit_code, 2);
   EXPECT_EQ(run({"study", "compare", "a/study.json", "scene.pbrt"}).exit_code, 2);
 }

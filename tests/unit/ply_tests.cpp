@@ -287,9 +287,9 @@ std::string read_error(const std::string& path) {
 }
 
 TEST(Ply, FilesThatCannotBeRead) {
-  EXPECT_EQ(read_error("no_such.ply"), "no_such.ply: cannot open: No such file or directory");
+  EXPECT_EQ(read_error("no_such.ply"), "no_such.ply: cannot be opened: No such file or directory");
   const std::string folder = std::filesystem::temp_directory_path().string();
-  EXPECT_EQ(read_error(folder), folder + ": cannot read: Is a directory");
+  EXPECT_EQ(read_error(folder), folder + ": is a folder; give the name of a file");
 
   const TemporaryFile file;
   std::string rows;

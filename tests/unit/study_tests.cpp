@@ -16,9 +16,11 @@
 #include "study/json.h"
 #include "study/objects_scene.h"
 #include "study/plan.h"
+#include "study/plots.h"
 #include "study/query_render.h"
 #include "study/run_work.h"
 #include "support/scenes.h"
+#include "support/temporary_folder.h"
 
 namespace alhazen::study {
 namespace {
@@ -235,6 +237,91 @@ TEST(StudyResume, RefusesAnotherSceneAndWhatIsDamaged) {
   damaged["trials"][0]["seconds"] = "none";
   Study same = small_study();
   EXPECT_THROW(resume_from(damaged, "study.json", same), InputError);
+}
+
+/// As studies were written that were interrupted after a first run that was disturbed.
+nlohmann::json without_seconds(size_t trial) {
+  nlohmann::json j = nlohmann::json::parse(to_json(small_study()).dump());
+  j["trials"][trial] = {{"key", j["trials"][trial]["key"]}, {"status", "ok"}};
+  j["tables"][0]["cells"][trial].erase("seconds");
+  return j;
+}
+
+TEST(StudyResume, MeasuresAgainWhatHasNoTimes) {
+  Study study = small_study();
+  for (Trial& trial : study.trials) {
+    const std::string key = trial.key;
+    trial = {};
+    trial.key = key;
+  }
+  resume_from(without_seconds(1), "study.json", study);
+  EXPECT_EQ(study.trials[0].status, TrialStatus::ok);
+  EXPECT_EQ(study.trials[1].status, TrialStatus::not_run);
+  // Where all runs were disturbed, none is left, and the trial has not been run either.
+  Study earlier = small_study();
+  earlier.trials[0].processor_shares = {0.5, 0.5, 0.5};
+  study.trials[0] = {};
+  study.trials[0].key = earlier.trials[0].key;
+  resume_from(nlohmann::json::parse(to_json(earlier).dump()), "study.json", study);
+  EXPECT_EQ(study.trials[0].status, TrialStatus::not_run);
+  for (const auto& trial : to_json(study)["trials"])
+    EXPECT_EQ(trial["status"] == "ok", trial.contains("seconds")) << trial.dump();
+}
+
+TEST(StudyCompare, LeavesOutWhatHasNoTimes) {
+  const nlohmann::json whole = nlohmann::json::parse(to_json(small_study()).dump());
+  const StudyComparison comparison = compare_studies(whole, without_seconds(1), 0.05, "a", "b");
+  EXPECT_EQ(comparison.compared, 1u);
+  ASSERT_EQ(comparison.states.size(), 1u);
+  EXPECT_NE(comparison.states[0].find("not run"), std::string::npos);
+}
+
+TEST(StudyRead, TakesTheFolder) {
+  testing::TemporaryFolder folder;
+  const auto error_of = [](const std::string& path) {
+    try {
+      read_study_json(path);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(error_of(folder.path()).find("no study.json in this folder"), std::string::npos);
+  EXPECT_NE(error_of(folder.file("none")).find("no such file"), std::string::npos);
+  EXPECT_NE(error_of("/dev/zero").find("is a device"), std::string::npos);
+  folder.write_text("study.json", to_json(small_study()).dump());
+  EXPECT_EQ(read_study_json(folder.path()), read_study_json(folder.file("study.json")));
+}
+
+/// Drawn by Python where it has matplotlib.
+TEST(StudyPlots, OfStudiesThatWereInterrupted) {
+  testing::TemporaryFolder folder;
+  Study study = small_study();
+  for (const char* id : {"table1", "table2", "table3", "table4", "table5", "balance", "queries", "depth", "glass",
+                         "objects", "error", "engines", "optix"}) {
+    Table table = study.tables[0];
+    table.id = id;
+    table.cells[0].row = "1 static";
+    table.cells[1].row = "2 static";
+    study.tables.push_back(table);
+  }
+  // The slowest repeat is the median: the difference of their speedups is rounded to either side of 0.
+  study.trials[0].seconds = {0.1, 0.3};
+  study.trials[1].seconds = {0.7, 0.7, 0.7};
+  study.trials[1].busy_seconds.resize(3, {1.0});
+  for (const bool has_baseline : {true, false}) {
+    nlohmann::json j = nlohmann::json::parse(to_json(study).dump());
+    for (auto& table : j["tables"])
+      for (auto& cell : table["cells"]) {
+        cell["speedup"] = 1.7;
+        if (!has_baseline) cell.erase("speedup");
+        if (!has_baseline && cell["row"] == "2 static") cell.erase("seconds");
+      }
+    folder.write_text("study.json", j.dump());
+    const std::string problem = draw_plots(folder.path());
+    if (problem.find("no Python with matplotlib") != std::string::npos) GTEST_SKIP() << problem;
+    EXPECT_EQ(problem, "");
+  }
 }
 
 TEST(StudyCompare, TellsWhatIsBeyondNoise) {

@@ -1,11 +1,7 @@
 // Text files of wavelength and value pairs (`.spd`).
 
-#include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <memory>
 
 #include "io/colour/spectrum.h"
 #include "io/text/numbers.h"
@@ -14,20 +10,6 @@
 namespace alhazen {
 
 namespace {
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
-std::string read_text(const std::string& path) {
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw InputError({path}, std::string("cannot open: ") + std::strerror(errno));
-  std::string text;
-  std::array<char, 1 << 14> block;
-  while (const size_t count = std::fread(block.data(), 1, block.size(), file.get())) text.append(block.data(), count);
-  if (std::ferror(file.get())) throw InputError({path}, std::string("cannot read: ") + std::strerror(errno));
-  return text;
-}
 
 struct Number {
   double value = 0;
@@ -81,9 +63,9 @@ class NumberReader {
 
 }  // namespace
 
-Spectrum read_spectrum(const std::string& path) {
-  const std::string text = read_text(path);
-  NumberReader numbers(text, path);
+Spectrum read_spectrum(const InputPath& path) {
+  const std::vector<uint8_t> bytes = read_short_text(path);
+  NumberReader numbers({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.name);
   Spectrum spectrum;
   Number wavelength, value;
   while (numbers.next(wavelength)) {

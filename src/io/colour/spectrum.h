@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/math/vec.h"
+#include "io/files/input_file.h"
 #include "scene/diagnostics.h"
 
 namespace alhazen {
@@ -45,6 +46,6 @@ ConductorRgb conductor_rgb(const Spectrum& eta, const Spectrum& k);
 const Spectrum* named_spectrum(const std::string& name);
 
 /// A text file of wavelength and value pairs (`.spd`); `#` starts a comment. Throws InputError.
-Spectrum read_spectrum(const std::string& path);
+Spectrum read_spectrum(const InputPath& path);
 
 }  // namespace alhazen

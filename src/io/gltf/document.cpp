@@ -31,9 +31,9 @@ const std::vector<Json> no_items;
 
 }  // namespace
 
-Document::Document(std::span<const uint8_t> bytes, const std::string& path, const std::string& folder,
+Document::Document(std::span<const uint8_t> bytes, const InputPath& path, const std::string& folder,
                    Diagnostics& diagnostics)
-    : path_(path), folder_(folder), diagnostics_(diagnostics) {
+    : path_(path.name), folder_(folder), confinement_(path.confinement), diagnostics_(diagnostics) {
   if (is_binary(bytes))
     read_container(bytes);
   else

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/math/vec.h"
+#include "io/files/input_file.h"
 #include "io/gltf/json.h"
 #include "scene/diagnostics.h"
 
@@ -20,13 +21,14 @@ namespace alhazen::gltf {
 class Document {
  public:
   /// `bytes` are those of a .gltf or .glb file and must outlive the document; other files are relative to `folder`.
-  Document(std::span<const uint8_t> bytes, const std::string& path, const std::string& folder,
-           Diagnostics& diagnostics);
+  Document(std::span<const uint8_t> bytes, const InputPath& path, const std::string& folder, Diagnostics& diagnostics);
 
   const Json& root() const { return root_; }
   /// Values may change as long as nobody holds on to one that moves.
   Json& mutable_root() { return root_; }
   const std::string& path() const { return path_; }
+  /// The folder that the files of the document must not leave; null: they may be anywhere.
+  const std::shared_ptr<const Confinement>& confinement() const { return confinement_; }
   const std::string& folder() const { return folder_; }
   /// The binary chunk of a .glb file; without one, null.
   const std::optional<std::span<const uint8_t>>& binary_chunk() const { return binary_chunk_; }
@@ -67,6 +69,7 @@ class Document {
   const Json* member(const Json& object, const char* key, JsonKind kind, const char* kind_name) const;
 
   std::string path_, folder_;
+  std::shared_ptr<const Confinement> confinement_;
   Diagnostics& diagnostics_;
   Json root_;
   std::optional<std::span<const uint8_t>> binary_chunk_;

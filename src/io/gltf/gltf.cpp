@@ -138,6 +138,7 @@ class SceneReader {
     if (instancing != nullptr) {
       for (const Matrix4& local : instance_matrices(*instancing)) {
         placement.world = multiply(nodes_.world(node), local);
+        check_transform(document_, *instancing, placement.world);
         add_placement(placement);
       }
       return;
@@ -281,7 +282,7 @@ std::string folder_of(const std::string& path) {
 
 bool is_glb(std::span<const uint8_t> bytes) { return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0; }
 
-Scene parse_gltf(std::span<const uint8_t> bytes, const std::string& path, const std::string& folder,
+Scene parse_gltf(std::span<const uint8_t> bytes, const InputPath& path, const std::string& folder,
                  const ReadOptions& options, Diagnostics& diagnostics) {
   gltf::Document document(bytes, path, folder, diagnostics);
   try {
@@ -291,19 +292,38 @@ Scene parse_gltf(std::span<const uint8_t> bytes, const std::string& path, const 
       gltf::write_pointed_values(document, gltf::pointed_values(document, *animation, options.time.value_or(0)));
     return gltf::SceneReader(document, options).run();
   } catch (const std::bad_alloc&) {
-    throw InputError({path}, "the scene is too large for the memory of this machine");
+    throw InputError({path.name}, "the scene is too large for the memory of this machine");
   } catch (const std::length_error&) {
-    throw InputError({path}, "the scene is too large for the memory of this machine");
+    throw InputError({path.name}, "the scene is too large for the memory of this machine");
   }
 }
 
-Scene read_gltf(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
-  return parse_gltf(read_bytes(path), path, gltf::folder_of(path), options, diagnostics);
+namespace gltf {
+
+namespace {
+
+/// The bytes of the main file. What cannot be one is refused by its first bytes, however large it is.
+std::vector<uint8_t> read_main_file(const InputPath& path) {
+  InputFile file(path);
+  std::array<char, 4> head{};
+  const std::string_view text(head.data(), file.read(head.data(), head.size()));
+  const bool may_be_json = text.empty() || std::string_view(" \t\r\n{\xef").find(text[0]) != std::string_view::npos;
+  if (text != "glTF" && !may_be_json && file.size() > uint64_t{1} << 20)
+    throw InputError({path.name, 1, 1}, "the file begins neither as JSON nor as a .glb file, so it is not glTF");
+  return read_bytes(path);
 }
 
-SceneListing list_gltf(const std::string& path, Diagnostics& diagnostics) {
-  const std::vector<uint8_t> bytes = read_bytes(path);
-  const gltf::Document document(bytes, path, gltf::folder_of(path), diagnostics);
+}  // namespace
+
+}  // namespace gltf
+
+Scene read_gltf(const InputPath& path, const ReadOptions& options, Diagnostics& diagnostics) {
+  return parse_gltf(gltf::read_main_file(path), path, gltf::folder_of(path.name), options, diagnostics);
+}
+
+SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics) {
+  const std::vector<uint8_t> bytes = gltf::read_main_file(path);
+  const gltf::Document document(bytes, path, gltf::folder_of(path.name), diagnostics);
   gltf::validate(document);
   gltf::Buffers buffers(document);
   gltf::Accessors accessors(document, buffers);

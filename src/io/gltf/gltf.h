@@ -6,20 +6,21 @@
 #include <span>
 #include <string>
 
+#include "io/files/input_file.h"
 #include "io/read_options.h"
 #include "scene/scene.h"
 
 namespace alhazen {
 
 /// Reads the default scene of a file. Throws InputError.
-Scene read_gltf(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics);
+Scene read_gltf(const InputPath& path, const ReadOptions& options, Diagnostics& diagnostics);
 
-/// The same of bytes in memory; `path` is for messages, files are relative to `folder`.
-Scene parse_gltf(std::span<const uint8_t> bytes, const std::string& path, const std::string& folder,
+/// The same of bytes in memory; `path` is for messages and for what confines the files, which are relative to `folder`.
+Scene parse_gltf(std::span<const uint8_t> bytes, const InputPath& path, const std::string& folder,
                  const ReadOptions& options, Diagnostics& diagnostics);
 
 /// Names of what ReadOptions choose from.
-SceneListing list_gltf(const std::string& path, Diagnostics& diagnostics);
+SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics);
 
 /// Whether bytes begin a .glb file.
 bool is_glb(std::span<const uint8_t> bytes);

@@ -1,6 +1,7 @@
 #include "io/gltf/json.h"
 
 #include <cmath>
+#include <utility>
 
 #include "io/text/numbers.h"
 #include "io/text/quoted.h"
@@ -11,6 +12,8 @@ namespace alhazen::gltf {
 namespace {
 
 constexpr int max_depth = 128;
+/// Names are looked for one after the other.
+constexpr size_t max_names = 4096;
 
 void append_utf8(std::string& text, uint32_t code) {
   const auto add = [&](uint32_t byte) { text += static_cast<char>(byte); };
@@ -99,13 +102,26 @@ class Parser {
     while (true) {
       skip_space();
       if (peek() != '"') fail("a name in double quotes is expected, " + found());
-      value.keys.push_back(read_string());
+      std::string key = read_string();
       skip_space();
       if (peek() != ':') fail("a colon is expected after the name, " + found());
       ++at_;
-      value.items.push_back(read_value(depth + 1));
+      read_member(std::move(key), value, depth);
       if (!read_separator('}')) return;
     }
+  }
+
+  /// What applications add for themselves ("extras") is checked and not kept: it may be of any size.
+  void read_member(std::string&& key, Json& object, int depth) {
+    if (key == "extras" || extras_ > 0) {
+      ++extras_;
+      read_value(depth + 1);
+      --extras_;
+      return;
+    }
+    if (object.keys.size() == max_names) fail("an object has over 4096 names, which none of glTF has");
+    object.keys.push_back(std::move(key));
+    object.items.push_back(read_value(depth + 1));
   }
 
   void read_array(Json& value, int depth) {
@@ -116,8 +132,10 @@ class Parser {
       ++at_;
       return;
     }
-    do value.items.push_back(read_value(depth + 1));
-    while (read_separator(']'));
+    do {
+      Json item = read_value(depth + 1);
+      if (extras_ == 0) value.items.push_back(std::move(item));
+    } while (read_separator(']'));
   }
 
   /// True after a comma, false after `end`.
@@ -226,6 +244,7 @@ class Parser {
   const std::string& file_;
   size_t at_ = 0, line_start_ = 0;
   int line_ = 1;
+  int extras_ = 0;  ///< how many objects of "extras" the current value is within
 };
 
 }  // namespace

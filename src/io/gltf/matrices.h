@@ -2,6 +2,7 @@
 
 // 4x4 matrices that may not be invertible, which Transform has no place for.
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene/transform.h"
@@ -46,7 +47,15 @@ inline Vec3d transform_normal(const Matrix4& m, const Vec3d& n) {
 
 /// T R S, with the rotation a quaternion x, y, z, w of any length.
 inline Matrix4 from_trs(const Vec3d& translation, std::array<double, 4> q, const Vec3d& scale) {
-  const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  const auto length_of_q = [&] { return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]); };
+  double size = length_of_q();
+  if (!(size > 1e-140 && size < 1e140)) {
+    // The squares leave the range of double, or all are 0.
+    const double largest = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3])});
+    if (largest > 0)
+      for (double& value : q) value /= largest;
+    size = length_of_q();
+  }
   if (size > 0)
     for (double& value : q) value /= size;
   else

@@ -25,6 +25,17 @@ NodePose read_pose(const Document& document, const Json& node) {
 
 }  // namespace
 
+void check_transform(const Document& document, const Json& at, const Matrix4& matrix) {
+  // Lengths are squared and multiplied in single precision, whose largest number is 3.4e38.
+  constexpr double largest = 1e18;
+  for (const auto& row : matrix)
+    for (const double value : row)
+      if (!(std::abs(value) <= largest))
+        document.fail(at,
+                      "the transform of the node, with those above it, has numbers over 1e18, which nothing can be "
+                      "traced at: scale the scene down");
+}
+
 Nodes::Nodes(const Document& document, Accessors& accessors) : document_(document), accessors_(accessors) {
   const size_t count = document.array("nodes").size();
   children_.resize(count);
@@ -72,10 +83,7 @@ void Nodes::place() {
     const NodePose& pose = poses_[node];
     const Matrix4 local = pose.matrix ? *pose.matrix : from_trs(pose.translation, pose.rotation, pose.scale);
     world_[node] = parents_[node] == no_index ? local : multiply(world_[parents_[node]], local);
-    for (const auto& row : world_[node])
-      for (const double value : row)
-        if (!std::isfinite(value))
-          document_.fail(document_.item("nodes", node), "the transform of the node is not finite");
+    check_transform(document_, document_.item("nodes", node), world_[node]);
     stack.insert(stack.end(), children_[node].begin(), children_[node].end());
   }
 }

@@ -18,6 +18,9 @@ struct NodePose {
   std::vector<double> weights;                 ///< of morph targets; empty: those of the mesh
 };
 
+/// Throws at `at`, a node, where a matrix has numbers that are not finite or beyond what can be traced.
+void check_transform(const Document& document, const Json& at, const Matrix4& matrix);
+
 class Nodes {
  public:
   /// Reads all nodes and checks that they form trees.

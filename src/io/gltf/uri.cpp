@@ -85,14 +85,21 @@ Resource load_uri(const Document& document, const Json& uri) {
   const std::string decoded = percent_decoded(uri.string);
   if (uri.string.empty() || decoded.find('\0') != decoded.npos || std::filesystem::path(decoded).is_absolute())
     document.fail(uri, "the path " + alhazen::quoted(decoded) + " must be a relative one");
-  std::error_code error;
   const std::filesystem::path folder = document.folder();
-  std::filesystem::path path = folder / decoded;
-  // Some exporters forget to encode.
-  if (!std::filesystem::exists(path, error) && decoded != uri.string) path = folder / uri.string;
-  if (!std::filesystem::is_regular_file(path, error))
+  InputPath path((folder / decoded).string(), document.confinement());
+  InputProblem problem = input_problem(path);
+  if (!problem.message.empty() && decoded != uri.string && !std::filesystem::path(uri.string).is_absolute()) {
+    // Some exporters forget to encode.
+    InputPath as_written((folder / uri.string).string(), document.confinement());
+    if (input_problem(as_written).message.empty()) {
+      path = std::move(as_written);
+      problem = {};
+    }
+  }
+  if (problem.is_missing)
     document.fail(uri, "the file " + alhazen::quoted(decoded) + " is not there; it must lie beside the glTF file");
-  return {read_bytes(path.string()), path.string()};
+  if (!problem.message.empty()) document.fail(uri, "the file " + alhazen::quoted(decoded) + " " + problem.message);
+  return {read_bytes(path), path.name};
 }
 
 }  // namespace alhazen::gltf

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 
+#include "io/files/input_file.h"
 #include "io/images/image.h"
 #include "io/images/texture.h"
 #include "scene/scene.h"
@@ -21,7 +22,7 @@ enum class PictureFormat { exr, png, jpeg, tga, bmp, hdr, pfm, webp, qoi };
 
 /// By the first bytes of the file, whatever its name; TGA, which has no signature, by the extension of `path`.
 /// Throws InputError where the file is missing or of none of these.
-PictureFormat picture_format(const std::string& path);
+PictureFormat picture_format(const InputPath& path);
 
 /// `decode_16_bit`: whether values of 16 bits are sRGB-encoded and to be decoded, or linear already.
 ImageTexels decode_png(const std::string& path, std::span<const uint8_t> bytes, bool decode_16_bit);
@@ -45,7 +46,7 @@ ImageTexels decode_pfm(const std::string& path, std::span<const uint8_t> bytes);
 
 /// All channels of the first part that has colours (else a luminance, else any one channel, else of the first part),
 /// whatever their type. The picture is the data window.
-Image read_exr(const std::string& path);
+Image read_exr(const InputPath& path);
 
 /// The channels that make up the colour of an image: red, green, blue, or one of grey thrice; and its alpha, or -1.
 struct ColourChannels {

@@ -156,9 +156,10 @@ Image read_picture_part(const std::string& path, std::span<const uint8_t> bytes)
 
 }  // namespace
 
-Image read_exr(const std::string& path) {
+Image read_exr(const InputPath& input) {
+  const std::string& path = input.name;
   try {
-    return read_picture_part(path, read_bytes(path));
+    return read_picture_part(path, read_bytes(input));
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {

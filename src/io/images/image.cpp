@@ -42,7 +42,7 @@ float linear_value(const ImageTexels& texels, size_t i) {
 
 }  // namespace
 
-Image read_image(const std::string& path) {
+Image read_image(const InputPath& path) {
   if (picture_format(path) == PictureFormat::exr) return read_exr(path);
   const ImageTexels texels = read_texture(path, TextureEncoding::automatic);
   Image image{texels.width, texels.height, {"R", "G", "B"}, {}};

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/files/input_file.h"
 #include "scene/diagnostics.h"
 
 namespace alhazen {
@@ -64,7 +65,7 @@ void write_png(const std::string& path, const ImageSource& source, const PngOpti
 /// Reads EXR (all channels of its picture part) and what read_texture reads (as R, G, B; files of up to 16 bits are
 /// decoded to linear).
 /// Throws InputError.
-Image read_image(const std::string& path);
+Image read_image(const InputPath& path);
 
 /// The extension of a path in lower case, without the dot.
 std::string extension_of(const std::string& path);

@@ -1,10 +1,6 @@
 #include "io/images/input_file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
 
 namespace alhazen {
 
@@ -12,27 +8,10 @@ void throw_malformed(const std::string& path, const std::string& message) {
   throw InputError(SourceLocation{path, 0, 0}, message);
 }
 
-uint64_t checked_file_size(const std::string& path) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found) throw_malformed(path, "no such file");
-  if (status.type() == std::filesystem::file_type::directory) throw_malformed(path, "is a folder, not a picture");
-  if (error) throw_malformed(path, "cannot be read: " + error.message());
-  if (status.type() != std::filesystem::file_type::regular) throw_malformed(path, "is not a regular file");
-  const uint64_t size = std::filesystem::file_size(path, error);
-  if (error) throw_malformed(path, "cannot be read: " + error.message());
-  if (size == 0) throw_malformed(path, "the file is empty");
-  return size;
-}
-
-std::vector<uint8_t> read_bytes(const std::string& path) {
-  const uint64_t size = checked_file_size(path);
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw_malformed(path, "cannot be opened: " + std::generic_category().message(errno));
-  std::vector<uint8_t> bytes(size);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (stream.gcount() != static_cast<std::streamsize>(size)) throw_malformed(path, "cannot be read to its end");
-  return bytes;
+std::vector<uint8_t> read_bytes(const InputPath& path) {
+  InputFile file(path);
+  if (file.size() == 0) throw_malformed(path.name, "the file is empty");
+  return file.read_all();
 }
 
 void check_size(const std::string& path, int64_t width, int64_t height) {

@@ -7,17 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "io/files/input_file.h"
 #include "scene/diagnostics.h"
 
 namespace alhazen {
 
 inline constexpr int64_t max_texels = int64_t{1} << 30;
 
-/// Throws InputError where `path` is not a readable regular file.
-std::vector<uint8_t> read_bytes(const std::string& path);
-
-/// Throws InputError where `path` is not a readable regular file; its size in bytes otherwise.
-uint64_t checked_file_size(const std::string& path);
+/// Throws InputError where `path` is not a readable regular file, or an empty one.
+std::vector<uint8_t> read_bytes(const InputPath& path);
 
 // The next two are called with what a header declares, before anything of that size is allocated.
 

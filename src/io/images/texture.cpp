@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -15,13 +12,12 @@
 
 namespace alhazen {
 
-PictureFormat picture_format(const std::string& path) {
-  checked_file_size(path);
+PictureFormat picture_format(const InputPath& input) {
+  const std::string& path = input.name;
+  InputFile file(input);
+  if (file.size() == 0) throw_malformed(path, "the file is empty");
   std::array<char, 12> buffer{};
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw_malformed(path, "cannot be opened: " + std::string(std::strerror(errno)));
-  stream.read(buffer.data(), buffer.size());
-  const std::string_view head(buffer.data(), static_cast<size_t>(stream.gcount()));
+  const std::string_view head(buffer.data(), file.read(buffer.data(), buffer.size()));
   if (head.starts_with("\x76\x2f\x31\x01")) return PictureFormat::exr;
   if (head.starts_with("\x89PNG\r\n\x1a\n")) return PictureFormat::png;
   if (head.starts_with("\xff\xd8\xff")) return PictureFormat::jpeg;
@@ -90,11 +86,12 @@ ImageTexels decode_texture(const std::string& path, PictureFormat format, std::s
   return texels;
 }
 
-ImageTexels read_texture(const std::string& path, TextureEncoding encoding) {
+ImageTexels read_texture(const InputPath& input, TextureEncoding encoding) {
+  const std::string& path = input.name;
   try {
-    const PictureFormat format = picture_format(path);
-    if (format == PictureFormat::exr) return exr_texels(read_exr(path), path);
-    return decode_texture(path, format, read_bytes(path), encoding);
+    const PictureFormat format = picture_format(input);
+    if (format == PictureFormat::exr) return exr_texels(read_exr(input), path);
+    return decode_texture(path, format, read_bytes(input), encoding);
   } catch (const std::bad_alloc&) {
     throw_malformed(path, "is too large for the memory of this machine");
   }

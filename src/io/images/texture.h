@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "io/files/input_file.h"
 #include "scene/scene.h"
 
 namespace alhazen {
@@ -14,6 +15,6 @@ enum class TextureEncoding { automatic, srgb, linear };
 /// and float files become floats, decoded from sRGB where the format says so (16-bit PNG). Grey becomes three equal
 /// channels; alpha is left out (read_scalar_texture reads it).
 /// Throws InputError that names the file and what is wrong: missing, unreadable, of an unknown kind, over 2^30 texels.
-ImageTexels read_texture(const std::string& path, TextureEncoding encoding);
+ImageTexels read_texture(const InputPath& path, TextureEncoding encoding);
 
 }  // namespace alhazen

@@ -1,7 +1,6 @@
 #include "io/pbrt/build.h"
 
 #include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "io/pbrt/materials.h"
@@ -12,35 +11,36 @@ namespace alhazen::pbrt {
 
 namespace {
 
-NamedEntry& reference(std::map<std::string, NamedEntry>& entries, const std::string& name, const Place& place,
-                      const std::string& what) {
-  NamedEntry& entry = entries[name];
-  if (entry.defined || entry.undefined) return entry;
-  // The error is made now, while the text of the file is at hand for its excerpt.
-  entry.undefined.emplace(error_at(place, what));
-  return entry;
+NamedEntry& reference(std::map<std::string, NamedEntry>& entries, const std::string& name, const Place& place) {
+  const auto [entry, is_new] = entries.try_emplace(name);
+  if (is_new) entry->second.first_use = place;
+  return entry->second;
 }
 
-void require_definitions(const std::map<std::string, NamedEntry>& entries) {
+void require_definitions(const std::map<std::string, NamedEntry>& entries, const std::string& what,
+                         const std::string& definition) {
   for (const auto& [name, entry] : entries)
-    if (!entry.defined && entry.undefined) throw *entry.undefined;
+    if (!entry.defined) fail(entry.first_use, what + " \"" + name + "\" is not defined; define it with " + definition);
 }
 
 }  // namespace
 
-Build::Build(std::string folder_, Diagnostics& diagnostics_) : diagnostics(diagnostics_), folder(std::move(folder_)) {}
+Build::Build(std::string folder_, std::shared_ptr<const Confinement> confinement_, Diagnostics& diagnostics_)
+    : diagnostics(diagnostics_), folder(std::move(folder_)), confinement(std::move(confinement_)) {}
 
 void Build::warn_replaced(const ParameterList& list, const std::string& instead) {
   warn(list.place(), list.directive() + " is not supported; " + instead);
 }
 
-std::string Build::existing_file(const Place& place, const std::string& name) const {
-  const std::filesystem::path path = std::filesystem::path(folder) / name;
-  std::error_code error;
-  if (name.empty() || name.find('\0') != std::string::npos || !std::filesystem::is_regular_file(path, error))
-    fail(place, "there is no file \"" + name + "\" (looked for " + path.string() +
+InputPath Build::existing_file(const Place& place, const std::string& name) const {
+  if (name.empty()) fail(place, "the name of a file is empty");
+  InputPath path((std::filesystem::path(folder) / name).string(), confinement);
+  const InputProblem problem = input_problem(path);
+  if (problem.is_missing)
+    fail(place, "there is no file \"" + name + "\" (looked for " + path.name +
                     "); paths are relative to the folder of the scene file");
-  return path.string();
+  if (!problem.message.empty()) fail(place, "the file \"" + name + "\" " + problem.message);
+  return path;
 }
 
 uint32_t Build::constant_texture(const Vec3d& value) {
@@ -53,8 +53,7 @@ uint32_t Build::constant_texture(const Vec3d& value) {
 }
 
 NamedEntry& Build::named_material(const std::string& name, const Place& place) {
-  NamedEntry& entry =
-      reference(materials, name, place, "material \"" + name + "\" is not defined; define it with MakeNamedMaterial");
+  NamedEntry& entry = reference(materials, name, place);
   if (entry.index == no_index) {
     entry.index = static_cast<uint32_t>(scene.materials.size());
     scene.materials.emplace_back().name = name;
@@ -64,8 +63,7 @@ NamedEntry& Build::named_material(const std::string& name, const Place& place) {
 }
 
 NamedEntry& Build::named_object(const std::string& name, const Place& place) {
-  NamedEntry& entry = reference(objects, name, place,
-                                "object \"" + name + "\" is not defined; define it with ObjectBegin ... ObjectEnd");
+  NamedEntry& entry = reference(objects, name, place);
   if (entry.index == no_index) {
     entry.index = static_cast<uint32_t>(scene.groups.size());
     scene.groups.emplace_back().name = name;
@@ -74,8 +72,8 @@ NamedEntry& Build::named_object(const std::string& name, const Place& place) {
 }
 
 Scene Build::finish() {
-  require_definitions(materials);
-  require_definitions(objects);
+  require_definitions(materials, "material", "MakeNamedMaterial");
+  require_definitions(objects, "object", "ObjectBegin ... ObjectEnd");
   finish_materials(*this);
   bool any_shape = false, any_emission = !scene.lights.empty();
   for (ShapeGroup& group : scene.groups) {

@@ -12,6 +12,8 @@
 #include <tuple>
 #include <vector>
 
+#include "io/colour/spectrum.h"
+#include "io/files/input_file.h"
 #include "io/pbrt/parameters.h"
 #include "scene/scene.h"
 
@@ -54,19 +56,27 @@ struct GraphicsState {
   MovingTransform ctm() const { return {ctm_start, ctm_end}; }
 };
 
+/// What it takes to evaluate a texture with all that it is made of.
+struct TextureSize {
+  uint32_t levels = 1;  ///< textures within each other
+  uint32_t stack = 1;   ///< values that wait for each other
+  uint64_t nodes = 1;   ///< a texture that is used twice counts twice
+};
+
 /// A material or object that is referred to by name, perhaps before it is defined.
 struct NamedEntry {
   uint32_t index = no_index;
   bool defined = false;
-  std::optional<InputError> undefined;  ///< what to throw where no definition comes, with the place of the first use
+  Place first_use;  ///< where it is told that no definition comes
 };
 
 struct Build {
-  Build(std::string folder_, Diagnostics& diagnostics_);
+  Build(std::string folder_, std::shared_ptr<const Confinement> confinement_, Diagnostics& diagnostics_);
 
   Scene scene;
   Diagnostics& diagnostics;
-  std::string folder;  ///< relative paths start here
+  std::string folder;                              ///< relative paths start here
+  std::shared_ptr<const Confinement> confinement;  ///< of all files that the scene names; null: they may be anywhere
 
   GraphicsState state;
   bool in_world = false;
@@ -76,15 +86,20 @@ struct Build {
   std::map<std::string, NamedEntry> materials;
   std::map<std::string, NamedEntry> objects;
   std::map<std::string, uint32_t> float_textures, spectrum_textures;
+  std::vector<TextureSize> texture_sizes;   ///< of the first textures of the scene
   std::vector<bool> material_is_invisible;  ///< by material: the surface is left out
   uint32_t default_material = no_index;
   std::map<std::string, Vec3d> absorbing_media;  ///< homogeneous and without scattering: absorption per unit
   std::map<uint32_t, MaterialVariant> variants;  ///< by material; filled in at the end, when all are defined
+  std::map<std::tuple<uint32_t, uint32_t, std::array<double, 3>>, uint32_t> variants_by_key;
+  std::map<uint32_t, Place> mix_places;  ///< by material
 
   /// Meshes and images that are read or made once: by file or by the numbers that make them.
   std::map<std::string, uint32_t> meshes_by_key;
   std::map<std::tuple<std::string, int, bool>, uint32_t> images_by_key;
   std::map<std::array<double, 3>, uint32_t> constants;
+  mutable std::map<std::string, Spectrum> spectra_by_file;
+  std::map<std::string, double> picture_means;  ///< luminance over all of an area light's picture, by file
 
   double iso = 100;
   std::optional<double> exposure_time;  ///< seconds; absent: as long as the shutter is open
@@ -97,8 +112,8 @@ struct Build {
   /// `directive` is not done by this reader; `instead` says what it does.
   void warn_replaced(const ParameterList& list, const std::string& instead);
 
-  /// The file `name` of parameter `parameter`, relative to the scene's folder. Throws where there is none.
-  std::string existing_file(const Place& place, const std::string& name) const;
+  /// The file `name`, relative to the scene's folder. Throws at `place` where it cannot be read.
+  InputPath existing_file(const Place& place, const std::string& name) const;
 
   /// The texture that is `value` everywhere.
   uint32_t constant_texture(const Vec3d& value);

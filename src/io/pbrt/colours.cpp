@@ -46,7 +46,10 @@ Spectrum spectrum_by_name(const Build& build, const Parameter& parameter, const 
   if (!std::filesystem::path(names[0]).has_extension())
     fail(parameter.place, quoted(parameter.name) + ": no spectrum is named " + quoted(names[0]) +
                               "; known are metal-*-eta, metal-*-k, glass-* and stdillum-*, or give a .spd file");
-  return read_spectrum(build.existing_file(parameter.place, names[0]));
+  const InputPath path = build.existing_file(parameter.place, names[0]);
+  const auto known = build.spectra_by_file.find(path.name);
+  if (known != build.spectra_by_file.end()) return known->second;
+  return build.spectra_by_file.emplace(path.name, read_spectrum(path)).first->second;
 }
 
 double kelvin_of(const Parameter& parameter) {

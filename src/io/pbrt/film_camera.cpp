@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <numbers>
 #include <sstream>
 
 #include "io/pbrt/nearest.h"
 #include "io/pbrt/options.h"
+#include "io/text/quoted.h"
 
 namespace alhazen::pbrt {
 
@@ -110,8 +110,10 @@ void read_spherical(Build&, ParameterList& list, Camera& camera) {
 
 /// The numbers of a lens file: four an interface, from the front of the lens to the film: radius of curvature and
 /// distance to the next in millimetres, index of refraction behind it, diameter.
-std::vector<double> read_lens_file(const std::string& path) {
-  std::ifstream file(path);
+std::vector<double> read_lens_file(const InputPath& input) {
+  const std::string& path = input.name;
+  const std::vector<uint8_t> bytes = read_short_text(input);
+  std::istringstream file(std::string(bytes.begin(), bytes.end()));
   std::vector<double> values;
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line.substr(0, line.find('#')));
@@ -124,7 +126,7 @@ std::vector<double> read_lens_file(const std::string& path) {
         used = 0;
       }
       if (used != word.size() || !std::isfinite(value))
-        throw InputError({path}, "a lens file holds numbers, four an interface, not '" + word + "'");
+        throw InputError({path}, "a lens file holds numbers, four an interface, not " + alhazen::quoted(word));
       values.push_back(value);
     }
   }

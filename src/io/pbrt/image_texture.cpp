@@ -52,8 +52,8 @@ ImageTexels read_scalar(Build& build, ParameterList& list, const std::string& pa
 
 uint32_t image_index(Build& build, ParameterList& list, TextureEncoding encoding, bool is_float) {
   const std::string name = list.string("filename", "");
-  const std::string path = build.existing_file(list.place_of("filename"), name);
-  const auto [entry, is_new] = build.images_by_key.try_emplace({path, static_cast<int>(encoding), is_float}, 0u);
+  const InputPath path = build.existing_file(list.place_of("filename"), name);
+  const auto [entry, is_new] = build.images_by_key.try_emplace({path.name, static_cast<int>(encoding), is_float}, 0u);
   if (is_new) {
     ImageTexels image = is_float ? read_scalar(build, list, path, encoding) : read_texture(path, encoding);
     entry->second = static_cast<uint32_t>(build.scene.images.size());

@@ -2,12 +2,22 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstring>
 #include <limits>
 #include <utility>
 
 namespace alhazen::pbrt {
 
 namespace {
+
+/// Decompressed bytes that one file may hold: what a small .gz can grow to must not keep the machine for hours.
+constexpr uint64_t max_text_bytes = uint64_t{8} << 30;
+
+/// What is read at a time; less where the file is smaller, since scenes may include very many.
+constexpr size_t window_size = size_t{1} << 18, smallest_window = 4096;
+
+/// Longer than any name or path.
+constexpr size_t max_token_size = size_t{1} << 20;
 
 bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 
@@ -30,69 +40,134 @@ std::string_view without_plus(std::string_view text) {
 
 Lexer::Lexer(std::shared_ptr<const SourceFile> source)
     : source_(std::move(source)),
-      position_(source_->text.data()),
-      end_(position_ + source_->text.size()),
-      line_start_(position_) {
-  const std::string_view text = source_->text;
+      bytes_(source_->open()),
+      window_(std::clamp<size_t>(bytes_->plausible_size(), smallest_window, window_size)) {
+  position_ = end_ = window_.data();
+  while (end_ - position_ < 4 && refill()) {
+  }
+  const std::string_view text(position_, static_cast<size_t>(end_ - position_));
   if (text.starts_with("\xfe\xff") || text.starts_with("\xff\xfe"))
     fail({source_, 1, 1}, "the file is encoded as UTF-16; save it as UTF-8");
+  if (text.find('\0') != std::string_view::npos)
+    fail({source_, 1, 1}, "the file is binary, not the text of a pbrt scene; give the scene file itself");
   if (text.starts_with("\xef\xbb\xbf")) position_ += 3;
   scan();
 }
 
 Token Lexer::next() {
-  const Token token = token_;
+  returned_ = token_;
   scan();
-  return token;
+  return returned_;
 }
 
 int Lexer::column_of(const char* position) const {
-  return static_cast<int>(std::min<std::ptrdiff_t>(position - line_start_ + 1, std::numeric_limits<int>::max()));
+  return static_cast<int>(
+      std::min<int64_t>(position - window_.data() + column_offset_, std::numeric_limits<int>::max()));
+}
+
+int Lexer::line() const { return static_cast<int>(std::min<int64_t>(line_, std::numeric_limits<int>::max())); }
+
+bool Lexer::more() { return position_ < end_ || refill(); }
+
+/// The window is about to move: the token that the caller holds gets a copy of its text.
+void Lexer::keep_returned_token() {
+  const bool is_in_window = returned_.text.data() >= window_.data() && returned_.text.data() < end_;
+  if (returned_.text.empty() || !is_in_window) return;
+  returned_text_ = returned_.text;
+  returned_.text = returned_text_;
+}
+
+/// Reads on, from `position_`, which is the end of what was read. False at the end of the text.
+bool Lexer::refill() {
+  keep_returned_token();
+  const char* const kept_from = token_start_ ? token_start_ : position_;
+  const size_t moved = static_cast<size_t>(kept_from - window_.data()), kept = static_cast<size_t>(end_ - kept_from);
+  if (kept > max_token_size)
+    fail({source_, token_.line, token_.column},
+         "a word or string of over 1 MiB is none; is a quotation mark or a blank missing?");
+  std::memmove(window_.data(), kept_from, kept);
+  column_offset_ += static_cast<int64_t>(moved);
+  position_ -= moved;
+  end_ -= moved;
+  if (token_start_) token_start_ = window_.data();
+  if (window_.size() - kept < window_.size() / 2) {
+    const std::ptrdiff_t at = position_ - window_.data();
+    window_.resize(2 * window_.size());
+    position_ = window_.data() + at;
+    end_ = window_.data() + kept;
+    if (token_start_) token_start_ = window_.data();
+  }
+  const size_t count = bytes_->read(window_.data() + kept, window_.size() - kept);
+  end_ += count;
+  bytes_read_ += count;
+  if (bytes_read_ > max_text_bytes)
+    throw InputError({source_->name}, "holds over 8 GiB of text; store its meshes as PLY");
+  return count > 0;
+}
+
+void Lexer::skip_comment() {
+  while (more()) {
+    const size_t count = static_cast<size_t>(end_ - position_);
+    const void* feed = std::memchr(position_, '\n', count);
+    const char* stop = feed ? static_cast<const char*>(feed) : end_;
+    const void* carriage = std::memchr(position_, '\r', static_cast<size_t>(stop - position_));
+    if (carriage) stop = static_cast<const char*>(carriage);
+    position_ = stop;
+    if (stop < end_) return;
+  }
 }
 
 void Lexer::skip_blanks() {
-  for (; position_ < end_; ++position_) {
-    if (*position_ == '\n') {
+  while (more()) {
+    const char c = *position_;
+    if (c == '#') {
+      skip_comment();
+      continue;
+    }
+    if (!is_blank(c)) return;
+    ++position_;
+    if (c == '\n') {
       ++line_;
-      line_start_ = position_ + 1;
-    } else if (*position_ == '#') {
-      while (position_ + 1 < end_ && position_[1] != '\n' && position_[1] != '\r') ++position_;
-    } else if (!is_blank(*position_)) {
-      return;
+      column_offset_ = 1 - (position_ - window_.data());
     }
   }
 }
 
 void Lexer::scan() {
+  token_start_ = nullptr;
   skip_blanks();
-  token_.line = line_;
+  token_.line = line();
   token_.column = column_of(position_);
-  const char* start = position_;
+  token_start_ = position_;
   if (position_ == end_) {
     token_.kind = TokenKind::end;
   } else if (*position_ == '"') {
     scan_string();
-    return;
   } else if (*position_ == '[' || *position_ == ']') {
     token_.kind = *position_++ == '[' ? TokenKind::open_bracket : TokenKind::close_bracket;
   } else {
-    token_.kind = TokenKind::word;
-    while (position_ < end_ && !ends_word(*position_)) ++position_;
+    scan_word();
   }
-  token_.text = {start, static_cast<size_t>(position_ - start)};
+  token_.text = {token_start_, static_cast<size_t>(position_ - token_start_)};
+}
+
+void Lexer::scan_word() {
+  token_.kind = TokenKind::word;
+  do {
+    while (position_ < end_ && !ends_word(*position_)) ++position_;
+  } while (position_ == end_ && refill());
 }
 
 void Lexer::scan_string() {
-  const char* start = position_++;
-  while (position_ < end_ && *position_ != '"' && *position_ != '\n') {
-    if (*position_ == '\\' && position_ + 1 < end_ && position_[1] != '\n') ++position_;
-    ++position_;
+  token_.kind = TokenKind::string;
+  ++position_;
+  while (more() && *position_ != '"' && *position_ != '\n') {
+    const bool escapes = *position_++ == '\\';
+    if (escapes && more() && *position_ != '\n') ++position_;
   }
   if (position_ == end_ || *position_ == '\n')
     fail(place(token_), "the string is not closed; put a \" at its end, on the same line");
   ++position_;
-  token_.kind = TokenKind::string;
-  token_.text = {start, static_cast<size_t>(position_ - start)};
 }
 
 std::string described(const Token& token) {
@@ -123,8 +198,7 @@ std::string expect_string(Lexer& lexer, const std::string& what) {
   const Token token = lexer.peek();
   if (token.kind != TokenKind::string)
     fail(lexer.place(token), "expected " + what + " in quotes, got " + described(token));
-  lexer.next();
-  return unquoted(lexer, token);
+  return unquoted(lexer, lexer.next());
 }
 
 double number_of(const Lexer& lexer, const Token& token) {

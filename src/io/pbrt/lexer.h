@@ -1,11 +1,12 @@
 #pragma once
 
-// Cuts a scene text into tokens. The only place of the reader that turns characters into numbers.
+// Cuts a scene text into tokens as it is read. The only place of the reader that turns characters into numbers.
 
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/pbrt/source.h"
 
@@ -20,26 +21,43 @@ struct Token {
   int column = 1;
 };
 
+/// Holds a window of the text, so that memory does not grow with it.
 class Lexer {
  public:
   explicit Lexer(std::shared_ptr<const SourceFile> source);
+  Lexer(const Lexer&) = delete;
+  Lexer& operator=(const Lexer&) = delete;
 
+  /// The next token. Its text is valid until `next` is called.
   const Token& peek() const { return token_; }
+  /// Goes past it. The text of what is returned is valid until `next` is called again.
   Token next();
   Place place(const Token& token) const { return {source_, token.line, token.column}; }
 
  private:
   void skip_blanks();
+  void skip_comment();
   void scan();
+  void scan_word();
   void scan_string();
+  bool more();
+  bool refill();
+  void keep_returned_token();
   int column_of(const char* position) const;
+  int line() const;
 
   std::shared_ptr<const SourceFile> source_;
-  const char* position_;
-  const char* end_;
-  const char* line_start_;
-  int line_ = 1;
+  std::unique_ptr<ByteSource> bytes_;
+  uint64_t bytes_read_ = 0;
+  std::vector<char> window_;
+  const char* position_ = nullptr;
+  const char* end_ = nullptr;
+  const char* token_start_ = nullptr;  ///< what must stay in the window; null between tokens
+  int64_t line_ = 1;
+  int64_t column_offset_ = 1;  ///< of a position in the line: this and its distance from the window's start
   Token token_;
+  Token returned_;
+  std::string returned_text_;  ///< of `returned_`, once the window has moved past it
 };
 
 /// The token as a message names it: `"text"`, shortened, or `the end of the file`.

@@ -210,16 +210,20 @@ Light read_projection(Build& build, ParameterList& list) {
 /// The picture of an area light as a texture, which goes on with its edge.
 void read_emission_picture(Build& build, ParameterList& list, const std::string& name, AreaLight& light) {
   const Place& place = list.place_of("filename");
-  const std::string path = build.existing_file(place, name);
+  const InputPath path = build.existing_file(place, name);
   const auto [entry, is_new] =
-      build.images_by_key.try_emplace({path, static_cast<int>(TextureEncoding::automatic), false}, 0u);
+      build.images_by_key.try_emplace({path.name, static_cast<int>(TextureEncoding::automatic), false}, 0u);
   if (is_new) {
     entry->second = static_cast<uint32_t>(build.scene.images.size());
     build.scene.images.push_back(read_texture(path, TextureEncoding::automatic));
   }
-  const ImageTexels picture = read_light_picture(build, list, name, false);
-  light.picture_mean =
-      weighted_luminance(picture, [](int, int) { return 1; }) / (static_cast<double>(picture.width) * picture.height);
+  const auto [mean, is_new_mean] = build.picture_means.try_emplace(path.name, 0.0);
+  if (is_new_mean) {
+    const ImageTexels picture = read_light_picture(build, list, name, false);
+    mean->second =
+        weighted_luminance(picture, [](int, int) { return 1; }) / (static_cast<double>(picture.width) * picture.height);
+  }
+  light.picture_mean = mean->second;
   if (light.power > 0 && !(light.picture_mean > 0)) fail(place, "\"" + name + "\" is black: leave out \"power\"");
   Texture texture;
   texture.name = name;

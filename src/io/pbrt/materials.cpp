@@ -9,6 +9,7 @@
 #include "io/pbrt/colours.h"
 #include "io/pbrt/nearest.h"
 #include "io/pbrt/textures.h"
+#include "scene/flatten_materials.h"
 
 namespace alhazen::pbrt {
 
@@ -229,9 +230,9 @@ const std::map<std::string, KnownMaterial> known_materials{
 /// `"string normalmap"`: the picture of normals, whose values are linear.
 uint32_t read_normal_map(Build& build, ParameterList& list) {
   if (!list.has("normalmap")) return no_index;
-  const std::string path = build.existing_file(list.place_of("normalmap"), list.string("normalmap", ""));
+  const InputPath path = build.existing_file(list.place_of("normalmap"), list.string("normalmap", ""));
   const auto [entry, is_new] =
-      build.images_by_key.try_emplace({path, static_cast<int>(TextureEncoding::linear), false}, 0u);
+      build.images_by_key.try_emplace({path.name, static_cast<int>(TextureEncoding::linear), false}, 0u);
   if (is_new) {
     entry->second = static_cast<uint32_t>(build.scene.images.size());
     build.scene.images.push_back(read_texture(path, TextureEncoding::linear));
@@ -267,6 +268,7 @@ ReadMaterial read_material(Build& build, const std::string& kind, const Place& k
 void set_material(Build& build, const std::string& kind, ParameterList& list) {
   ReadMaterial read = read_material(build, kind, list.place(), list);
   build.state.material = static_cast<uint32_t>(build.scene.materials.size());
+  if (read.material.type == MaterialType::mix) build.mix_places[build.state.material] = list.place();
   build.scene.materials.push_back(std::move(read.material));
   build.scene.materials.back().name.clear();
   build.material_is_invisible.push_back(read.invisible);
@@ -280,6 +282,7 @@ void define_named_material(Build& build, const std::string& name, ParameterList&
   if (entry.defined) fail(list.place(), "material \"" + name + "\" is defined twice; rename one");
   ReadMaterial read = read_material(build, kind, list.place_of("type"), list);
   entry.defined = true;
+  if (read.material.type == MaterialType::mix) build.mix_places[entry.index] = list.place();
   build.scene.materials[entry.index] = std::move(read.material);
   build.scene.materials[entry.index].name = name;
   build.material_is_invisible[entry.index] = read.invisible;
@@ -304,9 +307,10 @@ uint32_t material_of_shape(Build& build, uint32_t alpha, const Place& place) {
   const uint32_t base = current_material(build);
   const Vec3d& absorption = build.state.absorption_inside;
   if (alpha == no_index && is_zero(absorption)) return base;
-  for (const auto& [index, variant] : build.variants)
-    if (variant.base == base && variant.alpha == alpha && variant.absorption == absorption) return index;
   const auto index = static_cast<uint32_t>(build.scene.materials.size());
+  const auto [known, is_new] =
+      build.variants_by_key.try_emplace({base, alpha, {absorption.x, absorption.y, absorption.z}}, index);
+  if (!is_new) return known->second;
   build.scene.materials.emplace_back();
   build.material_is_invisible.push_back(false);
   build.variants[index] = {base, alpha, absorption, place};
@@ -366,8 +370,12 @@ void finish_mix(Build& build, uint32_t index) {
 }  // namespace
 
 void finish_materials(Build& build) {
-  for (uint32_t i = 0; i < build.scene.materials.size(); ++i)
-    if (build.scene.materials[i].type == MaterialType::mix) finish_mix(build, i);
+  uint32_t of_itself = no_index;
+  const std::vector<uint32_t> mixes = order_of_mixes(build.scene.materials, of_itself);
+  if (of_itself != no_index)
+    fail(build.mix_places.at(of_itself),
+         "the mix \"" + build.scene.materials[of_itself].name + "\" is made of itself, directly or through others");
+  for (const uint32_t mix : mixes) finish_mix(build, mix);
   for (const auto& [index, variant] : build.variants) {
     Material material = build.scene.materials[variant.base];
     if (variant.alpha != no_index) material.alpha = variant.alpha;

@@ -33,6 +33,7 @@ std::string suggestion(std::string_view word, const Names& names) {
   if (word.size() > 64) return {};
   for (const auto& candidate : names) {
     const std::string_view name = candidate;
+    if (name.size() >= word.size() + best_distance || word.size() >= name.size() + best_distance) continue;
     const size_t distance = edit_distance(word, name);
     if (distance < best_distance && distance < word.size()) {
       best = name;

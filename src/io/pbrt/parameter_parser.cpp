@@ -111,9 +111,9 @@ double tuple_number(Lexer& lexer, const Parameter& parameter, const char* size) 
 
 /// Normals and texture coordinates are kept in single precision.
 float tuple_float(Lexer& lexer, const Parameter& parameter, const char* size) {
-  const Token token = lexer.peek();
+  const Place place = lexer.place(lexer.peek());
   const auto value = static_cast<float>(tuple_number(lexer, parameter, size));
-  if (!std::isfinite(value)) fail(lexer.place(token), "the number " + described(token) + " is too large here");
+  if (!std::isfinite(value)) fail(place, "the number is too large for single precision");
   return value;
 }
 

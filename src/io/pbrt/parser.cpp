@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
-#include <system_error>
 #include <unordered_map>
 #include <utility>
 
@@ -23,6 +21,8 @@ namespace {
 
 constexpr size_t max_block_depth = 4096;
 constexpr size_t max_file_depth = 64;
+/// Of one target of Attribute; every block and every shape copies them. No directive has as many parameters.
+constexpr size_t max_defaults = 256;
 /// Files that include others twice each grow without end long before they nest deeply.
 constexpr size_t max_files = 100'000;
 
@@ -76,22 +76,21 @@ const std::vector<Parser::Directive>& Parser::directives() {
   return list;
 }
 
-void Parser::parse_top(std::shared_ptr<SourceFile> source, const std::string& path) {
-  parse_file(source, path);
+void Parser::parse_top(std::shared_ptr<const SourceFile> source) {
+  open_files_.push_back(source->file ? InputFile(*source->file).identity() : std::pair<uint64_t, uint64_t>());
+  parse_file(source);
   if (!build_.in_world)
     fail({source, 1, 1}, "the scene has no WorldBegin; put it between the camera and the first shape");
 }
 
-void Parser::parse_file(std::shared_ptr<SourceFile> source, const std::string& path) {
+void Parser::parse_file(std::shared_ptr<const SourceFile> source) {
   Lexer lexer(source);
   Lexer* outer = std::exchange(lexer_, &lexer);
-  open_files_.push_back(path);
   while (lexer.peek().kind != TokenKind::end) parse_directive();
   // Files that are included may open and close blocks for each other; only at the end nothing may be open.
   if (!outer) require_closed(0);
   open_files_.pop_back();
   lexer_ = outer;
-  if (outer) source->text = {};
 }
 
 void Parser::require_closed(size_t depth) const {
@@ -207,6 +206,7 @@ void Parser::attribute(const Place& place) {
   for (const Parameter& parameter : list.own()) {
     // A later default of that name hides the earlier one for good.
     std::erase_if(*found->second, [&](const auto& earlier) { return earlier->name == parameter.name; });
+    if (found->second->size() == max_defaults) fail(place, "over 256 defaults are set for \"" + target + "\"");
     found->second->push_back(std::make_shared<const Parameter>(parameter));
   }
 }
@@ -222,18 +222,14 @@ void Parser::colour_space(const Place& place) {
 
 void Parser::include(const Place& place) {
   const std::string name = expect_string(*lexer_, "the name of a file");
-  const std::string path = build_.existing_file(place, name);
+  const InputPath path = build_.existing_file(place, name);
   if (open_files_.size() == max_file_depth) fail(place, "files are included over 64 deep");
   if (++file_count_ > max_files) fail(place, "over 100000 files are included");
-  for (const std::string& open : open_files_) {
-    std::error_code error;
-    if (std::filesystem::equivalent(open, path, error))
-      fail(place, "\"" + name + "\" includes itself, directly or through others");
-  }
-  auto source = std::make_shared<SourceFile>();
-  source->name = path;
-  source->text = read_text(path);
-  parse_file(std::move(source), path);
+  const std::pair<uint64_t, uint64_t> identity = InputFile(path).identity();
+  if (std::find(open_files_.begin(), open_files_.end(), identity) != open_files_.end())
+    fail(place, "\"" + name + "\" includes itself, directly or through others");
+  open_files_.push_back(identity);
+  parse_file(std::make_shared<const SourceFile>(SourceFile{path.name, path, {}}));
 }
 
 /// As Include, but what the file sets does not reach the file that imports it.

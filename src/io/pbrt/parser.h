@@ -15,8 +15,8 @@ class Parser {
  public:
   explicit Parser(Build& build) : build_(build) {}
 
-  /// Parses the text of the top file. `path` is where it lies, empty where it is in memory only.
-  void parse_top(std::shared_ptr<SourceFile> source, const std::string& path);
+  /// Parses the top file and all that it includes.
+  void parse_top(std::shared_ptr<const SourceFile> source);
 
  private:
   enum class Block { attribute, object };
@@ -35,7 +35,7 @@ class Parser {
   };
   static const std::vector<Directive>& directives();
 
-  void parse_file(std::shared_ptr<SourceFile> source, const std::string& path);
+  void parse_file(std::shared_ptr<const SourceFile> source);
   void parse_directive();
   void require_closed(size_t depth) const;
 
@@ -78,7 +78,8 @@ class Parser {
   Lexer* lexer_ = nullptr;  ///< of the innermost file
   std::string directive_;   ///< name of the current one
   std::vector<OpenBlock> blocks_;
-  std::vector<std::string> open_files_;
+  /// Of the files that include each other now; what a text in memory has is nobody's.
+  std::vector<std::pair<uint64_t, uint64_t>> open_files_;
   size_t file_count_ = 0;
 };
 

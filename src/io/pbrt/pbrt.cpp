@@ -10,26 +10,24 @@ namespace alhazen {
 
 namespace {
 
-Scene parse(std::string text, const std::string& name, const std::string& folder, const std::string& path,
+Scene parse(pbrt::SourceFile source, const std::string& folder, std::shared_ptr<const Confinement> confinement,
             Diagnostics& diagnostics) {
-  auto source = std::make_shared<pbrt::SourceFile>();
-  source->name = name;
-  source->text = std::move(text);
-  pbrt::Build build(folder, diagnostics);
-  build.scene.name = name;
-  pbrt::Parser(build).parse_top(std::move(source), path);
+  pbrt::Build build(folder, std::move(confinement), diagnostics);
+  build.scene.name = source.name;
+  pbrt::Parser(build).parse_top(std::make_shared<const pbrt::SourceFile>(std::move(source)));
   return build.finish();
 }
 
 }  // namespace
 
-Scene read_pbrt(const std::string& path, Diagnostics& diagnostics) {
-  return parse(pbrt::read_text(path), path, std::filesystem::path(path).parent_path().string(), path, diagnostics);
+Scene read_pbrt(const InputPath& path, Diagnostics& diagnostics) {
+  const std::string folder = std::filesystem::path(path.name).parent_path().string();
+  return parse({path.name, path, {}}, folder, path.confinement, diagnostics);
 }
 
 Scene parse_pbrt(const std::string& text, const std::string& name, const std::string& folder,
                  Diagnostics& diagnostics) {
-  return parse(text, name, folder, {}, diagnostics);
+  return parse({name, {}, text}, folder, {}, diagnostics);
 }
 
 }  // namespace alhazen

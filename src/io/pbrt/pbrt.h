@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "io/files/input_file.h"
 #include "scene/scene.h"
 
 namespace alhazen {
@@ -11,7 +12,7 @@ namespace alhazen {
 /// Reads a scene file and all that it includes. Paths in it are relative to the folder of the top file.
 /// What pbrt-v4 knows and this reader does not have yet is replaced and named in one warning; what is unknown,
 /// ill-typed or malformed throws InputError with `file:line:column` and the excerpt.
-Scene read_pbrt(const std::string& path, Diagnostics& diagnostics);
+Scene read_pbrt(const InputPath& path, Diagnostics& diagnostics);
 
 /// The same from a text in memory. `name` stands for the file in messages; includes are looked up in `folder`.
 Scene parse_pbrt(const std::string& text, const std::string& name, const std::string& folder, Diagnostics& diagnostics);

@@ -1,63 +1,76 @@
 #include "io/pbrt/source.h"
 
-#include <zlib.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <string_view>
-#include <system_error>
 #include <vector>
+
+#include "scene/printable.h"
 
 namespace alhazen::pbrt {
 
 namespace {
 
-/// Decompressed bytes that one file may hold: what a small .gz can grow to must not take the machine down.
-constexpr size_t max_text_bytes = size_t{8} << 30;
+/// Bytes of the excerpt; lines of generated files run to megabytes.
+constexpr uint64_t excerpt_width = 100;
 
-/// Characters of the excerpt; lines of generated files run to megabytes.
-constexpr size_t excerpt_width = 100;
+/// A part of a line, and how many of its bytes stand before the caret.
+struct Excerpt {
+  std::string text;
+  size_t caret = 0;
+};
 
-std::string_view line_of(const std::string& text, int line) {
-  size_t begin = 0;
-  for (int i = 1; i < line; ++i) {
-    const size_t end = text.find('\n', begin);
-    if (end == std::string::npos) return {};
-    begin = end + 1;
+/// Goes through the text once, however long it is, and keeps what is shown of the line.
+Excerpt find_excerpt(ByteSource& source, int line, uint64_t caret) {
+  const uint64_t begin = caret > excerpt_width / 2 ? caret - excerpt_width / 2 : 0;
+  Excerpt excerpt;
+  excerpt.caret = static_cast<size_t>(caret - begin);
+  std::vector<char> chunk(size_t{1} << 18);
+  int at_line = 1;
+  uint64_t column = 0;  // of the next byte in its line, from 0
+  while (const size_t count = source.read(chunk.data(), chunk.size())) {
+    std::string_view left(chunk.data(), count);
+    while (!left.empty()) {
+      const size_t end = left.find('\n');
+      const std::string_view part = left.substr(0, end);
+      if (at_line == line && begin < column + part.size()) {
+        const size_t skipped = begin > column ? static_cast<size_t>(begin - column) : 0;
+        excerpt.text += part.substr(skipped, static_cast<size_t>(excerpt_width) - excerpt.text.size());
+      }
+      column += part.size();
+      if (at_line == line && (end != std::string_view::npos || excerpt.text.size() == excerpt_width)) return excerpt;
+      if (end == std::string_view::npos) break;
+      left.remove_prefix(end + 1);
+      ++at_line;
+      column = 0;
+    }
   }
-  if (begin > text.size()) return {};
-  const size_t end = text.find('\n', begin);
-  return std::string_view(text).substr(begin, end == std::string::npos ? end : end - begin);
+  return excerpt;
 }
 
 std::string excerpt_at(const Place& place) {
-  if (!place.source || place.line <= 0 || place.source->text.empty()) return {};
-  const std::string_view line = line_of(place.source->text, place.line);
-  const size_t caret = place.column > 0 ? static_cast<size_t>(place.column - 1) : 0;
-  if (line.empty() || caret > line.size()) return {};
-  const bool is_cut = line.size() > excerpt_width && caret > excerpt_width / 2;
-  const size_t begin = is_cut ? caret - excerpt_width / 2 : 0;
-  std::string shown(line.substr(begin, excerpt_width));
-  for (char& c : shown)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  if (!place.source || place.line <= 0) return {};
+  Excerpt excerpt;
+  try {
+    excerpt =
+        find_excerpt(*place.source->open(), place.line, place.column > 0 ? static_cast<uint64_t>(place.column - 1) : 0);
+  } catch (const InputError&) {
+    return {};  // the file is gone or damaged: the error that is told is another
+  }
+  if (excerpt.text.empty() || excerpt.caret > excerpt.text.size()) return {};
+  size_t columns = 0, all = 0;
+  printable_columns(std::string_view(excerpt.text).substr(0, excerpt.caret), columns);
   const std::string number = std::to_string(place.line);
-  return " " + number + " | " + shown + "\n " + std::string(number.size(), ' ') + " | " +
-         std::string(caret - begin, ' ') + "^";
+  return " " + number + " | " + printable_columns(excerpt.text, all) + "\n " + std::string(number.size(), ' ') + " | " +
+         std::string(columns, ' ') + "^";
 }
 
-struct GzipFile {
-  gzFile handle;
-  explicit GzipFile(const std::string& path) : handle(gzopen(path.c_str(), "rb")) {}
-  ~GzipFile() {
-    if (handle) gzclose_r(handle);
-  }
-  GzipFile(const GzipFile&) = delete;
-  GzipFile& operator=(const GzipFile&) = delete;
-};
-
 }  // namespace
+
+std::unique_ptr<ByteSource> SourceFile::open() const {
+  if (file) return std::make_unique<FileSource>(*file);
+  return std::make_unique<MemorySource>(text);
+}
 
 SourceLocation Place::location() const { return {source ? source->name : std::string(), line, column}; }
 
@@ -66,36 +79,5 @@ InputError error_at(const Place& place, const std::string& message) {
 }
 
 void fail(const Place& place, const std::string& message) { throw error_at(place, message); }
-
-std::string read_text(const std::string& path) {
-  const SourceLocation where{path, 0, 0};
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw InputError(where, "is a folder; give the name of a scene file");
-  errno = 0;
-  // zlib hands plain files through unchanged, so one way of reading serves both.
-  GzipFile file(path);
-  if (!file.handle) throw InputError(where, std::string("cannot be opened: ") + std::strerror(errno));
-  gzbuffer(file.handle, 1u << 18);
-
-  std::string text;
-  const auto size = std::filesystem::file_size(path, error);
-  if (!error) text.reserve(static_cast<size_t>(std::min<std::uintmax_t>(size, max_text_bytes)));
-  std::vector<char> chunk(size_t{1} << 20);
-  while (true) {
-    const int got = gzread(file.handle, chunk.data(), static_cast<unsigned>(chunk.size()));
-    if (got < 0) {
-      int code = Z_OK;
-      const char* reason = gzerror(file.handle, &code);
-      throw InputError(where, std::string("cannot be read: ") + (code == Z_ERRNO ? std::strerror(errno) : reason));
-    }
-    if (got == 0) break;
-    text.append(chunk.data(), static_cast<size_t>(got));
-    if (text.size() > max_text_bytes) throw InputError(where, "holds over 8 GiB of text; store its meshes as PLY");
-  }
-  int code = Z_OK;
-  gzerror(file.handle, &code);
-  if (code == Z_BUF_ERROR) throw InputError(where, "ends in the middle of its gzip data; it was not copied whole");
-  return text;
-}
 
 }  // namespace alhazen::pbrt

@@ -5,12 +5,16 @@
 #include <utility>
 #include <vector>
 
+#include "core/textures/texture.h"
 #include "io/pbrt/image_texture.h"
 #include "io/pbrt/nearest.h"
 
 namespace alhazen::pbrt {
 
 namespace {
+
+constexpr uint32_t max_texture_levels = 64;
+constexpr uint64_t max_texture_nodes = uint64_t{1} << 20;
 
 /// A texture node under way, and whether its values are scalars or colours.
 struct TextureRequest {
@@ -219,6 +223,32 @@ uint32_t find_texture(const Build& build, const Parameter& parameter, bool is_fl
        "texture \"" + names[0] + "\" is not defined before this" + suggestion(names[0], names_of(wanted)));
 }
 
+/// Brings the sizes up to date; what a texture is made of stands before it.
+void measure_textures(Build& build) {
+  std::vector<TextureSize>& sizes = build.texture_sizes;
+  for (size_t i = sizes.size(); i < build.scene.textures.size(); ++i) {
+    const Texture& texture = build.scene.textures[i];
+    const uint32_t inputs = texture_input_count(texture.kind);
+    TextureSize size{1, std::max(inputs, 1u), 1};
+    for (uint32_t input = 0; input < inputs; ++input) {
+      const TextureSize& part = sizes.at(texture.inputs[input]);
+      size.levels = std::max(size.levels, part.levels + 1);
+      size.stack = std::max(size.stack, part.stack + input);
+      size.nodes = std::min(size.nodes + part.nodes, 2 * max_texture_nodes);
+    }
+    sizes.push_back(size);
+  }
+}
+
+/// What could not be evaluated is refused where it is defined.
+void check_size_of_last(Build& build, const Place& place) {
+  measure_textures(build);
+  const TextureSize& size = build.texture_sizes.back();
+  if (size.levels > max_texture_levels || size.stack > max_texture_stack || size.nodes > max_texture_nodes)
+    fail(place, "texture \"" + build.scene.textures.back().name +
+                    "\" is made of too many textures within each other; use fewer levels of scale and mix");
+}
+
 }  // namespace
 
 void add_texture(Build& build, const std::string& name, const std::string& value_type, const std::string& kind,
@@ -242,6 +272,7 @@ void add_texture(Build& build, const std::string& name, const std::string& value
   list.reject_unknown();
   textures[name] = static_cast<uint32_t>(build.scene.textures.size());
   build.scene.textures.push_back(std::move(texture));
+  check_size_of_last(build, list.place());
 }
 
 uint32_t colour_texture(Build& build, ParameterList& list, std::string_view name, ColourUse use) {

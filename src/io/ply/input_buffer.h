@@ -5,7 +5,7 @@
 #include <cstring>
 #include <memory>
 
-#include "io/ply/byte_source.h"
+#include "io/files/byte_source.h"
 
 namespace alhazen {
 

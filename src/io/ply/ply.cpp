@@ -1,13 +1,13 @@
 #include "io/ply/ply.h"
 
-#include "io/ply/byte_source.h"
+#include "io/files/byte_source.h"
 #include "io/ply/parse_ply.h"
 
 namespace alhazen {
 
-Mesh read_ply(const std::string& path, Diagnostics& diagnostics) {
+Mesh read_ply(const InputPath& path, Diagnostics& diagnostics) {
   FileSource source(path);
-  return parse_ply(source, path, diagnostics);
+  return parse_ply(source, path.name, diagnostics);
 }
 
 }  // namespace alhazen

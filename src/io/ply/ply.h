@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "io/files/input_file.h"
 #include "scene/scene.h"
 
 namespace alhazen {
@@ -16,6 +17,6 @@ namespace alhazen {
 /// Throws InputError with file and, for ascii data and for the header, line and column: unreadable or truncated file,
 /// malformed header, no positions, index out of range, coordinate that is NaN or infinite, face of under 3 vertices.
 /// The file is streamed: the peak of memory is little more than the mesh that is returned.
-Mesh read_ply(const std::string& path, Diagnostics& diagnostics);
+Mesh read_ply(const InputPath& path, Diagnostics& diagnostics);
 
 }  // namespace alhazen

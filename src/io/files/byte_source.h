@@ -1,11 +1,13 @@
 #pragma once
 
-// Where the bytes of a PLY file come from: a file, compressed or not, or memory.
+// Where the bytes of a text scene or a PLY mesh come from: a file, compressed by gzip or not, or memory.
 
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
+
+#include "io/files/input_file.h"
 
 namespace alhazen {
 
@@ -35,7 +37,8 @@ class MemorySource final : public ByteSource {
 /// A file, through zlib, which hands on what is not compressed.
 class FileSource final : public ByteSource {
  public:
-  explicit FileSource(const std::string& path);
+  explicit FileSource(const InputPath& path) : FileSource(InputFile(path)) {}
+  explicit FileSource(const InputFile& file);
   ~FileSource() override;
   FileSource(const FileSource&) = delete;
   FileSource& operator=(const FileSource&) = delete;
@@ -45,6 +48,7 @@ class FileSource final : public ByteSource {
  private:
   struct Handle;
   std::string path_;
+  uint64_t size_;
   std::unique_ptr<Handle> handle_;
 };
 

@@ -1,11 +1,12 @@
-#include "io/ply/byte_source.h"
+#include "io/files/byte_source.h"
 
+#include <fcntl.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 
 #include "scene/diagnostics.h"
 
@@ -27,12 +28,17 @@ struct FileSource::Handle {
   gzFile file;
 };
 
-FileSource::FileSource(const std::string& path) : path_(path) {
-  errno = 0;
-  const gzFile file = gzopen(path.c_str(), "rb");
-  if (!file) throw InputError({path}, std::string("cannot open: ") + std::strerror(errno ? errno : ENOMEM));
-  gzbuffer(file, 1u << 16);
-  handle_.reset(new Handle{file});
+FileSource::FileSource(const InputFile& file) : path_(file.name()), size_(file.size()) {
+  // zlib closes what it is given.
+  const int descriptor = ::fcntl(file.descriptor(), F_DUPFD_CLOEXEC, 0);
+  if (descriptor < 0) throw InputError({path_}, std::string("cannot be opened: ") + std::strerror(errno));
+  const gzFile stream = gzdopen(descriptor, "rb");
+  if (!stream) {
+    ::close(descriptor);
+    throw InputError({path_}, std::string("cannot be opened: ") + std::strerror(ENOMEM));
+  }
+  gzbuffer(stream, 1u << 16);
+  handle_.reset(new Handle{stream});
 }
 
 FileSource::~FileSource() { gzclose(handle_->file); }
@@ -43,7 +49,7 @@ size_t FileSource::read(char* into, size_t capacity) {
   if (count > 0) return static_cast<size_t>(count);
   int status = Z_OK;
   const char* const message = gzerror(handle_->file, &status);
-  if (status == Z_ERRNO) throw InputError({path_}, std::string("cannot read: ") + std::strerror(errno));
+  if (status == Z_ERRNO) throw InputError({path_}, std::string("cannot be read: ") + std::strerror(errno));
   // A compressed stream that is cut off reads like the end of the file, with this status.
   if (status == Z_BUF_ERROR) throw InputError({path_}, "the compressed data end early; the file is cut off");
   if (count < 0) throw InputError({path_}, "the compressed data are damaged: " + without_path(message, path_));
@@ -51,13 +57,9 @@ size_t FileSource::read(char* into, size_t capacity) {
 }
 
 uint64_t FileSource::plausible_size() const {
-  constexpr uint64_t unknown = 64u << 20;
   // Meshes are seldom compressed further than this; beyond it the mesh grows as it is read.
   constexpr uint64_t compression = 20;
-  std::error_code error;
-  const uint64_t size = std::filesystem::file_size(path_, error);
-  if (error) return unknown;
-  return gzdirect(handle_->file) ? size : size * compression;
+  return gzdirect(handle_->file) ? size_ : size_ * compression;
 }
 
 }  // namespace alhazen

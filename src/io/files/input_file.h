@@ -1,0 +1,67 @@
+#pragma once
+
+// The one place where input is opened: scenes, meshes, pictures, spectra, lenses, buffers, studies.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/files/confinement.h"
+
+namespace alhazen {
+
+/// The path of a file to be read, and the folder that it must not lie outside of. A plain string is bound to none.
+/// There is no way back to a string but by `name`, so that no reader drops the bound without being seen to.
+struct InputPath {
+  InputPath(std::string name_) : name(std::move(name_)) {}  // NOLINT(google-explicit-constructor)
+  InputPath(const char* name_) : name(name_) {}             // NOLINT(google-explicit-constructor)
+  InputPath(std::string name_, std::shared_ptr<const Confinement> confinement_)
+      : name(std::move(name_)), confinement(std::move(confinement_)) {}
+
+  std::string name;  ///< also as messages have it
+  std::shared_ptr<const Confinement> confinement;
+};
+
+/// An open regular file. Folders, devices, pipes and sockets are refused before they are opened, so that nothing waits
+/// for a writer, reads without end or changes the state of a device.
+class InputFile {
+ public:
+  /// Throws InputError that names the file.
+  explicit InputFile(const InputPath& path);
+  ~InputFile();
+  InputFile(InputFile&& other) noexcept;
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+  InputFile& operator=(InputFile&&) = delete;
+
+  const std::string& name() const { return name_; }
+  uint64_t size() const { return size_; }
+  int descriptor() const { return descriptor_; }
+  /// What tells it from every other file: its device and its number there.
+  std::pair<uint64_t, uint64_t> identity() const { return identity_; }
+
+  /// Up to `capacity` bytes from where the last reading ended; 0 at the end. Throws InputError.
+  size_t read(void* into, size_t capacity);
+  /// All of it, from where the last reading ended. Throws InputError, also where memory does not hold it.
+  std::vector<uint8_t> read_all();
+
+ private:
+  std::string name_;
+  int descriptor_ = -1;
+  uint64_t size_ = 0;
+  std::pair<uint64_t, uint64_t> identity_;
+};
+
+/// The bytes of a file of a few numbers, a spectrum or a lens; over 1 MiB it is none. Throws InputError.
+std::vector<uint8_t> read_short_text(const InputPath& path);
+
+/// Why a file cannot be opened, as InputFile would say it; without a message where it can.
+struct InputProblem {
+  std::string message;
+  bool is_missing = false;  ///< there is nothing of that name
+};
+InputProblem input_problem(const InputPath& path);
+
+}  // namespace alhazen
