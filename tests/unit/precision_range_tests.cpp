@@ -55,10 +55,11 @@ TEST(PrecisionRange, CamerasAreFinite) {
 }
 
 TEST(PrecisionRange, SpheresAreFinite) {
-  expect_for_double_alone("WorldBegin\nShape \"sphere\" \"float radius\" 1e20\n", "not finite in this precision");
+  expect_for_double_alone("WorldBegin\nShape \"sphere\" \"float radius\" 1e20\n",
+                          "too large or lies too far away for this precision");
   expect_for_double_alone(
       "WorldBegin\nScale 1e20 1e20 1e20 Translate 1e20 0 0\nShape \"sphere\" \"float radius\" 1e-20\n",
-      "not finite in this precision");
+      "too large or lies too far away for this precision");
 }
 
 TEST(PrecisionRange, SpheresThatAreTooSmallAreLeftOut) {
