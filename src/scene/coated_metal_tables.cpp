@@ -9,6 +9,7 @@
 #include "core/materials/dielectric.h"
 #include "core/materials/layered.h"
 #include "core/sampling/hash.h"
+#include "scene/albedo_quadrature.h"
 
 namespace alhazen {
 
@@ -16,12 +17,8 @@ namespace {
 
 using Row = std::array<double, coated_metal_cosines>;
 
-double value_at(const Row& row, double cosine) { return coated_metal_value(row.data(), cosine); }
-
-double cosine_at(size_t i) { return std::max(sqr(static_cast<double>(i) / (coated_metal_cosines - 1)), 1e-3); }
-
-Vec3d direction_at(size_t i) {
-  const double cosine = cosine_at(i);
+Vec3d direction_at(size_t i, double ior) {
+  const double cosine = std::max(cosine_at(static_cast<uint32_t>(i), ior, coated_metal_cosines), 1e-3);
   return {std::sqrt(1 - cosine * cosine), 0, cosine};
 }
 
@@ -91,16 +88,28 @@ std::vector<Reflected> lobe_of(const Vec3d& o, double alpha) {
   return lobe;
 }
 
-/// Scales s for which the lobe times s(o) s(i) has the albedo that is wanted (as Sinkhorn balances matrices).
-Row scales_for(const Row& wanted, const std::vector<std::vector<Reflected>>& lobes) {
+/// Light of the lobe from direction `k`, before its own scale.
+double scaled_albedo(const std::vector<Reflected>& lobe, const Row& scales, double ior) {
+  double sum = 0;
+  for (const Reflected& r : lobe) sum += r.weight * coated_metal_value(scales.data(), r.cosine, ior);
+  return sum;
+}
+
+/// Scales s for which the lobe times s(o) s(i) has the albedo that is wanted (as Sinkhorn balances matrices). Along the
+/// horizon a narrow lobe may want them beyond all bounds, and between the nodes they would make light.
+Row scales_for(const Row& wanted, const std::vector<std::vector<Reflected>>& lobes, double ior) {
+  constexpr double most_scale = 2;
   Row scales;
   scales.fill(1);
   for (int round = 0; round < 60; ++round)
     for (size_t k = 0; k < scales.size(); ++k) {
-      double sum = 0;
-      for (const Reflected& r : lobes[k]) sum += r.weight * value_at(scales, r.cosine);
-      if (sum > 0) scales[k] = std::sqrt(scales[k] * wanted[k] / sum);
+      const double sum = scaled_albedo(lobes[k], scales, ior);
+      if (sum > 0) scales[k] = std::min(most_scale, std::sqrt(scales[k] * wanted[k] / sum));
     }
+  for (size_t k = 0; k < scales.size(); ++k) {
+    const double sum = scales[k] * scaled_albedo(lobes[k], scales, ior);
+    if (sum > 1.002 * wanted[k]) scales[k] *= wanted[k] / sum;
+  }
   return scales;
 }
 
@@ -110,13 +119,13 @@ void add_block(const CoatedMetal& coat, double coat_alpha, double metal_alpha, u
 #pragma omp parallel for schedule(dynamic)
   for (size_t k = 0; k < coated_metal_cosines; ++k) {
     for (uint64_t i = 0; i < walks; ++i) {
-      const Left left = walk(coat, coat_alpha, metal_alpha, direction_at(k), Numbers(i));
+      const Left left = walk(coat, coat_alpha, metal_alpha, direction_at(k, coat.ior), Numbers(i));
       once[k] += left.once / static_cast<double>(walks);
       all[k] += left.all / static_cast<double>(walks);
     }
-    lobes[k] = lobe_of(direction_at(k), coated_metal_alpha(coat_alpha, metal_alpha, coat.ior));
+    lobes[k] = lobe_of(direction_at(k, coat.ior), coated_metal_alpha(coat_alpha, metal_alpha, coat.ior));
   }
-  const Row first = scales_for(once, lobes), second = scales_for(all, lobes);
+  const Row first = scales_for(once, lobes, coat.ior), second = scales_for(all, lobes, coat.ior);
   std::copy(first.begin(), first.end(), block);
   std::copy(second.begin(), second.end(), block + coated_metal_cosines);
 }

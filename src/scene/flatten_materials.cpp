@@ -8,8 +8,9 @@
 #include <string>
 #include <tuple>
 
-#include "core/materials/layered.h"
+#include "core/materials/layers.h"
 #include "core/textures/texture.h"
+#include "scene/albedo_grids.h"
 #include "scene/albedo_tables.h"
 #include "scene/coated_metal_tables.h"
 #include "scene/flatten_images.h"
@@ -194,12 +195,12 @@ class MaterialBuilder {
         record.kind = is_anisotropic(material, record) ? MaterialKind::anisotropic_conductor : MaterialKind::conductor;
         break;
       case MaterialType::dielectric:
-        check_ior(material, material.ior);
+        record.ior = static_cast<Real>(checked_ior(material, material.ior));
         record.kind =
             is_anisotropic(material, record) ? MaterialKind::anisotropic_dielectric : MaterialKind::dielectric;
         break;
       case MaterialType::thin_dielectric:
-        check_ior(material, material.ior);
+        record.ior = static_cast<Real>(checked_ior(material, material.ior));
         record.kind = MaterialKind::thin_dielectric;
         break;
       case MaterialType::diffuse_transmission:
@@ -224,8 +225,16 @@ class MaterialBuilder {
     if (material.reflectance != no_index) return;
     if (material.eta == no_index || material.k == no_index)
       throw InputError("material '" + material.name + "': a conductor needs a reflectance, or eta and k");
-    record.eta = textures_.range(material.eta);
-    record.k = textures_.range(material.k);
+    record.eta = bounded(textures_.range(material.eta));
+    record.k = bounded(textures_.range(material.k));
+  }
+
+  /// An index or absorption whose fourth power is a number in float too: beyond that it makes no difference.
+  TextureRange bounded(TextureRange range) {
+    TextureRecord<Real>& record = out_.textures[range.first];
+    if (range.count == 1 && record.kind == TextureKind::constant)
+      record.parameters = max(min(record.parameters, splat(Real(1e8))), splat(Real(-1e8)));
+    return range;
   }
 
   bool is_anisotropic(const Material& material, MaterialRecord<Real>& record) {
@@ -274,7 +283,6 @@ class MaterialBuilder {
   }
 
   void add_layers(const Material& material, MaterialRecord<Real>& record) {
-    if (out_.albedo_tables.empty()) append_table(common_albedo_tables());
     LayersRecord<Real> layers{};
     layers.rotation_cosine = 1;
     layers.clearcoat_ior = Real(1.5);
@@ -287,32 +295,51 @@ class MaterialBuilder {
   }
 
   void add_coat(const Material& material, MaterialRecord<Real>& record, LayersRecord<Real>& layers) {
-    is_anisotropic(material, record);
-    if (material.type == MaterialType::coated_diffuse) {
-      check_ior(material, material.ior);
-      layers.type = LayersType::coated_diffuse;
-      record.reflectance = range_or(material.reflectance, 0.5);
-      layers.interface_albedo = interface_table(material.ior);
-      layers.coat_transmission = transmission_table(material.ior, thickness_of(material), !loses_light());
-      layers.bounces = static_cast<Real>(bounces_of(material));
-      return;
-    }
-    check_ior(material, material.coat_ior);
+    layers.is_anisotropic = is_anisotropic(material, record) ? 1 : 0;
+    if (material.type == MaterialType::coated_diffuse) return add_coated_diffuse(material, record, layers);
+    const double ior = checked_ior(material, material.coat_ior);
     layers.type = LayersType::coated_conductor;
     add_conductor(material, record);
-    layers.clearcoat_ior = static_cast<Real>(material.coat_ior);
+    layers.clearcoat_ior = static_cast<Real>(ior);
     layers.clearcoat_roughness = textures_.range(material.coat_roughness);
-    layers.coat_albedo = interface_table(material.coat_ior);
-    add_coated_metal(material, record, layers);
+    layers.coat_albedo = interface_table(ior);
+    add_coated_metal(material, record, layers, ior);
   }
 
-  void add_coated_metal(const Material& material, const MaterialRecord<Real>& record, LayersRecord<Real>& layers) {
-    CoatedMetal coat{material.coat_ior, constant_alpha(material, layers.clearcoat_roughness),
+  void add_coated_diffuse(const Material& material, MaterialRecord<Real>& record, LayersRecord<Real>& layers) {
+    const double ior = checked_ior(material, material.ior);
+    layers.type = LayersType::coated_diffuse;
+    record.ior = static_cast<Real>(ior);
+    record.reflectance = range_or(material.reflectance, 0.5);
+    layers.interface_albedo = interface_table(ior);
+    layers.coat_transmission = transmission_table(ior, thickness_of(material), !loses_light());
+    layers.bounces = static_cast<Real>(bounces_of(material));
+    if (!layers.is_anisotropic) return;
+    layers.grid = albedo_grid({.kind = AlbedoGrid::Kind::coat,
+                               .ior = ior,
+                               .is_anisotropic = true,
+                               .alpha_u = constant_alpha(material, record.roughness),
+                               .alpha_v = constant_alpha(material, record.roughness_v),
+                               .thickness = thickness_of(material),
+                               .conserves = !loses_light()});
+  }
+
+  void add_coated_metal(const Material& material, const MaterialRecord<Real>& record, LayersRecord<Real>& layers,
+                        double ior) {
+    CoatedMetal coat{ior, constant_alpha(material, layers.clearcoat_roughness),
                      constant_alpha(material, record.roughness), thickness_of(material), bounces_of(material)};
     // Of an anisotropic one the alphas' mean, which varies where one of them does.
-    if (coat.metal_alpha && record.roughness_v.count > 0) {
-      const std::optional<double> other = constant_alpha(material, record.roughness_v);
-      coat.metal_alpha = other ? std::optional(std::sqrt(*coat.metal_alpha * *other)) : std::nullopt;
+    if (layers.is_anisotropic) {
+      const std::optional<double> u = coat.metal_alpha, v = constant_alpha(material, record.roughness_v);
+      coat.metal_alpha = u && v ? std::optional(std::sqrt(*u * *v)) : std::nullopt;
+      const auto lobe = [&](const std::optional<double>& alpha) {
+        return alpha && coat.coat_alpha ? std::optional(coated_metal_alpha(*coat.coat_alpha, *alpha, ior))
+                                        : std::nullopt;
+      };
+      layers.grid = albedo_grid({.is_anisotropic = true, .alpha_u = lobe(u), .alpha_v = lobe(v)});
+      layers.through_grid = albedo_grid({});
+    } else {
+      layers.grid = albedo_grid({});
     }
     layers.coat_varies = coat.coat_alpha ? 0 : 1;
     layers.metal_varies = coat.metal_alpha ? 0 : 1;
@@ -339,9 +366,8 @@ class MaterialBuilder {
 
   void add_principled(const Material& material, MaterialRecord<Real>& record, LayersRecord<Real>& layers) {
     const Principled& p = material.principled;
-    check_ior(material, p.ior);
-    check_ior(material, p.iridescence_ior);
-    record.ior = static_cast<Real>(p.ior);
+    const double ior = checked_ior(material, p.ior);
+    record.ior = static_cast<Real>(ior);
     record.roughness = textures_.range(p.roughness);
     layers.type = LayersType::principled;
     layers.thin = p.thin ? 1 : 0;
@@ -364,11 +390,65 @@ class MaterialBuilder {
     const double turn = p.anisotropy_rotation * std::numbers::pi / 180;
     layers.rotation_cosine = static_cast<Real>(std::cos(turn));
     layers.rotation_sine = static_cast<Real>(std::sin(turn));
-    layers.iridescence_ior = static_cast<Real>(p.iridescence_ior);
+    layers.iridescence_ior = static_cast<Real>(checked_ior(material, p.iridescence_ior));
     layers.clearcoat_normal_scale = static_cast<Real>(p.clearcoat_normal_scale);
     layers.dispersion = static_cast<Real>(p.dispersion);
     layers.coat_albedo = interface_table(1.5);
+    add_principled_grids(material, ior, layers);
     if (p.anisotropy != no_index || p.clearcoat_normal_map != no_index) record.features |= MaterialFeatures::tangents;
+  }
+
+  /// Grids of albedo where the alphas differ, and of the glass of a body.
+  void add_principled_grids(const Material& material, double ior, LayersRecord<Real>& layers) {
+    const Principled& p = material.principled;
+    const std::optional<double> roughness = constant_of(p.roughness, 1), anisotropy = constant_of(p.anisotropy, 0);
+    layers.is_anisotropic = anisotropy == 0.0 ? 0 : 1;
+    // The alphas at any point are those of the tables, where they are constant.
+    const bool is_constant = roughness && anisotropy;
+    const Vec2d alpha = is_constant ? principled_alpha(*roughness, *anisotropy) : Vec2d{};
+    const auto grid_of = [&](AlbedoGrid::Kind kind, double index, const Vec2d& alphas) {
+      AlbedoGrid grid{.kind = kind, .ior = index, .is_anisotropic = layers.is_anisotropic != 0};
+      if (is_constant) grid.alpha_u = alphas.x, grid.alpha_v = alphas.y;
+      return albedo_grid(grid);
+    };
+    layers.grid = grid_of(AlbedoGrid::Kind::ggx, 1.5, alpha);
+    if (p.sheen_colour != no_index) layers.sheen_grid = albedo_grid(sheen_grid(p));
+    if (p.transmission == no_index) return;
+    if (is_thin(p.thin, ior)) {
+      layers.through_grid = grid_of(AlbedoGrid::Kind::ggx, 1.5, is_constant ? thin_alpha(alpha, ior) : alpha);
+      return;
+    }
+    for (int channel = 0; channel < 3; ++channel) {
+      const double index = p.dispersion > 0 ? dispersed_ior(ior, p.dispersion, channel) : ior;
+      layers.glass[channel] = grid_of(AlbedoGrid::Kind::glass, index, alpha);
+    }
+  }
+
+  AlbedoGrid sheen_grid(const Principled& p) {
+    AlbedoGrid grid{.kind = AlbedoGrid::Kind::sheen};
+    if (const std::optional<double> roughness = constant_of(p.sheen_roughness, 0))
+      grid.alpha_u = sqr(std::max(*roughness, 0.07));
+    return grid;
+  }
+
+  /// Value of a scalar that is the same everywhere, in its range from 0 to 1.
+  std::optional<double> constant_of(uint32_t texture, double fallback) {
+    if (texture == no_index) return fallback;
+    const TextureRange range = textures_.range(texture);
+    const TextureRecord<Real>& record = out_.textures[range.first];
+    if (range.count > 1 || record.kind != TextureKind::constant) return std::nullopt;
+    return std::clamp(static_cast<double>(record.parameters.x), 0.0, 1.0);
+  }
+
+  /// Where a grid stands; the same one for all that ask for it.
+  AlbedoGridRecord albedo_grid(const AlbedoGrid& grid) {
+    const auto [place, is_new] = albedo_grids_.try_emplace(grid);
+    if (is_new) {
+      place->second = record_of(grid);
+      place->second.first = static_cast<uint32_t>(out_.albedo_tables.size());
+      append_table(values_of(grid));
+    }
+    return place->second;
   }
 
   void append_table(const std::vector<double>& table) {
@@ -394,9 +474,11 @@ class MaterialBuilder {
     return texture == no_index ? textures_.constant(fallback) : textures_.range(texture);
   }
 
-  static void check_ior(const Material& material, double ior) {
+  /// The index, or that from which on more of it makes no difference: an interface reflects everything.
+  static double checked_ior(const Material& material, double ior) {
     if (!(ior > 0) || !std::isfinite(ior))
       throw InputError("material '" + material.name + "': the index of refraction must be above 0");
+    return std::clamp(ior, min_layered_ior<double>, max_layered_ior<double>);
   }
 
   const Scene& scene_;
@@ -405,6 +487,7 @@ class MaterialBuilder {
   std::map<double, uint32_t> interface_tables_;
   std::map<std::tuple<double, double, bool>, uint32_t> transmission_tables_;
   std::map<CoatedMetal, uint32_t> coated_metal_tables_;
+  std::map<AlbedoGrid, AlbedoGridRecord> albedo_grids_;
 };
 
 /// By texture: whether it, or one that it is made of, looks at uv. Each is visited once, however often it is used.

@@ -186,13 +186,13 @@ TYPED_TEST(Layered, SheetsAndAnisotropicOnesFollowTheirDensity) {
     }
 }
 
-/// Of what reflects without coat: f(wo, wi) = f(wi, wo).
+/// Of what reflects without coat and sheen: f(wo, wi) = f(wi, wo).
 TYPED_TEST(Layered, Reciprocity) {
   using Real = TypeParam;
   Random random(6);
   size_t tested = 0;
   for (const PrincipledValues& v : mixtures<Real>()) {
-    if (v.clearcoat > 0 || v.transmission > 0) continue;
+    if (v.clearcoat > 0 || v.transmission > 0 || v.sheen > 0) continue;
     const Bsdf<Real> bsdf = principled_of<Real>(v).bsdf(1);
     const Vec3<Real> n = bsdf.frame.normal;
     for (int i = 0; i < 2000; ++i) {

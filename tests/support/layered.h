@@ -70,7 +70,7 @@ class FlatMaterial {
     bsdf.frame = tilted_frame<Real>();
     make_bsdf(view_, view_.materials[0], TexturePoint<Real>{}, bsdf);
     if (bsdf.kind == MaterialKind::layered)
-      make_layered(view_, view_.materials[0], TexturePoint<Real>{}, static_cast<Real>(std::abs(cosine)), u_channel,
+      make_layered(view_, view_.materials[0], TexturePoint<Real>{}, static_cast<Real>(cosine), u_channel,
                    Vec3<Real>{0, 0, 1}, bsdf.layered);
     return bsdf;
   }

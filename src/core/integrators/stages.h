@@ -43,8 +43,8 @@ template <class Real>
 ALHAZEN_HD ALHAZEN_COLD void add_layers(const SceneView<Real>& scene, const TexturePoint<Real>& at, uint32_t hash,
                                         const Vec3<Real>& coat_normal, ShadingPoint<Real>& point) {
   const Frame<Real>& frame = point.bsdf.frame;
-  make_layered(scene, *point.material, at, abs_dot(point.wo, frame.normal),
-               random_of_hit<Real>(hash, HitChoice::channel), frame.to_local(coat_normal), point.bsdf.layered);
+  make_layered(scene, *point.material, at, dot(point.wo, frame.normal), random_of_hit<Real>(hash, HitChoice::channel),
+               frame.to_local(coat_normal), point.bsdf.layered);
 }
 
 /// Sets what belongs to the material, where the surface has been met at `point.si`; `frame` is that about its

@@ -4,12 +4,13 @@
 // leaves about GGX of an alpha that both roughnesses and the refraction make; what share of it leaves after one bounce
 // and after any number is tabulated by a simulation of the layers (scene/coated_metal_tables.cpp).
 
+#include "core/materials/albedo_table.h"
 #include "core/materials/fresnel.h"
 
 namespace ALHAZEN_CORE {
 
-/// Values of a row, by sqrt(cosine), and of the roughnesses of coat and metal by sqrt(alpha), where they vary.
-inline constexpr uint32_t coated_metal_cosines = 32, coated_metal_alphas = 8;
+/// Values of a row, by cosine_coordinate, and of the roughnesses of coat and metal by sqrt(alpha), where they vary.
+inline constexpr uint32_t coated_metal_cosines = albedo_side, coated_metal_alphas = 8;
 /// Two rows: factors for light that meets the metal once, and for all of it where each further bounce leaves
 /// `coated_metal_fit` of it: in between and around it the sum is taken for that of a geometric series.
 template <class Real>
@@ -22,6 +23,7 @@ struct CoatedMetalPlace {
   const Real* block;
   uint32_t coat_step, metal_step;
   Real coat_share, metal_share;  ///< of the next block
+  Real ior;                      ///< of the coat
 };
 
 template <class Real>
@@ -36,8 +38,8 @@ ALHAZEN_HD uint32_t coated_metal_step(Real alpha, Real& share) {
 /// Blocks of a table lie by the roughness of the coat, then by that of the metal.
 template <class Real>
 ALHAZEN_HD CoatedMetalPlace<Real> coated_metal_place(const Real* table, bool coat_varies, bool metal_varies, Real coat,
-                                                     Real metal) {
-  CoatedMetalPlace<Real> place{table, 0, 0, 0, 0};
+                                                     Real metal, Real ior) {
+  CoatedMetalPlace<Real> place{table, 0, 0, 0, 0, ior};
   if (metal_varies) {
     place.metal_step = coated_metal_block;
     place.block += coated_metal_step(metal, place.metal_share) * place.metal_step;
@@ -57,8 +59,8 @@ ALHAZEN_HD Real coated_metal_alpha(Real coat, Real metal, Real ior) {
 }
 
 template <class Real>
-ALHAZEN_HD Real coated_metal_value(const Real* row, Real cosine) {
-  const Real x = std::sqrt(clamp(cosine, Real(0), Real(1))) * static_cast<Real>(coated_metal_cosines - 1);
+ALHAZEN_HD Real coated_metal_value(const Real* row, Real cosine, Real ior) {
+  const Real x = cosine_coordinate(cosine, ior, coated_metal_cosines) * static_cast<Real>(coated_metal_cosines - 1);
   uint32_t i = static_cast<uint32_t>(x);
   i = i > coated_metal_cosines - 2 ? coated_metal_cosines - 2 : i;
   return row[i] + (row[i + 1] - row[i]) * (x - static_cast<Real>(i));
@@ -78,8 +80,8 @@ ALHAZEN_HD CoatedMetalFactors<Real> coated_metal_factors(const CoatedMetalPlace<
                        (corner & 2 ? place.coat_share : 1 - place.coat_share);
     if (!(share > 0)) continue;
     const Real* row = place.block + (corner & 1 ? place.metal_step : 0) + (corner & 2 ? place.coat_step : 0);
-    sum.once += share * coated_metal_value(row, cosine);
-    sum.all += share * coated_metal_value(row + coated_metal_cosines, cosine);
+    sum.once += share * coated_metal_value(row, cosine, place.ior);
+    sum.all += share * coated_metal_value(row + coated_metal_cosines, cosine, place.ior);
   }
   return sum;
 }
@@ -89,7 +91,9 @@ template <class Real>
 ALHAZEN_HD Vec3<Real> coated_metal_colour(const CoatedMetalFactors<Real>& o, const CoatedMetalFactors<Real>& i,
                                           const Vec3<Real>& reflectance) {
   const Real once = o.once * i.once, all = o.all * i.all;
-  const Real again = all > 0 ? clamp((1 - once / all) / coated_metal_fit<Real>, Real(0), Real(1)) : Real(0);
+  // No more than that comes down again; closer to 1, white metal would send back any amount of light.
+  constexpr Real most_again = Real(0.9);
+  const Real again = all > 0 ? clamp((1 - once / all) / coated_metal_fit<Real>, Real(0), most_again) : Real(0);
   const auto channel = [&](Real c) { return once * c / larger(Real(1e-6), 1 - again * c); };
   return {channel(reflectance.x), channel(reflectance.y), channel(reflectance.z)};
 }

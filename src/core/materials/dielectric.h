@@ -73,28 +73,53 @@ ALHAZEN_HD BsdfSample<Real> sample_dielectric(const DielectricBsdf<Real, Alpha>&
   return s;
 }
 
+/// The microfacet that reflects or refracts one direction into the other.
+template <class Real>
+struct DielectricFacet {
+  Real eta;           ///< index of the side beyond relative to that of wo
+  Real cos_o, cos_i;  ///< to the microfacet, whose normal lies on the side of wo
+  Real cos_n;         ///< of wo to the shading normal, above 0
+  Real rate;          ///< Fresnel share that is reflected
+  Real d, g2;
+  Real density;  ///< of sampling the microfacet
+  bool reflects;
+  bool total;  ///< no direction is refracted
+};
+
+/// False where there is no such microfacet.
 template <class Real, class Alpha>
-ALHAZEN_HD BsdfValue<Real> evaluate_dielectric(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
-                                               const Vec3<Real>& wi) {
-  if (is_smooth(bsdf.alpha) || bsdf.ior == 1 || wo.z == 0 || wi.z == 0) return {};
+ALHAZEN_HD ALHAZEN_HOT bool dielectric_facet(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
+                                             const Vec3<Real>& wi, DielectricFacet<Real>& facet) {
   const Real side = wo.z < 0 ? Real(-1) : Real(1);
   const Real eta = wo.z < 0 ? 1 / bsdf.ior : bsdf.ior;
   const Vec3<Real> o = wo * side, i = wi * side;
   const bool reflect = i.z > 0;
   const Vec3<Real> half = reflect ? o + i : o + i * eta;
-  if (is_zero(half)) return {};
+  if (is_zero(half)) return false;
   Vec3<Real> m = normalize(half);
   if (m.z < 0) m = -m;
   const Real cos_o = dot(o, m), cos_i = dot(i, m);
-  if (!(cos_o > 0) || (reflect ? !(cos_i > 0) : !(cos_i < 0))) return {};
+  if (!(cos_o > 0) || (reflect ? !(cos_i > 0) : !(cos_i < 0))) return false;
   // Where both directions are known both cosines are: near the critical angle Snell's law would lose one of them.
-  Real cos_t;
-  const Real rate = reflect ? fresnel_dielectric(cos_o, eta, cos_t) : fresnel_of_cosines(cos_o, -cos_i, eta);
-  const Real d = ggx_d(m, bsdf.alpha), g2 = ggx_g2(o, i, bsdf.alpha);
-  const Real density = ggx_g1(o, bsdf.alpha) * d * cos_o / o.z;
-  if (reflect) return {splat(rate * d * g2 / (4 * o.z)), rate * density / (4 * cos_o)};
-  const Real jacobian = -cos_i / sqr(cos_i + cos_o / eta);
-  return {splat((1 - rate) * d * g2 * jacobian * cos_o / (o.z * eta * eta)), (1 - rate) * density * jacobian};
+  Real cos_t = 1;
+  facet.rate = reflect ? fresnel_dielectric(cos_o, eta, cos_t) : fresnel_of_cosines(cos_o, -cos_i, eta);
+  facet.total = !(cos_t > 0);
+  facet.d = ggx_d(m, bsdf.alpha), facet.g2 = ggx_g2(o, i, bsdf.alpha);
+  facet.density = ggx_g1(o, bsdf.alpha) * facet.d * cos_o / o.z;
+  facet.eta = eta, facet.cos_o = cos_o, facet.cos_i = cos_i, facet.cos_n = o.z, facet.reflects = reflect;
+  return true;
+}
+
+template <class Real, class Alpha>
+ALHAZEN_HD BsdfValue<Real> evaluate_dielectric(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
+                                               const Vec3<Real>& wi) {
+  if (is_smooth(bsdf.alpha) || bsdf.ior == 1 || wo.z == 0 || wi.z == 0) return {};
+  DielectricFacet<Real> f;
+  if (!dielectric_facet(bsdf, wo, wi, f)) return {};
+  if (f.reflects) return {splat(f.rate * f.d * f.g2 / (4 * f.cos_n)), f.rate * f.density / (4 * f.cos_o)};
+  const Real jacobian = -f.cos_i / sqr(f.cos_i + f.cos_o / f.eta);
+  return {splat((1 - f.rate) * f.d * f.g2 * jacobian * f.cos_o / (f.cos_n * f.eta * f.eta)),
+          (1 - f.rate) * f.density * jacobian};
 }
 
 }  // namespace ALHAZEN_CORE

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "core/materials/albedo_grid.h"
 #include "core/textures/record.h"
 
 namespace ALHAZEN_CORE {
@@ -76,6 +77,11 @@ struct LayersRecord {
   uint32_t coated_metal;       ///< coated conductor: where its table of core/materials/coated_metal.h lies
   uint32_t coat_varies, metal_varies;  ///< and whether that has many roughnesses of the two
   Real bounces;                        ///< coated diffuse: light meets the base as often as this at most; 0: for ever
+  uint32_t is_anisotropic;             ///< the alphas of the base may differ
+  AlbedoGridRecord grid;               ///< GgxGrid; of a coated diffuse base whose alphas may differ CoatGrid
+  AlbedoGridRecord through_grid;       ///< GgxGrid of what goes through a sheet, or of coated metal's mean alpha
+  AlbedoGridRecord sheen_grid;
+  AlbedoGridRecord glass[3];  ///< principled, not thin: GlassGrid, of each channel where there is dispersion
 };
 
 }  // namespace ALHAZEN_CORE
