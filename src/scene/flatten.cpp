@@ -354,11 +354,14 @@ class Flattener {
     // With shading normals the front is theirs; without, that of the winding in object space.
     const bool flip =
         mesh.normals.empty() ? p.reverse_orientation != transform.swaps_handedness() : p.reverse_orientation;
-    add_triangles(shape, mesh, base, normal_offset, uv_offset, flip, add_attributes(mesh, transform, base));
+    add_triangles(shape, mesh, base, normal_offset, uv_offset, flip, add_attributes(p, mesh, base));
   }
 
   /// What the mesh has at its vertices beside normals and uvs.
-  uint32_t add_attributes(const Mesh& mesh, const Transform& transform, uint32_t base) {
+  uint32_t add_attributes(const Placement& p, const Mesh& mesh, uint32_t base) {
+    const Transform& transform = p.world_from_object.start;
+    // A normal that is turned round makes what was right-handed left-handed, as a mirror does.
+    const bool swaps_handedness = transform.swaps_handedness() != p.reverse_orientation;
     if (mesh.second_uvs.empty() && mesh.colours.empty() && mesh.tangents.empty()) return no_offset;
     const auto offset_to = [&](const auto& values, size_t count) {
       return values.empty() ? no_offset : static_cast<uint32_t>(count) - base;
@@ -372,7 +375,7 @@ class Flattener {
       const Vec3d along = transform.direction(convert<double>(Vec3f{t[0], t[1], t[2]}));
       const double size = length(along);
       const Vec3f unit = size > 0 ? convert<float>(along / size) : Vec3f{};
-      const float handedness = (t[3] < 0) != transform.swaps_handedness() ? -1.0f : 1.0f;
+      const float handedness = (t[3] < 0) != swaps_handedness ? -1.0f : 1.0f;
       out_.vertex_tangents.push_back({unit.x, unit.y, unit.z, handedness});
     }
     out_.vertex_attributes.push_back(record);
