@@ -183,7 +183,7 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light_for(const SceneView<Real>&
   if (scene.lights_count == 0 || point.bsdf.is_specular()) return {};
   const LightChoiceInput<Real> by = light_choice_input(scene, sampler, dimensions, point);
   return sample_light(scene, point.si.position, by.normal, point.si.time, by.u,
-                      sampler.template get_2d<Real>(dimensions.light_point()));
+                      sampler.template get_2d<Real>(dimensions.light_point()), point.light);
 }
 
 template <class Real>
