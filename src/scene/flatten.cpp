@@ -11,6 +11,7 @@
 #include "scene/flatten_lights.h"
 #include "scene/flatten_materials.h"
 #include "scene/flatten_trees.h"
+#include "scene/open_backs.h"
 
 namespace alhazen {
 
@@ -39,15 +40,15 @@ class Flattener {
     emission_textures_ = flatten_materials(scene_, out_);
     for (const MaterialRecord<Real>& material : out_.materials) {
       if (material.features & MaterialFeatures::cutout) flat.view.has_cutouts = 1;
+      if (material.opacity.count > 0) flat.view.lets_light_through = 1;
+      if (material.features & MaterialFeatures::one_sided) has_one_sided_ = true;
       if (has_lobes(material.kind)) flat.view.has_lobes = 1;
     }
     add_described_lights(scene_, out_, flat.view, light_measures_);
     place_shapes();
     weigh_emission_textures(out_, light_measures_);
     warn_of_dropped_triangles();
-    build_trees(options_, out_, flat.statistics);
-    add_shining_triangles(out_);
-    assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
+    build_trees_and_ask(flat);
     flat.statistics.triangles = out_.triangles.size();
     flat.statistics.spheres = out_.spheres.size() + out_.moving_spheres.size();
     flat.statistics.lights = out_.lights.size();
@@ -57,6 +58,33 @@ class Flattener {
   }
 
  private:
+  /// Builds the trees, and asks with rays what only they tell. The binary tree serves for that.
+  void build_trees_and_ask(FlatScene<Real>& flat) {
+    FlattenOptions options = options_;
+    if (has_one_sided_) options.trees.binary = true;
+    build_trees(options, out_, flat.statistics);
+    add_shining_triangles(out_);
+    assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
+    if (has_one_sided_ && open_seen_backs(whole_view(flat), options_.threads, out_)) {
+      flat.view.lets_light_through = 1;
+      flat.view.light_passes_backs = has_only_lights_without_size(out_) && stands_in_the_open(whole_view(flat)) ? 1 : 0;
+    }
+    if (options_.trees.binary || out_.nodes.empty()) return;
+    flat.statistics.tree_bytes -= out_.nodes.size() * sizeof(out_.nodes[0]);
+    flat.statistics.nodes = out_.simd_nodes.size();
+    std::vector<BvhNode<Real>>().swap(out_.nodes);
+  }
+
+  /// The settings of `flat` over the arrays as they stand.
+  SceneView<Real> whole_view(const FlatScene<Real>& flat) const {
+    SceneView<Real> view = out_.view();
+    view.camera = flat.view.camera;
+    view.has_cutouts = flat.view.has_cutouts;
+    view.lets_light_through = flat.view.lets_light_through;
+    view.light_passes_backs = flat.view.light_passes_backs;
+    return view;
+  }
+
   void check_film() {
     width_ = options_.width > 0 ? options_.width : scene_.film.width;
     height_ = options_.height > 0 ? options_.height : scene_.film.height;
@@ -419,6 +447,7 @@ class Flattener {
   int64_t width_ = 0, height_ = 0;
   SceneArrays<Real> out_;
   std::vector<bool> needs_uv_;
+  bool has_one_sided_ = false;
   std::vector<bool> is_object_;                  ///< by group
   std::vector<uint32_t> uses_;                   ///< by mesh: placements to come
   std::vector<TextureRange> emission_textures_;  ///< by texture
