@@ -1,6 +1,8 @@
 #include "scene/flatten.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -11,6 +13,7 @@
 #include "scene/flatten_lights.h"
 #include "scene/flatten_materials.h"
 #include "scene/flatten_trees.h"
+#include "scene/lost_light.h"
 #include "scene/open_backs.h"
 
 namespace alhazen {
@@ -60,8 +63,9 @@ class Flattener {
  private:
   /// Builds the trees, and asks with rays what only they tell. The binary tree serves for that.
   void build_trees_and_ask(FlatScene<Real>& flat) {
+    const bool asks_for_lost_light = options_.path_segments > 0 && has_lights_without_size(scene_);
     FlattenOptions options = options_;
-    if (has_one_sided_) options.trees.binary = true;
+    if (has_one_sided_ || asks_for_lost_light) options.trees.binary = true;
     build_trees(options, out_, flat.statistics);
     add_shining_triangles(out_);
     assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
@@ -69,6 +73,9 @@ class Flattener {
       flat.view.lets_light_through = 1;
       flat.view.light_passes_backs = has_only_lights_without_size(out_) && stands_in_the_open(whole_view(flat)) ? 1 : 0;
     }
+    if (asks_for_lost_light)
+      if (const auto lost = find_lost_light(whole_view(flat), options_.path_segments))
+        warn_of_lost_light(*lost, scene_, surface_shapes_[lost->surface]->where, diagnostics_);
     if (options_.trees.binary || out_.nodes.empty()) return;
     flat.statistics.tree_bytes -= out_.nodes.size() * sizeof(out_.nodes[0]);
     flat.statistics.nodes = out_.simd_nodes.size();
@@ -280,6 +287,7 @@ class Flattener {
   uint32_t add_surface(const Shape& shape, uint32_t light, uint32_t normal_offset, uint32_t uv_offset, bool flip,
                        uint32_t attributes = no_offset) {
     out_.surfaces.push_back({material_of(shape), light, normal_offset, uv_offset, flip ? 1u : 0u, attributes});
+    surface_shapes_.push_back(&shape);
     return static_cast<uint32_t>(out_.surfaces.size() - 1);
   }
 
@@ -448,6 +456,7 @@ class Flattener {
   SceneArrays<Real> out_;
   std::vector<bool> needs_uv_;
   bool has_one_sided_ = false;
+  std::vector<const Shape*> surface_shapes_;     ///< by surface
   std::vector<bool> is_object_;                  ///< by group
   std::vector<uint32_t> uses_;                   ///< by mesh: placements to come
   std::vector<TextureRange> emission_textures_;  ///< by texture
