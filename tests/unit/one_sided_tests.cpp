@@ -53,7 +53,7 @@ TYPED_TEST_SUITE(OneSided, Reals);
 
 /// Fronts look inwards: the two triangles of each wall are wound so.
 TYPED_TEST(OneSided, WallsLookInwards) {
-  const FlatScene<TypeParam> scene = flat_scene_of<TypeParam>(view("0 0 9", "0 0 0", narrow) + walls("lrfcbn"));
+  const FlatScene<TypeParam> scene = flat_scene_of<TypeParam>(view("0 0 9", "0 0 0", narrow) + sky + walls("lrfcbn"));
   ASSERT_EQ(scene.view.triangles_count, 12u);
   for (uint32_t i = 0; i < 12; ++i) {
     const TriangleRecord& t = scene.view.triangles[i];
