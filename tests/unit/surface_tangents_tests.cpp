@@ -127,8 +127,8 @@ class SurfaceTangentsOf : public ::testing::Test {
           for (const Stands stands : {Stands::alone, Stands::moving, Stands::as_instance, Stands::as_moving_instance}) {
             SCOPED_TRACE(std::string(shape.name) + ", " + transform + (reversed ? ", reversed" : "") + ", " +
                          std::to_string(static_cast<int>(stands)));
-            std::string text =
-                "WorldBegin " + std::string(material) + " " + placed(shape.text, transform, reversed, stands);
+            std::string text = "WorldBegin LightSource \"infinite\" " + std::string(material) + " " +
+                               placed(shape.text, transform, reversed, stands);
             check(text);
             if (this->HasFailure()) return;
           }
