@@ -144,14 +144,14 @@ TYPED_TEST(SurfaceTangentsOf, AreDerivativesOfThePosition) {
     const FlatScene<Real> scene = scene_of<Real>(described_scene(text));
     int right = 0, all = 0;
     at_points(scene, [&](const Found<Real>& at) {
-      for (const Vec2<Real> step : {Vec2<Real>{Real(0.004), 0}, Vec2<Real>{0, Real(0.004)}}) {
+      for (const Vec2<Real> step : {Vec2<Real>{Real(0.0005), 0}, Vec2<Real>{0, Real(0.0005)}}) {
         const Vec3<Real> aim = at.si.position + at.tangents.dpdu * step.x + at.tangents.dpdv * step.y;
         Found<Real> there;
         if (!find(scene, aim + at.si.normal * Real(0.05), aim, at.si.time, there)) continue;
         const double du = static_cast<double>(there.si.uv.x - at.si.uv.x - step.x);
         const double dv = static_cast<double>(there.si.uv.y - at.si.uv.y - step.y);
         ++all;
-        right += std::abs(du) < 4e-4 && std::abs(dv) < 4e-4;
+        right += std::abs(du) < 5e-5 && std::abs(dv) < 5e-5;
       }
     });
     EXPECT_GT(all, 150);
