@@ -224,6 +224,7 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   const int build_threads = is_on_gpu ? 0 : settings.threads;
   FlattenOptions options{settings.width, settings.height, build_threads, backend->wanted_trees(settings)};
   options.texture_budget = settings.texture_budget;
+  options.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
   const FlatScene<Real> flat = flatten<Real>(std::move(scene), options, diagnostics);
   started.get();
   statistics.scene_sizes = flat.statistics;

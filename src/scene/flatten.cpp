@@ -2,8 +2,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -15,6 +17,8 @@
 #include "scene/flatten_lights.h"
 #include "scene/flatten_materials.h"
 #include "scene/flatten_trees.h"
+#include "scene/lost_light.h"
+#include "scene/open_backs.h"
 #include "scene/render_space.h"
 #include "scene/thread_limit.h"
 
@@ -57,15 +61,15 @@ class Flattener {
     emission_textures_ = flatten_materials(scene_, out_);
     for (const MaterialRecord<Real>& material : out_.materials) {
       if (material.features & MaterialFeatures::cutout) flat.view.has_cutouts = 1;
+      if (material.opacity.count > 0) flat.view.lets_light_through = 1;
+      if (material.features & MaterialFeatures::one_sided) has_one_sided_ = true;
       if (has_lobes(material.kind)) flat.view.has_lobes = 1;
     }
     add_described_lights(scene_, out_, flat.view, light_measures_);
     place_shapes();
     weigh_emission_textures(out_, light_measures_);
     warn_of_dropped_triangles();
-    build_trees(options_, out_, flat.statistics);
-    add_shining_triangles(out_);
-    assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
+    build_trees_and_ask(flat);
     flat.statistics.triangles = out_.triangles.size();
     flat.statistics.spheres = out_.spheres.size() + out_.moving_spheres.size();
     flat.statistics.lights = out_.lights.size();
@@ -75,6 +79,37 @@ class Flattener {
   }
 
  private:
+  /// Builds the trees, and asks with rays what only they tell. The binary tree serves for that.
+  void build_trees_and_ask(FlatScene<Real>& flat) {
+    const bool asks_for_lost_light = options_.path_segments > 0 && has_lights_without_size(scene_);
+    FlattenOptions options = options_;
+    if (has_one_sided_ || asks_for_lost_light) options.trees.binary = true;
+    build_trees(options, out_, flat.statistics);
+    add_shining_triangles(out_);
+    assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
+    if (has_one_sided_ && open_seen_backs(whole_view(flat), options_.threads, out_)) {
+      flat.view.lets_light_through = 1;
+      flat.view.light_passes_backs = has_only_lights_without_size(out_) && stands_in_the_open(whole_view(flat)) ? 1 : 0;
+    }
+    if (asks_for_lost_light)
+      if (const auto lost = find_lost_light(whole_view(flat), options_.path_segments))
+        warn_of_lost_light(*lost, scene_, surface_shapes_[lost->surface]->where, diagnostics_);
+    if (options_.trees.binary || out_.nodes.empty()) return;
+    flat.statistics.tree_bytes -= out_.nodes.size() * sizeof(out_.nodes[0]);
+    flat.statistics.nodes = out_.simd_nodes.size();
+    std::vector<BvhNode<Real>>().swap(out_.nodes);
+  }
+
+  /// The settings of `flat` over the arrays as they stand.
+  SceneView<Real> whole_view(const FlatScene<Real>& flat) const {
+    SceneView<Real> view = out_.view();
+    view.camera = flat.view.camera;
+    view.has_cutouts = flat.view.has_cutouts;
+    view.lets_light_through = flat.view.lets_light_through;
+    view.light_passes_backs = flat.view.light_passes_backs;
+    return view;
+  }
+
   void check_film() {
     width_ = options_.width > 0 ? options_.width : scene_.film.width;
     height_ = options_.height > 0 ? options_.height : scene_.film.height;
@@ -305,6 +340,7 @@ class Flattener {
   uint32_t add_surface(const Shape& shape, uint32_t light, uint32_t normal_offset, uint32_t uv_offset, bool flip,
                        uint32_t attributes = no_offset) {
     out_.surfaces.push_back({material_of(shape), light, normal_offset, uv_offset, flip ? 1u : 0u, attributes});
+    surface_shapes_.push_back(&shape);
     return static_cast<uint32_t>(out_.surfaces.size() - 1);
   }
 
@@ -432,11 +468,14 @@ class Flattener {
     // With shading normals the front is theirs; without, that of the winding in object space.
     const bool flip =
         mesh.normals.empty() ? p.reverse_orientation != transform.swaps_handedness() : p.reverse_orientation;
-    add_triangles(shape, mesh, base, normal_offset, uv_offset, flip, add_attributes(mesh, transform, base));
+    add_triangles(shape, mesh, base, normal_offset, uv_offset, flip, add_attributes(p, mesh, base));
   }
 
   /// What the mesh has at its vertices beside normals and uvs.
-  uint32_t add_attributes(const Mesh& mesh, const Transform& transform, uint32_t base) {
+  uint32_t add_attributes(const Placement& p, const Mesh& mesh, uint32_t base) {
+    const Transform& transform = p.world_from_object.start;
+    // A normal that is turned round makes what was right-handed left-handed, as a mirror does.
+    const bool swaps_handedness = transform.swaps_handedness() != p.reverse_orientation;
     if (mesh.second_uvs.empty() && mesh.colours.empty() && mesh.tangents.empty()) return no_offset;
     const auto offset_to = [&](const auto& values, size_t count) {
       return values.empty() ? no_offset : static_cast<uint32_t>(count) - base;
@@ -450,7 +489,7 @@ class Flattener {
       const Vec3d along = transform.direction(convert<double>(Vec3f{t[0], t[1], t[2]}));
       const double size = length(along);
       const Vec3f unit = size > 0 ? convert<float>(along / size) : Vec3f{};
-      const float handedness = (t[3] < 0) != transform.swaps_handedness() ? -1.0f : 1.0f;
+      const float handedness = (t[3] < 0) != swaps_handedness ? -1.0f : 1.0f;
       out_.vertex_tangents.push_back({unit.x, unit.y, unit.z, handedness});
     }
     out_.vertex_attributes.push_back(record);
@@ -495,6 +534,8 @@ class Flattener {
   int64_t width_ = 0, height_ = 0;
   SceneArrays<Real> out_;
   std::vector<bool> needs_uv_;
+  bool has_one_sided_ = false;
+  std::vector<const Shape*> surface_shapes_;     ///< by surface
   std::vector<bool> is_object_;                  ///< by group
   std::vector<uint32_t> uses_;                   ///< by mesh: placements to come
   std::vector<TextureRange> emission_textures_;  ///< by texture

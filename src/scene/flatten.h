@@ -23,12 +23,15 @@ struct FlattenOptions {
   uint64_t texture_budget = 0;  ///< bytes that pictures may take; 0: any
   /// Whether a scene far from the world's origin is moved there (scene/render_space.h).
   bool in_render_space = true;
+  /// How many segments paths have where `path` renders, so that light which it does not find is warned of; 0: that is
+  /// not asked.
+  uint32_t path_segments = 0;
 };
 
 /// Takes the description apart as it goes, so that meshes are not held twice.
 /// Throws InputError for what cannot be rendered: indices out of range, coordinates that are not finite, radii that are
 /// not positive, too many primitives. Warns of what is left out: triangles of no area, motion of meshes and cameras,
-/// detail of pictures.
+/// detail of pictures, light that is not found.
 template <class Real>
 FlatScene<Real> flatten(Scene&& scene, const FlattenOptions& options, Diagnostics& diagnostics);
 

@@ -290,6 +290,8 @@ struct Scene {
   int64_t samples_per_pixel = 16;
   uint32_t seed = 0;
   IntegratorType integrator = IntegratorType::path;
+  /// What the file asks for where `path` stands in for an integrator that finds more; else empty.
+  std::string replaced_integrator;
   int64_t max_depth = 5;  ///< bounces, as pbrt counts them
   /// Motion is given between these times; the camera's shutter is cut out of them.
   double transform_start_time = 0, transform_end_time = 1;

@@ -121,13 +121,13 @@ TYPED_TEST(WarpOf, Spheres) {
         [&](const Vec2<Real>& u) {
           Vec3<Real> normal;
           Real pdf;
-          const Vec3<Real> w = sample_sphere(center, radius, from, u, normal, pdf);
+          const Vec3<Real> w = sample_sphere(center, radius, from, false, u, normal, pdf);
           EXPECT_GT(pdf, Real(0));
           return w;
         },
         [&](const Vec3<Real>& w) {
           // The last ring of the cone may lie beside it by rounding.
-          return outside ? pdf_sphere(center, radius, from, w, Real(1), w) : pdf_towards(center, radius, from, w);
+          return outside ? pdf_sphere(center, radius, from, w, Real(1), -w) : pdf_towards(center, radius, from, w);
         },
         "sphere at distance " + std::to_string(distance) + ", radius " + std::to_string(c.radius));
   }
@@ -142,7 +142,7 @@ TYPED_TEST(WarpOf, SampledSphereNormalIsThatOfTheHit) {
     const Real radius = static_cast<Real>(random.between(0.1, 2));
     Vec3<Real> normal;
     Real pdf, t;
-    const Vec3<Real> w = sample_sphere(center, radius, point, random.uniform_2d<Real>(), normal, pdf);
+    const Vec3<Real> w = sample_sphere(center, radius, point, false, random.uniform_2d<Real>(), normal, pdf);
     // At the rim and at the surface rounding decides.
     if (abs_dot(w, normal) < Real(0.05) || std::abs(length(center - point) - radius) < Real(0.05)) continue;
     ASSERT_TRUE(intersect_sphere(Ray<Real>{point, w}, center, radius, infinity<Real>, t));

@@ -131,7 +131,7 @@ class DiffuseSurfaces {
       light_way_[i] = LightWay::sky;
       ++skies_;
     } else {
-      set_light(i, sample_chosen_light(scene, light, point.si.position, point.si.time,
+      set_light(i, sample_chosen_light(scene, light, point.si.position, choice.light == point.light, point.si.time,
                                        sampler.template get_2d<Real>(drawn.light_point())));
       light_pdf_[i] *= choice.pmf;
     }

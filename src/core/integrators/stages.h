@@ -147,7 +147,7 @@ ALHAZEN_HD bool is_free(const Intersector& intersector, const ShadowRay<Real>& s
 template <class Real, class Intersector>
 ALHAZEN_HD Real free_share(const SceneView<Real>& scene, const Intersector& intersector,
                            const ShadowRay<Real>& shadow) {
-  if (scene.has_cutouts) return transmittance(scene, intersector, shadow.ray, shadow.t_max);
+  if (scene.lets_light_through) return transmittance(scene, intersector, shadow.ray, shadow.t_max);
   return is_free(intersector, shadow) ? Real(1) : Real(0);
 }
 
@@ -183,7 +183,7 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light_for(const SceneView<Real>&
   if (scene.lights_count == 0 || point.bsdf.is_specular()) return {};
   const LightChoiceInput<Real> by = light_choice_input(scene, sampler, dimensions, point);
   return sample_light(scene, point.si.position, by.normal, point.si.time, by.u,
-                      sampler.template get_2d<Real>(dimensions.light_point()));
+                      sampler.template get_2d<Real>(dimensions.light_point()), point.light);
 }
 
 template <class Real>

@@ -121,10 +121,11 @@ template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_sphere_light(const SceneView<Real>& scene,
                                                              const LightRecord<Real>& light, const Vec3<Real>& center,
                                                              Real radius, uint32_t surface, uint32_t frame,
-                                                             const Vec3<Real>& reference, const Vec2<Real>& u) {
+                                                             const Vec3<Real>& reference, bool is_on_light,
+                                                             const Vec2<Real>& u) {
   LightSample<Real> s;
   Vec3<Real> outward;
-  s.direction = sample_sphere(center, radius, reference, u, outward, s.pdf);
+  s.direction = sample_sphere(center, radius, reference, is_on_light, u, outward, s.pdf);
   s.point = center + outward * radius;
   s.point_error = (abs(center) + splat(radius)) * rounding_bound<Real>(8);
   s.normal = scene.surfaces[surface].flip_normal ? -outward : outward;
@@ -190,11 +191,12 @@ ALHAZEN_HD ALHAZEN_HOT Real pmf_of_shape(const SceneView<Real>& scene, const Lig
   return scene.light_tree_share * pmf_of_light_tree(scene, light.trail, reference, normal);
 }
 
-/// Towards a point of this light; the density leaves out that it was chosen.
+/// Towards a point of this light; the density leaves out that it was chosen. `is_on_light`: `reference` is a point of
+/// the light itself.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_chosen_light(const SceneView<Real>& scene,
                                                              const LightRecord<Real>& light,
-                                                             const Vec3<Real>& reference, Real time,
+                                                             const Vec3<Real>& reference, bool is_on_light, Real time,
                                                              const Vec2<Real>& u) {
   LightSample<Real> s;
   switch (light.kind) {
@@ -203,13 +205,14 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_chosen_light(const SceneView<Rea
       break;
     case LightKind::sphere: {
       const SphereRecord<Real>& sphere = scene.spheres[light.primitive];
-      s = sample_sphere_light(scene, light, sphere.center, sphere.radius, sphere.surface, sphere.frame, reference, u);
+      s = sample_sphere_light(scene, light, sphere.center, sphere.radius, sphere.surface, sphere.frame, reference,
+                              is_on_light, u);
       break;
     }
     case LightKind::moving_sphere: {
       const MovingSphereRecord<Real>& sphere = scene.moving_spheres[light.primitive];
       s = sample_sphere_light(scene, light, sphere.center + sphere.motion * time, sphere.radius, sphere.surface,
-                              sphere.frame, reference, u);
+                              sphere.frame, reference, is_on_light, u);
       break;
     }
     case LightKind::point:
@@ -240,15 +243,17 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_chosen_light(const SceneView<Rea
   return s;
 }
 
-/// One light, chosen by `u_choice`, towards a point of it. `normal` as for `choose_light`.
+/// One light, chosen by `u_choice`, towards a point of it. `normal` as for `choose_light`; `own_light` is the light
+/// that `reference` is a point of.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light(const SceneView<Real>& scene, const Vec3<Real>& reference,
                                                       const Vec3<Real>& normal, Real time, Real u_choice,
-                                                      const Vec2<Real>& u) {
+                                                      const Vec2<Real>& u, uint32_t own_light = no_light) {
   if (scene.lights_count == 0) return {};
   const LightChoice<Real> choice = choose_light(scene, reference, normal, u_choice);
   if (!(choice.pmf > 0)) return {};
-  LightSample<Real> s = sample_chosen_light(scene, scene.lights[choice.light], reference, time, u);
+  LightSample<Real> s =
+      sample_chosen_light(scene, scene.lights[choice.light], reference, choice.light == own_light, time, u);
   s.pdf *= choice.pmf;
   return s;
 }
@@ -260,6 +265,10 @@ ALHAZEN_HD ALHAZEN_HOT Real pdf_light(const SceneView<Real>& scene, const LightR
                                       const Ray<Real>& ray, const Hit<Real>& hit, const SurfaceInteraction<Real>& si,
                                       const Vec3<Real>& normal) {
   const Real pmf = pmf_of_shape(scene, light, ray.origin, normal);
+  const auto of_sphere = [&](const Vec3<Real>& center, Real radius) {
+    const Vec3<Real> outward = scene.surfaces[si.surface].flip_normal ? -si.normal : si.normal;
+    return pmf * pdf_sphere(center, radius, ray.origin, ray.direction, hit.t, outward);
+  };
   switch (light.kind) {
     case LightKind::triangle: {
       const Real area = Real(0.5) * length(triangle_cross(scene, scene.triangles[light.primitive]));
@@ -268,11 +277,11 @@ ALHAZEN_HD ALHAZEN_HOT Real pdf_light(const SceneView<Real>& scene, const LightR
     }
     case LightKind::sphere: {
       const SphereRecord<Real>& s = scene.spheres[light.primitive];
-      return pmf * pdf_sphere(s.center, s.radius, ray.origin, ray.direction, hit.t, si.normal);
+      return of_sphere(s.center, s.radius);
     }
     case LightKind::moving_sphere: {
       const MovingSphereRecord<Real>& s = scene.moving_spheres[light.primitive];
-      return pmf * pdf_sphere(s.center + s.motion * ray.time, s.radius, ray.origin, ray.direction, hit.t, si.normal);
+      return of_sphere(s.center + s.motion * ray.time, s.radius);
     }
     default:
       return 0;

@@ -39,13 +39,17 @@ template <class Real>
 ALHAZEN_HD Real light_importance(const LightTreeNode& node, const Vec3<Real>& point, const Vec3<Real>& normal) {
   const Vec3<Real> way = point - convert<Real>(node.centre);
   const Real distance_squared = length_squared(way);
-  const Real radius_squared = sqr(static_cast<Real>(node.radius));
+  const Real radius = static_cast<Real>(node.radius);
   const Real power = static_cast<Real>(node.power);
-  // From within the sphere light may come from anywhere.
-  if (distance_squared <= radius_squared) return radius_squared > 0 ? power / radius_squared : Real(0);
+  // From within the sphere light may come from anywhere, and from the sphere itself, with what a ray is moved by as it
+  // leaves a surface: where a shining sphere is its node's, the sampler has a point of it rounded to one side, and who
+  // asks for the density to the other.
+  const Real slack = (max_component(abs(point)) + radius) * rounding_bound<Real>(32);
+  if (distance_squared <= (radius > 0 ? sqr(radius + slack) : Real(0)))
+    return radius > 0 ? power / sqr(radius) : Real(0);
   const Real per_distance = 1 / std::sqrt(distance_squared);
   const Vec3<Real> outgoing = way * per_distance;
-  const AngleOfCone<Real> sphere = angle_of_sine(static_cast<Real>(node.radius) * per_distance);
+  const AngleOfCone<Real> sphere = angle_of_sine(radius * per_distance);
   Real importance = power * sqr(per_distance);
   if (node.cos_normals > -1) {
     const Real along_axis = clamp(dot(convert<Real>(node.axis), outgoing), Real(-1), Real(1));

@@ -55,22 +55,13 @@ ALHAZEN_HD Vec3<Real> direction_in_world(const SceneView<Real>& scene, const Hit
   return hit.instance == no_instance ? v : transform_direction(scene.instances[hit.instance].world_from_object, v);
 }
 
-/// Whether the way to the world turns right-handed into left-handed.
-template <class Real>
-ALHAZEN_HD bool is_mirrored(const SceneView<Real>& scene, const Hit<Real>& hit) {
-  if (hit.instance == no_instance) return false;
-  const auto& m = scene.instances[hit.instance].world_from_object;
-  const auto column = [&](int j) { return Vec3<Real>{m[0][j], m[1][j], m[2][j]}; };
-  return dot(cross(column(0), column(1)), column(2)) < 0;
-}
-
 template <class Real>
 struct MeshTangent {
-  Vec3<Real> direction{};  ///< world space, not of unit length
-  Real handedness = 0;     ///< of normal, tangent, bitangent; 0: the mesh has no tangents
+  Vec3<Real> direction{};  ///< not of unit length
+  Real handedness = 0;     ///< of front normal, tangent, bitangent; 0: the mesh has no tangents
 };
 
-/// The tangent that the mesh brings along.
+/// The tangent that the mesh brings along, in the space of its positions.
 template <class Real>
 ALHAZEN_HD MeshTangent<Real> mesh_tangent(const SceneView<Real>& scene, const Hit<Real>& hit) {
   const AttributesRecord* attributes = attributes_of(scene, hit);
@@ -85,45 +76,7 @@ ALHAZEN_HD MeshTangent<Real> mesh_tangent(const SceneView<Real>& scene, const Hi
     // That of the first corner: corners of a triangle have the same.
     if (i == 0) tangent.handedness = static_cast<Real>(t.handedness);
   }
-  tangent.direction = direction_in_world(scene, hit, tangent.direction);
-  if (is_mirrored(scene, hit)) tangent.handedness = -tangent.handedness;
   return tangent;
-}
-
-/// Derivative of the position by u; zero where the uvs do not say.
-template <class Real>
-ALHAZEN_HD Vec3<Real> triangle_dpdu(const SceneView<Real>& scene, const Hit<Real>& hit) {
-  const TriangleRecord& triangle = scene.triangles[hit.primitive.index()];
-  const SurfaceRecord& surface = scene.surfaces[triangle.surface];
-  const uint32_t* v = triangle.vertex;
-  const Vec2<Real> uv0 = vertex_uv(scene, surface, v, 0), uv1 = vertex_uv(scene, surface, v, 1),
-                   uv2 = vertex_uv(scene, surface, v, 2);
-  const Vec3<Real> p0 = scene.positions[v[0]];
-  const Real dv1 = uv1.y - uv0.y, dv2 = uv2.y - uv0.y;
-  const Real determinant = (uv1.x - uv0.x) * dv2 - dv1 * (uv2.x - uv0.x);
-  if (!(std::abs(determinant) > std::numeric_limits<Real>::min())) return {};
-  const Vec3<Real> along = (scene.positions[v[1]] - p0) * dv2 - (scene.positions[v[2]] - p0) * dv1;
-  return direction_in_world(scene, hit, along * (1 / determinant));
-}
-
-/// The direction in which u increases, unit length, by the tangents of the mesh or else by its uvs; zero where neither
-/// says. Not made perpendicular to any normal. Spheres: round the polar axis.
-template <class Real>
-ALHAZEN_HD Vec3<Real> surface_tangent(const SceneView<Real>& scene, const Hit<Real>& hit, const Vec3<Real>& normal) {
-  Vec3<Real> along{};
-  if (hit.primitive.kind() != PrimitiveKind::triangle) {
-    const bool moves = hit.primitive.kind() == PrimitiveKind::moving_sphere;
-    const uint32_t index = hit.primitive.index();
-    const uint32_t frame = moves ? scene.moving_spheres[index].frame : scene.spheres[index].frame;
-    const uint32_t surface = moves ? scene.moving_spheres[index].surface : scene.spheres[index].surface;
-    if (frame == no_sphere_frame) return {};
-    along = cross(scene.sphere_frames[frame].z, scene.surfaces[surface].flip_normal ? -normal : normal);
-  } else {
-    const MeshTangent<Real> tangent = mesh_tangent(scene, hit);
-    along = tangent.handedness != 0 ? tangent.direction : triangle_dpdu(scene, hit);
-  }
-  const Real size = length(along);
-  return size > 0 ? along * (1 / size) : Vec3<Real>{};
 }
 
 /// Area of (u, v) of set `uv_set` for an area of the surface, world space. 0: unknown.

@@ -110,8 +110,8 @@ struct VertexColour {
   float red, green, blue, alpha;
 };
 
-/// In the space of the positions, unit length; `handedness` is 1 where normal, tangent and bitangent are right-handed,
-/// -1 where they are left-handed.
+/// In the space of the positions, unit length; `handedness` is 1 where the normal of the front, tangent and bitangent
+/// are right-handed, -1 where they are left-handed.
 struct VertexTangent {
   float x, y, z, handedness;
 };

@@ -31,37 +31,57 @@ ALHAZEN_HD bool intersect_sphere(const Ray<Real>& ray, const Vec3<Real>& center,
 }
 
 /// Cone of directions from `point` that meets the sphere: cosine of its half angle, and 1 minus that cosine without
-/// cancellation. False where the point is inside or on the sphere.
+/// cancellation. False where the point is inside; the cone is then what it is on the sphere, a half of all directions.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT bool subtended_cone(const Vec3<Real>& center, Real radius, const Vec3<Real>& point,
                                            Real& cos_max, Real& one_minus_cos_max) {
   const Real distance_squared = length_squared(center - point);
   const Real sin2 = radius * radius / distance_squared;
-  if (!(sin2 < Real(0.99999))) return false;
-  cos_max = safe_sqrt(1 - sin2);
-  one_minus_cos_max = sin2 / (1 + cos_max);
-  return true;
+  const bool is_outside = sin2 < 1;
+  cos_max = is_outside ? safe_sqrt(1 - sin2) : Real(0);
+  one_minus_cos_max = is_outside ? sin2 / (1 + cos_max) : Real(1);
+  return is_outside;
 }
 
-/// A unit direction from `point` towards the sphere, uniform over the cone that it subtends, or, from inside, towards
-/// a point uniform over its area. `normal_at` receives the outward unit normal where the direction meets it, `pdf` the
-/// density over solid angle.
+/// Density over solid angle of a point uniform over the sphere's area, at a distance along `direction`.
+template <class Real>
+ALHAZEN_HD Real pdf_of_sphere_area(Real radius, const Vec3<Real>& direction, Real distance_squared,
+                                   const Vec3<Real>& outward) {
+  const Real cos_light = abs_dot(direction, outward);
+  return cos_light > 0 ? distance_squared / (cos_light * 4 * pi<Real> * radius * radius) : 0;
+}
+
+/// Towards a point uniform over the area of the sphere, all of which is seen from inside and from the sphere itself.
+/// Out and return value as of `sample_sphere`.
+template <class Real>
+ALHAZEN_HD Vec3<Real> sample_sphere_area(const Vec3<Real>& center, Real radius, const Vec3<Real>& point,
+                                         const Vec2<Real>& u, Vec3<Real>& normal_at, Real& pdf) {
+  const Real z = 1 - 2 * u.x, r = safe_sqrt(1 - z * z);
+  const auto [sine, cosine] = sine_cosine_of_turn(2 * pi<Real> * u.y);
+  normal_at = {r * cosine, r * sine, z};
+  const Vec3<Real> to_light = center + normal_at * radius - point;
+  const Real distance_squared = length_squared(to_light);
+  if (!(distance_squared > 0)) {
+    pdf = 0;
+    return normal_at;
+  }
+  const Vec3<Real> direction = to_light * (1 / std::sqrt(distance_squared));
+  pdf = pdf_of_sphere_area(radius, direction, distance_squared, normal_at);
+  return direction;
+}
+
+/// A unit direction from `point` towards the sphere: from outside uniform over the cone that it subtends, from inside
+/// or, as `is_on_sphere` says, from the sphere itself towards a point uniform over its area. Of a point on the sphere
+/// rounding alone would decide, and far from the origin that is much. `normal_at` receives the outward unit normal
+/// where the direction meets it, `pdf` the density over solid angle.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_sphere(const Vec3<Real>& center, Real radius, const Vec3<Real>& point,
-                                                const Vec2<Real>& u, Vec3<Real>& normal_at, Real& pdf) {
-  const Real phi = 2 * pi<Real> * u.y;
+                                                bool is_on_sphere, const Vec2<Real>& u, Vec3<Real>& normal_at,
+                                                Real& pdf) {
   Real cos_max, one_minus_cos_max;
-  if (!subtended_cone(center, radius, point, cos_max, one_minus_cos_max)) {
-    const Real z = 1 - 2 * u.x, r = safe_sqrt(1 - z * z);
-    const auto [sine, cosine] = sine_cosine_of_turn(phi);
-    normal_at = {r * cosine, r * sine, z};
-    const Vec3<Real> to_light = center + normal_at * radius - point;
-    const Real distance_squared = length_squared(to_light);
-    const Vec3<Real> direction = to_light * (1 / std::sqrt(distance_squared));
-    const Real cos_light = abs_dot(direction, normal_at);
-    pdf = cos_light > 0 ? distance_squared / (cos_light * 4 * pi<Real> * radius * radius) : 0;
-    return direction;
-  }
+  if (is_on_sphere || !subtended_cone(center, radius, point, cos_max, one_minus_cos_max))
+    return sample_sphere_area(center, radius, point, u, normal_at, pdf);
+  const Real phi = 2 * pi<Real> * u.y;
   const Frame<Real> frame = frame_about(normalize(center - point));
   const Real one_minus_cos = u.x * one_minus_cos_max;
   const Real cos_theta = 1 - one_minus_cos;
@@ -78,15 +98,15 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_sphere(const Vec3<Real>& center, Real r
 }
 
 /// Density of `sample_sphere` over solid angle for a direction that meets the sphere at distance t with the outward
-/// unit normal `normal_at`.
+/// unit normal `outward`. The side that was met says where the ray came from: from within or from the sphere itself it
+/// meets the inside, whatever the distance of `point` from the centre is rounded to.
 template <class Real>
 ALHAZEN_HD Real pdf_sphere(const Vec3<Real>& center, Real radius, const Vec3<Real>& point, const Vec3<Real>& direction,
-                           Real t, const Vec3<Real>& normal_at) {
+                           Real t, const Vec3<Real>& outward) {
+  if (dot(direction, outward) > 0) return pdf_of_sphere_area(radius, direction, t * t, outward);
   Real cos_max, one_minus_cos_max;
-  if (subtended_cone(center, radius, point, cos_max, one_minus_cos_max))
-    return Real(0.5) * inv_pi<Real> / one_minus_cos_max;
-  const Real cos_light = abs_dot(direction, normal_at);
-  return cos_light > 0 ? t * t / (cos_light * 4 * pi<Real> * radius * radius) : 0;
+  subtended_cone(center, radius, point, cos_max, one_minus_cos_max);
+  return Real(0.5) * inv_pi<Real> / one_minus_cos_max;
 }
 
 /// (u, v) of an outward unit normal in the sphere's own axes: u over the azimuth from x, v from the south pole up.

@@ -28,32 +28,57 @@ ALHAZEN_HD SurfaceTangents<Real> triangle_tangents(const SceneView<Real>& scene,
   return {(e1 * dv2 - e2 * dv1) * scale, (e2 * du1 - e1 * du2) * scale};
 }
 
-/// Zero where uv does not say. Tangents that a mesh brings along take their place; of those only directions count.
+template <class Real>
+ALHAZEN_HD bool swaps_handedness(const Real (&m)[3][4]) {
+  const auto column = [&](int j) { return Vec3<Real>{m[0][j], m[1][j], m[2][j]}; };
+  return dot(cross(column(0), column(1)), column(2)) < 0;
+}
+
+/// Those that the mesh brings along, of which only directions count, or else those of its uvs; in the world, where an
+/// instance that moves has them at the time of the ray.
+template <class Real>
+ALHAZEN_HD SurfaceTangents<Real> mesh_tangents(const SceneView<Real>& scene, const Hit<Real>& hit,
+                                               const SurfaceInteraction<Real>& si) {
+  MeshTangent<Real> mesh = mesh_tangent(scene, hit);
+  SurfaceTangents<Real> own;
+  if (mesh.handedness == 0) own = triangle_tangents(scene, scene.triangles[hit.primitive.index()]);
+  if (hit.instance != no_instance) {
+    const InstanceRecord<Real> instance = instance_at(scene, hit.instance, si.time);
+    const auto& world = instance.world_from_object;
+    own = {transform_direction(world, own.dpdu), transform_direction(world, own.dpdv)};
+    mesh.direction = transform_direction(world, mesh.direction);
+    // A mirror turns normal, tangent and bitangent from right-handed to left-handed; so does a normal turned round.
+    if (swaps_handedness(world) != (instance.flip_normal != 0)) mesh.handedness = -mesh.handedness;
+  }
+  if (mesh.handedness == 0) return own;
+  return {mesh.direction, cross(si.shading_normal, mesh.direction) * mesh.handedness};
+}
+
+/// Of a sphere: u runs round the polar axis from x towards y of its own space, v from the south pole to the north.
+template <class Real>
+ALHAZEN_HD SurfaceTangents<Real> sphere_tangents(const SphereFrame<Real>& axes, Real radius,
+                                                 const Vec3<Real>& outward) {
+  // The way round from x to y is to the left of z, or to its right where the sphere is mirrored.
+  const Real turn = dot(cross(axes.x, axes.y), axes.z) < 0 ? -radius : radius;
+  const Vec3<Real> around = cross(axes.z, outward) * turn;
+  const Real ring = length(around);
+  if (!(ring > 0)) return {};
+  const Vec3<Real> up = cross(outward, around * (1 / ring)) * turn;
+  return {around * (2 * pi<Real>), up * pi<Real>};
+}
+
+/// Zero where uv does not say.
 template <class Real>
 ALHAZEN_HD SurfaceTangents<Real> surface_tangents(const SceneView<Real>& scene, const Hit<Real>& hit,
                                                   const SurfaceInteraction<Real>& si) {
-  if (hit.primitive.kind() == PrimitiveKind::triangle) {
-    const MeshTangent<Real> mesh = mesh_tangent(scene, hit);
-    if (mesh.handedness != 0) return {mesh.direction, cross(si.shading_normal, mesh.direction) * mesh.handedness};
-    const SurfaceTangents<Real> own = triangle_tangents(scene, scene.triangles[hit.primitive.index()]);
-    if (hit.instance == no_instance) return own;
-    const InstanceRecord<Real> instance = instance_at(scene, hit.instance, si.time);
-    return {transform_direction(instance.world_from_object, own.dpdu),
-            transform_direction(instance.world_from_object, own.dpdv)};
-  }
+  if (hit.primitive.kind() == PrimitiveKind::triangle) return mesh_tangents(scene, hit, si);
   const bool moves = hit.primitive.kind() == PrimitiveKind::moving_sphere;
-  const uint32_t frame =
-      moves ? scene.moving_spheres[hit.primitive.index()].frame : scene.spheres[hit.primitive.index()].frame;
+  const uint32_t index = hit.primitive.index();
+  const uint32_t frame = moves ? scene.moving_spheres[index].frame : scene.spheres[index].frame;
   if (frame == no_sphere_frame) return {};
-  const Real radius =
-      moves ? scene.moving_spheres[hit.primitive.index()].radius : scene.spheres[hit.primitive.index()].radius;
+  const Real radius = moves ? scene.moving_spheres[index].radius : scene.spheres[index].radius;
   const Vec3<Real> outward = scene.surfaces[si.surface].flip_normal ? -si.normal : si.normal;
-  // u runs round the polar axis, v from pole to pole.
-  const Vec3<Real> around = cross(scene.sphere_frames[frame].z, outward) * radius;
-  const Real ring = length(around);
-  if (!(ring > 0)) return {};
-  const Vec3<Real> up = cross(outward, around * (1 / ring)) * radius;
-  return {around * (2 * pi<Real>), up * pi<Real>};
+  return sphere_tangents(scene.sphere_frames[frame], radius, outward);
 }
 
 /// A frame about `normal` whose tangent leans along dpdu; the bitangent is on the side of dpdv.

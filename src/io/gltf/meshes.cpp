@@ -245,7 +245,7 @@ class PrimitiveReader {
         const Vec3d moved = transform_direction(
             blended, {static_cast<double>(t[0]), static_cast<double>(t[1]), static_cast<double>(t[2])});
         const Vec3f unit = length(moved) > 0 ? convert<float>(normalize(moved)) : Vec3f{};
-        t = {unit.x, unit.y, unit.z, t[3]};
+        t = {unit.x, unit.y, unit.z, determinant(blended) < 0 ? -t[3] : t[3]};
       }
     }
   }

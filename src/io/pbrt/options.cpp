@@ -25,7 +25,10 @@ const Value& known_kind(const std::map<std::string, Value>& kinds, const std::st
 struct IntegratorReplacement {
   IntegratorType type = IntegratorType::path;
   const char* difference = nullptr;
+  bool finds_more = false;  ///< follows paths from lights too, and so finds caustics of lights without size
 };
+
+constexpr IntegratorReplacement from_lights_too{.finds_more = true};
 
 constexpr const char* other_quantity = "\"path\" is used instead and shows light, not what it computes";
 
@@ -34,10 +37,10 @@ const std::map<std::string, IntegratorReplacement> integrators{
     {"volpath", {}},
     {"simplepath", {}},
     {"randomwalk", {}},
-    {"bdpt", {}},
-    {"mlt", {}},
-    {"sppm", {}},
-    {"lightpath", {}},
+    {"bdpt", from_lights_too},
+    {"mlt", from_lights_too},
+    {"sppm", from_lights_too},
+    {"lightpath", from_lights_too},
     {"simplevolpath", {IntegratorType::path, "\"path\" is used instead, without the media"}},
     {"ambientocclusion", {IntegratorType::path, other_quantity}},
     {"ao", {IntegratorType::path, other_quantity}},
@@ -124,11 +127,13 @@ void set_integrator(Build& build, const std::string& kind, ParameterList& list) 
   const IntegratorReplacement& replacement = known_kind(integrators, "integrator", kind, list);
   if (replacement.difference) build.warn_replaced(list, replacement.difference);
   build.scene.integrator = replacement.type;
+  build.scene.replaced_integrator = replacement.finds_more ? kind : "";
   build.scene.max_depth = list.integer("maxdepth", 5);
   if (build.scene.max_depth < 0) fail(list.place_of("maxdepth"), "\"maxdepth\" cannot be negative");
   if (list.boolean("regularize", false))
     build.warn(list.place_of("regularize"), "\"regularize\" is not supported; it is left out");
-  // How pbrt computes a picture has many settings; none of them changes the picture that is sought.
+  // Of these settings none changes what a picture converges to; what `path` does not find at all is warned of where the
+  // scene is flattened.
   set_light_sampler(build, list);
   list.ignore({"samplelights", "samplebsdf", "visualizestrategies", "visualizeweights", "bootstrapsamples", "chains",
                "mutationsperpixel", "largestepprobability", "sigma", "photonsperiteration", "radius", "seed",

@@ -1,0 +1,56 @@
+// Light that no path finds is told of on the command line, once, with both places.
+
+#include "cli/fixture.h"
+
+namespace alhazen::testing {
+
+namespace {
+
+class Caustics : public Command {
+ protected:
+  Caustics() {
+    folder_.write_text("spot.pbrt", R"(Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+LookAt 0 3 6  0 0 0  0 1 0
+Camera "perspective"
+Integrator "sppm"
+WorldBegin
+LightSource "spot" "point3 from" [0 4 0] "point3 to" [0 0 0]
+Material "dielectric"
+AttributeBegin
+Translate 0 1.5 0
+Shape "sphere"
+AttributeEnd
+Material "diffuse"
+Shape "bilinearmesh" "point3 P" [-5 0 -5  5 0 -5  -5 0 5  5 0 5]
+)");
+  }
+
+  static size_t count(const std::string& text, const std::string& part) {
+    size_t found = 0;
+    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+  }
+};
+
+TEST_F(Caustics, LightAndGlassAreNamed) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"render", "spot.pbrt", "--spp", "1", "-o", "a.exr"}, {"info", "spot.pbrt"}}) {
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.everything();
+    EXPECT_EQ(count(result.err, "spot.pbrt:6:1: "), 1u) << result.err;
+    EXPECT_NE(result.err.find("spot light is lost at the glass spot.pbrt:10:1"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("\"sppm\" that the file asks for"), std::string::npos) << result.err;
+  }
+}
+
+/// The others do not find such lights at all, and say that.
+TEST_F(Caustics, OtherIntegratorsSayWhatTheyDo) {
+  const CommandResult result = run({"render", "spot.pbrt", "--spp", "1", "-o", "a.exr", "--integrator", "iterative"});
+  EXPECT_EQ(result.exit_code, 0) << result.everything();
+  EXPECT_EQ(result.err.find("is lost at"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("'iterative' does not show them"), std::string::npos) << result.err;
+}
+
+}  // namespace
+
+}  // namespace alhazen::testing
