@@ -9,6 +9,7 @@
 #include "cli/subcommands.h"
 #include "io/read_scene.h"
 #include "render/settings.h"
+#include "scene/printable.h"
 #include "study/machine.h"
 #include "study/tune.h"
 #include "study/tuned.h"
@@ -42,7 +43,7 @@ void print_outcome(const TuneOptions& o, const study::TuneOutcome& outcome) {
       fmt::print("{:<78} {:>10.1f}{}\n", engine_options(c.work.settings), c.cost(), c.is_default ? "  (auto)" : "");
   }
   const study::Candidate& winner = outcome.candidates[outcome.winner];
-  fmt::print("\nalhazen render {} {}\n", o.scene, engine_options(winner.work.settings));
+  fmt::print("\nalhazen render {} {}\n", printable(o.scene), engine_options(winner.work.settings));
 }
 
 void store(const TuneOptions& o, const study::TuneOutcome& outcome, const std::string& integrator) {
@@ -59,7 +60,7 @@ void store(const TuneOptions& o, const study::TuneOutcome& outcome, const std::s
   entry.engine = winner.work.settings;
   study::store_tuned(study::tuned_path(), entry);
   if (!o.quiet)
-    fmt::print(stderr, "stored in {}: --backend auto uses it for {}\n", study::tuned_path(),
+    fmt::print(stderr, "stored in {}: --backend auto uses it for {}\n", printable(study::tuned_path()),
                o.store_default ? "every scene that has no entry of its own" : "this scene");
 }
 
