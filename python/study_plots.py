@@ -311,7 +311,9 @@ def draw_objects(study):
 def draw_error(study):
     figure, axes = plt.subplots(figsize=(8.6, 3.6))
     for column in study.columns("error"):
-        cells = study.cells("error", column, ["rmse"])
+        cells = [cell for cell in study.cells("error", column, ["rmse"]) if cell["rmse"] > 0]
+        if not cells:
+            continue
         axes.plot([cell["seconds"]["median"] for cell in cells], [cell["rmse"] for cell in cells], marker="o",
                   markersize=5, linewidth=1.6, label=column)
         for cell in cells:

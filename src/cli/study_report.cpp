@@ -11,6 +11,7 @@
 #include "cli/progress.h"
 #include "cli/subcommands.h"
 #include "scene/diagnostics.h"
+#include "scene/printable.h"
 #include "study/report.h"
 
 namespace alhazen {
@@ -92,7 +93,7 @@ int run(StudyReportOptions& o) {
   const study::ReportOutcome outcome = study::run_report(o.report, events);
   std::string files;
   for (const std::string& file : outcome.files) files += (files.empty() ? "" : ", ") + file;
-  printer.say(fmt::format("wrote {}: {}", o.report.output, files));
+  printer.say(fmt::format("wrote {}: {}", printable(o.report.output), files));
   if (outcome.is_complete) return exit_done;
   printer.tell("interrupted: what was measured is written; the same command with --resume goes on");
   return exit_interrupted;

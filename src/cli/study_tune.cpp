@@ -10,6 +10,7 @@
 #include "cli/subcommands.h"
 #include "io/read_scene.h"
 #include "render/settings.h"
+#include "scene/printable.h"
 #include "study/machine.h"
 #include "study/tune.h"
 #include "study/tuned.h"
@@ -43,7 +44,7 @@ void print_outcome(const TuneOptions& o, const study::TuneOutcome& outcome) {
       print_out("{:<78} {:>10.1f}{}\n", engine_options(c.work.settings), c.cost(), c.is_default ? "  (auto)" : "");
   }
   const study::Candidate& winner = outcome.candidates[outcome.winner];
-  print_out("\nalhazen render {} {}\n", o.scene, engine_options(winner.work.settings));
+  print_out("\nalhazen render {} {}\n", printable(o.scene), engine_options(winner.work.settings));
 }
 
 void store(const TuneOptions& o, const study::TuneOutcome& outcome, const std::string& integrator) {
@@ -60,7 +61,7 @@ void store(const TuneOptions& o, const study::TuneOutcome& outcome, const std::s
   entry.engine = winner.work.settings;
   study::store_tuned(study::tuned_path(), entry);
   if (!o.quiet)
-    tell("stored in {}: --backend auto uses it for {}\n", study::tuned_path(),
+    tell("stored in {}: --backend auto uses it for {}\n", printable(study::tuned_path()),
          o.store_default ? "every scene that has no entry of its own" : "this scene");
 }
 

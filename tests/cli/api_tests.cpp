@@ -53,6 +53,22 @@ TEST_F(Api, RendersIntoMemory) {
   EXPECT_EQ(std::filesystem::exists("cornell.exr"), false) << "nothing is written";
 }
 
+TEST_F(Api, ConfinedItReadsNothingOutsideTheFolder) {
+  std::filesystem::create_directory(folder_.file("in"));
+  folder_.write_text("part.pbrt", "Shape \"sphere\"");
+  const std::string scene = folder_.write_text("in/scene.pbrt", "WorldBegin Include \"../part.pbrt\"");
+  Settings settings = quick();
+  settings.width = settings.height = 4;
+  EXPECT_NO_THROW(render(scene, settings));
+  settings.confine = true;
+  try {
+    render(scene, settings);
+    FAIL() << "a file outside the folder was read";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("outside the scene's folder"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(Api, SettingsAreFollowed) {
   Settings settings = quick();
   settings.width = 10;

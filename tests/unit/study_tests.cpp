@@ -301,27 +301,25 @@ TEST(StudyPlots, OfStudiesThatWereInterrupted) {
                          "objects", "error", "engines", "optix"}) {
     Table table = study.tables[0];
     table.id = id;
-    table.cells[0].row = "1 static";
-    table.cells[1].row = "2 static";
+    const std::string schedule = table.id == "table3" ? " static" : "";
+    table.cells[0].row = "1" + schedule;
+    table.cells[1].row = "2" + schedule;
     study.tables.push_back(table);
   }
   // The slowest repeat is the median: the difference of their speedups is rounded to either side of 0.
   study.trials[0].seconds = {0.1, 0.3};
   study.trials[1].seconds = {0.7, 0.7, 0.7};
   study.trials[1].busy_seconds.resize(3, {1.0});
-  for (const bool has_baseline : {true, false}) {
-    nlohmann::json j = nlohmann::json::parse(to_json(study).dump());
-    for (auto& table : j["tables"])
-      for (auto& cell : table["cells"]) {
-        cell["speedup"] = 1.7;
-        if (!has_baseline) cell.erase("speedup");
-        if (!has_baseline && cell["row"] == "2 static") cell.erase("seconds");
-      }
-    folder.write_text("study.json", j.dump());
-    const std::string problem = draw_plots(folder.path());
-    if (problem.find("no Python with matplotlib") != std::string::npos) GTEST_SKIP() << problem;
-    EXPECT_EQ(problem, "");
+  nlohmann::json j = nlohmann::json::parse(to_json(study).dump());
+  for (size_t table = 0; table < j["tables"].size(); ++table) {
+    nlohmann::json& cells = j["tables"][table]["cells"];
+    cells[0]["speedup"] = cells[1]["speedup"] = 1.7;
+    cells[table % 2].erase(table % 3 == 0 ? "seconds" : "speedup");
   }
+  folder.write_text("study.json", j.dump());
+  const std::string problem = draw_plots(folder.path());
+  if (problem.find("no Python with matplotlib") != std::string::npos) GTEST_SKIP() << problem;
+  EXPECT_EQ(problem, "");
 }
 
 TEST(StudyCompare, TellsWhatIsBeyondNoise) {
