@@ -11,6 +11,7 @@
 #include "scene/flatten_lights.h"
 #include "scene/flatten_materials.h"
 #include "scene/flatten_trees.h"
+#include "scene/render_space.h"
 
 namespace alhazen {
 
@@ -32,6 +33,7 @@ class Flattener {
   FlatScene<Real> run() {
     check_film();
     FlatScene<Real> flat;
+    if (options_.in_render_space) move_to_render_space(scene_);
     flatten_camera(scene_, width_, height_, out_, flat.view, diagnostics_);
     check_mixes(scene_);
     for (const Material& material : scene_.materials) needs_uv_.push_back(material_needs_uv(scene_, material));
@@ -284,7 +286,10 @@ class Flattener {
       diagnostics_.warn(shape.where, "a sphere is stretched by an instance; it stays round here, of the same volume");
     const double radius = shape.radius * scale;
     const auto [center, motion] = motion_of(p.world_from_object);
-    check_sphere_range(shape, abs(center) + abs(motion), radius);
+    if (!is_finite(center) || !is_finite(motion) || !std::isfinite(radius))
+      throw InputError(shape.where, "the sphere's position or size is not finite");
+    if (std::max({max_component(abs(center)), max_component(abs(center + motion)), radius}) > max_coordinate)
+      throw too_large(shape, "the sphere is too large or lies too far away");
     if (is_too_small(shape, radius)) return;
     const bool moves = !is_zero(motion);
     const size_t index = moves ? out_.moving_spheres.size() : out_.spheres.size();
@@ -299,15 +304,6 @@ class Flattener {
           {convert<Real>(center), static_cast<Real>(radius), convert<Real>(motion), surface, frame});
     else
       out_.spheres.push_back({convert<Real>(center), static_cast<Real>(radius), surface, frame});
-  }
-
-  /// What is finite in the file may be too large for the precision of the render. `farthest` bounds the coordinates of
-  /// the centre.
-  void check_sphere_range(const Shape& shape, const Vec3d& farthest, double radius) const {
-    const Real squared = sqr(static_cast<Real>(radius));
-    if (!is_finite(convert<Real>(farthest + splat(radius))) || !std::isfinite(squared))
-      throw InputError(shape.where,
-                       "the sphere's position or size is not finite in this precision: scale the scene down");
   }
 
   /// Whether intersection tests of this precision see nothing of it; they divide by the square of the radius.
@@ -332,6 +328,15 @@ class Flattener {
     const auto axis = [&](const Vec3d& a) { return convert<Real>(normalize(world_from_object.direction(a))); };
     out_.sphere_frames.push_back({axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})});
     return static_cast<uint32_t>(out_.sphere_frames.size() - 1);
+  }
+
+  /// Intersection multiplies three coordinates, normals four: beyond this they overflow.
+  static constexpr double max_coordinate = sizeof(Real) == sizeof(float) ? 1e12 : 1e75;
+
+  static InputError too_large(const Shape& shape, const std::string& what) {
+    const std::string remedy =
+        sizeof(Real) == sizeof(float) ? "use --precision double, or scale the scene down" : "scale the scene down";
+    return InputError(shape.where, what + " for this precision: " + remedy);
   }
 
   void check_mesh(const Shape& shape, const Mesh& mesh) const {
@@ -361,6 +366,8 @@ class Flattener {
     for (const Vec3d& position : mesh.positions) {
       const Vec3<Real> moved = convert<Real>(transform.point(position));
       if (!is_finite(moved)) throw InputError(shape.where, "a vertex of the mesh is not finite");
+      if (static_cast<double>(max_component(abs(moved))) > max_coordinate)
+        throw too_large(shape, "a vertex of the mesh lies too far away");
       out_.positions.push_back(moved);
     }
     const uint32_t normal_offset = mesh.normals.empty() ? no_offset : offset_to(out_.normals.size());
@@ -407,6 +414,7 @@ class Flattener {
       const Vec3<Real> p0 = out_.positions[triangle.vertex[0]];
       const Real twice_area =
           length(cross(out_.positions[triangle.vertex[1]] - p0, out_.positions[triangle.vertex[2]] - p0));
+      if (!std::isfinite(twice_area)) throw too_large(shape, "a triangle of the mesh is too large");
       if (!(twice_area > 0) || !std::isfinite(1 / twice_area)) {
         ++without_area;
         continue;

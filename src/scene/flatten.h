@@ -21,6 +21,8 @@ struct FlattenOptions {
   /// Instances that all together come to no more triangles than this are copied into the world, which is walked faster.
   uint64_t most_copied_triangles = 1u << 17;
   uint64_t texture_budget = 0;  ///< bytes that pictures may take; 0: any
+  /// Whether a scene far from the world's origin is moved there (scene/render_space.h).
+  bool in_render_space = true;
 };
 
 /// Takes the description apart as it goes, so that meshes are not held twice.

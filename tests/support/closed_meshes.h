@@ -1,6 +1,6 @@
 #pragma once
 
-// Closed meshes about a point: icospheres, smooth and dented.
+// Closed meshes about a point: a cube, icospheres, smooth and dented.
 
 #include <array>
 #include <map>
@@ -36,6 +36,17 @@ inline Mesh icosphere(int subdivisions) {
     }
     mesh.indices = std::move(finer);
   }
+  return mesh;
+}
+
+/// [-1, 1]^3, two triangles a side.
+inline Mesh cube() {
+  Mesh mesh;
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0})
+      for (const double z : {-1.0, 1.0}) mesh.positions.push_back({x, y, z});
+  mesh.indices = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
+                  2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
   return mesh;
 }
 

@@ -16,12 +16,14 @@ inline void expect_no_warnings(const Diagnostics& diagnostics) {
   for (const Diagnostics::Warning& warning : diagnostics.warnings()) ADD_FAILURE() << warning.to_string();
 }
 
+/// In world space, wherever that is, since the tests make rays there.
 template <class Real>
 FlatScene<Real> flat_scene(Scene scene, int threads = 1) {
   Diagnostics diagnostics;
   FlattenOptions options;
   options.threads = threads;
   options.trees = {.binary = true, .wide = true, .simd = true};
+  options.in_render_space = false;
   FlatScene<Real> flat = flatten<Real>(std::move(scene), options, diagnostics);
   expect_no_warnings(diagnostics);
   return flat;

@@ -64,6 +64,7 @@ FlatScene<Real> flat_instanced_scene(const Scene& scene, bool as_copies) {
   FlattenOptions options;
   options.threads = 1;
   options.trees = {.binary = true, .wide = true, .simd = true};
+  options.in_render_space = false;
   options.most_copied_triangles = as_copies ? ~uint64_t{0} : 0;
   FlatScene<Real> flat = flatten<Real>(Scene(scene), options, diagnostics);
   expect_no_warnings(diagnostics);

@@ -39,8 +39,8 @@ using EmbreeContext = RTCRayQueryContext;
 using EmbreeContext = RTCIntersectContext;
 #endif
 
-/// A query's context, and with it the query: filters see but the distance of the hit in question, and within instances
-/// another ray.
+/// A query's context, and with it the query: filters are shown only the distance of the hit in question, and within
+/// instances another ray.
 struct EmbreeQuery {
   EmbreeContext context;
   const Ray<float>* ray;

@@ -21,12 +21,10 @@ class EmbreeIntersector {
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     intersect_1(scene_, ray, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    // Where exactly, our own test says: what is spawned there relies on its bounds.
-    hit = no_hit_before(t_max);
-    hit.primitive = PrimitiveId(PrimitiveKind::moving_sphere, max_primitives_of_a_kind);
-    if (query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) return is_met(query.hit, ray, hit);
-    return intersect_primitive(*view_, {static_cast<PrimitiveKind>(query.hit.geomID), query.hit.primID}, ray,
-                               shear_ray(ray), hit);
+    // Weights by which the point is interpolated, whatever rounding there is in them, are of a point of the plane.
+    hit = {query.ray.tfar, query.hit.u, query.hit.v, {static_cast<PrimitiveKind>(query.hit.geomID), query.hit.primID}};
+    if (query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) set_instance(query.hit, hit);
+    return true;
   }
 
   bool occluded(const Ray<float>& ray, float t_max) const {
@@ -52,15 +50,10 @@ class EmbreeIntersector {
   }
 
  private:
-  /// Where our own test meets the triangle of an instance.
-  bool is_met(const RTCHit& met, const Ray<float>& ray, Hit<float>& hit) const {
-    const uint32_t index = met.instID[0] - embree_instances;
-    const uint32_t triangle = view_->objects[view_->instances[index].object].first_triangle + met.primID;
-    if (!intersect_primitive(*view_, {PrimitiveKind::triangle, triangle}, ray,
-                             shear_ray(object_ray(*view_, index, ray)), hit))
-      return false;
-    hit.instance = index;
-    return true;
+  void set_instance(const RTCHit& of, Hit<float>& hit) const {
+    hit.instance = of.instID[0] - embree_instances;
+    hit.primitive = {PrimitiveKind::triangle,
+                     view_->objects[view_->instances[hit.instance].object].first_triangle + of.primID};
   }
 
   const SceneView<float>* view_;

@@ -73,29 +73,40 @@ void occluded_sphere_n(const RTCOccludedFunctionNArguments* arguments) {
   if (meet<kind>(arguments->geometryUserPtr, arguments->primID, query, t)) query.tfar = -infinity<float>;
 }
 
-/// Takes a triangle only where our own test does: it bounds its error, and so rays meet neither the triangle that they
-/// leave nor the light that they are sent to. Within an instance Embree has brought the ray into the object's space;
-/// ours is brought there by our own arithmetic.
+/// Along the ray, in double, where its origin and the vertices are exact; negative behind.
+double plane_distance(const Ray<float>& ray, const Vec3<float>& a, const Vec3<float>& b, const Vec3<float>& c) {
+  const Vec3d p = convert<double>(a);
+  const Vec3d normal = cross(convert<double>(b) - p, convert<double>(c) - p);
+  return dot(normal, p - convert<double>(ray.origin)) / dot(normal, convert<double>(ray.direction));
+}
+
+/// So much farther than the largest coordinate of its origin resolves, a ray is past the surface that it left.
+constexpr double near = 1e-6;
+
+/// Near the origin of the ray takes a triangle only where our own test does: so rays do not hit the surface that they
+/// leave. Farther on Embree's word counts, where the plane is not beyond the end of the ray: at an edge of two
+/// triangles the one that our test finds is not always the one that Embree has found, and rejecting both would be a
+/// hole. Within an instance Embree has brought the ray into the object's space; ours is brought there by our own
+/// arithmetic.
 void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
   if (arguments->valid[0] == 0) return;
   const SceneView<float>& scene = *static_cast<const SceneView<float>*>(arguments->geometryUserPtr);
   const EmbreeQuery& query = *reinterpret_cast<const EmbreeQuery*>(arguments->context);
-  const uint32_t instance = query.context.instID[0];
-  const RTCHit& met = *reinterpret_cast<const RTCHit*>(arguments->hit);
-  uint32_t index = met.primID;
-  ShearedRay<float> sheared;
-  if (instance == RTC_INVALID_GEOMETRY_ID) {
-    sheared = shear_ray(*query.ray);
-  } else {
-    const uint32_t placed = instance - embree_instances;
-    sheared = shear_ray(object_ray(scene, placed, *query.ray));
-    index += scene.objects[scene.instances[placed].object].first_triangle;
+  const uint32_t placed = query.context.instID[0];
+  uint32_t index = reinterpret_cast<const RTCHit*>(arguments->hit)->primID;
+  Ray<float> ray = *query.ray;
+  if (placed != RTC_INVALID_GEOMETRY_ID) {
+    const uint32_t instance = placed - embree_instances;
+    ray = object_ray(scene, instance, ray);
+    index += scene.objects[scene.instances[instance].object].first_triangle;
   }
   const uint32_t* v = scene.triangles[index].vertex;
+  const Vec3<float>&a = scene.positions[v[0]], &b = scene.positions[v[1]], &c = scene.positions[v[2]];
   float t, b1, b2;
-  if (!intersect_triangle(sheared, scene.positions[v[0]], scene.positions[v[1]], scene.positions[v[2]], query.t_max, t,
-                          b1, b2))
-    arguments->valid[0] = 0;
+  if (intersect_triangle(shear_ray(ray), a, b, c, query.t_max, t, b1, b2)) return;
+  const double distance = plane_distance(ray, a, b, c);
+  const double reach = static_cast<double>(max_component(abs(query.ray->origin)));
+  if (!(distance > near * reach && distance <= static_cast<double>(query.t_max))) arguments->valid[0] = 0;
 }
 
 /// Half the sides of a box about the origin that holds some triangles.

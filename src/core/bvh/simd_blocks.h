@@ -7,14 +7,15 @@
 
 namespace ALHAZEN_CORE {
 
-/// Of `lanes`, which might be met, replaces `hit` by the nearest at a distance in (0, hit.t].
-template <class Met, class Real>
-ALHAZEN_INLINE bool take_nearest(const Met& met, uint32_t lanes, const uint32_t* index, PrimitiveKind kind,
-                                 Hit<Real>& hit) {
+/// Of `lanes`, which might be hit, replaces `hit` by the nearest at a distance in (0, hit.t]. `in_double` as
+/// TriangleLanes::accepted has it.
+template <class Met, class Real, class InDouble>
+ALHAZEN_INLINE bool take_nearest(Met& met, uint32_t lanes, const uint32_t* index, PrimitiveKind kind, Hit<Real>& hit,
+                                 const InDouble& in_double) {
   using V = decltype(met.t);
   lanes &= less(V::all(0), met.t) & less_equal(met.t, V::all(hit.t));
   if (lanes == 0) return false;
-  lanes &= met.accepted();
+  lanes = met.accepted(lanes, in_double);
   if (lanes == 0) return false;
   Real distance[sizeof(V) / sizeof(Real)];
   met.t.store(distance);
@@ -39,18 +40,24 @@ ALHAZEN_INLINE bool intersect_block(const TriangleBlock<Real>& block, const Ray<
   const int axis[3] = {ray.kx, ray.ky, ray.kz};
   const V origin[3] = {V::all(ray.origin.x), V::all(ray.origin.y), V::all(ray.origin.z)};
   const V shear[3] = {V::all(ray.shear.x), V::all(ray.shear.y), V::all(ray.shear.z)};
-  const TriangleLanes<V> met([&](int v, int k) { return V::load(block.vertex[v][axis[k]]); }, origin, shear);
+  TriangleLanes<V> met([&](int v, int k) { return V::load(block.vertex[v][axis[k]]); }, origin, shear);
   if (met.inside == 0) return false;
-  return take_nearest(met, met.inside, block.index, PrimitiveKind::triangle, hit);
+  const auto in_double = [&](int lane, Real& t, Real& b1, Real& b2) {
+    const auto vertex = [&](int v) {
+      return Vec3<Real>{block.vertex[v][0][lane], block.vertex[v][1][lane], block.vertex[v][2][lane]};
+    };
+    return intersect_in_double(ray, vertex(0), vertex(1), vertex(2), t, b1, b2);
+  };
+  return take_nearest(met, met.inside, block.index, PrimitiveKind::triangle, hit, in_double);
 }
 
 template <class V, class Real>
 ALHAZEN_INLINE bool intersect_spheres(const V (&f)[3], const Real* radii, const uint32_t* index, PrimitiveKind kind,
                                       const Ray<Real>& ray, Hit<Real>& hit) {
   const V d[3] = {V::all(ray.direction.x), V::all(ray.direction.y), V::all(ray.direction.z)};
-  const SphereLanes<V> met(f, d, V::load(radii));
+  SphereLanes<V> met(f, d, V::load(radii));
   if (met.crossed == 0) return false;
-  return take_nearest(met, met.crossed, index, kind, hit);
+  return take_nearest(met, met.crossed, index, kind, hit, [](int, Real&, Real&, Real&) { return true; });
 }
 
 template <class Real>

@@ -140,16 +140,30 @@ class FewPrimitives {
     }
     for (uint32_t i = 0; i < triangles_; ++i) {
       const uint32_t* const v = triangle_[i].vertex;
-      const TriangleLanes<V> at(sheared[v[0]], sheared[v[1]], sheared[v[2]], shear[2]);
+      TriangleLanes<V> at(sheared[v[0]], sheared[v[1]], sheared[v[2]], shear[2]);
       if (at.inside == 0) continue;
       uint32_t lanes = at.inside & less(V::all(0), at.t) & less(at.t, met.t);
       if (lanes == 0) continue;
-      lanes &= at.accepted();
+      lanes = at.accepted(lanes, [&](int lane, Real& t, Real& b1, Real& b2) {
+        return intersect_in_double_of(rays, lane, i, t, b1, b2) && t < met.t.lane(lane);
+      });
+      if (lanes == 0) continue;
       met.take(lanes, at.t, static_cast<Real>(i));
       met.b1 = choose(lanes, at.e[1] * at.inverse, met.b1);
       met.b2 = choose(lanes, at.e[2] * at.inverse, met.b2);
       if (any_hit && (wanted & ~met.lanes) == 0) return;
     }
+  }
+
+  /// The ray of a lane against triangle i.
+  ALHAZEN_NOINLINE bool intersect_in_double_of(const Rays& rays, int lane, uint32_t i, Real& t, Real& b1,
+                                               Real& b2) const {
+    const auto row = [&](const Real(&rows)[3][width]) {
+      return Vec3<Real>{rows[0][lane], rows[1][lane], rows[2][lane]};
+    };
+    const uint32_t* const v = triangle_[i].vertex;
+    return intersect_in_double(shear_ray(Ray<Real>{row(rays.origin), row(rays.direction), Real(0)}), vertex_[v[0]],
+                               vertex_[v[1]], vertex_[v[2]], t, b1, b2);
   }
 
   template <bool any_hit>

@@ -239,9 +239,15 @@ class RayPacket {
   ALHAZEN_INLINE void intersect_primitive_of(const TriangleBlock<Real>& block, int p, uint32_t rays) {
     const V origin[3] = {V::load(origin_[axis_[0]]), V::load(origin_[axis_[1]]), V::load(origin_[axis_[2]])};
     const V shear[3] = {V::load(shear_[0]), V::load(shear_[1]), V::load(shear_[2])};
-    const TriangleLanes<V> met([&](int v, int k) { return V::all(block.vertex[v][axis_[k]][p]); }, origin, shear);
+    TriangleLanes<V> met([&](int v, int k) { return V::all(block.vertex[v][axis_[k]][p]); }, origin, shear);
     if ((met.inside & rays) == 0) return;
-    take(met, met.inside & rays, PrimitiveId(PrimitiveKind::triangle, block.index[p]));
+    const auto in_double = [&](int ray, Real& t, Real& b1, Real& b2) {
+      const auto vertex = [&](int v) {
+        return Vec3<Real>{block.vertex[v][0][p], block.vertex[v][1][p], block.vertex[v][2][p]};
+      };
+      return intersect_in_double(sheared_ray_of(ray), vertex(0), vertex(1), vertex(2), t, b1, b2);
+    };
+    take(met, met.inside & rays, PrimitiveId(PrimitiveKind::triangle, block.index[p]), in_double);
   }
 
   ALHAZEN_INLINE void intersect_primitive_of(const SphereBlock<Real>& block, int p, uint32_t rays) {
@@ -261,17 +267,17 @@ class RayPacket {
 
   ALHAZEN_INLINE void intersect_sphere_of(const V (&f)[3], Real radius, PrimitiveId id, uint32_t rays) {
     const V direction[3] = {V::load(direction_[0]), V::load(direction_[1]), V::load(direction_[2])};
-    const SphereLanes<V> met(f, direction, V::all(radius));
+    SphereLanes<V> met(f, direction, V::all(radius));
     if ((met.crossed & rays) == 0) return;
-    take(met, met.crossed & rays, id);
+    take(met, met.crossed & rays, id, [](int, Real&, Real&, Real&) { return true; });
   }
 
   /// What take_nearest does, where a lane is a ray.
-  template <class Met>
-  ALHAZEN_INLINE void take(const Met& met, uint32_t rays, PrimitiveId id) {
+  template <class Met, class InDouble>
+  ALHAZEN_INLINE void take(Met& met, uint32_t rays, PrimitiveId id, const InDouble& in_double) {
     rays &= less(V::all(0), met.t);
     if (rays == 0) return;
-    rays &= met.accepted();
+    rays = met.accepted(rays, in_double);
     Real distance[width];
     met.t.store(distance);
     for (; rays != 0; rays &= rays - 1) {

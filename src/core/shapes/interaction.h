@@ -124,10 +124,35 @@ ALHAZEN_HD ALHAZEN_HOT TriangleCorners<Real> triangle_corners(const SceneView<Re
   return corners;
 }
 
-/// The point with weights b1 and b2 of corners 1 and 2: position and normals.
+/// How far rays start from the edges of the triangle that they leave, in units of the bound on the error of the point.
+/// Where two triangles of a closed mesh join at an angle, the offset along the normal of one (offset_origin) and
+/// rounding must not take the origin through the other: at this distance they do not, unless the angle between them is
+/// below a dozen degrees.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> point_of_triangle(const TriangleCorners<Real>& corners, Real b1,
-                                                                  Real b2) {
+inline constexpr Real edge_clearance = 16;
+
+/// What brings the point with weights b1 and b2 of corners 1 and 2 away from the edges that it is too close to, within
+/// the plane; `error` bounds that of its coordinates. Of triangles too small for that clearance, a third of the height
+/// counts.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> away_from_edges(const Vec3<Real> (&p)[3], Real b1, Real b2, const Vec3<Real>& error) {
+  const Real clearance = edge_clearance<Real> * max_component(error);
+  const Vec3<Real> e0 = p[2] - p[1], e1 = p[0] - p[2], e2 = p[1] - p[0];
+  const Vec3<Real> winding = cross(e2, e0);
+  const Real twice_area = length(winding);
+  // What the distance from an edge lacks, in units of the edge's length.
+  const auto lack = [&](const Vec3<Real>& edge, Real b) {
+    const Real inverse_length = 1 / length(edge);
+    const Real height = twice_area * inverse_length;
+    return larger(smaller(clearance, height * Real(1.0 / 3)) - b * height, Real(0)) * inverse_length;
+  };
+  const Vec3<Real> along = e0 * lack(e0, 1 - b1 - b2) + e1 * lack(e1, b1) + e2 * lack(e2, b2);
+  return cross(winding, along) * (1 / twice_area);
+}
+
+/// The point with weights b1 and b2 of corners 1 and 2, wherever that is in the triangle: position and normals.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> point_in_plane(const TriangleCorners<Real>& corners, Real b1, Real b2) {
   const Real b0 = 1 - b1 - b2;
   const Vec3<Real>* p = corners.position;
   const Vec3<Real> q0 = p[0] * b0, q1 = p[1] * b1, q2 = p[2] * b2;
@@ -144,6 +169,15 @@ ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> point_of_triangle(const Triangle
   const Real side = corners.flip_normal ? Real(-1) : Real(1);
   si.normal = normal * side;
   si.shading_normal = shading_normal * side;
+  return si;
+}
+
+/// The same, clear of the edges.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> point_of_triangle(const TriangleCorners<Real>& corners, Real b1,
+                                                                  Real b2) {
+  SurfaceInteraction<Real> si = point_in_plane(corners, b1, b2);
+  si.position += away_from_edges(corners.position, b1, b2, si.position_error);
   return si;
 }
 
@@ -194,11 +228,18 @@ ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> sphere_interaction(const SceneVi
 template <class Real>
 ALHAZEN_HD ALHAZEN_COLD SurfaceInteraction<Real> instance_interaction(const SceneView<Real>& scene,
                                                                       const Hit<Real>& hit, Real time) {
-  const SurfaceInteraction<Real> object = triangle_interaction(scene, hit);
+  const TriangleRecord& triangle = scene.triangles[hit.primitive.index()];
+  const TriangleCorners<Real> corners = triangle_corners(scene, triangle);
+  const SurfaceInteraction<Real> object = point_in_plane(corners, hit.b1, hit.b2);
   const InstanceRecord<Real> instance = instance_at(scene, hit.instance, time);
-  SurfaceInteraction<Real> si = object;
+  SurfaceInteraction<Real> si;
+  si.uv = triangle_uv(scene, triangle, hit);
+  si.surface = triangle.surface;
   si.position = transform_point(instance.world_from_object, object.position);
   si.position_error = world_position_error(instance, object.position, object.position_error, si.position);
+  Vec3<Real> p[3];
+  for (int i = 0; i < 3; ++i) p[i] = transform_point(instance.world_from_object, corners.position[i]);
+  si.position += away_from_edges(p, hit.b1, hit.b2, si.position_error);
   const auto outward = [&](const Vec3<Real>& n) {
     const Vec3<Real> turned = normalize(transform_normal(instance.object_from_world, n));
     return instance.flip_normal ? -turned : turned;

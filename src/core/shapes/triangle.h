@@ -29,8 +29,8 @@ ALHAZEN_HD ALHAZEN_HOT ShearedRay<Real> shear_ray(const Ray<Real>& ray) {
   return s;
 }
 
-/// A lower bound on t that the rounding of `intersect_triangle` cannot reach from a hit behind the origin
-/// (PBR 4th ed., 6.8.7). `p` are the sheared vertices, `inverse_det` the reciprocal of the sum of edge functions `e`.
+/// A bound on the rounding of t in `intersect_triangle` (PBR 4th ed., 6.8.7): above it t has the right sign. `p` are
+/// the sheared vertices, `inverse_det` the reciprocal of the sum of edge functions `e`.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Real triangle_t_error(const Vec3<Real> p[3], const Vec3<Real>& e, Real inverse_det) {
   const auto largest = [](Real a, Real b, Real c) { return larger(std::abs(a), larger(std::abs(b), std::abs(c))); };
@@ -45,8 +45,34 @@ ALHAZEN_HD ALHAZEN_HOT Real triangle_t_error(const Vec3<Real> p[3], const Vec3<R
   return 3 * (rounding_bound<Real>(3) * max_e * max_z + error_e * max_z + error_z * max_e) * std::abs(inverse_det);
 }
 
-/// Meets the triangle p0 p1 p2 at a distance in (0, t_max]: sets t and the barycentric weights. Rays through a shared
-/// edge or vertex always meet one of the triangles; degenerate triangles are never met.
+template <class Real>
+ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>& p0, const Vec3<Real>& p1,
+                                   const Vec3<Real>& p2, Real t_max, Real& t, Real& b1, Real& b2);
+
+/// Decides where rounding hides the sign of t: by the same test in double, where vertices and origin of a float ray are
+/// exact. Rays start off the surface that they leave (offset_origin), so that surface is behind them and one that joins
+/// it at an edge is ahead. In double such hits count as behind: one ray in 10^13 comes so close to an edge.
+template <class Real>
+ALHAZEN_HD ALHAZEN_COLD bool intersect_in_double(const ShearedRay<Real>& ray, const Vec3<Real>& p0,
+                                                 const Vec3<Real>& p1, const Vec3<Real>& p2, Real& t, Real& b1,
+                                                 Real& b2) {
+  if constexpr (sizeof(Real) < sizeof(double)) {
+    const ShearedRay<double> exact{convert<double>(ray.origin), convert<double>(ray.shear), ray.kx, ray.ky, ray.kz};
+    double distance, weight1, weight2;
+    if (!intersect_triangle(exact, convert<double>(p0), convert<double>(p1), convert<double>(p2), infinity<double>,
+                            distance, weight1, weight2))
+      return false;
+    t = static_cast<Real>(distance);
+    b1 = static_cast<Real>(weight1);
+    b2 = static_cast<Real>(weight2);
+    return true;
+  } else {
+    return false;
+  }
+}
+
+/// Intersects the triangle p0 p1 p2 at a distance in (0, t_max]: sets t and the barycentric weights. Rays through a
+/// shared edge or vertex always hit one of the triangles; degenerate triangles are never hit.
 template <class Real>
 ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>& p0, const Vec3<Real>& p1,
                                    const Vec3<Real>& p2, Real t_max, Real& t, Real& b1, Real& b2) {
@@ -66,7 +92,8 @@ ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>
   const Real distance = dot(e, z) * inverse_det;
   if (!(distance > 0 && distance <= t_max)) return false;
   const Vec3<Real> scaled[3] = {{p_t[0].x, p_t[0].y, z.x}, {p_t[1].x, p_t[1].y, z.y}, {p_t[2].x, p_t[2].y, z.z}};
-  if (distance <= triangle_t_error(scaled, e, inverse_det)) return false;
+  if (distance <= triangle_t_error(scaled, e, inverse_det))
+    return intersect_in_double(ray, p0, p1, p2, t, b1, b2) && t <= t_max;
   t = distance;
   b1 = e.y * inverse_det;
   b2 = e.z * inverse_det;

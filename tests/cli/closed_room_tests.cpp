@@ -1,0 +1,67 @@
+// A closed room under a bright sky is black inside, wherever it stands, in the world or as an instance, by every
+// engine.
+
+#include <alhazen/alhazen.h>
+
+#include "cli/fixture.h"
+
+namespace alhazen::testing {
+
+namespace {
+
+class ClosedRoom : public Command {
+ protected:
+  static constexpr const char* cube = R"(Shape "trianglemesh"
+  "point3 P" [ -1 -1 -1  -1 -1 1  -1 1 -1  -1 1 1  1 -1 -1  1 -1 1  1 1 -1  1 1 1 ]
+  "integer indices" [ 0 1 3 0 3 2  4 6 7 4 7 5  0 4 5 0 5 1  2 3 7 2 7 6  0 2 6 0 6 4  1 5 7 1 7 3 ]
+)";
+
+  /// The room about `place`, in its middle a camera that looks everywhere.
+  void write_room(const Vec3d& place, const std::string& turn, bool is_instance) const {
+    const auto translate = [](const Vec3d& to) {
+      return "Translate " + std::to_string(to.x) + " " + std::to_string(to.y) + " " + std::to_string(to.z) + "\n";
+    };
+    std::string room = "AttributeBegin\n" + translate(place) + turn +
+                       (is_instance ? "ObjectInstance \"room\"\n" : cube) + "AttributeEnd\n";
+    // One that moves makes an object of it, and instances of all that stand anywhere.
+    if (is_instance)
+      room = std::string("ObjectBegin \"room\"\n") + cube + "ObjectEnd\n" + room +
+             "AttributeBegin\nActiveTransform StartTime\nTranslate 0 9000 0\nActiveTransform EndTime\n"
+             "Translate 1 9000 0\nActiveTransform All\nObjectInstance \"room\"\nAttributeEnd\n";
+    folder_.write_text("room.pbrt", R"(Film "rgb" "integer xresolution" 32 "integer yresolution" 32
+)" + translate(-place) + R"(Camera "spherical" "string mapping" "equirectangular"
+WorldBegin
+LightSource "infinite" "rgb L" [ 10000 10000 10000 ]
+Material "diffuse" "rgb reflectance" [ 0.9 0.9 0.9 ]
+)" + room);
+  }
+
+  float brightest(const std::vector<std::string>& engine) const {
+    std::vector<std::string> arguments = {"render", "room.pbrt",   "-o", "room.exr", "--spp",
+                                          "64",     "--max-depth", "8",  "-q"};
+    arguments.insert(arguments.end(), engine.begin(), engine.end());
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.everything();
+    float brightest = 0;
+    for (const std::vector<float>& plane : image("room.exr").planes)
+      for (const float value : plane) brightest = std::max(brightest, value);
+    return brightest;
+  }
+};
+
+TEST_F(ClosedRoom, IsBlackInside) {
+  std::vector<std::vector<std::string>> engines = {{}, {"--integrator", "iterative"}};
+#if defined(ALHAZEN_WITH_EMBREE)
+  engines.push_back({"--backend", "embree"});
+#endif
+  for (const Vec3d& place : {Vec3d{}, Vec3d{5, 2, 3}, Vec3d{1000, -500, 2000}, Vec3d{1e5, 2e5, -3e5}})
+    for (const char* turn : {"", "Rotate 33 1 2 3\n", "Rotate 33 1 2 3\nScale 1 2 .5\n"})
+      for (const bool is_instance : {false, true}) {
+        write_room(place, turn, is_instance);
+        for (const std::vector<std::string>& engine : engines)
+          EXPECT_EQ(brightest(engine), 0) << place.x << " " << turn << (is_instance ? " as an instance" : "");
+      }
+}
+
+}  // namespace
+}  // namespace alhazen::testing
