@@ -19,7 +19,8 @@ Flattened flattened(const std::string& text) {
   Diagnostics diagnostics;
   Flattened result;
   try {
-    const FlatScene<Real> flat = flatten<Real>(described_scene(text), {}, diagnostics);
+    const std::string lit = text + "LightSource \"infinite\"\n";
+    const FlatScene<Real> flat = flatten<Real>(described_scene(lit), {}, diagnostics);
     result.spheres = flat.statistics.spheres;
   } catch (const InputError& error) {
     result.error = error.what();
