@@ -113,7 +113,7 @@ TYPED_TEST(CheckpointFiles, EveryOtherLengthIsFound) {
     ASSERT_NE(this->refusal_of({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}), "") << size;
   for (const size_t more : {1u, 4u, 4096u}) {
     Bytes extended = whole;
-    extended.resize(whole.size() + more);
+    extended.insert(extended.end(), more, uint8_t{0});
     EXPECT_NE(this->refusal_of(extended).find("damaged"), std::string::npos) << more;
   }
   Bytes twice = whole;

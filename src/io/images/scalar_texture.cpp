@@ -91,15 +91,16 @@ bool pbrt_reads_alpha(PictureFormat format, std::span<const uint8_t> bytes) {
   return format == PictureFormat::qoi || (format == PictureFormat::png && bytes.size() > 25 && bytes[25] == 6);
 }
 
-ScalarTexture read_scalar(const std::string& path, TextureEncoding encoding) {
-  const PictureFormat format = picture_format(path);
+ScalarTexture read_scalar(const InputPath& input, TextureEncoding encoding) {
+  const std::string& path = input.name;
+  const PictureFormat format = picture_format(input);
   ImageTexels colours;
   if (format == PictureFormat::exr) {
-    const Image image = read_exr(path);
+    const Image image = read_exr(input);
     if (std::optional<ImageTexels> alpha = exr_alpha(image, path)) return {std::move(*alpha), true, false};
     colours = exr_texels(image, path);
   } else {
-    const std::vector<uint8_t> bytes = read_bytes(path);
+    const std::vector<uint8_t> bytes = read_bytes(input);
     if (std::optional<ImageTexels> alpha = decode_alpha(path, format, bytes))
       return {std::move(*alpha), true, format != PictureFormat::webp && !pbrt_reads_alpha(format, bytes)};
     colours = decode_texture(path, format, bytes, encoding);
@@ -110,11 +111,11 @@ ScalarTexture read_scalar(const std::string& path, TextureEncoding encoding) {
 
 }  // namespace
 
-ScalarTexture read_scalar_texture(const std::string& path, TextureEncoding encoding) {
+ScalarTexture read_scalar_texture(const InputPath& path, TextureEncoding encoding) {
   try {
     return read_scalar(path, encoding);
   } catch (const std::bad_alloc&) {
-    throw_malformed(path, "is too large for the memory of this machine");
+    throw_malformed(path.name, "is too large for the memory of this machine");
   }
 }
 

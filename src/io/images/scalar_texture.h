@@ -18,6 +18,6 @@ struct ScalarTexture {
 
 /// Reads an image for use as a scalar: its alpha channel where it has one that is not 1 everywhere, else the mean of
 /// its linear colours. Alpha is linear whatever `encoding` says, since every format defines it so. Throws InputError.
-ScalarTexture read_scalar_texture(const std::string& path, TextureEncoding encoding);
+ScalarTexture read_scalar_texture(const InputPath& path, TextureEncoding encoding);
 
 }  // namespace alhazen

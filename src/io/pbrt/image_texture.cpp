@@ -40,7 +40,7 @@ bool read_nearest(ParameterList& list) {
   return false;
 }
 
-ImageTexels read_scalar(Build& build, ParameterList& list, const std::string& path, TextureEncoding encoding) {
+ImageTexels read_scalar(Build& build, ParameterList& list, const InputPath& path, TextureEncoding encoding) {
   ScalarTexture scalar = read_scalar_texture(path, encoding);
   if (scalar.differs_from_pbrt)
     build.warn(list.place_of("filename"),
