@@ -29,15 +29,16 @@ class FewPrimitives {
   /// Whether the scene is one of those; else nothing else may be called.
   bool is_few() const { return is_few_; }
 
-  /// As SimdBvhIntersector::trace. `alone(i)` is called for queries that are better off with a tree.
+  /// As SimdBvhIntersector::trace. `alone(i, is_unsure)` is called for queries that are better off with a
+  /// tree, and for those of which this test is not sure.
   template <bool any_hit, class RayOf, class Limit, class Answer, class Alone>
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer, const Alone& alone) const {
     for (uint32_t first = 0; first < count; first += width) {
       const uint32_t some = count - first < width ? count - first : width;
       if (some > width / 4)
-        trace_group<any_hit>(first, some, ray, t_max, answer);
+        trace_group<any_hit>(first, some, ray, t_max, answer, alone);
       else
-        for (uint32_t i = first; i < count; ++i) alone(i);
+        for (uint32_t i = first; i < count; ++i) alone(i, false);
     }
   }
 
@@ -57,6 +58,7 @@ class FewPrimitives {
   struct Met {
     V t, b1, b2, which;
     uint32_t lanes = 0;
+    uint32_t unsure = 0;  ///< as SimdWalk has it
 
     ALHAZEN_INLINE void take(uint32_t some, const V& at, Real primitive) {
       t = choose(some, at, t);
@@ -82,9 +84,9 @@ class FewPrimitives {
     return true;
   }
 
-  template <bool any_hit, class RayOf, class Limit, class Answer>
+  template <bool any_hit, class RayOf, class Limit, class Answer, class Alone>
   ALHAZEN_INLINE void trace_group(uint32_t first, uint32_t size, const RayOf& ray, const Limit& t_max,
-                                  const Answer& answer) const {
+                                  const Answer& answer, const Alone& alone) const {
     Rays rays;
     for (uint32_t i = 0; i < width; ++i) {
       const uint32_t from = first + (i < size ? i : 0);
@@ -109,6 +111,10 @@ class FewPrimitives {
     met.which.store(which);
     for (uint32_t i = 0; i < size; ++i) {
       const bool found = met.lanes >> i & 1;
+      if (ALHAZEN_UNLIKELY((met.unsure >> i & 1) != 0) && !(any_hit && found)) {
+        alone(first + i, true);
+        continue;
+      }
       answer(first + i, found, Hit<Real>{t[i], b1[i], b2[i], primitive(static_cast<uint32_t>(which[i])), no_instance});
     }
   }
@@ -140,30 +146,18 @@ class FewPrimitives {
     }
     for (uint32_t i = 0; i < triangles_; ++i) {
       const uint32_t* const v = triangle_[i].vertex;
-      TriangleLanes<V> at(sheared[v[0]], sheared[v[1]], sheared[v[2]], shear[2]);
+      const TriangleLanes<V> at(sheared[v[0]], sheared[v[1]], sheared[v[2]], shear[2]);
       if (at.inside == 0) continue;
       uint32_t lanes = at.inside & less(V::all(0), at.t) & less(at.t, met.t);
       if (lanes == 0) continue;
-      lanes = at.accepted(lanes, [&](int lane, Real& t, Real& b1, Real& b2) {
-        return intersect_in_double_of(rays, lane, i, t, b1, b2) && t < met.t.lane(lane);
-      });
-      if (lanes == 0) continue;
+      const uint32_t unsure = at.unsure(lanes);
+      met.unsure |= unsure;
+      lanes &= ~unsure;
       met.take(lanes, at.t, static_cast<Real>(i));
       met.b1 = choose(lanes, at.e[1] * at.inverse, met.b1);
       met.b2 = choose(lanes, at.e[2] * at.inverse, met.b2);
       if (any_hit && (wanted & ~met.lanes) == 0) return;
     }
-  }
-
-  /// The ray of a lane against triangle i.
-  ALHAZEN_NOINLINE bool intersect_in_double_of(const Rays& rays, int lane, uint32_t i, Real& t, Real& b1,
-                                               Real& b2) const {
-    const auto row = [&](const Real(&rows)[3][width]) {
-      return Vec3<Real>{rows[0][lane], rows[1][lane], rows[2][lane]};
-    };
-    const uint32_t* const v = triangle_[i].vertex;
-    return intersect_in_double(shear_ray(Ray<Real>{row(rays.origin), row(rays.direction), Real(0)}), vertex_[v[0]],
-                               vertex_[v[1]], vertex_[v[2]], t, b1, b2);
   }
 
   template <bool any_hit>

@@ -39,7 +39,7 @@ class RayPacket {
       limit_[i] = simd_limit(hits_[i].t);
     }
     active_ = (1u << (count - 1)) * 2 - 1;
-    met_ = 0;
+    met_ = unsure_ = 0;
     return make_box_rays() && shear();
   }
 
@@ -56,6 +56,8 @@ class RayPacket {
   }
 
   bool found(uint32_t i) const { return met_ >> i & 1; }
+  /// As SimdWalk has it.
+  bool is_unsure(uint32_t i) const { return ALHAZEN_UNLIKELY((unsure_ >> i & 1) != 0); }
   const Hit<Real>& hit(uint32_t i) const { return hits_[i]; }
 
  private:
@@ -220,7 +222,9 @@ class RayPacket {
       if (std::popcount(rays) <= primitives) {
         for (uint32_t left = rays; left != 0; left &= left - 1) {
           const int ray = std::countr_zero(left);
-          if (intersect_block(*block, *rays_[ray], sheared_ray_of(ray), hits_[ray])) note_hit(ray);
+          uint32_t unsure = 0;
+          if (intersect_block(*block, *rays_[ray], sheared_ray_of(ray), hits_[ray], unsure)) note_hit(ray);
+          unsure_ |= unsure != 0 ? 1u << ray : 0;
         }
       } else {
         for (int p = 0; p < primitives; ++p) intersect_primitive_of(*block, p, rays);
@@ -239,15 +243,9 @@ class RayPacket {
   ALHAZEN_INLINE void intersect_primitive_of(const TriangleBlock<Real>& block, int p, uint32_t rays) {
     const V origin[3] = {V::load(origin_[axis_[0]]), V::load(origin_[axis_[1]]), V::load(origin_[axis_[2]])};
     const V shear[3] = {V::load(shear_[0]), V::load(shear_[1]), V::load(shear_[2])};
-    TriangleLanes<V> met([&](int v, int k) { return V::all(block.vertex[v][axis_[k]][p]); }, origin, shear);
+    const TriangleLanes<V> met([&](int v, int k) { return V::all(block.vertex[v][axis_[k]][p]); }, origin, shear);
     if ((met.inside & rays) == 0) return;
-    const auto in_double = [&](int ray, Real& t, Real& b1, Real& b2) {
-      const auto vertex = [&](int v) {
-        return Vec3<Real>{block.vertex[v][0][p], block.vertex[v][1][p], block.vertex[v][2][p]};
-      };
-      return intersect_in_double(sheared_ray_of(ray), vertex(0), vertex(1), vertex(2), t, b1, b2);
-    };
-    take(met, met.inside & rays, PrimitiveId(PrimitiveKind::triangle, block.index[p]), in_double);
+    take(met, met.inside & rays, PrimitiveId(PrimitiveKind::triangle, block.index[p]));
   }
 
   ALHAZEN_INLINE void intersect_primitive_of(const SphereBlock<Real>& block, int p, uint32_t rays) {
@@ -267,17 +265,19 @@ class RayPacket {
 
   ALHAZEN_INLINE void intersect_sphere_of(const V (&f)[3], Real radius, PrimitiveId id, uint32_t rays) {
     const V direction[3] = {V::load(direction_[0]), V::load(direction_[1]), V::load(direction_[2])};
-    SphereLanes<V> met(f, direction, V::all(radius));
+    const SphereLanes<V> met(f, direction, V::all(radius));
     if ((met.crossed & rays) == 0) return;
-    take(met, met.crossed & rays, id, [](int, Real&, Real&, Real&) { return true; });
+    take(met, met.crossed & rays, id);
   }
 
   /// What take_nearest does, where a lane is a ray.
-  template <class Met, class InDouble>
-  ALHAZEN_INLINE void take(Met& met, uint32_t rays, PrimitiveId id, const InDouble& in_double) {
+  template <class Met>
+  ALHAZEN_INLINE void take(const Met& met, uint32_t rays, PrimitiveId id) {
     rays &= less(V::all(0), met.t);
     if (rays == 0) return;
-    rays = met.accepted(rays, in_double);
+    const uint32_t unsure = met.unsure(rays);
+    unsure_ |= unsure;
+    rays &= ~unsure;
     Real distance[width];
     met.t.store(distance);
     for (; rays != 0; rays &= rays - 1) {
@@ -307,7 +307,7 @@ class RayPacket {
   alignas(64) Real origin_[3][width], direction_[3][width], shear_[3][width], time_[width];
   uint32_t near_row_[3];
   int axis_[3];  ///< kx, ky, kz
-  uint32_t active_ = 0, met_ = 0;
+  uint32_t active_ = 0, met_ = 0, unsure_ = 0;
   int height_ = 0;
   const Ray<Real>* rays_[width];
   Hit<Real> hits_[width];

@@ -56,10 +56,8 @@ struct TriangleLanes {
     t = (e[0] * scaled_z[0] + e[1] * scaled_z[1] + e[2] * scaled_z[2]) * inverse;
   }
 
-  /// Of `lanes`, where t is above 0, those where it is above its error, which is that of triangle_t_error, and those
-  /// where `in_double(lane, t, b1, b2)`, which is asked about the others, says so; their t and weights become its.
-  template <class InDouble>
-  ALHAZEN_INLINE uint32_t accepted(uint32_t lanes, const InDouble& in_double) {
+  /// Those of `lanes` where t lies within its error, which is that of triangle_t_error.
+  ALHAZEN_INLINE uint32_t unsure(uint32_t lanes) const {
     using Real = typename V::Component;
     const auto largest = [](const V& a, const V& b, const V& c) {
       return larger(magnitude(a), larger(magnitude(b), magnitude(c)));
@@ -74,20 +72,7 @@ struct TriangleLanes {
     const V error_z = bound(3) * max_z;
     const V error_e = V::all(2) * (bound(2) * max_x * max_y + error_y * max_x + error_x * max_y);
     const V error = V::all(3) * (bound(3) * max_e * max_z + error_e * max_z + error_z * max_e) * magnitude(inverse);
-    for (uint32_t unsure = lanes & less_equal(t, error); unsure != 0; unsure &= unsure - 1) {
-      const int lane = std::countr_zero(unsure);
-      Real distance = 0, b1 = 0, b2 = 0;
-      if (!in_double(lane, distance, b1, b2)) {
-        lanes &= ~(1u << lane);
-        continue;
-      }
-      const uint32_t bit = 1u << lane;
-      t = choose(bit, V::all(distance), t);
-      e[1] = choose(bit, V::all(b1), e[1]);
-      e[2] = choose(bit, V::all(b2), e[2]);
-      inverse = choose(bit, V::all(1), inverse);
-    }
-    return lanes;
+    return lanes & less_equal(t, error);
   }
 
   /// Sets the barycentric weights of a lane.
@@ -133,10 +118,7 @@ struct SphereLanes {
     t = where_less(zero, c, near, far);
   }
 
-  template <class InDouble>
-  ALHAZEN_INLINE uint32_t accepted(uint32_t lanes, const InDouble&) const {
-    return lanes;
-  }
+  static ALHAZEN_INLINE uint32_t unsure(uint32_t) { return 0; }
 
   template <class Real>
   ALHAZEN_INLINE void fill(int, Hit<Real>& hit) const {

@@ -43,7 +43,8 @@ class SimdBvhIntersector {
   template <bool any_hit, class RayOf, class Limit, class Answer>
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     if (few_.is_few())
-      few_.template trace<any_hit>(count, ray, t_max, answer, [&](uint32_t i) {
+      few_.template trace<any_hit>(count, ray, t_max, answer, [&](uint32_t i, bool is_unsure) {
+        if (is_unsure) return answer_in_double<any_hit, false>(i, ray, t_max, answer);
         Hit<Real> hit;
         const bool found = walk<any_hit, false>(ray(i), t_max(i), hit);
         answer(i, found, hit);
@@ -73,7 +74,11 @@ class SimdBvhIntersector {
         continue;
       }
       packet.walk(*scene_);
-      for (uint32_t i = 0; i < some; ++i) answer_of(i, packet.found(i), packet.hit(i));
+      for (uint32_t i = 0; i < some; ++i)
+        if (packet.is_unsure(i))
+          answer_in_double<false, false>(i, ray_of, limit_of, answer_of);
+        else
+          answer_of(i, packet.found(i), packet.hit(i));
     }
   }
 
@@ -99,7 +104,10 @@ class SimdBvhIntersector {
           prefetch(walk.current());
           continue;
         }
-        answer(query[w], walk.found(), walk.hit());
+        if (walk.is_unsure())
+          answer_in_double<any_hit, instances>(query[w], ray, t_max, answer);
+        else
+          answer(query[w], walk.found(), walk.hit());
         if (next < count) {
           query[w] = next;
           walk.start(*scene_, ray(next), t_max(next));
@@ -134,9 +142,30 @@ class SimdBvhIntersector {
     walk.start(*scene_, ray, t_max);
     while (walk.step(*scene_)) {
     }
+    if (walk.is_unsure()) return walk_in_double<any_hit, instances>(ray, t_max, hit);
     hit = walk.hit();
     if (!walk.found()) hit.primitive = PrimitiveId();
     return walk.found();
+  }
+
+  template <bool any_hit, bool instances>
+  ALHAZEN_RARE bool walk_in_double(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
+    SimdWalk<any_hit, instances, Real, NearestFirst<any_hit>, true> walk;
+    NearestFirst<any_hit> stack;
+    walk.use(&stack);
+    walk.start(*scene_, ray, t_max);
+    while (walk.step(*scene_)) {
+    }
+    hit = walk.hit();
+    if (!walk.found()) hit.primitive = PrimitiveId();
+    return walk.found();
+  }
+
+  template <bool any_hit, bool instances, class RayOf, class Limit, class Answer>
+  ALHAZEN_RARE void answer_in_double(uint32_t i, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
+    Hit<Real> hit;
+    const bool found = walk_in_double<any_hit, instances>(ray(i), t_max(i), hit);
+    answer(i, found, hit);
   }
 
   static size_t bytes(const SceneView<Real>& scene) {

@@ -106,8 +106,9 @@ class OctantFirst {
   uint32_t child_[simd_stack_size];
 };
 
-/// `instances`: whether the scene has any; where it has none, nothing is paid for them.
-template <bool any_hit, bool instances, class Real, class Stack>
+/// `instances`: whether the scene has any; where it has none, nothing is paid for them. `in_double`: whether triangles
+/// of which the test in float is not sure are tested again at once. Calls in the loop cost all walks, and few need any.
+template <bool any_hit, bool instances, class Real, class Stack, bool in_double = false>
 class alignas(64) SimdWalk {
  public:
   /// `stack` lies elsewhere: walks side by side are to be few cache lines each.
@@ -121,6 +122,7 @@ class alignas(64) SimdWalk {
     t_max_ = simd_limit(t_max);
     height_ = 0;
     found_ = false;
+    unsure_ = 0;
     // Nothing to visit but an empty leaf where there is no tree, or no ray.
     current_ = scene.simd_nodes_count > 0 && can_walk(ray) ? 0 : SimdChild::nothing;
     if constexpr (instances)
@@ -135,7 +137,7 @@ class alignas(64) SimdWalk {
       if (stack_->push(scene.simd_nodes[current_], box_, t_max_, height_, current_)) return true;
     } else if (enter_if_instance(scene)) {
       return true;
-    } else if (intersect_leaf(scene, current_, *ray_, sheared_, hit_)) {
+    } else if (intersect_leaf<in_double>(scene, current_, *ray_, sheared_, hit_, unsure_)) {
       if constexpr (instances) hit_.instance = within_.instance;
       found_ = true;
       if (any_hit) return false;
@@ -144,6 +146,10 @@ class alignas(64) SimdWalk {
     if (stack_->pop(t_max_, within_.base, height_, current_)) return true;
     return leave_if_within();
   }
+
+  /// Whether what was found does not count, since the sign of a distance was lost in rounding on the way: then the walk
+  /// is to be repeated with `in_double`.
+  ALHAZEN_INLINE bool is_unsure() const { return ALHAZEN_UNLIKELY(unsure_ != 0) && !(any_hit && found_); }
 
   uint32_t current() const { return current_; }
   bool found() const { return found_; }
@@ -204,6 +210,7 @@ class alignas(64) SimdWalk {
   uint32_t current_;
   int height_;
   bool found_;
+  uint32_t unsure_;
   const Ray<Real>* ray_;
   Hit<Real> hit_;
   ShearedRay<Real> sheared_;

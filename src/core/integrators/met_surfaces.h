@@ -79,6 +79,7 @@ class MetSurfaces {
  private:
   template <bool with_normals>
   void work_out(uint32_t end) {
+    uint32_t any_near_edge = 0;
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
       TriangleCorners<Real> corners;
@@ -86,7 +87,9 @@ class MetSurfaces {
       for (int k = 0; k < 3 && with_normals; ++k) corners.normal[k] = corner_normal_[k][i];
       corners.has_normals = with_normals ? has_normals_[i] : 0;
       corners.flip_normal = flip_normal_[i];
-      const SurfaceInteraction<Real> si = point_of_triangle(corners, b1_[i], b2_[i]);
+      const SurfaceInteraction<Real> si = point_in_plane(corners, b1_[i], b2_[i]);
+      is_near_edge_[i] = is_near_edge(corners.position, b1_[i], b2_[i], si.position_error);
+      any_near_edge |= is_near_edge_[i];
       const Frame<Real> frame = frame_about(consistent_shading_normal(si, wo_[i]));
       position_.set(i, si.position);
       position_error_.set(i, si.position_error);
@@ -94,6 +97,14 @@ class MetSurfaces {
       shading_normal_.set(i, si.shading_normal);
       set_frame(i, frame);
     }
+    for (uint32_t i = 0; i < end && any_near_edge; ++i)
+      if (is_near_edge_[i]) clear_edges(i);
+  }
+
+  /// What point_of_triangle does beyond point_in_plane.
+  ALHAZEN_NOINLINE void clear_edges(uint32_t i) {
+    const Vec3<Real> corners[3] = {corner_[0][i], corner_[1][i], corner_[2][i]};
+    position_.set(i, position_[i] + away_from_edges(corners, b1_[i], b2_[i], position_error_[i]));
   }
 
   ALHAZEN_INLINE void set_frame(uint32_t i, const Frame<Real>& frame) {
@@ -106,7 +117,7 @@ class MetSurfaces {
   using Vectors = VectorColumns<Real, most>;
   Vectors corner_[3], corner_normal_[3], wo_;
   Real b1_[most]{}, b2_[most]{};
-  uint32_t has_normals_[most]{}, flip_normal_[most]{};
+  uint32_t has_normals_[most]{}, flip_normal_[most]{}, is_near_edge_[most]{};
   Vectors position_, position_error_, normal_, shading_normal_, tangent_, bitangent_, frame_normal_;
   bool any_ = false, any_normals_ = false;
 };

@@ -48,6 +48,18 @@
 #define ALHAZEN_COLD inline
 #endif
 
+// Code that hardly ever runs, which compilers then keep out of the way of what does.
+#if defined(__GNUC__) && !defined(__CUDACC__)
+#define ALHAZEN_RARE __attribute__((noinline, cold))
+#define ALHAZEN_UNLIKELY(condition) __builtin_expect(condition, 0)
+#elif defined(__CUDACC__)
+#define ALHAZEN_RARE __noinline__
+#define ALHAZEN_UNLIKELY(condition) (condition)
+#else
+#define ALHAZEN_RARE
+#define ALHAZEN_UNLIKELY(condition) (condition)
+#endif
+
 // Before a loop whose turns do not depend on each other, for the compiler to turn into SIMD instructions.
 #if defined(__clang__)
 #define ALHAZEN_SIDE_BY_SIDE _Pragma("clang loop vectorize(assume_safety)")

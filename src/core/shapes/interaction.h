@@ -131,11 +131,25 @@ ALHAZEN_HD ALHAZEN_HOT TriangleCorners<Real> triangle_corners(const SceneView<Re
 template <class Real>
 inline constexpr Real edge_clearance = 16;
 
-/// What brings the point with weights b1 and b2 of corners 1 and 2 away from the edges that it is too close to, within
-/// the plane; `error` bounds that of its coordinates. Of triangles too small for that clearance, a third of the height
-/// counts.
+/// Whether the point with weights b1 and b2 of corners 1 and 2 may be closer to an edge than that; `error` bounds that
+/// of its coordinates. Without a root or a division, since every hit asks.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT Vec3<Real> away_from_edges(const Vec3<Real> (&p)[3], Real b1, Real b2, const Vec3<Real>& error) {
+ALHAZEN_HD ALHAZEN_HOT bool is_near_edge(const Vec3<Real> (&p)[3], Real b1, Real b2, const Vec3<Real>& error) {
+  const Real b0 = 1 - b1 - b2;
+  const Vec3<Real> e1 = p[2] - p[0], e2 = p[1] - p[0];
+  const Real twice_area_squared = length_squared(cross(e2, e1));
+  const Real clearance_squared = sqr(edge_clearance<Real> * max_component(error));
+  const auto is_near = [&](const Vec3<Real>& edge, Real b) {
+    return b * b * twice_area_squared < clearance_squared * length_squared(edge);
+  };
+  return is_near(p[2] - p[1], b0) | is_near(e1, b1) | is_near(e2, b2);
+}
+
+/// What brings the point away from the edges that it is too close to, within the plane. Of triangles too small for that
+/// clearance, a third of the height counts.
+template <class Real>
+ALHAZEN_HD ALHAZEN_RARE Vec3<Real> away_from_edges(const Vec3<Real> (&p)[3], Real b1, Real b2,
+                                                   const Vec3<Real>& error) {
   const Real clearance = edge_clearance<Real> * max_component(error);
   const Vec3<Real> e0 = p[2] - p[1], e1 = p[0] - p[2], e2 = p[1] - p[0];
   const Vec3<Real> winding = cross(e2, e0);
@@ -177,7 +191,8 @@ template <class Real>
 ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> point_of_triangle(const TriangleCorners<Real>& corners, Real b1,
                                                                   Real b2) {
   SurfaceInteraction<Real> si = point_in_plane(corners, b1, b2);
-  si.position += away_from_edges(corners.position, b1, b2, si.position_error);
+  if (ALHAZEN_UNLIKELY(is_near_edge(corners.position, b1, b2, si.position_error)))
+    si.position += away_from_edges(corners.position, b1, b2, si.position_error);
   return si;
 }
 
@@ -193,8 +208,8 @@ ALHAZEN_HD ALHAZEN_HOT Vec2<Real> triangle_uv(const SceneView<Real>& scene, cons
 }
 
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> triangle_interaction(const SceneView<Real>& scene,
-                                                                     const Hit<Real>& hit) {
+ALHAZEN_HD ALHAZEN_NOINLINE SurfaceInteraction<Real> triangle_interaction(const SceneView<Real>& scene,
+                                                                          const Hit<Real>& hit) {
   const TriangleRecord& triangle = scene.triangles[hit.primitive.index()];
   SurfaceInteraction<Real> si = point_of_triangle(triangle_corners(scene, triangle), hit.b1, hit.b2);
   si.uv = triangle_uv(scene, triangle, hit);
@@ -239,7 +254,8 @@ ALHAZEN_HD ALHAZEN_COLD SurfaceInteraction<Real> instance_interaction(const Scen
   si.position_error = world_position_error(instance, object.position, object.position_error, si.position);
   Vec3<Real> p[3];
   for (int i = 0; i < 3; ++i) p[i] = transform_point(instance.world_from_object, corners.position[i]);
-  si.position += away_from_edges(p, hit.b1, hit.b2, si.position_error);
+  if (is_near_edge(p, hit.b1, hit.b2, si.position_error))
+    si.position += away_from_edges(p, hit.b1, hit.b2, si.position_error);
   const auto outward = [&](const Vec3<Real>& n) {
     const Vec3<Real> turned = normalize(transform_normal(instance.object_from_world, n));
     return instance.flip_normal ? -turned : turned;

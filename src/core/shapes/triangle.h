@@ -53,7 +53,7 @@ ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>
 /// exact. Rays start off the surface that they leave (offset_origin), so that surface is behind them and one that joins
 /// it at an edge is ahead. In double such hits count as behind: one ray in 10^13 comes so close to an edge.
 template <class Real>
-ALHAZEN_HD ALHAZEN_COLD bool intersect_in_double(const ShearedRay<Real>& ray, const Vec3<Real>& p0,
+ALHAZEN_HD ALHAZEN_RARE bool intersect_in_double(const ShearedRay<Real>& ray, const Vec3<Real>& p0,
                                                  const Vec3<Real>& p1, const Vec3<Real>& p2, Real& t, Real& b1,
                                                  Real& b2) {
   if constexpr (sizeof(Real) < sizeof(double)) {
