@@ -4,6 +4,7 @@
 #include <alhazen/alhazen.h>
 
 #include "cli/fixture.h"
+#include "core/math/vec.h"
 
 namespace alhazen::testing {
 

@@ -20,6 +20,11 @@ inline constexpr uint32_t simd_walks = 12;
 /// In a tree no larger than this, which the caches near a core hold, there is little to wait for: rays walk alone.
 inline constexpr size_t most_cached_bytes = size_t{1} << 19;
 
+/// A query of which a walk was not sure, from the start. Defined in simd_in_double.h, for a translation unit of its own
+/// (render/kernels/in_double.cpp): compilers give up inlining what is hot where units grow.
+template <bool any_hit, bool instances, class Real>
+bool walk_in_double(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max, Hit<Real>& hit);
+
 /// The ray queries that integrators ask, answered by the BVH of CPUs.
 template <class Real>
 class SimdBvhIntersector {
@@ -142,20 +147,7 @@ class SimdBvhIntersector {
     walk.start(*scene_, ray, t_max);
     while (walk.step(*scene_)) {
     }
-    if (walk.is_unsure()) return walk_in_double<any_hit, instances>(ray, t_max, hit);
-    hit = walk.hit();
-    if (!walk.found()) hit.primitive = PrimitiveId();
-    return walk.found();
-  }
-
-  template <bool any_hit, bool instances>
-  ALHAZEN_RARE bool walk_in_double(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
-    SimdWalk<any_hit, instances, Real, NearestFirst<any_hit>, true> walk;
-    NearestFirst<any_hit> stack;
-    walk.use(&stack);
-    walk.start(*scene_, ray, t_max);
-    while (walk.step(*scene_)) {
-    }
+    if (walk.is_unsure()) return walk_in_double<any_hit, instances>(*scene_, ray, t_max, hit);
     hit = walk.hit();
     if (!walk.found()) hit.primitive = PrimitiveId();
     return walk.found();
@@ -164,7 +156,7 @@ class SimdBvhIntersector {
   template <bool any_hit, bool instances, class RayOf, class Limit, class Answer>
   ALHAZEN_RARE void answer_in_double(uint32_t i, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     Hit<Real> hit;
-    const bool found = walk_in_double<any_hit, instances>(ray(i), t_max(i), hit);
+    const bool found = walk_in_double<any_hit, instances>(*scene_, ray(i), t_max(i), hit);
     answer(i, found, hit);
   }
 
