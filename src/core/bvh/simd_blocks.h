@@ -29,6 +29,14 @@ ALHAZEN_RARE bool intersect_in_double(const TriangleBlock<Real>& block, const Sh
   return found;
 }
 
+/// Whether any of them is hit at all.
+template <class Real>
+ALHAZEN_RARE bool is_hit_in_double(const TriangleBlock<Real>& block, const ShearedRay<Real>& ray, uint32_t lanes) {
+  Hit<Real> hit;
+  hit.t = infinity<Real>;
+  return intersect_in_double(block, ray, lanes, hit);
+}
+
 /// Of `lanes`, which might be hit, replaces `hit` by the nearest at a distance in (0, hit.t]. `unsure` gains those of
 /// which this test is not sure: they are for intersect_in_double.
 template <class Met, class Real>
@@ -100,34 +108,50 @@ ALHAZEN_INLINE bool intersect_block(const MovingSphereBlock<Real>& block, const 
   return intersect_spheres(f, block.radius, block.index, PrimitiveKind::moving_sphere, ray, hit);
 }
 
-/// With `in_double` nothing stays unsure.
+/// Triangles of which a walk was not sure: those of one block; `more`: there were others.
+template <class Real>
+struct Doubt {
+  const TriangleBlock<Real>* block = nullptr;
+  uint32_t lanes = 0;
+  bool more = false;
+
+  ALHAZEN_INLINE void add(const TriangleBlock<Real>& of, uint32_t some) {
+    more = more || lanes != 0;
+    block = &of;
+    lanes = some;
+  }
+  template <class Block>
+  ALHAZEN_INLINE void add(const Block&, uint32_t) {}
+};
+
+/// With `in_double` nothing stays in doubt.
 template <bool in_double, class Block, class Real>
 ALHAZEN_INLINE bool intersect_blocks(const Block* blocks, uint32_t child, const Ray<Real>& ray,
-                                     const ShearedRay<Real>& sheared, Hit<Real>& hit, uint32_t& unsure) {
+                                     const ShearedRay<Real>& sheared, Hit<Real>& hit, Doubt<Real>& doubt) {
   bool met = false;
   const Block* block = blocks + SimdChild::first(child);
   for (const Block* const end = block + SimdChild::blocks(child); block != end; ++block) {
+    uint32_t unsure = 0;
     met |= intersect_block(*block, ray, sheared, hit, unsure);
-    if constexpr (in_double) {
+    if constexpr (in_double)
       met |= intersect_in_double(*block, sheared, unsure, hit);
-      unsure = 0;
-    }
+    else if (ALHAZEN_UNLIKELY(unsure != 0))
+      doubt.add(*block, unsure);
   }
   return met;
 }
 
-/// All that a child that is no node holds. `unsure` becomes other than 0 where intersect_in_double would have to look
-/// again; with `in_double` it has.
+/// All that a child that is no node holds.
 template <bool in_double, class Real>
 ALHAZEN_INLINE bool intersect_leaf(const SceneView<Real>& scene, uint32_t child, const Ray<Real>& ray,
-                                   const ShearedRay<Real>& sheared, Hit<Real>& hit, uint32_t& unsure) {
+                                   const ShearedRay<Real>& sheared, Hit<Real>& hit, Doubt<Real>& doubt) {
   switch (SimdChild::kind(child)) {
     case SimdChild::spheres:
-      return intersect_blocks<false>(scene.sphere_blocks, child, ray, sheared, hit, unsure);
+      return intersect_blocks<false>(scene.sphere_blocks, child, ray, sheared, hit, doubt);
     case SimdChild::moving_spheres:
-      return intersect_blocks<false>(scene.moving_sphere_blocks, child, ray, sheared, hit, unsure);
+      return intersect_blocks<false>(scene.moving_sphere_blocks, child, ray, sheared, hit, doubt);
     default:
-      return intersect_blocks<in_double>(scene.triangle_blocks, child, ray, sheared, hit, unsure);
+      return intersect_blocks<in_double>(scene.triangle_blocks, child, ray, sheared, hit, doubt);
   }
 }
 

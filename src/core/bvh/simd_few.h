@@ -58,7 +58,9 @@ class FewPrimitives {
   struct Met {
     V t, b1, b2, which;
     uint32_t lanes = 0;
-    uint32_t unsure = 0;  ///< as SimdWalk has it
+    V doubtful;  ///< of the lanes in `unsure`, the last triangle of which the test was not sure
+    uint32_t unsure = 0;
+    uint32_t more = 0;  ///< the lanes where there were several
 
     ALHAZEN_INLINE void take(uint32_t some, const V& at, Real primitive) {
       t = choose(some, at, t);
@@ -101,17 +103,19 @@ class FewPrimitives {
     const uint32_t wanted = (1u << (size - 1)) * 2 - 1;
     Met met;
     met.t = V::load(rays.limit);
-    met.b1 = met.b2 = met.which = V::all(0);
+    met.b1 = met.b2 = met.which = met.doubtful = V::all(0);
     if (triangles_ > 0) meet_triangles<any_hit>(rays, wanted, met);
     if (spheres_ + moving_ > 0) meet_spheres<any_hit>(rays, wanted, met);
-    alignas(64) Real t[width], b1[width], b2[width], which[width];
+    alignas(64) Real t[width], b1[width], b2[width], which[width], doubtful[width];
     met.t.store(t);
     met.b1.store(b1);
     met.b2.store(b2);
     met.which.store(which);
+    met.doubtful.store(doubtful);
     for (uint32_t i = 0; i < size; ++i) {
       const bool found = met.lanes >> i & 1;
-      if (ALHAZEN_UNLIKELY((met.unsure >> i & 1) != 0) && !(any_hit && found)) {
+      if (ALHAZEN_UNLIKELY((met.unsure >> i & 1) != 0) && !(any_hit && found) &&
+          ((met.more >> i & 1) != 0 || is_hit_in_double(ray(first + i), static_cast<uint32_t>(doubtful[i])))) {
         alone(first + i, true);
         continue;
       }
@@ -150,9 +154,12 @@ class FewPrimitives {
       if (at.inside == 0) continue;
       uint32_t lanes = at.inside & less(V::all(0), at.t) & less(at.t, met.t);
       if (lanes == 0) continue;
-      const uint32_t unsure = at.unsure(lanes);
-      met.unsure |= unsure;
-      lanes &= ~unsure;
+      if (const uint32_t unsure = at.unsure(lanes); ALHAZEN_UNLIKELY(unsure != 0)) {
+        met.more |= met.unsure & unsure;
+        met.unsure |= unsure;
+        met.doubtful = choose(unsure, V::all(static_cast<Real>(i)), met.doubtful);
+        lanes &= ~unsure;
+      }
       met.take(lanes, at.t, static_cast<Real>(i));
       met.b1 = choose(lanes, at.e[1] * at.inverse, met.b1);
       met.b2 = choose(lanes, at.e[2] * at.inverse, met.b2);
@@ -180,6 +187,12 @@ class FewPrimitives {
       met.b1 = choose(lanes, V::all(0), met.b1);
       met.b2 = choose(lanes, V::all(0), met.b2);
     }
+  }
+
+  ALHAZEN_RARE bool is_hit_in_double(const Ray<Real>& ray, uint32_t triangle) const {
+    const uint32_t* const v = triangle_[triangle].vertex;
+    Real t = 0, b1 = 0, b2 = 0;
+    return intersect_in_double(shear_ray(ray), vertex_[v[0]], vertex_[v[1]], vertex_[v[2]], t, b1, b2);
   }
 
   PrimitiveId primitive(uint32_t which) const {

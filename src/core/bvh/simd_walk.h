@@ -122,7 +122,7 @@ class alignas(64) SimdWalk {
     t_max_ = simd_limit(t_max);
     height_ = 0;
     found_ = false;
-    unsure_ = 0;
+    doubt_ = {};
     // Nothing to visit but an empty leaf where there is no tree, or no ray.
     current_ = scene.simd_nodes_count > 0 && can_walk(ray) ? 0 : SimdChild::nothing;
     if constexpr (instances)
@@ -137,7 +137,7 @@ class alignas(64) SimdWalk {
       if (stack_->push(scene.simd_nodes[current_], box_, t_max_, height_, current_)) return true;
     } else if (enter_if_instance(scene)) {
       return true;
-    } else if (intersect_leaf<in_double>(scene, current_, *ray_, sheared_, hit_, unsure_)) {
+    } else if (intersect_leaf<in_double>(scene, current_, *ray_, sheared_, hit_, doubt_)) {
       if constexpr (instances) hit_.instance = within_.instance;
       found_ = true;
       if (any_hit) return false;
@@ -149,7 +149,12 @@ class alignas(64) SimdWalk {
 
   /// Whether what was found does not count, since the sign of a distance was lost in rounding on the way: then the walk
   /// is to be repeated with `in_double`.
-  ALHAZEN_INLINE bool is_unsure() const { return ALHAZEN_UNLIKELY(unsure_ != 0) && !(any_hit && found_); }
+  ALHAZEN_INLINE bool is_unsure() const {
+    if (!ALHAZEN_UNLIKELY(doubt_.lanes != 0) || (any_hit && found_)) return false;
+    if (instances || doubt_.more) return true;
+    const ShearedRay<Real> sheared = sheared_;  // a copy, so that the walk itself need not be in memory
+    return is_hit_in_double(*doubt_.block, sheared, doubt_.lanes);
+  }
 
   uint32_t current() const { return current_; }
   bool found() const { return found_; }
@@ -210,7 +215,7 @@ class alignas(64) SimdWalk {
   uint32_t current_;
   int height_;
   bool found_;
-  uint32_t unsure_;
+  Doubt<Real> doubt_;
   const Ray<Real>* ray_;
   Hit<Real> hit_;
   ShearedRay<Real> sheared_;
