@@ -46,7 +46,9 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--overwrite", "--device", "--block",
       "--chunk", "--denoise", "--environment", "--texture-budget", "--coats",
       // In gltf_tests.cpp:
-      "--camera", "--time", "--animation", "--variant", "--list"};
+      "--camera", "--time", "--animation", "--variant", "--list",
+      // In hostile_input_tests.cpp:
+      "--confine"};
   const CommandResult help = run({"render", "--help"});
   EXPECT_EQ(help.exit_code, 0);
   std::set<std::string> named;

@@ -50,20 +50,24 @@ TEST(PrecisionRange, LightsAreNotInfinite) {
 }
 
 TEST(PrecisionRange, CamerasAreFinite) {
-  expect_for_double_alone("Scale 1e-20 1e-20 1e-20 Translate 1e30 0 0\nCamera \"perspective\"\nWorldBegin\n",
-                          "the camera is not finite");
+  expect_for_double_alone(
+      "Scale 1e-20 1e-20 1e-20 Translate 1e30 0 0\nCamera \"perspective\" \"float focaldistance\" 1e39\n"
+      "WorldBegin LightSource \"infinite\"\nShape \"sphere\"\n",
+      "the camera is not finite");
 }
 
 TEST(PrecisionRange, SpheresAreFinite) {
-  expect_for_double_alone("WorldBegin\nShape \"sphere\" \"float radius\" 1e20\n",
+  expect_for_double_alone("WorldBegin LightSource \"infinite\"\nShape \"sphere\" \"float radius\" 1e20\n",
                           "too large or lies too far away for this precision");
   expect_for_double_alone(
-      "WorldBegin\nScale 1e20 1e20 1e20 Translate 1e20 0 0\nShape \"sphere\" \"float radius\" 1e-20\n",
+      "WorldBegin LightSource \"infinite\"\nScale 1e20 1e20 1e20 Translate 1e20 0 0\nShape \"sphere\" \"float radius\" "
+      "1e-20\n",
       "too large or lies too far away for this precision");
 }
 
 TEST(PrecisionRange, SpheresThatAreTooSmallAreLeftOut) {
-  const std::string text = "WorldBegin\nShape \"sphere\"\nShape \"sphere\" \"float radius\" 1e-25\n";
+  const std::string text =
+      "WorldBegin LightSource \"infinite\"\nShape \"sphere\"\nShape \"sphere\" \"float radius\" 1e-25\n";
   const Flattened single = flattened<float>(text), doubled = flattened<double>(text);
   EXPECT_EQ(single.error, "");
   EXPECT_EQ(single.spheres, 1u);
