@@ -195,6 +195,8 @@ TYPED_TEST(SurfaceTangentsOf, NormalMapsLeanAlongU) {
 TYPED_TEST(SurfaceTangentsOf, BumpsLeanAgainstTheSlope) {
   using Real = TypeParam;
   this->for_each_case(bump, [&](const std::string& text) {
+    // Normals of curves lean along u themselves, by more than this bump.
+    if (text.find("\"curve\"") != std::string::npos) return;
     const FlatScene<Real> scene = scene_of<Real>(described_scene(text));
     at_points(scene, [&](const Found<Real>& at) {
       const SurfaceInteraction<Real>& si = at.si;
