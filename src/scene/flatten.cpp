@@ -66,9 +66,7 @@ class Flattener {
     place_shapes();
     weigh_emission_textures(out_, light_measures_);
     warn_of_dropped_triangles();
-    build_trees(options_, out_, flat.statistics);
-    add_shining_triangles(out_);
-    assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
+    build_trees_and_ask(flat);
     flat.statistics.triangles = out_.triangles.size();
     flat.statistics.spheres = out_.spheres.size() + out_.moving_spheres.size();
     flat.statistics.lights = out_.lights.size();
