@@ -100,13 +100,13 @@ TEST(Embree, IsNotAskedAboutRaysOutOfItsRange) {
 }
 
 TEST(Embree, RefusesWhatItWouldLeaveOut) {
-  // Objects of 10^11 units made small: what is far off in the world is out of range in their space.
-  for (const double distance : {1.0, 1e9}) {
-    const Transform small = Transform::scale(Vec3d{1e-11, 1e-11, 1e-11}),
+  // Objects of 10^8 units made small: what is far off in the world is out of range in their space.
+  for (const double distance : {1.0, 1e11}) {
+    const Transform small = Transform::scale(Vec3d{1e-8, 1e-8, 1e-8}),
                     placed = Transform::translate({distance, 0, 0}) * small;
     Scene scene = test::instanced_scene(5, 3, 10);
     for (Mesh& mesh : scene.meshes)
-      for (Vec3d& position : mesh.positions) position = position * 1e11;
+      for (Vec3d& position : mesh.positions) position = position * 1e8;
     scene.groups[0].shapes[0].world_from_object = {small, small};
     for (Instance& instance : scene.instances) instance.world_from_group = {placed, placed};
     const FlatScene<float> flat = test::flat_instanced_scene<float>(std::move(scene), false);
