@@ -83,11 +83,11 @@ double plane_distance(const Ray<float>& ray, const Vec3<float>& a, const Vec3<fl
 /// So much farther than the largest coordinate of its origin resolves, a ray is past the surface that it left.
 constexpr double near = 1e-6;
 
-/// Near the origin of the ray takes a triangle only where our own test does: so rays do not hit the surface that they
-/// leave. Farther on Embree's word counts, where the plane is not beyond the end of the ray: at an edge of two
-/// triangles the one that our test finds is not always the one that Embree has found, and rejecting both would be a
-/// hole. Within an instance Embree has brought the ray into the object's space; ours is brought there by our own
-/// arithmetic.
+/// Skips the triangle that the ray leaves. Near the origin of the ray takes a triangle only where our own test does: so
+/// rays do not hit what joins that triangle either. Farther on Embree's word counts, where the plane is not beyond the
+/// end of the ray: at an edge of two triangles the one that our test finds is not always the one that Embree has found,
+/// and rejecting both would be a hole. Within an instance Embree has brought the ray into the object's space; ours is
+/// brought there by our own arithmetic.
 void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
   if (arguments->valid[0] == 0) return;
   const SceneView<float>& scene = *static_cast<const SceneView<float>*>(arguments->geometryUserPtr);
@@ -102,8 +102,13 @@ void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
   }
   const uint32_t* v = scene.triangles[index].vertex;
   const Vec3<float>&a = scene.positions[v[0]], &b = scene.positions[v[1]], &c = scene.positions[v[2]];
+  const ShearedRay<float> sheared = shear_ray(ray);
+  if (sheared.left == PrimitiveId(PrimitiveKind::triangle, index)) {
+    arguments->valid[0] = 0;
+    return;
+  }
   float t, b1, b2;
-  if (intersect_triangle(shear_ray(ray), a, b, c, query.t_max, t, b1, b2)) return;
+  if (intersect_triangle(sheared, a, b, c, query.t_max, t, b1, b2)) return;
   const double distance = plane_distance(ray, a, b, c);
   const double reach = static_cast<double>(max_component(abs(query.ray->origin)));
   if (!(distance > near * reach && distance <= static_cast<double>(query.t_max))) arguments->valid[0] = 0;

@@ -18,7 +18,8 @@ __device__ inline const OptixParams& launch_params() { return *reinterpret_cast<
 /// Ray queries as integrators ask them.
 ///
 /// What OptiX says of spheres is checked by our own, robust test: the built-in one works in float from the sphere's
-/// centre, and on a ground of radius 1000 may meet the surface that the ray has just left.
+/// centre, and on a ground of radius 1000 may meet the surface that the ray has just left. Of triangles that one is
+/// skipped (`Ray::left`).
 class OptixIntersector {
  public:
   template <class Stacks>
@@ -32,6 +33,10 @@ class OptixIntersector {
       Hit<float> met;
       if (!trace(ray, t_min, hit.t, OPTIX_RAY_FLAG_DISABLE_ANYHIT, met)) break;
       if (met.primitive.kind() == PrimitiveKind::triangle) {
+        if (is_left(ray, met)) {
+          t_min = met.t * (1 + 4 * rounding_bound<float>(1));
+          continue;
+        }
         hit = met;
         break;
       }
@@ -44,17 +49,23 @@ class OptixIntersector {
 
   __device__ bool occluded(const Ray<float>& ray, float t_max) const {
     constexpr unsigned flags = OPTIX_RAY_FLAG_DISABLE_ANYHIT | OPTIX_RAY_FLAG_TERMINATE_ON_FIRST_HIT;
-    if (scene_->spheres_count == 0 && scene_->moving_spheres_count == 0)
-      return is_anything_between(ray, t_max, flags | OPTIX_RAY_FLAG_DISABLE_CLOSESTHIT);
+    // Free is free; of what is in between, hit programs alone say what it is.
+    if (!is_anything_between(ray, t_max, flags | OPTIX_RAY_FLAG_DISABLE_CLOSESTHIT)) return false;
     Hit<float> met, own;
     own.t = t_max;
     if (!trace(ray, 0, t_max, flags, met)) return false;
-    if (met.primitive.kind() == PrimitiveKind::triangle || intersects_sphere(ray, met.primitive, own)) return true;
+    const bool is_triangle = met.primitive.kind() == PrimitiveKind::triangle;
+    if (is_triangle ? !is_left(ray, met) : intersects_sphere(ray, met.primitive, own)) return true;
     return closest_hit(ray, t_max, own);
   }
 
  private:
   static constexpr int most_attempts = 8;
+
+  /// Whether that is the triangle which the ray starts from: it cannot be hit.
+  __device__ static bool is_left(const Ray<float>& ray, const Hit<float>& met) {
+    return met.primitive == ray.left && met.instance == ray.left_instance;
+  }
 
   __device__ static float3 vector(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
 

@@ -29,16 +29,15 @@ class FewPrimitives {
   /// Whether the scene is one of those; else nothing else may be called.
   bool is_few() const { return is_few_; }
 
-  /// As SimdBvhIntersector::trace. `alone(i, is_unsure)` is called for queries that are better off with a
-  /// tree, and for those of which this test is not sure.
+  /// As SimdBvhIntersector::trace. `alone(i)` is called for queries that are better off with a tree.
   template <bool any_hit, class RayOf, class Limit, class Answer, class Alone>
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer, const Alone& alone) const {
     for (uint32_t first = 0; first < count; first += width) {
       const uint32_t some = count - first < width ? count - first : width;
       if (some > width / 4)
-        trace_group<any_hit>(first, some, ray, t_max, answer, alone);
+        trace_group<any_hit>(first, some, ray, t_max, answer);
       else
-        for (uint32_t i = first; i < count; ++i) alone(i, false);
+        for (uint32_t i = first; i < count; ++i) alone(i);
     }
   }
 
@@ -52,15 +51,13 @@ class FewPrimitives {
   /// The rays of a group, a row a coordinate.
   struct Rays {
     alignas(64) Real origin[3][width], direction[3][width], time[width], limit[width];
+    alignas(64) Real left[width];  ///< the triangle that the ray starts from, counted as in Met; or -1
   };
 
   /// What the rays have met so far: primitives are counted through, triangles before spheres before moving ones.
   struct Met {
     V t, b1, b2, which;
     uint32_t lanes = 0;
-    V doubtful;  ///< of the lanes in `unsure`, the last triangle of which the test was not sure
-    uint32_t unsure = 0;
-    uint32_t more = 0;  ///< the lanes where there were several
 
     ALHAZEN_INLINE void take(uint32_t some, const V& at, Real primitive) {
       t = choose(some, at, t);
@@ -86,9 +83,9 @@ class FewPrimitives {
     return true;
   }
 
-  template <bool any_hit, class RayOf, class Limit, class Answer, class Alone>
+  template <bool any_hit, class RayOf, class Limit, class Answer>
   ALHAZEN_INLINE void trace_group(uint32_t first, uint32_t size, const RayOf& ray, const Limit& t_max,
-                                  const Answer& answer, const Alone& alone) const {
+                                  const Answer& answer) const {
     Rays rays;
     for (uint32_t i = 0; i < width; ++i) {
       const uint32_t from = first + (i < size ? i : 0);
@@ -98,27 +95,22 @@ class FewPrimitives {
         rays.direction[axis][i] = r.direction[axis];
       }
       rays.time[i] = r.time;
+      rays.left[i] = r.left.bits < triangles_ ? static_cast<Real>(r.left.bits) : Real(-1);
       rays.limit[i] = i < size && can_walk(r) ? t_max(from) : Real(0);
     }
     const uint32_t wanted = (1u << (size - 1)) * 2 - 1;
     Met met;
     met.t = V::load(rays.limit);
-    met.b1 = met.b2 = met.which = met.doubtful = V::all(0);
+    met.b1 = met.b2 = met.which = V::all(0);
     if (triangles_ > 0) meet_triangles<any_hit>(rays, wanted, met);
     if (spheres_ + moving_ > 0) meet_spheres<any_hit>(rays, wanted, met);
-    alignas(64) Real t[width], b1[width], b2[width], which[width], doubtful[width];
+    alignas(64) Real t[width], b1[width], b2[width], which[width];
     met.t.store(t);
     met.b1.store(b1);
     met.b2.store(b2);
     met.which.store(which);
-    met.doubtful.store(doubtful);
     for (uint32_t i = 0; i < size; ++i) {
       const bool found = met.lanes >> i & 1;
-      if (ALHAZEN_UNLIKELY((met.unsure >> i & 1) != 0) && !(any_hit && found) &&
-          ((met.more >> i & 1) != 0 || is_hit_in_double(ray(first + i), static_cast<uint32_t>(doubtful[i])))) {
-        alone(first + i, true);
-        continue;
-      }
       answer(first + i, found, Hit<Real>{t[i], b1[i], b2[i], primitive(static_cast<uint32_t>(which[i])), no_instance});
     }
   }
@@ -142,6 +134,7 @@ class FewPrimitives {
     turned(d[0], d[1], d[2], direction);
     const V inverse = V::all(1) / direction[2];
     const V shear[3] = {direction[0] * inverse, direction[1] * inverse, inverse};
+    const V left = V::load(rays.left);
     ShearedLanes<V> sheared[most_vertices];
     for (uint32_t i = 0; i < vertices_; ++i) {
       V p[3];
@@ -154,12 +147,7 @@ class FewPrimitives {
       if (at.inside == 0) continue;
       uint32_t lanes = at.inside & less(V::all(0), at.t) & less(at.t, met.t);
       if (lanes == 0) continue;
-      if (const uint32_t unsure = at.unsure(lanes); ALHAZEN_UNLIKELY(unsure != 0)) {
-        met.more |= met.unsure & unsure;
-        met.unsure |= unsure;
-        met.doubtful = choose(unsure, V::all(static_cast<Real>(i)), met.doubtful);
-        lanes &= ~unsure;
-      }
+      lanes &= ~equal(left, V::all(static_cast<Real>(i)));
       met.take(lanes, at.t, static_cast<Real>(i));
       met.b1 = choose(lanes, at.e[1] * at.inverse, met.b1);
       met.b2 = choose(lanes, at.e[2] * at.inverse, met.b2);
@@ -187,12 +175,6 @@ class FewPrimitives {
       met.b1 = choose(lanes, V::all(0), met.b1);
       met.b2 = choose(lanes, V::all(0), met.b2);
     }
-  }
-
-  ALHAZEN_RARE bool is_hit_in_double(const Ray<Real>& ray, uint32_t triangle) const {
-    const uint32_t* const v = triangle_[triangle].vertex;
-    Real t = 0, b1 = 0, b2 = 0;
-    return intersect_in_double(shear_ray(ray), vertex_[v[0]], vertex_[v[1]], vertex_[v[2]], t, b1, b2);
   }
 
   PrimitiveId primitive(uint32_t which) const {

@@ -27,6 +27,7 @@ class RayPacket {
       const uint32_t from = i < count ? i : 0;  // lanes that are left over are never active
       const Ray<Real>& r = ray(from);
       rays_[i] = &r;
+      left_[i] = r.left.kind() == PrimitiveKind::triangle ? r.left : PrimitiveId();
       for (int axis = 0; axis < 3; ++axis) {
         origin_[axis][i] = r.origin[axis];
         direction_[axis][i] = r.direction[axis];
@@ -39,7 +40,7 @@ class RayPacket {
       limit_[i] = simd_limit(hits_[i].t);
     }
     active_ = (1u << (count - 1)) * 2 - 1;
-    met_ = unsure_ = 0;
+    met_ = 0;
     return make_box_rays() && shear();
   }
 
@@ -56,8 +57,6 @@ class RayPacket {
   }
 
   bool found(uint32_t i) const { return met_ >> i & 1; }
-  /// As SimdWalk has it.
-  bool is_unsure(uint32_t i) const { return ALHAZEN_UNLIKELY((unsure_ >> i & 1) != 0); }
   const Hit<Real>& hit(uint32_t i) const { return hits_[i]; }
 
  private:
@@ -120,7 +119,8 @@ class RayPacket {
             {shear_[0][ray], shear_[1][ray], shear_[2][ray]},
             axis_[0],
             axis_[1],
-            axis_[2]};
+            axis_[2],
+            left_[ray]};
   }
 
   /// So few rays are tested one by one.
@@ -222,9 +222,7 @@ class RayPacket {
       if (std::popcount(rays) <= primitives) {
         for (uint32_t left = rays; left != 0; left &= left - 1) {
           const int ray = std::countr_zero(left);
-          uint32_t unsure = 0;
-          if (intersect_block(*block, *rays_[ray], sheared_ray_of(ray), hits_[ray], unsure)) note_hit(ray);
-          unsure_ |= unsure != 0 ? 1u << ray : 0;
+          if (intersect_block(*block, *rays_[ray], sheared_ray_of(ray), hits_[ray])) note_hit(ray);
         }
       } else {
         for (int p = 0; p < primitives; ++p) intersect_primitive_of(*block, p, rays);
@@ -270,20 +268,18 @@ class RayPacket {
     take(met, met.crossed & rays, id);
   }
 
-  /// What take_nearest does, where a lane is a ray.
+  /// What take_nearest does, where a lane is a ray. Only triangles are skipped, by their `left` alone: packets are for
+  /// scenes without instances.
   template <class Met>
   ALHAZEN_INLINE void take(const Met& met, uint32_t rays, PrimitiveId id) {
     rays &= less(V::all(0), met.t);
     if (rays == 0) return;
-    const uint32_t unsure = met.unsure(rays);
-    unsure_ |= unsure;
-    rays &= ~unsure;
     Real distance[width];
     met.t.store(distance);
     for (; rays != 0; rays &= rays - 1) {
       const int ray = std::countr_zero(rays);
       Hit<Real>& hit = hits_[ray];
-      if (!is_nearer(distance[ray], id, hit)) continue;
+      if (id == left_[ray] || !is_nearer(distance[ray], id, hit)) continue;
       met.fill(ray, hit);
       hit.t = distance[ray];
       hit.primitive = id;
@@ -307,9 +303,10 @@ class RayPacket {
   alignas(64) Real origin_[3][width], direction_[3][width], shear_[3][width], time_[width];
   uint32_t near_row_[3];
   int axis_[3];  ///< kx, ky, kz
-  uint32_t active_ = 0, met_ = 0, unsure_ = 0;
+  uint32_t active_ = 0, met_ = 0;
   int height_ = 0;
   const Ray<Real>* rays_[width];
+  PrimitiveId left_[width];  ///< where that is a triangle
   Hit<Real> hits_[width];
   F stack_entry_[simd_stack_size];
   Entry stack_[simd_stack_size];

@@ -25,13 +25,12 @@ struct ShearedLanes {
   }
 };
 
-/// Where the rays meet the triangles' planes (Woop, Benthin, Wald 2013), and what the error bound of that needs.
+/// Where the rays meet the triangles' planes (Woop, Benthin, Wald 2013).
 template <class V>
 struct TriangleLanes {
-  V x[3], y[3], scaled_z[3];  ///< vertices, sheared
-  V e[3];                     ///< edge functions
+  V e[3];  ///< edge functions
   V inverse, t;
-  uint32_t inside = 0;  ///< a bit for each lane; where none is set, `scaled_z`, `inverse` and `t` are not there
+  uint32_t inside = 0;  ///< a bit for each lane; where none is set, `inverse` and `t` are not there
 
   /// `vertex(v, k)` is coordinate k of vertex v; k is 0 to 2 and stands for the ray's axes kx, ky, kz.
   template <class Vertex>
@@ -40,39 +39,16 @@ struct TriangleLanes {
                       sheared(vertex, 2, origin, shear), shear[2]) {}
 
   ALHAZEN_INLINE TriangleLanes(const ShearedLanes<V>& a, const ShearedLanes<V>& b, const ShearedLanes<V>& c,
-                               const V& scale)
-      : x{a.x, b.x, c.x}, y{a.y, b.y, c.y} {
+                               const V& scale) {
     const V zero = V::all(0);
-    e[0] = x[1] * y[2] - y[1] * x[2];
-    e[1] = x[2] * y[0] - y[2] * x[0];
-    e[2] = x[0] * y[1] - y[0] * x[1];
+    e[0] = b.x * c.y - b.y * c.x;
+    e[1] = c.x * a.y - c.y * a.x;
+    e[2] = a.x * b.y - a.y * b.x;
     inside = less_equal(zero, smaller(smaller(e[0], e[1]), e[2])) | less_equal(larger(larger(e[0], e[1]), e[2]), zero);
     if (inside == 0) return;
     // Where the sum is 0, t is infinite or not a number, and not taken.
     inverse = V::all(1) / (e[0] + e[1] + e[2]);
-    scaled_z[0] = a.z * scale;
-    scaled_z[1] = b.z * scale;
-    scaled_z[2] = c.z * scale;
-    t = (e[0] * scaled_z[0] + e[1] * scaled_z[1] + e[2] * scaled_z[2]) * inverse;
-  }
-
-  /// Those of `lanes` where t lies within its error, which is that of triangle_t_error.
-  ALHAZEN_INLINE uint32_t unsure(uint32_t lanes) const {
-    using Real = typename V::Component;
-    const auto largest = [](const V& a, const V& b, const V& c) {
-      return larger(magnitude(a), larger(magnitude(b), magnitude(c)));
-    };
-    const auto bound = [](int n) { return V::all(rounding_bound<Real>(n)); };
-    const V max_x = largest(x[0], x[1], x[2]);
-    const V max_y = largest(y[0], y[1], y[2]);
-    const V max_z = largest(scaled_z[0], scaled_z[1], scaled_z[2]);
-    const V max_e = largest(e[0], e[1], e[2]);
-    const V error_x = bound(5) * (max_x + max_z);
-    const V error_y = bound(5) * (max_y + max_z);
-    const V error_z = bound(3) * max_z;
-    const V error_e = V::all(2) * (bound(2) * max_x * max_y + error_y * max_x + error_x * max_y);
-    const V error = V::all(3) * (bound(3) * max_e * max_z + error_e * max_z + error_z * max_e) * magnitude(inverse);
-    return lanes & less_equal(t, error);
+    t = (e[0] * (a.z * scale) + e[1] * (b.z * scale) + e[2] * (c.z * scale)) * inverse;
   }
 
   /// Sets the barycentric weights of a lane.
@@ -117,8 +93,6 @@ struct SphereLanes {
     const V near = where_less(b, zero, q, other), far = where_less(b, zero, other, q);
     t = where_less(zero, c, near, far);
   }
-
-  static ALHAZEN_INLINE uint32_t unsure(uint32_t) { return 0; }
 
   template <class Real>
   ALHAZEN_INLINE void fill(int, Hit<Real>& hit) const {

@@ -20,11 +20,6 @@ inline constexpr uint32_t simd_walks = 12;
 /// In a tree no larger than this, which the caches near a core hold, there is little to wait for: rays walk alone.
 inline constexpr size_t most_cached_bytes = size_t{1} << 19;
 
-/// A query of which a walk was not sure, from the start. Defined in simd_in_double.h, for a translation unit of its own
-/// (render/kernels/in_double.cpp): compilers give up inlining what is hot where units grow.
-template <bool any_hit, bool instances, class Real>
-bool walk_in_double(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max, Hit<Real>& hit);
-
 /// The ray queries that integrators ask, answered by the BVH of CPUs.
 template <class Real>
 class SimdBvhIntersector {
@@ -48,8 +43,7 @@ class SimdBvhIntersector {
   template <bool any_hit, class RayOf, class Limit, class Answer>
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     if (few_.is_few())
-      few_.template trace<any_hit>(count, ray, t_max, answer, [&](uint32_t i, bool is_unsure) {
-        if (is_unsure) return answer_in_double<any_hit, false>(i, ray, t_max, answer);
+      few_.template trace<any_hit>(count, ray, t_max, answer, [&](uint32_t i) {
         Hit<Real> hit;
         const bool found = walk<any_hit, false>(ray(i), t_max(i), hit);
         answer(i, found, hit);
@@ -79,11 +73,7 @@ class SimdBvhIntersector {
         continue;
       }
       packet.walk(*scene_);
-      for (uint32_t i = 0; i < some; ++i)
-        if (packet.is_unsure(i))
-          answer_in_double<false, false>(i, ray_of, limit_of, answer_of);
-        else
-          answer_of(i, packet.found(i), packet.hit(i));
+      for (uint32_t i = 0; i < some; ++i) answer_of(i, packet.found(i), packet.hit(i));
     }
   }
 
@@ -109,10 +99,7 @@ class SimdBvhIntersector {
           prefetch(walk.current());
           continue;
         }
-        if (walk.is_unsure())
-          answer_in_double<any_hit, instances>(query[w], ray, t_max, answer);
-        else
-          answer(query[w], walk.found(), walk.hit());
+        answer(query[w], walk.found(), walk.hit());
         if (next < count) {
           query[w] = next;
           walk.start(*scene_, ray(next), t_max(next));
@@ -147,17 +134,9 @@ class SimdBvhIntersector {
     walk.start(*scene_, ray, t_max);
     while (walk.step(*scene_)) {
     }
-    if (walk.is_unsure()) return walk_in_double<any_hit, instances>(*scene_, ray, t_max, hit);
     hit = walk.hit();
     if (!walk.found()) hit.primitive = PrimitiveId();
     return walk.found();
-  }
-
-  template <bool any_hit, bool instances, class RayOf, class Limit, class Answer>
-  ALHAZEN_RARE void answer_in_double(uint32_t i, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    Hit<Real> hit;
-    const bool found = walk_in_double<any_hit, instances>(*scene_, ray(i), t_max(i), hit);
-    answer(i, found, hit);
   }
 
   static size_t bytes(const SceneView<Real>& scene) {

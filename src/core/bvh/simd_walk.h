@@ -106,9 +106,8 @@ class OctantFirst {
   uint32_t child_[simd_stack_size];
 };
 
-/// `instances`: whether the scene has any; where it has none, nothing is paid for them. `in_double`: whether triangles
-/// of which the test in float is not sure are tested again at once. Calls in the loop cost all walks, and few need any.
-template <bool any_hit, bool instances, class Real, class Stack, bool in_double = false>
+/// `instances`: whether the scene has any; where it has none, nothing is paid for them.
+template <bool any_hit, bool instances, class Real, class Stack>
 class alignas(64) SimdWalk {
  public:
   /// `stack` lies elsewhere: walks side by side are to be few cache lines each.
@@ -122,7 +121,6 @@ class alignas(64) SimdWalk {
     t_max_ = simd_limit(t_max);
     height_ = 0;
     found_ = false;
-    doubt_ = {};
     // Nothing to visit but an empty leaf where there is no tree, or no ray.
     current_ = scene.simd_nodes_count > 0 && can_walk(ray) ? 0 : SimdChild::nothing;
     if constexpr (instances)
@@ -137,7 +135,7 @@ class alignas(64) SimdWalk {
       if (stack_->push(scene.simd_nodes[current_], box_, t_max_, height_, current_)) return true;
     } else if (enter_if_instance(scene)) {
       return true;
-    } else if (intersect_leaf<in_double>(scene, current_, *ray_, sheared_, hit_, doubt_)) {
+    } else if (intersect_leaf(scene, current_, *ray_, sheared_, hit_)) {
       if constexpr (instances) hit_.instance = within_.instance;
       found_ = true;
       if (any_hit) return false;
@@ -145,15 +143,6 @@ class alignas(64) SimdWalk {
     }
     if (stack_->pop(t_max_, within_.base, height_, current_)) return true;
     return leave_if_within();
-  }
-
-  /// Whether what was found does not count, since the sign of a distance was lost in rounding on the way: then the walk
-  /// is to be repeated with `in_double`.
-  ALHAZEN_INLINE bool is_unsure() const {
-    if (!ALHAZEN_UNLIKELY(doubt_.lanes != 0) || (any_hit && found_)) return false;
-    if (instances || doubt_.more) return true;
-    const ShearedRay<Real> sheared = sheared_;  // a copy, so that the walk itself need not be in memory
-    return is_hit_in_double(*doubt_.block, sheared, doubt_.lanes);
   }
 
   uint32_t current() const { return current_; }
@@ -215,7 +204,6 @@ class alignas(64) SimdWalk {
   uint32_t current_;
   int height_;
   bool found_;
-  Doubt<Real> doubt_;
   const Ray<Real>* ray_;
   Hit<Real> hit_;
   ShearedRay<Real> sheared_;

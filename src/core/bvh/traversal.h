@@ -63,6 +63,7 @@ ALHAZEN_HD bool intersect_primitive(const SceneView<Real>& scene, PrimitiveId pr
   bool met = false;
   switch (primitive.kind()) {
     case PrimitiveKind::triangle: {
+      if (primitive == sheared.left) return false;
       const uint32_t* v = scene.triangles[primitive.index()].vertex;
       met = intersect_triangle(sheared, scene.positions[v[0]], scene.positions[v[1]], scene.positions[v[2]], hit.t,
                                found.t, found.b1, found.b2);

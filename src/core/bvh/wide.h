@@ -92,7 +92,8 @@ ALHAZEN_HD inline bool intersect_primitive(const WidePrimitive& primitive, const
   bool met = false;
   switch (primitive.id.kind()) {
     case PrimitiveKind::triangle:
-      met = intersect_triangle(sheared, primitive.a, primitive.b, primitive.c, hit.t, found.t, found.b1, found.b2);
+      met = primitive.id != sheared.left &&
+            intersect_triangle(sheared, primitive.a, primitive.b, primitive.c, hit.t, found.t, found.b1, found.b2);
       break;
     case PrimitiveKind::sphere:
       met = intersect_sphere(ray, primitive.a, primitive.b.x, hit.t, found.t);

@@ -204,9 +204,9 @@ class PathBatch {
       Lane& lane = lanes_[index];
       if (diffuse_.is_lit(place)) {
         ++lane.record.shadow_rays;
-        ask_for_light(index, diffuse_.shadow(place, lane.path.ray.time), diffuse_.lit(place));
+        ask_for_light(index, diffuse_.shadow(place, lane.hit, lane.path.ray.time), diffuse_.lit(place));
       }
-      diffuse_.take_over(place, lane.path);
+      diffuse_.take_over(place, lane.hit, lane.path);
       go_on_or_end(diffuse_.goes_on(place), index);
     }
     diffuse_.clear();

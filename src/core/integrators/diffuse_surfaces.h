@@ -65,16 +65,19 @@ class DiffuseSurfaces {
 
   bool is_lit(uint32_t i) const { return is_lit_[i]; }
   Vec3<Real> lit(uint32_t i) const { return lit_[i]; }
-  ShadowRay<Real> shadow(uint32_t i, Real time) const {
-    return {{shadow_origin_[i], shadow_direction_[i], time}, shadow_t_max_[i]};
+  /// `hit` is where the surface was met.
+  ALHAZEN_INLINE ShadowRay<Real> shadow(uint32_t i, const Hit<Real>& hit, Real time) const {
+    return {{shadow_origin_[i], shadow_direction_[i], time, hit.primitive, hit.instance}, shadow_t_max_[i]};
   }
   bool goes_on(uint32_t i) const { return goes_on_[i]; }
-  ALHAZEN_INLINE void take_over(uint32_t i, PathState<Real>& path) const {
+  ALHAZEN_INLINE void take_over(uint32_t i, const Hit<Real>& hit, PathState<Real>& path) const {
     path.throughput = throughput_[i];
     path.bsdf_pdf = bsdf_pdf_[i];
     path.is_specular = false;
     path.ray.origin = origin_[i];
     path.ray.direction = direction_[i];
+    path.ray.left = hit.primitive;
+    path.ray.left_instance = hit.instance;
     path.travelled = 0;
     ++path.vertex;
   }

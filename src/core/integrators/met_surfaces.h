@@ -43,13 +43,9 @@ class MetSurfaces {
                                                   const Hit<Real>& hit) const {
     const TriangleRecord& triangle = scene.triangles[hit.primitive.index()];
     ShadingPoint<Real> point;
-    point.si = {position_[i],
-                position_error_[i],
-                normal_[i],
-                shading_normal_[i],
-                triangle_uv(scene, triangle, hit),
-                triangle.surface,
-                ray.time};
+    point.si = {
+        position_[i],     position_error_[i], normal_[i],    shading_normal_[i], triangle_uv(scene, triangle, hit),
+        triangle.surface, ray.time,           hit.primitive, hit.instance};
     set_material(scene, ray, hit, frame(i), point);
     return point;
   }

@@ -39,7 +39,8 @@ ALHAZEN_HD Real random_of_hit(uint32_t hash, HitChoice choice) {
 
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Ray<Real> spawn_ray(const SurfaceInteraction<Real>& si, const Vec3<Real>& direction) {
-  return {offset_origin(si.position, si.position_error, si.normal, direction), direction, si.time};
+  return {offset_origin(si.position, si.position_error, si.normal, direction), direction, si.time, si.primitive,
+          si.instance};
 }
 
 /// Share of such rays that the surface stops.

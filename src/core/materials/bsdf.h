@@ -16,13 +16,20 @@ namespace ALHAZEN_CORE {
 template <class Real>
 struct Bsdf {
   MaterialKind kind;
-  Frame<Real> frame;            ///< normal: the shading normal
-  Vec3<Real> a;                 ///< diffuse: reflectance; conductor: eta
-  Vec3<Real> b;                 ///< conductor: k; diffuse_transmission: transmittance
-  Real alpha;                   ///< conductor, dielectric: roughness of GGX, of anisotropic ones along the tangent
-  Real ior;                     ///< dielectrics
-  Real alpha_v{};               ///< anisotropic kinds: along the bitangent
-  LayeredBsdf<Real> layered{};  ///< of that kind alone
+  Frame<Real> frame;  ///< normal: the shading normal
+  Vec3<Real> a;       ///< diffuse: reflectance; conductor: eta
+  Vec3<Real> b;       ///< conductor: k; diffuse_transmission: transmittance
+  Real alpha;         ///< conductor, dielectric: roughness of GGX, of anisotropic ones along the tangent
+  Real ior;           ///< dielectrics
+  Real alpha_v{};     ///< anisotropic kinds: along the bitangent
+  union {
+    LayeredBsdf<Real> layered;  ///< of that kind alone; in a union, so that it is not initialised for the others
+  };
+
+  ALHAZEN_HD Bsdf() {}
+  ALHAZEN_HD Bsdf(MaterialKind kind_, const Frame<Real>& frame_, const Vec3<Real>& a_, const Vec3<Real>& b_,
+                  Real alpha_, Real ior_, Real alpha_v_ = 0)
+      : kind(kind_), frame(frame_), a(a_), b(b_), alpha(alpha_), ior(ior_), alpha_v(alpha_v_) {}
 
   ALHAZEN_HD DiffuseBsdf<Real> diffuse() const { return {a}; }
   ALHAZEN_HD ConductorBsdf<Real> conductor() const { return {a, b, alpha}; }

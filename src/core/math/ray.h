@@ -4,6 +4,7 @@
 
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
+#include "core/shapes/primitive_id.h"
 
 namespace ALHAZEN_CORE {
 
@@ -12,6 +13,10 @@ struct Ray {
   Vec3<Real> origin;
   Vec3<Real> direction;  ///< unit length
   Real time{};           ///< 0 at shutter open, 1 at shutter close
+  /// The primitive that the ray starts from, and its instance. A triangle is flat, so a ray that leaves it cannot hit
+  /// it again: the intersectors skip it, where rounding would hide on which side of it the origin is.
+  PrimitiveId left{};
+  uint32_t left_instance = no_instance;
 };
 
 /// `position` moved off the surface to the side that `direction` points to, by the bound on the error of `position`

@@ -79,12 +79,14 @@ ALHAZEN_HD Ray<Real> object_ray(const InstanceRecord<Real>& instance, const Ray<
           transform_direction(instance.object_from_world, ray.direction), ray.time};
 }
 
-/// The ray in the space of the object of instance `index`.
+/// The ray in the space of the object of instance `index`, where `left_instance` stands for the world.
 template <class Real>
 ALHAZEN_HD Ray<Real> object_ray(const SceneView<Real>& scene, uint32_t index, const Ray<Real>& ray) {
   const InstanceRecord<Real>& instance = scene.instances[index];
-  return instance.motion == no_motion ? object_ray(instance, ray)
-                                      : object_ray(instance_at(scene, index, ray.time), ray);
+  Ray<Real> inner =
+      instance.motion == no_motion ? object_ray(instance, ray) : object_ray(instance_at(scene, index, ray.time), ray);
+  if (ray.left_instance == index) inner.left = ray.left;
+  return inner;
 }
 
 /// How far a point of the object may be from where it is said to be once a ray that starts there has been brought back

@@ -18,6 +18,8 @@ struct SurfaceInteraction {
   Vec2<Real> uv;
   uint32_t surface;
   Real time;
+  PrimitiveId primitive{};  ///< that was hit, and its instance
+  uint32_t instance = no_instance;
 };
 
 /// Index into scene.surfaces.
@@ -288,6 +290,8 @@ ALHAZEN_HD ALHAZEN_HOT void meet_surface(const SceneView<Real>& scene, const Ray
       break;
   }
   si.time = ray.time;
+  si.primitive = hit.primitive;
+  si.instance = hit.instance;
 }
 
 template <class Real>

@@ -15,6 +15,7 @@ struct ShearedRay {
   Vec3<Real> origin;  ///< along kx, ky and kz
   Vec3<Real> shear;
   int kx, ky, kz;
+  PrimitiveId left;  ///< the triangle that the ray starts from, where that is one of this space
 };
 
 template <class Real>
@@ -26,53 +27,14 @@ ALHAZEN_HD ALHAZEN_HOT ShearedRay<Real> shear_ray(const Ray<Real>& ray) {
   s.origin = {ray.origin[s.kx], ray.origin[s.ky], ray.origin[s.kz]};
   const Real inverse = Real(1) / ray.direction[s.kz];
   s.shear = {ray.direction[s.kx] * inverse, ray.direction[s.ky] * inverse, inverse};
+  s.left = ray.left_instance == no_instance ? ray.left : PrimitiveId();
   return s;
 }
 
-/// A bound on the rounding of t in `intersect_triangle` (PBR 4th ed., 6.8.7): above it t has the right sign. `p` are
-/// the sheared vertices, `inverse_det` the reciprocal of the sum of edge functions `e`.
-template <class Real>
-ALHAZEN_HD ALHAZEN_HOT Real triangle_t_error(const Vec3<Real> p[3], const Vec3<Real>& e, Real inverse_det) {
-  const auto largest = [](Real a, Real b, Real c) { return larger(std::abs(a), larger(std::abs(b), std::abs(c))); };
-  const Real max_x = largest(p[0].x, p[1].x, p[2].x);
-  const Real max_y = largest(p[0].y, p[1].y, p[2].y);
-  const Real max_z = largest(p[0].z, p[1].z, p[2].z);
-  const Real max_e = largest(e.x, e.y, e.z);
-  const Real error_x = rounding_bound<Real>(5) * (max_x + max_z);
-  const Real error_y = rounding_bound<Real>(5) * (max_y + max_z);
-  const Real error_z = rounding_bound<Real>(3) * max_z;
-  const Real error_e = 2 * (rounding_bound<Real>(2) * max_x * max_y + error_y * max_x + error_x * max_y);
-  return 3 * (rounding_bound<Real>(3) * max_e * max_z + error_e * max_z + error_z * max_e) * std::abs(inverse_det);
-}
-
-template <class Real>
-ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>& p0, const Vec3<Real>& p1,
-                                   const Vec3<Real>& p2, Real t_max, Real& t, Real& b1, Real& b2);
-
-/// Decides where rounding hides the sign of t: by the same test in double, where vertices and origin of a float ray are
-/// exact. Rays start off the surface that they leave (offset_origin), so that surface is behind them and one that joins
-/// it at an edge is ahead. In double such hits count as behind: one ray in 10^13 comes so close to an edge.
-template <class Real>
-ALHAZEN_HD ALHAZEN_RARE bool intersect_in_double(const ShearedRay<Real>& ray, const Vec3<Real>& p0,
-                                                 const Vec3<Real>& p1, const Vec3<Real>& p2, Real& t, Real& b1,
-                                                 Real& b2) {
-  if constexpr (sizeof(Real) < sizeof(double)) {
-    const ShearedRay<double> exact{convert<double>(ray.origin), convert<double>(ray.shear), ray.kx, ray.ky, ray.kz};
-    double distance, weight1, weight2;
-    if (!intersect_triangle(exact, convert<double>(p0), convert<double>(p1), convert<double>(p2), infinity<double>,
-                            distance, weight1, weight2))
-      return false;
-    t = static_cast<Real>(distance);
-    b1 = static_cast<Real>(weight1);
-    b2 = static_cast<Real>(weight2);
-    return true;
-  } else {
-    return false;
-  }
-}
-
 /// Intersects the triangle p0 p1 p2 at a distance in (0, t_max]: sets t and the barycentric weights. Rays through a
-/// shared edge or vertex always hit one of the triangles; degenerate triangles are never hit.
+/// shared edge or vertex always hit one of the triangles; degenerate triangles are never hit. The sign of a t that is
+/// within its rounding error is not sure: rays are spawned so that only that of the triangle they leave can be
+/// (`Ray::left`, `edge_clearance`).
 template <class Real>
 ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>& p0, const Vec3<Real>& p1,
                                    const Vec3<Real>& p2, Real t_max, Real& t, Real& b1, Real& b2) {
@@ -91,9 +53,6 @@ ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>
   const Vec3<Real> z = Vec3<Real>{p_t[0].z, p_t[1].z, p_t[2].z} * ray.shear.z;
   const Real distance = dot(e, z) * inverse_det;
   if (!(distance > 0 && distance <= t_max)) return false;
-  const Vec3<Real> scaled[3] = {{p_t[0].x, p_t[0].y, z.x}, {p_t[1].x, p_t[1].y, z.y}, {p_t[2].x, p_t[2].y, z.z}};
-  if (distance <= triangle_t_error(scaled, e, inverse_det))
-    return intersect_in_double(ray, p0, p1, p2, t, b1, b2) && t <= t_max;
   t = distance;
   b1 = e.y * inverse_det;
   b2 = e.z * inverse_det;

@@ -113,6 +113,13 @@ struct Lanes {
     return bits;
   }
 
+  /// A bit for each lane, set where a == b.
+  ALHAZEN_INLINE friend uint32_t equal(const Lanes& a, const Lanes& b) {
+    uint32_t bits = 0;
+    for (int i = 0; i < registers; ++i) bits |= equal_bits(a.r[i], b.r[i]) << (i * per_register);
+    return bits;
+  }
+
  private:
   static constexpr bool is_float = sizeof(T) == sizeof(float);
 
@@ -178,6 +185,14 @@ struct Lanes {
     if constexpr (register_bytes == 64 && !is_float) return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ);
 #endif
     return bits_of(a < b);
+  }
+
+  ALHAZEN_INLINE static uint32_t equal_bits(const Register& a, const Register& b) {
+#if defined(__AVX512F__)
+    if constexpr (register_bytes == 64 && is_float) return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_EQ_OQ);
+    if constexpr (register_bytes == 64 && !is_float) return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_EQ_OQ);
+#endif
+    return bits_of(a == b);
   }
 
   template <class Comparison>

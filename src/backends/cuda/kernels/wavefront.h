@@ -60,12 +60,19 @@ struct Slots {
   }
 
   ALHAZEN_HD Ray<Real> ray(uint32_t s) const {
-    return {{origin_x[s], origin_y[s], origin_z[s]}, {direction_x[s], direction_y[s], direction_z[s]}, time[s]};
+    return {{origin_x[s], origin_y[s], origin_z[s]},
+            {direction_x[s], direction_y[s], direction_z[s]},
+            time[s],
+            hit_primitive[s],
+            hit_instance[s]};
   }
+  /// Until it has hit something, the ray's slot says that it leaves what was hit before.
   ALHAZEN_HD void set_ray(uint32_t s, const Ray<Real>& ray) const {
     origin_x[s] = ray.origin.x, origin_y[s] = ray.origin.y, origin_z[s] = ray.origin.z;
     direction_x[s] = ray.direction.x, direction_y[s] = ray.direction.y, direction_z[s] = ray.direction.z;
     time[s] = ray.time;
+    hit_primitive[s] = ray.left;
+    hit_instance[s] = ray.left_instance;
   }
   ALHAZEN_HD void load(uint32_t s, IterativeState<Real>& path) const {
     path.ray = ray(s);
@@ -319,7 +326,9 @@ struct ShadowKernel {
     const ShadowRay<Real> shadow{
         {{slots.shadow_origin_x[s], slots.shadow_origin_y[s], slots.shadow_origin_z[s]},
          {slots.shadow_direction_x[s], slots.shadow_direction_y[s], slots.shadow_direction_z[s]},
-         slots.time[s]},
+         slots.time[s],
+         slots.hit_primitive[s],
+         slots.hit_instance[s]},
         slots.shadow_t_max[s]};
     const SceneView<Real>& scene = stage.launch.scene;
     const Real share = free_share(scene, Tracing::intersector(scene, thread.stacks()), shadow);
