@@ -18,6 +18,7 @@
 #include "scene/flatten_materials.h"
 #include "scene/flatten_trees.h"
 #include "scene/lost_light.h"
+#include "scene/open_backs.h"
 #include "scene/render_space.h"
 #include "scene/thread_limit.h"
 
@@ -60,6 +61,8 @@ class Flattener {
     emission_textures_ = flatten_materials(scene_, out_);
     for (const MaterialRecord<Real>& material : out_.materials) {
       if (material.features & MaterialFeatures::cutout) flat.view.has_cutouts = 1;
+      if (material.opacity.count > 0) flat.view.lets_light_through = 1;
+      if (material.features & MaterialFeatures::one_sided) has_one_sided_ = true;
       if (has_lobes(material.kind)) flat.view.has_lobes = 1;
     }
     add_described_lights(scene_, out_, flat.view, light_measures_);
@@ -80,10 +83,14 @@ class Flattener {
   void build_trees_and_ask(FlatScene<Real>& flat) {
     const bool asks_for_lost_light = options_.path_segments > 0 && has_lights_without_size(scene_);
     FlattenOptions options = options_;
-    if (asks_for_lost_light) options.trees.binary = true;
+    if (has_one_sided_ || asks_for_lost_light) options.trees.binary = true;
     build_trees(options, out_, flat.statistics);
     add_shining_triangles(out_);
     assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
+    if (has_one_sided_ && open_seen_backs(whole_view(flat), options_.threads, out_)) {
+      flat.view.lets_light_through = 1;
+      flat.view.light_passes_backs = has_only_lights_without_size(out_) && stands_in_the_open(whole_view(flat)) ? 1 : 0;
+    }
     if (asks_for_lost_light)
       if (const auto lost = find_lost_light(whole_view(flat), options_.path_segments))
         warn_of_lost_light(*lost, scene_, surface_shapes_[lost->surface]->where, diagnostics_);
@@ -98,6 +105,8 @@ class Flattener {
     SceneView<Real> view = out_.view();
     view.camera = flat.view.camera;
     view.has_cutouts = flat.view.has_cutouts;
+    view.lets_light_through = flat.view.lets_light_through;
+    view.light_passes_backs = flat.view.light_passes_backs;
     return view;
   }
 
@@ -525,6 +534,7 @@ class Flattener {
   int64_t width_ = 0, height_ = 0;
   SceneArrays<Real> out_;
   std::vector<bool> needs_uv_;
+  bool has_one_sided_ = false;
   std::vector<const Shape*> surface_shapes_;     ///< by surface
   std::vector<bool> is_object_;                  ///< by group
   std::vector<uint32_t> uses_;                   ///< by mesh: placements to come

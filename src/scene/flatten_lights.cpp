@@ -138,6 +138,17 @@ void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>&
 }
 
 template <class Real>
+bool has_only_lights_without_size(const SceneArrays<Real>& out) {
+  return std::all_of(out.lights.begin(), out.lights.end(), [](const LightRecord<Real>& light) {
+    return light.kind == LightKind::point || light.kind == LightKind::spot || light.kind == LightKind::distant ||
+           light.kind == LightKind::goniometric || light.kind == LightKind::projection;
+  });
+}
+
+template bool has_only_lights_without_size(const SceneArrays<float>&);
+template bool has_only_lights_without_size(const SceneArrays<double>&);
+
+template <class Real>
 void assign_light_probabilities(const std::vector<double>& measures, LightSampling sampling, SceneArrays<Real>& out,
                                 SceneView<Real>& view) {
   const size_t count = out.lights.size();

@@ -28,4 +28,8 @@ void add_shining_triangles(SceneArrays<Real>& out);
 /// A light tree is built for more lights of finite distance than that.
 inline constexpr size_t most_lights_without_tree = 2;
 
+/// Whether rays of paths find no light, so that how shadow rays fare alone says what is lit.
+template <class Real>
+bool has_only_lights_without_size(const SceneArrays<Real>& out);
+
 }  // namespace alhazen

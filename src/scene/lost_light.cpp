@@ -119,7 +119,8 @@ class LostLightSearch {
 
   bool is_cut_out(const Hit<Real>& hit, const SurfaceInteraction<Real>& si) const {
     const MaterialRecord<Real>& material = material_met(view_, hit);
-    return (material.features & MaterialFeatures::cutout) && opacity(view_, material, Ray<Real>{}, hit, si) < Real(0.5);
+    return (material.features & MaterialFeatures::cutout) &&
+           opacity(view_, material, Ray<Real>{}, hit, si, RayKind::scattered) < Real(0.5);
   }
 
   /// What becomes of light that falls on a material: shares of it.
@@ -167,7 +168,7 @@ class LostLightSearch {
     Ray<Real> ray{light.position, direction, Real(0)};
     Hit<Real> hit;
     Real travelled = 0;
-    if (!closest_stop(view_, intersector_, ray, hit, travelled)) return;
+    if (!closest_stop(view_, intersector_, RayKind::scattered, ray, hit, travelled)) return;
     const SurfaceInteraction<Real> si = surface_interaction(view_, ray, hit);
     if (is_zero(sample_chosen_light(view_, light, si.position, false, Real(0), u).radiance)) return;
     if (may_be_sharp(view_.materials[view_.surfaces[si.surface].material].kind)) follow(ray, hit);
@@ -203,7 +204,7 @@ class LostLightSearch {
     for (uint32_t segments = 3; segments <= max_segments_; ++segments) {
       Hit<Real> hit;
       Real travelled = 0;
-      if (!closest_stop(view_, intersector_, ray, hit, travelled)) return false;
+      if (!closest_stop(view_, intersector_, RayKind::scattered, ray, hit, travelled)) return false;
       const ShadingPoint<Real> point = shading_point(view_, ray, hit);
       const BsdfSample<Real> s = sample_bsdf(point.bsdf, point.wo, random(), Vec2<Real>{random(), random()});
       if (!(s.pdf > 0) || is_zero(s.weight)) return false;

@@ -174,7 +174,7 @@ class PathBatch {
   template <class Numbers>
   ALHAZEN_INLINE void shade_one(const Numbers& numbers, uint32_t place, uint32_t index) {
     Lane& lane = lanes_[index];
-    if (scene_.has_cutouts && passes(scene_, lane.hit, lane.path.ray, lane.path.travelled))
+    if (scene_.has_cutouts && passes(scene_, lane.hit, ray_kind(lane.path.vertex), lane.path.ray, lane.path.travelled))
       return go_on_or_end(lane.record.segments < most_passages, index);
     const bool is_met = met_.takes(lane.hit);
     const ShadingPoint<Real> point = is_met ? met_.shading_point(place, scene_, lane.path.ray, lane.hit)
@@ -213,7 +213,7 @@ class PathBatch {
   }
 
   void look_for_light() {
-    if (scene_.has_cutouts) {
+    if (scene_.lets_light_through) {
       for (const WayToLight* way = ways_; way != ways_ + ways_count_; ++way) {
         const Real share = free_share(scene_, intersector_, way->shadow);
         if (share > 0) lanes_[way->lane].record.radiance += way->radiance * share;

@@ -15,7 +15,8 @@ ALHAZEN_HD Vec3<Real> cast_ray_branching(const SceneView<Real>& scene, const Int
   ++record.segments;
   Hit<Real> hit;
   Real travelled = 0;
-  if (!closest_stop(scene, intersector, ray, hit, travelled)) return background_radiance(scene, ray.direction);
+  if (!closest_stop(scene, intersector, ray_kind(segment), ray, hit, travelled))
+    return background_radiance(scene, ray.direction);
   const ShadingPoint<Real> point = shading_point(scene, ray, hit);
   if (segment == 0) record_first_hit(point, travelled + hit.t, record);
   const Vec3<Real> share = arriving_share(point, travelled + hit.t);

@@ -44,7 +44,8 @@ ALHAZEN_HD ALHAZEN_HOT bool shade_at(const SceneView<Real>& scene, const Sampler
 template <class Real, class Sampler, class Record, class Light>
 ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
                                      const Hit<Real>& hit, IterativeState<Real>& path, Record& record, const Light&) {
-  if (scene.has_cutouts && passes(scene, hit, path.ray, path.travelled)) return record.segments < most_passages;
+  if (scene.has_cutouts && passes(scene, hit, ray_kind(path.vertex), path.ray, path.travelled))
+    return record.segments < most_passages;
   return shade_at(scene, sampler, max_segments, hit, shading_point(scene, path.ray, hit), path, record);
 }
 

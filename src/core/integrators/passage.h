@@ -1,7 +1,8 @@
 #pragma once
 
-// Surfaces that let rays through: by their alpha, at random, or because they are seen from behind and have one side.
-// Nothing here is run in scenes without such surfaces.
+// Surfaces that let rays through: by their alpha, at random, or because they have one side and the camera looks at
+// their back. Backs let rays of the camera through; other rays they stop, unless the triangle has been found to be
+// absent (scene/open_backs.h). Nothing here is run in scenes without such surfaces.
 
 #include "core/materials/bsdf.h"
 #include "core/math/ray.h"
@@ -43,14 +44,26 @@ ALHAZEN_HD ALHAZEN_HOT Ray<Real> spawn_ray(const SurfaceInteraction<Real>& si, c
           si.instance};
 }
 
+/// Who asks whether a surface lets a ray through: the camera's ray, before anything has scattered it, one that a
+/// surface has scattered, or a shadow ray, which goes against the light.
+enum class RayKind : uint32_t { camera, scattered, shadow };
+
 /// Share of such rays that the surface stops.
 template <class Real>
 ALHAZEN_HD Real opacity(const SceneView<Real>& scene, const MaterialRecord<Real>& material, const Ray<Real>& ray,
-                        const Hit<Real>& hit, const SurfaceInteraction<Real>& si) {
-  if ((material.features & MaterialFeatures::one_sided) && dot(ray.direction, si.normal) > 0) return 0;
+                        const Hit<Real>& hit, const SurfaceInteraction<Real>& si, RayKind kind) {
+  if (material.features & MaterialFeatures::absent) return 0;
+  if (material.features & MaterialFeatures::one_sided) {
+    const bool meets_back = dot(ray.direction, si.normal) > 0;
+    if (kind == RayKind::camera && meets_back) return 0;
+    if (kind == RayKind::shadow && scene.light_passes_backs && !meets_back) return 0;
+  }
   if (material.opacity.count == 0) return 1;
   return clamp(evaluate_texture(scene, material.opacity, texture_point(si, hit)).x, Real(0), Real(1));
 }
+
+/// Of a path that has met so many surfaces.
+ALHAZEN_HD inline RayKind ray_kind(uint32_t vertex) { return vertex == 0 ? RayKind::camera : RayKind::scattered; }
 
 template <class Real>
 ALHAZEN_HD const MaterialRecord<Real>& material_met(const SceneView<Real>& scene, const Hit<Real>& hit) {
@@ -60,12 +73,12 @@ ALHAZEN_HD const MaterialRecord<Real>& material_met(const SceneView<Real>& scene
 /// Whether the ray goes on as if nothing had been met; then it begins anew behind the surface, and `travelled` has
 /// grown by what lies before.
 template <class Real>
-ALHAZEN_HD ALHAZEN_COLD bool passes(const SceneView<Real>& scene, const Hit<Real>& hit, Ray<Real>& ray,
+ALHAZEN_HD ALHAZEN_COLD bool passes(const SceneView<Real>& scene, const Hit<Real>& hit, RayKind kind, Ray<Real>& ray,
                                     Real& travelled) {
   const MaterialRecord<Real>& material = material_met(scene, hit);
   if (!(material.features & MaterialFeatures::cutout)) return false;
   const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
-  const Real share = opacity(scene, material, ray, hit, si);
+  const Real share = opacity(scene, material, ray, hit, si, kind);
   if (share >= 1) return false;
   if (share > 0 && random_of_hit<Real>(hash_of_hit(ray, hit), HitChoice::passage) < share) return false;
   travelled += hit.t;
@@ -83,7 +96,7 @@ ALHAZEN_HD Real transmittance(const SceneView<Real>& scene, const Intersector& i
     const MaterialRecord<Real>& material = material_met(scene, hit);
     if (!(material.features & MaterialFeatures::cutout)) return 0;
     const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
-    share *= 1 - opacity(scene, material, ray, hit, si);
+    share *= 1 - opacity(scene, material, ray, hit, si, RayKind::shadow);
     t_max -= hit.t;
     ray = spawn_ray(si, ray.direction);
   }
@@ -92,10 +105,10 @@ ALHAZEN_HD Real transmittance(const SceneView<Real>& scene, const Intersector& i
 
 /// closest_hit of what stops the ray, which may begin behind surfaces afterwards.
 template <class Real, class Intersector>
-ALHAZEN_HD bool closest_stop(const SceneView<Real>& scene, const Intersector& intersector, Ray<Real>& ray,
+ALHAZEN_HD bool closest_stop(const SceneView<Real>& scene, const Intersector& intersector, RayKind kind, Ray<Real>& ray,
                              Hit<Real>& hit, Real& travelled) {
   for (uint32_t i = 0; i < most_passages && intersector.closest_hit(ray, infinity<Real>, hit); ++i)
-    if (!scene.has_cutouts || !passes(scene, hit, ray, travelled)) return true;
+    if (!scene.has_cutouts || !passes(scene, hit, kind, ray, travelled)) return true;
   return false;
 }
 

@@ -109,7 +109,8 @@ ALHAZEN_HD ALHAZEN_HOT bool light_and_scatter(const SceneView<Real>& scene, cons
 template <class Real, class Sampler, class Record, class Light>
 ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
                                      const Hit<Real>& hit, PathState<Real>& path, Record& record, const Light& light) {
-  if (scene.has_cutouts && passes(scene, hit, path.ray, path.travelled)) return record.segments < most_passages;
+  if (scene.has_cutouts && passes(scene, hit, ray_kind(path.vertex), path.ray, path.travelled))
+    return record.segments < most_passages;
   const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
   return arrive(scene, max_segments, hit, point, path, record) &&
          light_and_scatter(scene, sampler, point, path, record, light);

@@ -147,7 +147,7 @@ ALHAZEN_HD bool is_free(const Intersector& intersector, const ShadowRay<Real>& s
 template <class Real, class Intersector>
 ALHAZEN_HD Real free_share(const SceneView<Real>& scene, const Intersector& intersector,
                            const ShadowRay<Real>& shadow) {
-  if (scene.has_cutouts) return transmittance(scene, intersector, shadow.ray, shadow.t_max);
+  if (scene.lets_light_through) return transmittance(scene, intersector, shadow.ray, shadow.t_max);
   return is_free(intersector, shadow) ? Real(1) : Real(0);
 }
 
