@@ -144,6 +144,21 @@ TYPED_TEST(BvhOf, IdenticalBoxes) {
   EXPECT_FALSE(expect_same<TypeParam>(scene.view, ray_from<Real>({}, {0, 0, -1})));
 }
 
+/// Whether the next precision says the same of a hit. Triangles seen from the edge, and large ones close by, may seem
+/// to be hit out of their boxes.
+template <class Real>
+bool is_sure(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>& hit) {
+  using Wide = std::conditional_t<sizeof(Real) == sizeof(float), double, long double>;
+  if (hit.primitive.kind() != PrimitiveKind::triangle) return true;
+  const uint32_t* const v = scene.triangles[hit.primitive.index()].vertex;
+  const auto vertex = [&](int i) { return convert<Wide>(scene.positions[v[i]]); };
+  const Ray<Wide> wide{convert<Wide>(ray.origin), convert<Wide>(ray.direction)};
+  Wide t = 0, b1 = 0, b2 = 0;
+  return intersect_triangle(shear_ray(wide), vertex(0), vertex(1), vertex(2), std::numeric_limits<Wide>::max(), t, b1,
+                            b2) &&
+         std::abs(static_cast<Wide>(hit.t) - t) < Wide(1e-3) * t;
+}
+
 /// From 1e-8 to 1e12 in one scene. (Triangles below 1e-11 have no area in float and are left out.)
 TYPED_TEST(BvhOf, HugeRangeOfSizes) {
   using Real = typename TypeParam::Real;
@@ -157,10 +172,17 @@ TYPED_TEST(BvhOf, HugeRangeOfSizes) {
     primitives.add_sphere(random.on_sphere() * size, 0.3 * size);
   }
   const FlatScene<Real> scene = primitives.flat<Real>();
+  const LinearIntersector<Real> linear(scene.view);
+  size_t sure = 0;
   for (size_t i = 0; i < effort(20'000); ++i) {
     const Vec3d origin = random.on_sphere() * random.magnitude_between(1e-8, 1e12);
-    expect_same<TypeParam>(scene.view, ray_from<Real>(origin, random.on_sphere()));
+    const Ray<Real> ray = ray_from<Real>(origin, random.on_sphere());
+    Hit<Real> hit;
+    if (linear.closest_hit(ray, infinity<Real>, hit) && !is_sure(scene.view, ray, hit)) continue;
+    ++sure;
+    expect_same<TypeParam>(scene.view, ray);
   }
+  EXPECT_GT(sure, effort(19'000));
 }
 
 /// Not numbers and infinities in every component: an answer comes, whatever it is.
