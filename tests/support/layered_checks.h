@@ -19,16 +19,19 @@ struct Energy {
 /// Share of the light that goes on, in the strongest channel, the change of radiance by refraction undone.
 template <class Real>
 Energy energy_of(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, int samples, Random& random) {
-  double sum = 0, squares = 0;
+  // Channel by channel: lobes of complementary colours have weights above 1 each in a channel of its own.
+  Vec3d sum{}, squares{};
   for (int i = 0; i < samples; ++i) {
     const Real u_lobe = random.uniform<Real>();
     const BsdfSample<Real> s = sample_bsdf(bsdf, wo, u_lobe, random.uniform_2d<Real>());
-    const double e = s.pdf > 0 ? static_cast<double>(max_component(s.weight) * s.eta * s.eta) : 0;
-    EXPECT_TRUE(std::isfinite(e) && e >= 0);
+    const Vec3d e = s.pdf > 0 ? convert<double>(s.weight) * static_cast<double>(s.eta * s.eta) : Vec3d{};
+    EXPECT_TRUE(std::isfinite(max_component(e)) && e.x >= 0 && e.y >= 0 && e.z >= 0);
     sum += e, squares += e * e;
   }
-  const double mean = sum / samples;
-  return {mean, std::sqrt(std::max(0.0, squares / samples - mean * mean) / samples)};
+  const Vec3d means = sum * (1.0 / samples);
+  const int strongest = max_axis(means);
+  const double mean = means[strongest];
+  return {mean, std::sqrt(std::max(0.0, squares[strongest] / samples - mean * mean) / samples)};
 }
 
 }  // namespace alhazen::test
