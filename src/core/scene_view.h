@@ -77,7 +77,6 @@ struct SceneView {
   Real exposure = 1;                     ///< factor on recorded radiance
   uint32_t has_cutouts = 0;              ///< 1 where a material lets rays through, if only those of the camera
   uint32_t lets_light_through = 0;       ///< 1 where a material lets shadow rays through
-  uint32_t light_passes_backs = 0;       ///< 1: lights, like the camera, look through the backs of what has one side
   uint32_t has_lobes = 0;                ///< 1 where a material chooses among lobes at random
 };
 

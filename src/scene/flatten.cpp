@@ -81,16 +81,16 @@ class Flattener {
  private:
   /// Builds the trees, and asks with rays what only they tell. The binary tree serves for that.
   void build_trees_and_ask(FlatScene<Real>& flat) {
+    if (has_one_sided_) split_coincident_sides(out_);
     const bool asks_for_lost_light = options_.path_segments > 0 && has_lights_without_size(scene_);
     FlattenOptions options = options_;
     if (has_one_sided_ || asks_for_lost_light) options.trees.binary = true;
     build_trees(options, out_, flat.statistics);
     add_shining_triangles(out_);
     assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
-    if (has_one_sided_ && open_seen_backs(whole_view(flat), options_.threads, out_)) {
+    if (has_one_sided_ && open_seen_backs(whole_view(flat), static_cast<uint32_t>(width_),
+                                          static_cast<uint32_t>(height_), options_.threads, out_))
       flat.view.lets_light_through = 1;
-      flat.view.light_passes_backs = has_only_lights_without_size(out_) && stands_in_the_open(whole_view(flat)) ? 1 : 0;
-    }
     if (asks_for_lost_light)
       if (const auto lost = find_lost_light(whole_view(flat), options_.path_segments))
         warn_of_lost_light(*lost, scene_, surface_shapes_[lost->surface]->where, diagnostics_);
@@ -106,7 +106,6 @@ class Flattener {
     view.camera = flat.view.camera;
     view.has_cutouts = flat.view.has_cutouts;
     view.lets_light_through = flat.view.lets_light_through;
-    view.light_passes_backs = flat.view.light_passes_backs;
     return view;
   }
 

@@ -3,13 +3,18 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/bvh/traversal.h"
+#include "core/cameras/camera.h"
 #include "core/integrators/passage.h"
 #include "core/sampling/warp.h"
+#include "scene/flatten_lights.h"
 
 namespace alhazen {
 
@@ -20,6 +25,8 @@ constexpr double rows_per_radian = 16;
 constexpr int min_rows = 1, max_rows = 6;
 /// Backs that a ray goes through before it gives up.
 constexpr int max_backs = 64;
+/// Rays of the camera that look for backs behind small openings: one a pixel, up to these.
+constexpr uint32_t max_camera_rays = 1u << 16;
 /// Of all directions from a camera in the open, how many lead out of the scene: below is the ground, and before it what
 /// is looked at. From within a room few do, through its windows.
 constexpr double min_open_directions = 0.4;
@@ -80,59 +87,121 @@ class Eye {
   BvhIntersector<Real> intersector_;
 };
 
-/// The surface like `surface` whose material lets all rays through.
+/// Whether the triangle may be absent.
 template <class Real>
-class AbsentSurfaces {
- public:
-  explicit AbsentSurfaces(SceneArrays<Real>& out) : out_(out) {}
+bool is_candidate(const SceneView<Real>& view, uint32_t index) {
+  const SurfaceRecord& surface = view.surfaces[view.triangles[index].surface];
+  const uint32_t features = view.materials[surface.material].features;
+  return (features & MaterialFeatures::one_sided) && !(features & MaterialFeatures::half) && surface.light == no_light;
+}
 
-  uint32_t like(uint32_t surface) {
-    const auto [entry, is_new] = surfaces_.try_emplace(surface, static_cast<uint32_t>(out_.surfaces.size()));
-    if (is_new) {
-      SurfaceRecord record = out_.surfaces[surface];
-      record.material = material_like(record.material);
-      out_.surfaces.push_back(record);
+/// Marks the backs, of triangles below `end`, that the camera's rays through the middles of pixels go through.
+template <class Real>
+void mark_backs_in_picture(const SceneView<Real>& view, uint32_t width, uint32_t height, uint32_t end, int team,
+                           std::vector<uint8_t>& is_open) {
+  const BvhIntersector<Real> intersector(view);
+  const double pixels = static_cast<double>(width) * height;
+  const uint32_t step = static_cast<uint32_t>(std::ceil(std::sqrt(std::max(1.0, pixels / max_camera_rays))));
+#pragma omp parallel for schedule(dynamic) num_threads(team)
+  for (uint32_t y = step / 2; y < height; y += step)
+    for (uint32_t x = step / 2; x < width; x += step) {
+      const Vec2<Real> film{static_cast<Real>(x) + Real(0.5), static_cast<Real>(y) + Real(0.5)};
+      Ray<Real> ray = camera_ray(view.camera, film, Vec2<Real>{Real(0.5), Real(0.5)}, Real(0));
+      Hit<Real> hit;
+      Real travelled = 0;
+      for (int i = 0; i < max_backs && intersector.closest_hit(ray, infinity<Real>, hit); ++i) {
+        const Vec3<Real> direction = ray.direction;
+        if (!passes(view, hit, RayKind::camera, ray, travelled)) break;
+        const uint32_t index = hit.primitive.index();
+        if (hit.primitive.kind() != PrimitiveKind::triangle || index >= end || !is_candidate(view, index)) continue;
+        if (!(dot(triangle_front_normal(view, view.triangles[index]), direction) > 0)) continue;
+#pragma omp atomic write
+        is_open[index] = 1;
+      }
     }
-    return entry->second;
+}
+
+/// Sets of triangles that are joined.
+class JoinedSets {
+ public:
+  explicit JoinedSets(uint32_t count) : parent_(count) {
+    for (uint32_t i = 0; i < count; ++i) parent_[i] = i;
+  }
+  uint32_t root_of(uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(uint32_t a, uint32_t b) { parent_[root_of(a)] = root_of(b); }
+
+  /// The members of sets in which one is marked.
+  std::vector<uint8_t> of_marked(const std::vector<uint8_t>& marked) {
+    std::vector<uint8_t> has_marked(parent_.size()), members(parent_.size());
+    for (uint32_t i = 0; i < parent_.size(); ++i)
+      if (marked[i]) has_marked[root_of(i)] = 1;
+    for (uint32_t i = 0; i < parent_.size(); ++i) members[i] = has_marked[root_of(i)];
+    return members;
   }
 
  private:
-  uint32_t material_like(uint32_t material) {
-    const auto [entry, is_new] = materials_.try_emplace(material, static_cast<uint32_t>(out_.materials.size()));
-    if (is_new) {
-      MaterialRecord<Real> record = out_.materials[material];
-      record.features |= MaterialFeatures::cutout | MaterialFeatures::absent;
-      out_.materials.push_back(record);
-    }
-    return entry->second;
-  }
-
-  SceneArrays<Real>& out_;
-  std::map<uint32_t, uint32_t> surfaces_, materials_;
+  std::vector<uint32_t> parent_;
 };
 
-}  // namespace
-
-template <class Real>
-bool open_seen_backs(const SceneView<Real>& view, int threads, SceneArrays<Real>& out) {
-  const uint32_t end = out.objects.empty() ? view.triangles_count : out.objects[0].first_triangle;
-  std::vector<uint8_t> is_open(end);
-  const Eye<Real> eye(view);
-  const int team = threads > 0 ? threads : omp_get_max_threads();
-#pragma omp parallel for schedule(dynamic, 256) num_threads(team)
+/// The candidates below `end` by a corner each, or by an edge each whose ends are in ascending order.
+template <class Real, size_t points>
+std::vector<std::pair<std::array<Real, 3 * points>, uint32_t>> by_corner_or_edge(const SceneView<Real>& view,
+                                                                                 uint32_t end) {
+  std::vector<std::pair<std::array<Real, 3 * points>, uint32_t>> sorted;
   for (uint32_t i = 0; i < end; ++i) {
-    const SurfaceRecord& surface = view.surfaces[view.triangles[i].surface];
-    const bool is_candidate =
-        (view.materials[surface.material].features & MaterialFeatures::one_sided) && surface.light == no_light;
-    is_open[i] = is_candidate && eye.looks_at_back_of(i);
+    if (!is_candidate(view, i)) continue;
+    for (size_t k = 0; k < 3; ++k) {
+      std::array<std::array<Real, 3>, points> ends;
+      for (size_t n = 0; n < points; ++n) {
+        const Vec3<Real>& p = view.positions[view.triangles[i].vertex[(k + n) % 3]];
+        ends[n] = {p.x, p.y, p.z};
+      }
+      std::sort(ends.begin(), ends.end());
+      std::array<Real, 3 * points> key;
+      for (size_t n = 0; n < points; ++n) std::copy(ends[n].begin(), ends[n].end(), key.begin() + 3 * n);
+      sorted.push_back({key, i});
+    }
   }
-  AbsentSurfaces<Real> absent(out);
-  bool any = false;
-  for (uint32_t i = 0; i < end; ++i)
-    if (is_open[i]) out.triangles[i].surface = absent.like(out.triangles[i].surface), any = true;
-  return any;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
 }
 
+/// Cosine of the angle below which triangles that share an edge are one wall.
+constexpr double min_cosine_of_wall = 0.9999;
+
+/// Opens the walls of which a part is open: candidates in one plane, joined edge to edge.
+template <class Real>
+void open_whole_walls(const SceneView<Real>& view, std::vector<uint8_t>& is_open) {
+  const uint32_t end = static_cast<uint32_t>(is_open.size());
+  const auto edges = by_corner_or_edge<Real, 2>(view, end);
+  JoinedSets walls(end);
+  for (size_t i = 1; i < edges.size(); ++i) {
+    if (edges[i].first != edges[i - 1].first) continue;
+    const uint32_t a = edges[i].second, b = edges[i - 1].second;
+    if (dot(triangle_front_normal(view, view.triangles[a]), triangle_front_normal(view, view.triangles[b])) >
+        static_cast<Real>(min_cosine_of_wall))
+      walls.join(a, b);
+  }
+  is_open = walls.of_marked(is_open);
+}
+
+/// Which triangles have corners in common, directly or by others between them, with one that is open.
+template <class Real>
+std::vector<uint8_t> rooms_of(const SceneView<Real>& view, const std::vector<uint8_t>& is_open) {
+  const uint32_t end = static_cast<uint32_t>(is_open.size());
+  const auto corners = by_corner_or_edge<Real, 1>(view, end);
+  JoinedSets rooms(end);
+  for (size_t i = 1; i < corners.size(); ++i)
+    if (corners[i].first == corners[i - 1].first) rooms.join(corners[i].second, corners[i - 1].second);
+  std::vector<uint8_t> in_room = rooms.of_marked(is_open);
+  for (uint32_t i = 0; i < end; ++i) in_room[i] = in_room[i] && !is_open[i];
+  return in_room;
+}
+
+/// Whether the camera looks at the scene from outside.
 template <class Real>
 bool stands_in_the_open(const SceneView<Real>& view) {
   if (view.camera.kind == CameraKind::orthographic) return true;
@@ -150,9 +219,118 @@ bool stands_in_the_open(const SceneView<Real>& view) {
   return outwards >= directions * min_open_directions;
 }
 
-template bool stands_in_the_open(const SceneView<float>&);
-template bool stands_in_the_open(const SceneView<double>&);
-template bool open_seen_backs(const SceneView<float>&, int, SceneArrays<float>&);
-template bool open_seen_backs(const SceneView<double>&, int, SceneArrays<double>&);
+/// Surfaces like others but for a feature of their material.
+template <class Real>
+class SurfacesWithFeature {
+ public:
+  SurfacesWithFeature(SceneArrays<Real>& out, uint32_t feature) : out_(out), feature_(feature) {}
+
+  uint32_t like(uint32_t surface) {
+    const auto [entry, is_new] = surfaces_.try_emplace(surface, static_cast<uint32_t>(out_.surfaces.size()));
+    if (is_new) {
+      SurfaceRecord record = out_.surfaces[surface];
+      record.material = material_like(record.material);
+      out_.surfaces.push_back(record);
+    }
+    return entry->second;
+  }
+
+ private:
+  uint32_t material_like(uint32_t material) {
+    const auto [entry, is_new] = materials_.try_emplace(material, static_cast<uint32_t>(out_.materials.size()));
+    if (is_new) {
+      MaterialRecord<Real> record = out_.materials[material];
+      record.features |= MaterialFeatures::cutout | feature_;
+      out_.materials.push_back(record);
+    }
+    return entry->second;
+  }
+
+  SceneArrays<Real>& out_;
+  uint32_t feature_;
+  std::map<uint32_t, uint32_t> surfaces_, materials_;
+};
+
+/// A triangle by where it lies.
+template <class Real>
+struct Placed {
+  std::array<std::array<Real, 3>, 3> corners;  ///< in ascending order
+  uint32_t index;
+};
+
+/// The triangles of one side in a range, those in one place next to each other.
+template <class Real>
+std::vector<Placed<Real>> by_place(const SceneView<Real>& view, uint32_t first, uint32_t end) {
+  std::vector<Placed<Real>> placed;
+  for (uint32_t i = first; i < end; ++i) {
+    const TriangleRecord& triangle = view.triangles[i];
+    if (!(view.materials[view.surfaces[triangle.surface].material].features & MaterialFeatures::one_sided)) continue;
+    Placed<Real> p{{}, i};
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3<Real>& v = view.positions[triangle.vertex[k]];
+      p.corners[k] = {v.x, v.y, v.z};
+    }
+    std::sort(p.corners.begin(), p.corners.end());
+    placed.push_back(p);
+  }
+  std::sort(placed.begin(), placed.end(), [](const Placed<Real>& a, const Placed<Real>& b) {
+    return std::tie(a.corners, a.index) < std::tie(b.corners, b.index);
+  });
+  return placed;
+}
+
+}  // namespace
+
+template <class Real>
+void split_coincident_sides(SceneArrays<Real>& out) {
+  const SceneView<Real> view = out.view();
+  std::vector<uint32_t> halves;
+  const auto split = [&](uint32_t first, uint32_t end) {
+    const std::vector<Placed<Real>> placed = by_place(view, first, end);
+    for (size_t i = 0; i + 1 < placed.size(); ++i) {
+      const TriangleRecord &a = view.triangles[placed[i].index], &b = view.triangles[placed[i + 1].index];
+      if (placed[i].corners == placed[i + 1].corners &&
+          dot(triangle_front_normal(view, a), triangle_front_normal(view, b)) < 0)
+        halves.insert(halves.end(), {placed[i].index, placed[i + 1].index});
+    }
+  };
+  split(0, out.objects.empty() ? view.triangles_count : out.objects[0].first_triangle);
+  for (const ObjectRecord& object : out.objects)
+    split(object.first_triangle, object.first_triangle + object.triangle_count);
+  SurfacesWithFeature<Real> with_half(out, MaterialFeatures::half);
+  std::sort(halves.begin(), halves.end());
+  halves.erase(std::unique(halves.begin(), halves.end()), halves.end());
+  for (const uint32_t i : halves) out.triangles[i].surface = with_half.like(out.triangles[i].surface);
+}
+
+template <class Real>
+bool open_seen_backs(const SceneView<Real>& view, uint32_t width, uint32_t height, int threads,
+                     SceneArrays<Real>& out) {
+  const uint32_t end = out.objects.empty() ? view.triangles_count : out.objects[0].first_triangle;
+  std::vector<uint8_t> is_open(end);
+  const int team = threads > 0 ? threads : omp_get_max_threads();
+  mark_backs_in_picture(view, width, height, end, team, is_open);
+  const Eye<Real> eye(view);
+#pragma omp parallel for schedule(dynamic, 256) num_threads(team)
+  for (uint32_t i = 0; i < end; ++i)
+    if (!is_open[i]) is_open[i] = is_candidate(view, i) && eye.looks_at_back_of(i);
+  if (std::find(is_open.begin(), is_open.end(), 1) == is_open.end()) return false;
+  open_whole_walls(view, is_open);
+  std::vector<uint8_t> is_lit_through(end);
+  if (has_only_lights_without_size(out) && stands_in_the_open(view)) is_lit_through = rooms_of(view, is_open);
+  // From here on the view is not used: it does not know of surfaces and materials that are new.
+  SurfacesWithFeature<Real> absent(out, MaterialFeatures::absent), lit_through(out, MaterialFeatures::lit_through);
+  for (uint32_t i = 0; i < end; ++i) {
+    uint32_t& surface = out.triangles[i].surface;
+    if (is_open[i]) surface = absent.like(surface);
+    if (is_lit_through[i]) surface = lit_through.like(surface);
+  }
+  return true;
+}
+
+template void split_coincident_sides(SceneArrays<float>&);
+template void split_coincident_sides(SceneArrays<double>&);
+template bool open_seen_backs(const SceneView<float>&, uint32_t, uint32_t, int, SceneArrays<float>&);
+template bool open_seen_backs(const SceneView<double>&, uint32_t, uint32_t, int, SceneArrays<double>&);
 
 }  // namespace alhazen

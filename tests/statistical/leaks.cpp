@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 
 #include "core/integrators/stages.h"
 #include "support/closed_meshes.h"
 #include "support/effort.h"
 #include "support/instanced_scenes.h"
+#include "support/reals.h"
 #include "support/trees.h"
 
 #if defined(ALHAZEN_WITH_EMBREE)
@@ -26,10 +28,21 @@ size_t rays_per_mesh() {
   return set ? static_cast<size_t>(std::atof(set)) : effort(10'000);
 }
 
-/// A mesh about the origin, which stands somewhere, once in the world or twice as an object.
+/// Where a mesh stands while the shutter is open; one that moves is always an instance.
+struct Place {
+  std::string name;
+  Transform start, end;
+  Vec3d baked{};  ///< where the mesh lies in its own space
+
+  Vec3d point(const Vec3d& p) const { return lerp(start.point(p), end.point(p), time); }
+
+  static constexpr double time = 0.5;  ///< of all rays
+};
+
+/// A mesh, in the world once or twice as an object.
 struct ClosedMesh {
   Mesh mesh;
-  Transform world_from_object;
+  Place place;
   bool is_instanced;
   bool is_convex;
 
@@ -43,11 +56,11 @@ struct ClosedMesh {
       scene.groups.resize(2);
       scene.groups[1].shapes.push_back(shape);
       for (const double x : {0.0, 1e4}) {
-        const Transform there = Transform::translate({x, x, 0}) * world_from_object;
-        scene.instances.push_back({1, {there, there}, false, {}});
+        const Transform there = Transform::translate({x, x, 0});
+        scene.instances.push_back({1, {there * place.start, there * place.end}, false, {}});
       }
     } else {
-      shape.world_from_object = {world_from_object, world_from_object};
+      shape.world_from_object = {place.start, place.start};
       scene.groups[0].shapes.push_back(shape);
     }
     return flat_instanced_scene<Real>(scene, false);
@@ -83,13 +96,13 @@ struct LeavingRays {
 
   LeavingRays(const ClosedMesh& closed, const SceneView<Real>& view, size_t count, Random& random) {
     Mesh mesh = closed.mesh;
-    for (Vec3d& p : mesh.positions) p = closed.world_from_object.point(p);
-    const Vec3d center = closed.world_from_object.point({});
+    for (Vec3d& p : mesh.positions) p = closed.place.point(p);
+    const Vec3d center = closed.place.point(closed.place.baked);
     const BvhIntersector<Real> bvh(view);
     while (inwards.size() < count) {
       const Vec3d target = point_near_edge(mesh, random);
       const Vec3<Real> origin = convert<Real>(lerp(center, target, 0.5 * random.uniform<double>()));
-      const Ray<Real> ray{origin, normalize(convert<Real>(target) - origin), Real(0.5)};
+      const Ray<Real> ray{origin, normalize(convert<Real>(target) - origin), Real(Place::time)};
       Hit<Real> hit;
       if (!bvh.closest_hit(ray, infinity<Real>, hit)) {
         ADD_FAILURE() << "a ray from the middle leaves the mesh";
@@ -128,26 +141,30 @@ size_t count_hits(const SceneView<Real>& view, InstructionSet set, Way way, cons
   return static_cast<size_t>(std::count(found.get(), found.get() + rays.size(), true));
 }
 
+/// By engine.
+struct Tally {
+  size_t got_out = 0, hit_again = 0;
+};
+using Tallies = std::map<std::string, Tally>;
+
 template <class Real>
-void check(const SceneView<Real>& view, const LeavingRays<Real>& rays) {
-  const auto expect = [&](const std::string& engine, const auto& count, size_t bearable = 0) {
-    EXPECT_GE(count(rays.inwards) + bearable, rays.inwards.size()) << engine << ": rays get out";
-    EXPECT_LE(count(rays.outwards), bearable) << engine << ": rays hit what they leave";
-  };
+void count(const SceneView<Real>& view, const LeavingRays<Real>& rays, Tallies& tallies) {
   using Rays = std::vector<Ray<Real>>;
-  expect("binary tree", [&](const Rays& of) { return count_hits(BvhIntersector<Real>(view), of); });
+  const auto add = [&](const std::string& engine, const auto& hits) {
+    tallies[engine].got_out += rays.inwards.size() - hits(rays.inwards);
+    tallies[engine].hit_again += hits(rays.outwards);
+  };
+  add("binary tree", [&](const Rays& of) { return count_hits(BvhIntersector<Real>(view), of); });
   for (const InstructionSet set : instruction_sets())
     for (const Way way : ways)
-      expect(std::string(to_string(set)) + ", way " + std::to_string(static_cast<int>(way)),
-             [&](const Rays& of) { return count_hits(view, set, way, of); });
+      add(std::string(to_string(set)) + ", way " + std::to_string(static_cast<int>(way)),
+          [&](const Rays& of) { return count_hits(view, set, way, of); });
   if constexpr (sizeof(Real) == sizeof(float)) {
-    expect("wide tree", [&](const Rays& of) { return count_hits(WideBvhIntersector<>(view), of); });
+    add("wide tree", [&](const Rays& of) { return count_hits(WideBvhIntersector<>(view), of); });
 #if defined(ALHAZEN_WITH_EMBREE)
     const EmbreeScene embree(view, 1);
     const EmbreeIntersector intersector(view, &embree.tracer());
-    // Its own rounding shows in one of some million rays as close to edges as these.
-    expect(
-        "Embree", [&](const Rays& of) { return count_hits(intersector, of); }, 1);
+    add("Embree", [&](const Rays& of) { return count_hits(intersector, of); });
 #endif
   }
 }
@@ -157,8 +174,16 @@ void check(const ClosedMesh& closed) {
   const FlatScene<Real> scene = closed.flat<Real>();
   Random random(7);
   constexpr size_t at_once = 4096;
-  for (size_t left = rays_per_mesh(); left > 0 && !::testing::Test::HasFailure(); left -= std::min(left, at_once))
-    check(scene.view, LeavingRays<Real>(closed, scene.view, std::min(left, at_once), random));
+  const size_t all = rays_per_mesh();
+  Tallies tallies;
+  for (size_t left = all; left > 0 && !::testing::Test::HasFailure(); left -= std::min(left, at_once))
+    count(scene.view, LeavingRays<Real>(closed, scene.view, std::min(left, at_once), random), tallies);
+  for (const auto& [engine, tally] : tallies) {
+    // Embree's own rounding shows so close to edges, in some 30 of a million rays.
+    const size_t bearable = engine == "Embree" ? 2 + all / 20'000 : 0;
+    EXPECT_LE(tally.got_out, bearable) << engine << ": rays get out";
+    EXPECT_LE(tally.hit_again, bearable) << engine << ": rays hit what they leave";
+  }
 }
 
 Mesh bumpy() {
@@ -170,20 +195,33 @@ Mesh bumpy() {
 
 template <class Real>
 void check_everywhere(const Mesh& mesh, bool is_convex) {
-  const Transform turned = Transform::rotate(33, normalize(Vec3d{1, 2, 3}));
-  const Transform places[] = {Transform(), turned, turned * Transform::scale({1, 2, 0.5}),
-                              Transform::translate({1000, -500, 2000}) * turned,
-                              Transform::translate({1e5, -5e4, 2e4}) * turned};
-  for (size_t i = 0; i < std::size(places); ++i)
+  const Transform turned = Transform::rotate(33, normalize(Vec3d{1, 2, 3})),
+                  stretched = turned * Transform::scale({1, 2, 0.5});
+  const Vec3d far{1e5, -5e4, 2e4};
+  const auto at_rest = [](const std::string& name, const Transform& t) { return Place{name, t, t}; };
+  const Place places[] = {at_rest("at the origin", Transform()), at_rest("turned", turned),
+                          at_rest("stretched", stretched),
+                          at_rest("away", Transform::translate({1000, -500, 2000}) * turned),
+                          at_rest("far", Transform::translate(far) * turned)};
+  for (const Place& place : places)
     for (const bool is_instanced : {false, true}) {
-      SCOPED_TRACE("place " + std::to_string(i) + (is_instanced ? ", instanced" : ", in the world"));
-      check<Real>({mesh, places[i], is_instanced, is_convex});
+      SCOPED_TRACE(place.name + (is_instanced ? ", instanced" : ", in the world"));
+      check<Real>({mesh, place, is_instanced, is_convex});
     }
+  {
+    SCOPED_TRACE("moving");
+    check<Real>({mesh, {"", turned, Transform::translate({3, 1, 2}) * stretched}, true, is_convex});
+  }
+  SCOPED_TRACE("far in its own space");
+  Mesh baked = mesh;
+  for (Vec3d& p : baked.positions) p = p + far;
+  const Transform back = turned * Transform::translate(-far);
+  check<Real>({baked, {"", back, back, far}, true, is_convex});
 }
 
 template <class Real>
 class Leaks : public ::testing::Test {};
-TYPED_TEST_SUITE(Leaks, ::testing::Types<float>);
+TYPED_TEST_SUITE(Leaks, Reals);
 
 TYPED_TEST(Leaks, Cube) { check_everywhere<TypeParam>(cube(), true); }
 TYPED_TEST(Leaks, CoarseIcosphere) { check_everywhere<TypeParam>(icosphere(2), true); }

@@ -88,6 +88,21 @@ TYPED_TEST(OneSided, RoomSeenFromOutsideIsOpenToTheSky) {
     }
 }
 
+/// So it is where no more is seen of the wall than a hole in a board before it shows.
+TYPED_TEST(OneSided, RoomSeenThroughAHoleIsOpen) {
+  using Real = TypeParam;
+  const std::string clay = "Material \"diffuse\" \"rgb reflectance\" [0.7 0.7 0.7] ";
+  const std::string board =
+      "Shape \"trianglemesh\" \"point3 P\" [-9 -9 2  9 -9 2  9 9 2  -9 9 2  0.26 0.21 2  0.34 0.21 2  0.34 0.29 2  "
+      "0.26 0.29 2] "
+      "\"integer indices\" [0 1 5 0 5 4  1 2 6 1 6 5  2 3 7 2 7 6  3 0 4 3 4 7] ";
+  const std::string hole = view("0 0 5", "0.3 0.25 2", "\"perspective\" \"float fov\" 0.5");
+  const double room = mean_of<Real>(one_sided(hole + sky + clay + board + walls("lrfcbn")));
+  const double open = mean_of<Real>(described_scene(hole + sky + clay + board + walls("lrfcb")));
+  EXPECT_GT(open, 0.05);
+  EXPECT_NEAR(room, open, 0.02 * open);  // the whole wall is gone
+}
+
 /// Where all lights are without size they come in through every back; what is solid stops them all the same.
 TYPED_TEST(OneSided, RoomSeenFromOutsideIsOpenToTheSun) {
   using Real = TypeParam;
@@ -145,8 +160,53 @@ TYPED_TEST(OneSided, CardsThrowShadows) {
   };
   EXPECT_EQ(with_card(above, true), 0);   // its back is to the floor, and stops the light
   EXPECT_EQ(with_card(below, false), 0);  // so does its front
+  // Whatever the camera sees the back of elsewhere.
+  const std::string elsewhere =
+      "AttributeBegin Translate 30 2 -9 Rotate 180 0 1 0 Shape \"trianglemesh\" \"point3 P\" [-1 -1 0  1 -1 0  1 1 0  "
+      "-1 1 0] "
+      "\"integer indices\" [0 1 2 0 2 3] AttributeEnd ";
+  for (const std::string& eye : {above, below})
+    EXPECT_EQ(
+        mean_of<Real>(one_sided(eye + light + floor + elsewhere + (eye == above ? "" : "ReverseOrientation ") + up),
+                      IntegratorKind::path, 2),
+        0);
   EXPECT_NEAR(with_card(above, false), lit, 0.01 * lit);
   EXPECT_NEAR(with_card(below, true), mean_of<Real>(described_scene(below + light + floor)), 0.01 * lit);
+}
+
+/// Two cards in one place, back to back, whichever comes first: from each side, and in a mirror, the one is seen whose
+/// front is there; both throw shadows.
+TYPED_TEST(OneSided, CardsBackToBack) {
+  using Real = TypeParam;
+  const auto card = [](const std::string& reflectance, const std::string& orientation) {
+    return "AttributeBegin " + orientation + " Material \"diffuse\" \"rgb reflectance\" [" + reflectance +
+           "] Shape \"trianglemesh\" \"point3 P\" [-1 -1 0  1 -1 0  1 1 0  -1 1 0] \"integer indices\" [0 1 2 0 2 3] "
+           "AttributeEnd ";
+  };
+  const std::string bright = "0.8 0.8 0.8", dark = "0.2 0.2 0.2", turned = "ReverseOrientation";
+  const std::string pairs[] = {card(bright, "") + card(dark, turned), card(dark, turned) + card(bright, "")};
+  const std::string mirror =
+      "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"float roughness\" 0 Shape \"trianglemesh\" \"point3 P\" "
+      "[-9 -9 -1  9 -9 -1  9 9 -1  -9 9 -1] \"integer indices\" [0 1 2 0 2 3] ";
+  const std::string front = view("0.2 0.1 5", "0 0 0", narrow), back = view("0.2 0.1 -5", "0 0 0", narrow),
+                    by_mirror = view("4 0 3", "0.8 0 -1", narrow);
+  for (const std::string& pair : pairs)
+    for (const IntegratorKind integrator : {IntegratorKind::path, IntegratorKind::iterative}) {
+      SCOPED_TRACE(pair + to_string(integrator));
+      EXPECT_NEAR(mean_of<Real>(one_sided(front + sky + pair), integrator), 0.8, 0.01);
+      EXPECT_NEAR(mean_of<Real>(one_sided(back + sky + pair), integrator), 0.2, 0.01);
+      const double mirrored = mean_of<Real>(described_scene(by_mirror + sky + card(dark, "") + mirror), integrator);
+      EXPECT_LT(mirrored, 0.2);
+      EXPECT_NEAR(mean_of<Real>(one_sided(by_mirror + sky + pair + mirror), integrator), mirrored, 0.005);
+    }
+  const std::string wall =
+      "Material \"diffuse\" Shape \"trianglemesh\" \"point3 P\" [-9 -9 -0.5  9 -9 -0.5  9 9 -0.5  "
+      "-9 9 -0.5] \"integer indices\" [0 1 2 0 2 3] ";
+  const std::string lamp = "LightSource \"point\" \"point3 from\" [0.4 0 2] \"rgb I\" [9 9 9] ";
+  const std::string beside = view("9 0 -0.3", "0.25 0 -0.5", "\"perspective\" \"float fov\" 0.1");
+  EXPECT_GT(mean_of<Real>(one_sided(beside + lamp + wall), IntegratorKind::path, 2), 0.1);
+  for (const std::string& pair : pairs)
+    EXPECT_EQ(mean_of<Real>(one_sided(beside + lamp + wall + pair), IntegratorKind::path, 2), 0);
 }
 
 /// A card is lit on its front, from its front.

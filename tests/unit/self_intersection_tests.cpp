@@ -194,5 +194,19 @@ TYPED_TEST(SelfIntersectionOf, LightsAreSeen) {
   EXPECT_EQ(hidden, 0u) << "of " << tried;
 }
 
+/// The third corner is so close to the first that the edges to the second are one after rounding.
+TYPED_TEST(SelfIntersectionOf, NeedlesHaveFinitePoints) {
+  using Real = TypeParam;
+  const Real tiny = std::is_same_v<Real, float> ? Real(1) : Real(1e-9);
+  const Vec3<Real> p[3] = {{0, 0, 0}, {100, 70, 30}, {Real(2e-6) * tiny, Real(1e-6) * tiny, 0}};
+  ASSERT_GT(length(cross(p[1] - p[0], p[2] - p[0])), Real(0));
+  const TriangleCorners<Real> corners{{p[0], p[1], p[2]}, {}, 0, 0};
+  for (const Real b1 : {Real(0), Real(0.3), Real(1)}) {
+    const SurfaceInteraction<Real> si = point_of_triangle(corners, b1, Real(0.5) * (1 - b1));
+    EXPECT_TRUE(is_finite(si.position)) << b1;
+    EXPECT_LT(length(si.position - p[1] * b1), Real(1e-3)) << b1;
+  }
+}
+
 }  // namespace
 }  // namespace alhazen::test

@@ -1,5 +1,6 @@
 #include "backends/embree/scene.h"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string>
@@ -80,6 +81,11 @@ double plane_distance(const Ray<float>& ray, const Vec3<float>& a, const Vec3<fl
   return dot(normal, p - convert<double>(ray.origin)) / dot(normal, convert<double>(ray.direction));
 }
 
+/// The largest coordinate of its origin, as a distance along the ray.
+double reach_of_origin(const Ray<float>& ray) {
+  return static_cast<double>(max_component(abs(ray.origin)) / length(ray.direction));
+}
+
 /// So much farther than the largest coordinate of its origin resolves, a ray is past the surface that it left.
 constexpr double near = 1e-6;
 
@@ -110,7 +116,7 @@ void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
   float t, b1, b2;
   if (intersect_triangle(sheared, a, b, c, query.t_max, t, b1, b2)) return;
   const double distance = plane_distance(ray, a, b, c);
-  const double reach = static_cast<double>(max_component(abs(query.ray->origin)));
+  const double reach = std::max(reach_of_origin(*query.ray), reach_of_origin(ray));
   if (!(distance > near * reach && distance <= static_cast<double>(query.t_max))) arguments->valid[0] = 0;
 }
 
@@ -136,14 +142,25 @@ Vec3<float> reach_of_world(const SceneView<float>& view, uint32_t triangles) {
   return reach;
 }
 
+/// Embree drops what its arithmetic makes smaller than it resolves: below this it has been seen to lose triangles.
+constexpr float min_embree_extent = 1e-8f;
+
+/// Whether some triangles are too small for Embree; none are not.
+bool is_too_small(const Vec3<float>& reach) {
+  const float extent = max_component(reach);
+  return extent > 0 && extent < min_embree_extent;
+}
+
 /// Whether all of the scene is within Embree's range, in the world and in the space of each object, with room for what
 /// rounding adds.
 bool is_in_range(const SceneView<float>& view, uint32_t triangles_in_world) {
   const std::array<float, 2> ends{0.0f, 1.0f};
   Vec3<float> world = reach_of_world(view, triangles_in_world), inside{};
+  if (is_too_small(reach_of_triangles(view, 0, triangles_in_world))) return false;
   std::vector<Vec3<float>> objects;
   for (uint32_t i = 0; i < view.objects_count; ++i) {
     objects.push_back(reach_of_triangles(view, view.objects[i].first_triangle, view.objects[i].triangle_count));
+    if (is_too_small(objects.back())) return false;
     inside = max(inside, objects.back());
   }
   for (uint32_t i = 0; i < view.instances_count; ++i)
@@ -168,8 +185,8 @@ EmbreeScene::EmbreeScene(const SceneView<float>& view, int threads) : view_(view
   const uint32_t in_world = view.objects_count > 0 ? view.objects[0].first_triangle : view.triangles_count;
   if (!is_in_range(view, in_world))
     throw InputError(
-        "the scene has points farther than 9e17 from the origin of the world or of an object in it, which Embree does "
-        "not take: use another backend, such as --backend openmp");
+        "the scene has points farther than 9e17 from the origin of the world or of an object in it, or all of them are "
+        "within 1e-8, which Embree does not take: use another backend, such as --backend openmp");
   device_ = rtcNewDevice(threads > 0 ? ("threads=" + std::to_string(threads)).c_str() : nullptr);
   check();
   rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);

@@ -1,8 +1,10 @@
 #pragma once
 
-// Surfaces that let rays through: by their alpha, at random, or because they have one side and the camera looks at
-// their back. Backs let rays of the camera through; other rays they stop, unless the triangle has been found to be
-// absent (scene/open_backs.h). Nothing here is run in scenes without such surfaces.
+// Surfaces that let rays through: by their alpha, at random, or because they have one side. Backs let rays of the
+// camera through. Other rays they stop, but for three cases, which scene/open_backs.h finds: a triangle whose back the
+// camera sees is absent; one of two that lie in one place, back to back, has its front alone; and where all lights are
+// without size, shadow rays leave a room that the camera looks into from outside through all of its walls. Nothing here
+// is run in scenes without such surfaces.
 
 #include "core/materials/bsdf.h"
 #include "core/math/ray.h"
@@ -48,6 +50,15 @@ ALHAZEN_HD ALHAZEN_HOT Ray<Real> spawn_ray(const SurfaceInteraction<Real>& si, c
 /// surface has scattered, or a shadow ray, which goes against the light.
 enum class RayKind : uint32_t { camera, scattered, shadow };
 
+/// Whether any such ray may go through the surface.
+template <class Real>
+ALHAZEN_HD bool may_pass(const MaterialRecord<Real>& material, RayKind kind) {
+  if (!(material.features & MaterialFeatures::cutout)) return false;
+  if (material.opacity.count > 0 || (material.features & (MaterialFeatures::absent | MaterialFeatures::half)))
+    return true;
+  return kind == RayKind::camera || (kind == RayKind::shadow && (material.features & MaterialFeatures::lit_through));
+}
+
 /// Share of such rays that the surface stops.
 template <class Real>
 ALHAZEN_HD Real opacity(const SceneView<Real>& scene, const MaterialRecord<Real>& material, const Ray<Real>& ray,
@@ -55,8 +66,8 @@ ALHAZEN_HD Real opacity(const SceneView<Real>& scene, const MaterialRecord<Real>
   if (material.features & MaterialFeatures::absent) return 0;
   if (material.features & MaterialFeatures::one_sided) {
     const bool meets_back = dot(ray.direction, si.normal) > 0;
-    if (kind == RayKind::camera && meets_back) return 0;
-    if (kind == RayKind::shadow && scene.light_passes_backs && !meets_back) return 0;
+    if (meets_back && (kind == RayKind::camera || (material.features & MaterialFeatures::half))) return 0;
+    if (!meets_back && kind == RayKind::shadow && (material.features & MaterialFeatures::lit_through)) return 0;
   }
   if (material.opacity.count == 0) return 1;
   return clamp(evaluate_texture(scene, material.opacity, texture_point(si, hit)).x, Real(0), Real(1));
@@ -70,19 +81,31 @@ ALHAZEN_HD const MaterialRecord<Real>& material_met(const SceneView<Real>& scene
   return scene.materials[scene.surfaces[surface_of(scene, hit.primitive)].material];
 }
 
-/// Whether the ray goes on as if nothing had been met; then it begins anew behind the surface, and `travelled` has
-/// grown by what lies before.
+/// The ray that goes on where a surface lets it through. It begins just before a triangle, which is not hit again
+/// (`Ray::left`): what else lies in that plane is met next. Where it had begun as close before, it begins behind.
+template <class Real>
+ALHAZEN_HD Ray<Real> ray_beyond(const Ray<Real>& ray, const Hit<Real>& hit, const SurfaceInteraction<Real>& si) {
+  const Real clearance = 8 * dot(abs(si.normal), si.position_error);
+  const bool begins_before =
+      hit.primitive.kind() == PrimitiveKind::triangle && hit.t * abs_dot(si.normal, ray.direction) > clearance;
+  Ray<Real> beyond = spawn_ray(si, begins_before ? -ray.direction : ray.direction);
+  beyond.direction = ray.direction;
+  return beyond;
+}
+
+/// Whether the ray goes on as if nothing had been met; then it is one that begins anew (ray_beyond), and `travelled`
+/// has grown by what lies before.
 template <class Real>
 ALHAZEN_HD ALHAZEN_COLD bool passes(const SceneView<Real>& scene, const Hit<Real>& hit, RayKind kind, Ray<Real>& ray,
                                     Real& travelled) {
   const MaterialRecord<Real>& material = material_met(scene, hit);
-  if (!(material.features & MaterialFeatures::cutout)) return false;
+  if (!may_pass(material, kind)) return false;
   const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
   const Real share = opacity(scene, material, ray, hit, si, kind);
   if (share >= 1) return false;
   if (share > 0 && random_of_hit<Real>(hash_of_hit(ray, hit), HitChoice::passage) < share) return false;
   travelled += hit.t;
-  ray = spawn_ray(si, ray.direction);
+  ray = ray_beyond(ray, hit, si);
   return true;
 }
 
@@ -94,11 +117,11 @@ ALHAZEN_HD Real transmittance(const SceneView<Real>& scene, const Intersector& i
   for (uint32_t i = 0; share > 0 && t_max > 0 && intersector.closest_hit(ray, t_max, hit); ++i) {
     if (i == most_passages) return 0;
     const MaterialRecord<Real>& material = material_met(scene, hit);
-    if (!(material.features & MaterialFeatures::cutout)) return 0;
+    if (!may_pass(material, RayKind::shadow)) return 0;
     const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
     share *= 1 - opacity(scene, material, ray, hit, si, RayKind::shadow);
     t_max -= hit.t;
-    ray = spawn_ray(si, ray.direction);
+    ray = ray_beyond(ray, hit, si);
   }
   return share;
 }

@@ -29,11 +29,13 @@ ALHAZEN_HD constexpr bool has_lobes(MaterialKind kind) {
 
 /// What costs something only where it is asked for: bits of MaterialRecord::features.
 struct MaterialFeatures {
-  static constexpr uint32_t cutout = 1;     ///< may let rays through: by alpha, or for one of the two reasons below
-  static constexpr uint32_t tangents = 2;   ///< normal map, bump, anisotropy: the frame follows dp/du
-  static constexpr uint32_t absorbs = 4;    ///< so does what lies behind it, by MaterialRecord::absorption
-  static constexpr uint32_t one_sided = 8;  ///< rays of the camera that come from behind go through
-  static constexpr uint32_t absent = 16;    ///< lets all rays through: the back of it is what the camera looks at
+  static constexpr uint32_t cutout = 1;        ///< may let rays through: by alpha, or for one of the two reasons below
+  static constexpr uint32_t tangents = 2;      ///< normal map, bump, anisotropy: the frame follows dp/du
+  static constexpr uint32_t absorbs = 4;       ///< so does what lies behind it, by MaterialRecord::absorption
+  static constexpr uint32_t one_sided = 8;     ///< rays of the camera that come from behind go through
+  static constexpr uint32_t absent = 16;       ///< lets all rays through: the back of it is what the camera looks at
+  static constexpr uint32_t half = 32;         ///< of one side, as is another in its place that looks the other way
+  static constexpr uint32_t lit_through = 64;  ///< shadow rays that come from the front go through
 };
 
 template <class Real>

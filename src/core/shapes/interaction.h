@@ -154,8 +154,9 @@ ALHAZEN_HD ALHAZEN_RARE Vec3<Real> away_from_edges(const Vec3<Real> (&p)[3], Rea
                                                    const Vec3<Real>& error) {
   const Real clearance = edge_clearance<Real> * max_component(error);
   const Vec3<Real> e0 = p[2] - p[1], e1 = p[0] - p[2], e2 = p[1] - p[0];
-  const Vec3<Real> winding = cross(e2, e0);
+  const Vec3<Real> winding = cross(e1, e2);  // as is_near_edge has it: of needles another may be 0
   const Real twice_area = length(winding);
+  if (!(twice_area > 0)) return {};
   // What the distance from an edge lacks, in units of the edge's length.
   const auto lack = [&](const Vec3<Real>& edge, Real b) {
     const Real inverse_length = 1 / length(edge);
@@ -166,15 +167,22 @@ ALHAZEN_HD ALHAZEN_RARE Vec3<Real> away_from_edges(const Vec3<Real> (&p)[3], Rea
   return cross(winding, along) * (1 / twice_area);
 }
 
+/// What the rounding of a distance to the triangle adds to the error of a point of it, in all directions: else a ray
+/// would start in the very plane of a triangle that lies along axes, and hit others that lie in it.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> extent_error(const Vec3<Real> (&p)[3]) {
+  return splat(max_component(abs(p[1] - p[0]) + abs(p[2] - p[0])) * rounding_bound<Real>(1));
+}
+
 /// The point with weights b1 and b2 of corners 1 and 2, wherever that is in the triangle: position and normals.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> point_in_plane(const TriangleCorners<Real>& corners, Real b1, Real b2) {
   const Real b0 = 1 - b1 - b2;
-  const Vec3<Real>* p = corners.position;
+  const Vec3<Real>(&p)[3] = corners.position;
   const Vec3<Real> q0 = p[0] * b0, q1 = p[1] * b1, q2 = p[2] * b2;
   SurfaceInteraction<Real> si;
   si.position = q0 + q1 + q2;
-  si.position_error = (abs(q0) + abs(q1) + abs(q2)) * rounding_bound<Real>(7);
+  si.position_error = (abs(q0) + abs(q1) + abs(q2)) * rounding_bound<Real>(7) + extent_error(p);
   Vec3<Real> normal = normalize(cross(p[1] - p[0], p[2] - p[0])), shading_normal = normal;
   if (corners.has_normals) {
     const Vec3<Real>* n = corners.normal;
