@@ -81,7 +81,7 @@ class Flattener {
  private:
   /// Builds the trees, and asks with rays what only they tell. The binary tree serves for that.
   void build_trees_and_ask(FlatScene<Real>& flat) {
-    const bool asks_for_lost_light = options_.path_segments > 0 && has_lights_without_size(scene_);
+    const bool asks_for_lost_light = options_.path_segments > 0 && may_lose_light(out_.view());
     FlattenOptions options = options_;
     if (has_one_sided_ || asks_for_lost_light) options.trees.binary = true;
     build_trees(options, out_, flat.statistics);

@@ -20,8 +20,9 @@ struct LostLight {
   uint32_t others = 0;     ///< lights that fare likewise
 };
 
-/// Lights that are met by no ray, other than those that are black.
-bool has_lights_without_size(const Scene& scene);
+/// Whether there are lights without size and surfaces that may be smooth. Asks nothing of trees or rays.
+template <class Real>
+bool may_lose_light(const SceneView<Real>& view);
 
 /// Follows light from the lights without size to points of the surfaces that are smooth, and on from there, as far as
 /// `max_segments` let paths go. What scatters all of it but a small part, as a varnish does, does not count. `view` has
