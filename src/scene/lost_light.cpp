@@ -45,13 +45,13 @@ class LostLightSearch {
 
   std::optional<LostLight> run() {
     std::vector<uint32_t> lights;
-    for (uint32_t i = 0; i < view_.lights_count && lights.size() < max_lights; ++i)
+    for (uint32_t i = 0; i < view_.lights_count; ++i)
       if (is_without_size(view_.lights[i].kind)) lights.push_back(i);
     if (lights.empty()) return {};
     collect_candidates();
     if (candidates_.empty()) return {};
     std::optional<LostLight> lost;
-    for (uint32_t i = 0; i < lights.size(); ++i) {
+    for (uint32_t i = 0; i < lights.size() && i < max_lights; ++i) {
       std::optional<LostLight> of_this = lost_of(view_.lights[lights[i]]);
       if (of_this) of_this->light = i;
       if (!of_this) continue;
@@ -60,6 +60,7 @@ class LostLightSearch {
       else
         lost = of_this;
     }
+    if (lost) lost->others_may_be_more = lights.size() > max_lights;
     return lost;
   }
 
@@ -299,7 +300,8 @@ void warn_of_lost_light(const LostLight& lost, const Scene& scene, const SourceL
     message += ", as the \"" + scene.replaced_integrator + "\" that the file asks for would";
   message += "; a small shape that shines in its place is found";
   if (lost.others > 0)
-    message += " (so it is with " + std::to_string(lost.others) + (lost.others == 1 ? " other)" : " others)");
+    message += std::string(" (so it is with ") + (lost.others_may_be_more ? "at least " : "") +
+               std::to_string(lost.others) + (lost.others == 1 ? " other)" : " others)");
   diagnostics.warn(light->where, message);
 }
 

@@ -114,6 +114,19 @@ TYPED_TEST(LostLightOf, OneWarningForSeveralLights) {
   EXPECT_NE(warnings[0].message.find("2 others"), std::string::npos) << warnings[0].message;
 }
 
+TYPED_TEST(LostLightOf, LightsThatWereNotLookedAtMayBeMore) {
+  for (const auto& [lights, others] : {std::pair{16, "(so it is with 15 others)"},
+                                       {17, "(so it is with at least 15 others)"},
+                                       {100, "(so it is with at least 15 others)"}}) {
+    std::string text = "WorldBegin\n";
+    for (int i = 0; i < lights; ++i)
+      text += "LightSource \"point\" \"point3 from\" [" + std::to_string(i % 10 * 0.1) + " 4 0]\n";
+    const auto warnings = warnings_of<TypeParam>(text + glass + ball + floor_of);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].message.find(others), std::string::npos) << warnings[0].message;
+  }
+}
+
 /// A pane that stands in two places, among many instances of another object.
 TYPED_TEST(LostLightOf, AnyInstanceOfGlassIsFound) {
   const std::string square = "Shape \"bilinearmesh\" \"point3 P\" [-.1 0 -.1  .1 0 -.1  -.1 0 .1  .1 0 .1]\n";
