@@ -89,7 +89,8 @@ struct Picture {
 };
 
 /// Renders a pbrt-v4 or glTF 2.0 scene. Throws std::runtime_error, whose what() is one message (for bad input
-/// `file:line:column: what is wrong and what to do`), std::bad_alloc, and what `progress` throws.
+/// `file:line:column: what is wrong and what to do`), std::bad_alloc, and what `progress` throws. Until it returns,
+/// threads that the process starts have by default a stack of 8 MiB at least.
 Picture render(const std::string& scene_file, const Settings& settings = {}, const ProgressFunction& progress = {});
 
 const char* version();

@@ -4,6 +4,7 @@
 #include "io/files/file_identity.h"
 #include "io/read_scene.h"
 #include "render/renderer.h"
+#include "scene/thread_limit.h"
 
 namespace alhazen {
 
@@ -14,6 +15,7 @@ const float* Picture::plane(const std::string& channel) const {
 }
 
 Picture render(const std::string& scene_file, const Settings& settings, const ProgressFunction& progress) {
+  const ThreadDefaults defaults;
   Diagnostics diagnostics;
   refuse_same_file({settings.checkpoint, "the checkpoint"},
                    {{scene_file, "the scene"}, {settings.environment, "the environment map"}});

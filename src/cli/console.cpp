@@ -86,8 +86,10 @@ void print_text(std::string_view text) { printed += text; }
 std::string flush_output() {
   write_printed();
   // What the parser of the command line prints, --help, goes by std::cout.
+  errno = 0;  // streams that have failed before leave it as it is
   std::cout.flush();
-  if (!std::cout.good() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0) stdout_error = errno ? errno : EIO;
+  const bool has_failed = !std::cout.good() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  if (has_failed && stdout_error == 0) stdout_error = errno ? errno : EIO;
   if (stdout_error == 0) return {};
   return std::string("cannot write to the standard output: ") + std::strerror(stdout_error);
 }

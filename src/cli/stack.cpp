@@ -23,6 +23,7 @@ void* make_call(void* call) {
 }  // namespace
 
 int run_on_enough_stack(const std::function<int()>& body) {
+  const ThreadDefaults defaults;
   rlimit limit{};
   if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= thread_stack_bytes) return body();
   pthread_attr_t attributes;

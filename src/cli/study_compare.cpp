@@ -39,7 +39,7 @@ void print_json(const study::StudyComparison& c) {
   print_out("{}\n", j.dump());
 }
 
-void print_text(const study::StudyComparison& c) {
+void print_list(const study::StudyComparison& c) {
   for (const std::string& difference : c.differences) print_out("of another {}\n", difference);
   for (const study::Change& change : c.changes) {
     const double ratio = change.ratio();
@@ -58,7 +58,7 @@ void print_text(const study::StudyComparison& c) {
 void run(const StudyCompareOptions& o) {
   const study::StudyComparison comparison =
       study::compare_studies(study::read_study_json(o.a), study::read_study_json(o.b), o.threshold / 100, o.a, o.b);
-  o.json ? print_json(comparison) : print_text(comparison);
+  o.json ? print_json(comparison) : print_list(comparison);
 }
 
 }  // namespace

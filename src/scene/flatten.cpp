@@ -1,7 +1,5 @@
 #include "scene/flatten.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -18,6 +16,7 @@
 #include "scene/flatten_materials.h"
 #include "scene/flatten_trees.h"
 #include "scene/lost_light.h"
+#include "scene/memory_limit.h"
 #include "scene/open_backs.h"
 #include "scene/render_space.h"
 #include "scene/thread_limit.h"
@@ -44,7 +43,9 @@ class Flattener {
     uint64_t texels = 0;
     for (const ImageTexels& image : scene_.images)
       texels += static_cast<uint64_t>(image.width) * static_cast<uint64_t>(image.height);
-    return "the scene is too large for the memory of this machine, or for a limit set on it (ulimit -v): it places " +
+    return "the scene is too large for the memory of this machine, or for a limit set on it (ulimit -v, a "
+           "container's): it "
+           "places " +
            std::to_string(placed_shapes_) + " shapes, meshes of " + std::to_string(placed_triangles_) +
            " triangles among them, and has pictures of " + std::to_string(texels >> 20) +
            " million texels; give it fewer instances, less geometry or smaller pictures (--texture-budget)";
@@ -82,7 +83,7 @@ class Flattener {
   /// Builds the trees, and asks with rays what only they tell. The binary tree serves for that.
   void build_trees_and_ask(FlatScene<Real>& flat) {
     if (has_one_sided_) split_coincident_sides(out_);
-    const bool asks_for_lost_light = options_.path_segments > 0 && has_lights_without_size(scene_);
+    const bool asks_for_lost_light = options_.path_segments > 0 && may_lose_light(out_.view());
     FlattenOptions options = options_;
     if (has_one_sided_ || asks_for_lost_light) options.trees.binary = true;
     build_trees(options, out_, flat.statistics);
@@ -264,11 +265,6 @@ class Flattener {
     if (placed_shapes_ * sizeof(Placement) > physical_memory() / 10 * 9) throw InputError({scene_.name}, too_large());
   }
 
-  static uint64_t physical_memory() {
-    return static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
-  }
-
-  /// Systems promise more memory than they have and end the program when it is used, so that much is not asked for.
   void check_memory(uint64_t triangles, uint64_t vertices) const {
     const uint64_t least =
         triangles * (sizeof(TriangleRecord) + sizeof(TriangleBlock<Real>) / 4) + vertices * sizeof(Vec3<Real>);

@@ -1,7 +1,9 @@
 #include "scene/lost_light.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include "core/bvh/traversal.h"
 #include "core/integrators/stages.h"
@@ -27,6 +29,8 @@ bool may_be_sharp(MaterialKind kind) {
   return kind != MaterialKind::diffuse && kind != MaterialKind::diffuse_transmission;
 }
 
+constexpr uint32_t no_object = 0xffffffffu;
+
 /// A place on a primitive, for any ray that comes to it.
 struct Candidate {
   PrimitiveId primitive;
@@ -41,13 +45,13 @@ class LostLightSearch {
 
   std::optional<LostLight> run() {
     std::vector<uint32_t> lights;
-    for (uint32_t i = 0; i < view_.lights_count && lights.size() < max_lights; ++i)
+    for (uint32_t i = 0; i < view_.lights_count; ++i)
       if (is_without_size(view_.lights[i].kind)) lights.push_back(i);
     if (lights.empty()) return {};
     collect_candidates();
     if (candidates_.empty()) return {};
     std::optional<LostLight> lost;
-    for (uint32_t i = 0; i < lights.size(); ++i) {
+    for (uint32_t i = 0; i < lights.size() && i < max_lights; ++i) {
       std::optional<LostLight> of_this = lost_of(view_.lights[lights[i]]);
       if (of_this) of_this->light = i;
       if (!of_this) continue;
@@ -56,44 +60,72 @@ class LostLightSearch {
       else
         lost = of_this;
     }
+    if (lost) lost->others_may_be_more = lights.size() > max_lights;
     return lost;
   }
 
  private:
+  /// The instances, those of the same object beside each other.
+  struct Uses {
+    std::vector<uint32_t> first;      ///< by object, and the end of the last one's: index into `instances`
+    std::vector<uint32_t> instances;  ///< indices into `instances` of the scene
+    uint32_t count(uint32_t object) const { return first[object + 1] - first[object]; }
+  };
+
+  Uses uses_of_objects() const {
+    Uses uses;
+    uses.first.assign(size_t{view_.objects_count} + 1, 0);
+    for (uint32_t k = 0; k < view_.instances_count; ++k) ++uses.first[view_.instances[k].object + 1];
+    std::partial_sum(uses.first.begin(), uses.first.end(), uses.first.begin());
+    uses.instances.resize(view_.instances_count);
+    std::vector<uint32_t> next = uses.first;
+    for (uint32_t k = 0; k < view_.instances_count; ++k) uses.instances[next[view_.instances[k].object]++] = k;
+    return uses;
+  }
+
+  /// Visits each primitive once, with the object that it is part of, or `no_object`.
   template <class Visit>
   void for_each_primitive(const Visit& visit) const {
     const uint32_t in_world = view_.objects_count > 0 ? view_.objects[0].first_triangle : view_.triangles_count;
-    for (uint32_t i = 0; i < in_world; ++i) visit(PrimitiveId(PrimitiveKind::triangle, i), no_instance);
-    for (uint32_t i = 0; i < view_.spheres_count; ++i) visit(PrimitiveId(PrimitiveKind::sphere, i), no_instance);
+    for (uint32_t i = 0; i < in_world; ++i) visit(PrimitiveId(PrimitiveKind::triangle, i), no_object);
+    for (uint32_t i = 0; i < view_.spheres_count; ++i) visit(PrimitiveId(PrimitiveKind::sphere, i), no_object);
     for (uint32_t i = 0; i < view_.moving_spheres_count; ++i)
-      visit(PrimitiveId(PrimitiveKind::moving_sphere, i), no_instance);
-    for (uint32_t k = 0; k < view_.instances_count; ++k) {
-      const ObjectRecord& object = view_.objects[view_.instances[k].object];
-      // A few instances of each object stand for all of them.
-      if (k > 256 && k % 64 != 0) continue;
-      for (uint32_t i = 0; i < object.triangle_count; ++i)
-        visit(PrimitiveId(PrimitiveKind::triangle, object.first_triangle + i), k);
-    }
+      visit(PrimitiveId(PrimitiveKind::moving_sphere, i), no_object);
+    for (uint32_t k = 0; k < view_.objects_count; ++k)
+      for (uint32_t i = 0; i < view_.objects[k].triangle_count; ++i)
+        visit(PrimitiveId(PrimitiveKind::triangle, view_.objects[k].first_triangle + i), k);
   }
 
-  /// Some primitives of each material that may be smooth, evenly from all that have it.
+  /// Some primitives of each material that may be smooth, evenly from all that have it. One of an object counts as
+  /// often as the object stands somewhere, and each point on it is on an instance of its own.
   void collect_candidates() {
     std::vector<uint64_t> counts(view_.materials_count), seen(view_.materials_count);
     std::vector<bool> wanted(view_.materials_count);
     uint32_t materials = 0;
-    for (uint32_t m = 0; m < view_.materials_count && materials < max_materials; ++m)
-      if (may_be_sharp(view_.materials[m].kind)) wanted[m] = true, ++materials;
+    for (uint32_t s = 0; s < view_.surfaces_count && materials < max_materials; ++s) {
+      const uint32_t m = view_.surfaces[s].material;
+      if (!wanted[m] && may_be_sharp(view_.materials[m].kind)) wanted[m] = true, ++materials;
+    }
     if (materials == 0) return;
+    const Uses uses = uses_of_objects();
     const auto material_of = [&](PrimitiveId id) { return view_.surfaces[surface_of(view_, id)].material; };
-    for_each_primitive([&](PrimitiveId id, uint32_t) { ++counts[material_of(id)]; });
-    for_each_primitive([&](PrimitiveId id, uint32_t instance) {
+    const auto uses_of = [&](uint32_t object) { return object == no_object ? 1 : uses.count(object); };
+    for_each_primitive([&](PrimitiveId id, uint32_t object) { counts[material_of(id)] += uses_of(object); });
+    for_each_primitive([&](PrimitiveId id, uint32_t object) {
       const uint32_t m = material_of(id);
       if (!wanted[m]) return;
       // As many points on each of few primitives, one each on some of many.
-      const uint64_t before = seen[m]++ * points_per_material / counts[m];
-      const uint64_t after = seen[m] * points_per_material / counts[m];
-      for (uint64_t i = before; i < after; ++i) candidates_.push_back({id, instance});
+      const uint64_t before = seen[m] * points_per_material / counts[m];
+      const uint64_t after = (seen[m] += uses_of(object)) * points_per_material / counts[m];
+      for (uint64_t i = before; i < after; ++i)
+        candidates_.push_back({id, object == no_object ? no_instance : any_instance(uses, object)});
     });
+  }
+
+  uint32_t any_instance(const Uses& uses, uint32_t object) {
+    const uint32_t count = uses.count(object);
+    const auto chosen = static_cast<uint32_t>(random() * static_cast<Real>(count));
+    return uses.instances[uses.first[object] + std::min(chosen, count - 1)];
   }
 
   Real random() { return unit_interval<Real>(mix32(++drawn_)); }
@@ -243,9 +275,16 @@ const char* name_of(LightType type) {
 
 }  // namespace
 
-bool has_lights_without_size(const Scene& scene) {
-  return std::any_of(scene.lights.begin(), scene.lights.end(), has_no_size);
+template <class Real>
+bool may_lose_light(const SceneView<Real>& view) {
+  const auto is_light = [](const LightRecord<Real>& light) { return is_without_size(light.kind); };
+  const auto is_smooth = [&](const SurfaceRecord& s) { return may_be_sharp(view.materials[s.material].kind); };
+  return std::any_of(view.lights, view.lights + view.lights_count, is_light) &&
+         std::any_of(view.surfaces, view.surfaces + view.surfaces_count, is_smooth);
 }
+
+template bool may_lose_light(const SceneView<float>&);
+template bool may_lose_light(const SceneView<double>&);
 
 void warn_of_lost_light(const LostLight& lost, const Scene& scene, const SourceLocation& where,
                         Diagnostics& diagnostics) {
@@ -261,7 +300,8 @@ void warn_of_lost_light(const LostLight& lost, const Scene& scene, const SourceL
     message += ", as the \"" + scene.replaced_integrator + "\" that the file asks for would";
   message += "; a small shape that shines in its place is found";
   if (lost.others > 0)
-    message += " (so it is with " + std::to_string(lost.others) + (lost.others == 1 ? " other)" : " others)");
+    message += std::string(" (so it is with ") + (lost.others_may_be_more ? "at least " : "") +
+               std::to_string(lost.others) + (lost.others == 1 ? " other)" : " others)");
   diagnostics.warn(light->where, message);
 }
 

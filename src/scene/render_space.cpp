@@ -10,7 +10,7 @@ namespace alhazen {
 namespace {
 
 /// So many times farther from the origin than from what it sees a camera must be for the world to be moved.
-constexpr double far = 16;
+constexpr double min_distance_ratio = 16;
 
 using Box = Bounds3<double>;
 
@@ -67,9 +67,9 @@ Vec3d origin_of(const Scene& scene) {
     all.extend(box);
   }
   if (all.is_empty()) return {};
-  if (length(camera) > far * nearest) return camera;
+  if (length(camera) > min_distance_ratio * nearest) return camera;
   const Vec3d middle = (all.low + all.high) * 0.5;
-  return length(middle) > far * length(all.high - all.low) ? middle : Vec3d{};
+  return length(middle) > min_distance_ratio * length(all.high - all.low) ? middle : Vec3d{};
 }
 
 }  // namespace

@@ -45,15 +45,30 @@ void* wait_at(void* gate) {
   return nullptr;
 }
 
-/// OpenMP's threads too are started with the default.
-void raise_default_stack() {
+/// The default of threads as it was, while any ThreadDefaults lives.
+struct DefaultStack {
+  std::mutex mutex;
+  int users = 0;
+  size_t before = 0;  ///< bytes; 0: it was enough
+};
+
+DefaultStack& default_stack() {
+  static DefaultStack stack;
+  return stack;
+}
+
+/// Sets the default to what `choose` makes of it; 0: leaves it. Returns what it was, or 0 where it was left.
+template <class Choose>
+size_t change_default_stack(const Choose& choose) {
   pthread_attr_t attributes;
-  if (::pthread_getattr_default_np(&attributes) != 0) return;
+  if (::pthread_getattr_default_np(&attributes) != 0) return 0;
   size_t size = 0;
-  if (::pthread_attr_getstacksize(&attributes, &size) == 0 && size < thread_stack_bytes &&
-      ::pthread_attr_setstacksize(&attributes, thread_stack_bytes) == 0)
-    ::pthread_setattr_default_np(&attributes);
+  bool is_set = false;
+  if (::pthread_attr_getstacksize(&attributes, &size) == 0)
+    if (const size_t wanted = choose(size); wanted > 0 && ::pthread_attr_setstacksize(&attributes, wanted) == 0)
+      is_set = ::pthread_setattr_default_np(&attributes) == 0;
   ::pthread_attr_destroy(&attributes);
+  return is_set ? size : 0;
 }
 
 /// How many of `count` threads can be started beside each other.
@@ -73,10 +88,25 @@ int start_and_end(int count) {
 
 }  // namespace
 
+ThreadDefaults::ThreadDefaults() : team_(omp_get_max_threads()) {
+  DefaultStack& stack = default_stack();
+  const std::lock_guard lock(stack.mutex);
+  if (stack.users++ > 0) return;
+  // OpenMP's threads too are started with the default.
+  stack.before = change_default_stack([](size_t size) { return size < thread_stack_bytes ? thread_stack_bytes : 0; });
+}
+
+ThreadDefaults::~ThreadDefaults() {
+  omp_set_num_threads(team_);
+  DefaultStack& stack = default_stack();
+  const std::lock_guard lock(stack.mutex);
+  if (--stack.users > 0 || stack.before == 0) return;
+  // What somebody else has set since then stays.
+  change_default_stack([&](size_t size) { return size == thread_stack_bytes ? stack.before : 0; });
+}
+
 int threads_available(int wanted) {
   static std::atomic<int> known{1};
-  static std::once_flag raised;
-  std::call_once(raised, raise_default_stack);
   if (wanted <= known.load()) return wanted;
   const int asked = wanted - 1 + threads_beside;
   const int started = start_and_end(asked);

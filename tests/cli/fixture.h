@@ -33,6 +33,19 @@ class Command : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+/// A function for scripts of /bin/sh: waits for the first report, in the file err, of the render $p. Where that ends
+/// without one, or has none after a minute, the script ends and says so.
+inline const std::string wait_for_samples = R"(wait_for_samples() {
+  for i in $(seq 1200); do
+    is_running=1; kill -0 $p 2>/dev/null || is_running=0
+    if grep -qs samples_done err; then return; fi
+    if [ $is_running = 0 ]; then break; fi
+    sleep 0.05
+  done
+  echo "no samples came"; cat err; kill -9 $p 2>/dev/null; exit 1
+}
+)";
+
 /// The only line of `text`, parsed; fails where there is another one.
 inline nlohmann::json only_json(const std::string& text) {
   EXPECT_FALSE(text.empty());

@@ -14,9 +14,8 @@ class Signals : public Command {
     options.folder = folder_.path();
     return run_script(
         "RENDER=\"$ALHAZEN render scene.pbrt --size 16x16 -t 1 --spp 10000000 --progress json\"\n"
-        "rm -f err\n"
-        "wait_for_samples() { until grep -qs samples_done err; do sleep 0.05; done; }\n" +
-            text,
+        "rm -f err\n" +
+            wait_for_samples + text,
         options);
   }
 };

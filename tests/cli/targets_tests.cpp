@@ -19,7 +19,7 @@ class OutputTargets : public Command {
   CommandResult script(const std::string& text) const {
     CommandOptions options;
     options.folder = folder_.path();
-    return run_script("RENDER=\"$ALHAZEN render scene.pbrt --size 16x16 -t 1\"\n" + text, options);
+    return run_script("RENDER=\"$ALHAZEN render scene.pbrt --size 16x16 -t 1\"\n" + wait_for_samples + text, options);
   }
 };
 
@@ -73,7 +73,7 @@ TEST_F(OutputTargets, APipeWithoutAReaderEndsWithASignal) {
     for (const std::string name : {"TERM", "INT", "HUP"}) {
       const CommandResult result = script("rm -f err p.exr; mkfifo p.exr; $RENDER --spp " + samples +
                                           " --progress json -o p.exr -o a.png 2>err & p=$!\n"
-                                          "until grep -qs samples_done err; do sleep 0.05; done; sleep 0.3; kill -" +
+                                          "wait_for_samples; sleep 0.3; kill -" +
                                           name + " $p; wait $p; echo $?; cat err");
       EXPECT_EQ(result.out.substr(0, 2), "1\n") << name << result.everything();
       EXPECT_NE(result.out.find("nobody reads from this pipe"), std::string::npos) << result.out;
@@ -110,7 +110,7 @@ TEST_F(OutputTargets, KilledItLeavesNothing) {
   // A pipe in the place of the second picture keeps it where it writes.
   const CommandResult result = script(
       "mkfifo p.exr; $RENDER --spp 1 --progress json -o p.exr -o b.exr --checkpoint state,0 2>err & p=$!\n"
-      "until grep -qs samples_done err; do sleep 0.05; done; sleep 0.3; kill -9 $p; wait $p; ls -A | grep -c tmp");
+      "wait_for_samples; sleep 0.3; kill -9 $p; wait $p; ls -A | grep -c tmp");
   EXPECT_EQ(result.out, "0\n") << result.everything();
   EXPECT_EQ(folder_.count(), files + 4) << "p.exr, err, b.exr and state";
 }

@@ -33,6 +33,7 @@ std::vector<Diagnostics::Warning> warnings_of(const std::string& text, uint32_t 
   FlattenOptions options;
   options.threads = 1;
   options.path_segments = path_segments;
+  options.most_copied_triangles = 0;  // instances stay instances
   options.trees = {.binary = false, .wide = false, .simd = true};
   const FlatScene<Real> flat = flatten<Real>(std::move(scene), options, diagnostics);
   EXPECT_EQ(flat.view.nodes_count, 0u);  // what was not asked for is not kept
@@ -111,6 +112,39 @@ TYPED_TEST(LostLightOf, OneWarningForSeveralLights) {
   const auto warnings = warnings_of<TypeParam>(text);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].message.find("2 others"), std::string::npos) << warnings[0].message;
+}
+
+TYPED_TEST(LostLightOf, LightsThatWereNotLookedAtMayBeMore) {
+  for (const auto& [lights, others] : {std::pair{16, "(so it is with 15 others)"},
+                                       {17, "(so it is with at least 15 others)"},
+                                       {100, "(so it is with at least 15 others)"}}) {
+    std::string text = "WorldBegin\n";
+    for (int i = 0; i < lights; ++i)
+      text += "LightSource \"point\" \"point3 from\" [" + std::to_string(i % 10 * 0.1) + " 4 0]\n";
+    const auto warnings = warnings_of<TypeParam>(text + glass + ball + floor_of);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].message.find(others), std::string::npos) << warnings[0].message;
+  }
+}
+
+/// A pane that stands in two places, among many instances of another object.
+TYPED_TEST(LostLightOf, AnyInstanceOfGlassIsFound) {
+  const std::string square = "Shape \"bilinearmesh\" \"point3 P\" [-.1 0 -.1  .1 0 -.1  -.1 0 .1  .1 0 .1]\n";
+  const std::string panes =
+      "AttributeBegin Translate 3 1 2 ObjectInstance \"pane\" AttributeEnd\n"
+      "AttributeBegin Translate 2 1 2 ObjectInstance \"pane\" AttributeEnd\n";
+  std::string chips;
+  for (int i = 0; i < 300; ++i)
+    chips +=
+        "AttributeBegin Translate " + std::to_string(i * 0.3 - 45) + " 1 -3 ObjectInstance \"chip\" AttributeEnd\n";
+  const std::string objects = "Material \"diffuse\"\nObjectBegin \"chip\"\n" + square +
+                              "ObjectEnd\nMaterial \"thindielectric\"\nObjectBegin \"pane\"\n" + square + "ObjectEnd\n";
+  for (const std::string& instances : {chips + panes, panes + chips}) {
+    const auto warnings = warnings_of<TypeParam>("WorldBegin\n" + point + objects + instances + floor_of);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].message.find("glass test.pbrt:9:"), std::string::npos) << warnings[0].message;
+  }
+  EXPECT_TRUE(warnings_of<TypeParam>("WorldBegin\n" + point + objects + chips + floor_of).empty());
 }
 
 TYPED_TEST(LostLightOf, NothingIsSaidWhereNothingIsLost) {

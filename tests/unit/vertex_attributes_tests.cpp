@@ -98,9 +98,39 @@ TYPED_TEST(VertexAttributes, TangentsAreThoseOfTheMeshOrOfItsUvs) {
 TYPED_TEST(VertexAttributes, DensityOfUvs) {
   using Real = TypeParam;
   const auto scene = flat_scene<Real>(scene_with_attributes(Transform::scale({2, 2, 2})));
-  EXPECT_NEAR(static_cast<double>(uv_density(scene.view, this->hit(scene), Vec3<Real>{0, 0, 1}, 0u)), 0.25, 1e-6);
-  EXPECT_NEAR(static_cast<double>(uv_density(scene.view, this->hit(scene), Vec3<Real>{0, 0, 1}, 1u)), 2, 1e-6);
-  EXPECT_NEAR(static_cast<double>(uv_density(scene.view, this->hit(scene, true), Vec3<Real>{0, 0, 1}, 1u)), 1, 1e-6);
+  EXPECT_NEAR(static_cast<double>(uv_density(scene.view, this->hit(scene), Real(0), Vec3<Real>{0, 0, 1}, 0u)), 0.25,
+              1e-6);
+  EXPECT_NEAR(static_cast<double>(uv_density(scene.view, this->hit(scene), Real(0), Vec3<Real>{0, 0, 1}, 1u)), 2, 1e-6);
+  EXPECT_NEAR(static_cast<double>(uv_density(scene.view, this->hit(scene, true), Real(0), Vec3<Real>{0, 0, 1}, 1u)), 1,
+              1e-6);
+}
+
+/// An instance that grows threefold while the shutter is open: its texture is stretched with it.
+TYPED_TEST(VertexAttributes, DensityOfUvsWhereAnInstanceIsAtTheTime) {
+  using Real = TypeParam;
+  for (const double end : {1.0, 3.0}) {
+    Scene described = scene_with_attributes({});
+    described.groups.push_back({{}, {described.groups[0].shapes.back()}});
+    described.groups[0].shapes.pop_back();
+    Instance instance;
+    instance.group = static_cast<uint32_t>(described.groups.size() - 1);
+    instance.world_from_group.end = Transform::scale({end, end, end});
+    described.instances.assign(2, instance);
+    FlattenOptions options;
+    options.most_copied_triangles = 0;
+    Diagnostics diagnostics;
+    const auto scene = flatten<Real>(std::move(described), options, diagnostics);
+    Hit<Real> hit = this->hit(scene);
+    hit.instance = 0;
+    const auto density = [&](Real time) {
+      const SurfaceInteraction<Real> si = surface_interaction(scene.view, Ray<Real>{{}, {0, 0, 1}, time}, hit);
+      const TexturePoint<Real> at = texture_point(si, hit);
+      return static_cast<double>(uv_density(scene.view, at.hit, at.time, at.normal, 0u));
+    };
+    EXPECT_NEAR(density(Real(0)), 1, 1e-6);
+    EXPECT_NEAR(density(Real(0.5)), 4 / ((1 + end) * (1 + end)), 1e-6);
+    EXPECT_NEAR(density(Real(1)), 1 / (end * end), 1e-6);
+  }
 }
 
 TEST(VertexAttributeErrors, NumbersMustFit) {

@@ -87,7 +87,7 @@ double reach_of_origin(const Ray<float>& ray) {
 }
 
 /// So much farther than the largest coordinate of its origin resolves, a ray is past the surface that it left.
-constexpr double near = 1e-6;
+constexpr double min_relative_distance = 1e-6;
 
 /// Skips the triangle that the ray leaves. Near the origin of the ray takes a triangle only where our own test does: so
 /// rays do not hit what joins that triangle either. Farther on Embree's word counts, where the plane is not beyond the
@@ -117,7 +117,8 @@ void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
   if (intersect_triangle(sheared, a, b, c, query.t_max, t, b1, b2)) return;
   const double distance = plane_distance(ray, a, b, c);
   const double reach = std::max(reach_of_origin(*query.ray), reach_of_origin(ray));
-  if (!(distance > near * reach && distance <= static_cast<double>(query.t_max))) arguments->valid[0] = 0;
+  if (!(distance > min_relative_distance * reach && distance <= static_cast<double>(query.t_max)))
+    arguments->valid[0] = 0;
 }
 
 /// Half the sides of a box about the origin that holds some triangles.

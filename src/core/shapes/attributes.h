@@ -49,10 +49,14 @@ ALHAZEN_HD ColourAndAlpha<Real> mesh_colour(const SceneView<Real>& scene, const 
   return sum;
 }
 
-/// From the space of the positions to the world, where the hit is within an instance.
+/// From the space of the positions to the world at `time`, where the hit is within an instance.
 template <class Real>
-ALHAZEN_HD Vec3<Real> direction_in_world(const SceneView<Real>& scene, const Hit<Real>& hit, const Vec3<Real>& v) {
-  return hit.instance == no_instance ? v : transform_direction(scene.instances[hit.instance].world_from_object, v);
+ALHAZEN_HD Vec3<Real> direction_in_world(const SceneView<Real>& scene, const Hit<Real>& hit, Real time,
+                                         const Vec3<Real>& v) {
+  if (hit.instance == no_instance) return v;
+  const InstanceRecord<Real>& instance = scene.instances[hit.instance];
+  if (instance.motion == no_motion) return transform_direction(instance.world_from_object, v);
+  return transform_direction(instance_at(scene, hit.instance, time).world_from_object, v);
 }
 
 template <class Real>
@@ -79,9 +83,9 @@ ALHAZEN_HD MeshTangent<Real> mesh_tangent(const SceneView<Real>& scene, const Hi
   return tangent;
 }
 
-/// Area of (u, v) of set `uv_set` for an area of the surface, world space. 0: unknown.
+/// Area of (u, v) of set `uv_set` for an area of the surface, world space at `time`. 0: unknown.
 template <class Real>
-ALHAZEN_HD Real uv_density(const SceneView<Real>& scene, const Hit<Real>& hit, const Vec3<Real>& normal,
+ALHAZEN_HD Real uv_density(const SceneView<Real>& scene, const Hit<Real>& hit, Real time, const Vec3<Real>& normal,
                            uint32_t uv_set) {
   if (hit.primitive.is_none()) return 0;
   const uint32_t index = hit.primitive.index();
@@ -106,8 +110,8 @@ ALHAZEN_HD Real uv_density(const SceneView<Real>& scene, const Hit<Real>& hit, c
   const Real twice_uv_area =
       std::abs((uv[1].x - uv[0].x) * (uv[2].y - uv[0].y) - (uv[1].y - uv[0].y) * (uv[2].x - uv[0].x));
   const Vec3<Real> p0 = scene.positions[v[0]];
-  const Vec3<Real> e1 = direction_in_world(scene, hit, scene.positions[v[1]] - p0);
-  const Vec3<Real> e2 = direction_in_world(scene, hit, scene.positions[v[2]] - p0);
+  const Vec3<Real> e1 = direction_in_world(scene, hit, time, scene.positions[v[1]] - p0);
+  const Vec3<Real> e2 = direction_in_world(scene, hit, time, scene.positions[v[2]] - p0);
   return twice_uv_area / length(cross(e1, e2));
 }
 

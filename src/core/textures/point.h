@@ -14,11 +14,12 @@ struct TexturePoint {
   Vec3<Real> normal{};
   /// For what the mesh has at its vertices beside uv. Without a primitive: nothing.
   Hit<Real> hit{Real(0), Real(0), Real(0), {}};
+  Real time = 0;  ///< of the ray, for instances that move
 };
 
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT TexturePoint<Real> texture_point(const SurfaceInteraction<Real>& si, const Hit<Real>& hit) {
-  return {si.position, si.uv, si.normal, hit};
+  return {si.position, si.uv, si.normal, hit, si.time};
 }
 
 }  // namespace ALHAZEN_CORE

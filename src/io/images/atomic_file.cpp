@@ -28,6 +28,9 @@ std::atomic<bool (*)()> pipe_wait_is_over{nullptr};
 constexpr auto pipe_poll_interval = std::chrono::milliseconds(50);
 constexpr auto pipe_patience = std::chrono::seconds(1);
 
+/// Names that are tried for a temporary file. Processes look for abandoned ones once, so few of ours are removed.
+constexpr int max_temporaries = 16;
+
 /// Whether one has waited for `since` long enough, after being asked to end.
 bool is_enough(Clock::time_point since) {
   bool (*const is_over)() = pipe_wait_is_over.load();
@@ -130,22 +133,26 @@ void AtomicFile::create_temporary() {
 
 void AtomicFile::create_named_temporary() {
   const std::string folder = folder_of_path(target_);
-  for (;;) {
+  int error = 0;
+  for (int i = 0; i < max_temporaries; ++i) {
     temporary_ = temporary_path(folder);
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ < 0 && errno == EEXIST) continue;
     if (descriptor_ < 0) {
-      const int error = errno;
-      temporary_.clear();
-      throw WriteError(path_, error);
+      error = errno;
+      if (error == EEXIST) continue;
+      break;
     }
-    // Between open and lock another process may have taken the file for an abandoned one, and removed it.
-    struct stat named = {}, opened = {};
-    if (lock_temporary(descriptor_) && ::stat(temporary_.c_str(), &named) == 0 && ::fstat(descriptor_, &opened) == 0 &&
-        named.st_ino == opened.st_ino)
-      return;
+    // Between open and lock another process may have taken the file for an abandoned one, and removed it. No name is
+    // used twice: while there is a file of this one, it is ours. Inodes do not tell, since some filesystems of networks
+    // and of users number one file by one number now and by another then.
+    if (lock_temporary(descriptor_) && ::access(temporary_.c_str(), F_OK) == 0) return;
+    error = errno;
     ::close(descriptor_);
+    ::unlink(temporary_.c_str());
   }
+  descriptor_ = -1;
+  temporary_.clear();
+  throw WriteError(path_, error);
 }
 
 AtomicFile::~AtomicFile() {
