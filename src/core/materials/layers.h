@@ -126,12 +126,6 @@ ALHAZEN_HD Real dispersed_ior(Real ior, Real dispersion, int channel) {
   return clamp(ior + spread * static_cast<Real>(channel - 1), Real(1.0001), max_layered_ior<Real>);
 }
 
-/// Transmission without refraction, of sheets and of what has the index of its surroundings.
-template <class Real>
-ALHAZEN_HD bool is_thin(bool thin, Real ior) {
-  return thin || std::abs(ior - 1) < Real(1e-3);
-}
-
 /// Microfacets refract by their slope and the difference of the indices: a sheet of index 1 does not blur. That of
 /// glTF's default index, 1.5, blurs as much as it reflects.
 template <class Real>
@@ -269,7 +263,7 @@ ALHAZEN_HD void add_principled_base(const SceneView<Real>& scene, const Material
   const Vec3<Real> bare_f0 = b.f0;
   const FilmLayer<Real> film = film_of(scene, layers, at);
   if (film.amount > 0) add_film(b, film, std::abs(cosine));
-  b.thin = is_thin(layers.thin != 0, b.ior);
+  b.thin = layers.thin != 0;
   b.glass = b.thin ? Real(0) : rest * transmission;
   b.dielectric = rest - b.glass;
   b.diffuse = colour * (rest * (1 - transmission));
