@@ -141,14 +141,7 @@ std::vector<double> alphas_of(const std::optional<double>& alpha) {
   return all;
 }
 
-}  // namespace
-
-bool CoatedMetal::operator<(const CoatedMetal& other) const {
-  return std::tie(ior, coat_alpha, metal_alpha, thickness, bounces) <
-         std::tie(other.ior, other.coat_alpha, other.metal_alpha, other.thickness, other.bounces);
-}
-
-std::vector<double> coated_metal_table(const CoatedMetal& coat) {
+std::vector<double> computed(const CoatedMetal& coat) {
   const std::vector<double> coat_alphas = alphas_of(coat.coat_alpha), metal_alphas = alphas_of(coat.metal_alpha);
   std::vector<double> table(coat_alphas.size() * metal_alphas.size() * coated_metal_block);
   double* block = table.data();
@@ -158,6 +151,18 @@ std::vector<double> coated_metal_table(const CoatedMetal& coat) {
       block += coated_metal_block;
     }
   return table;
+}
+
+}  // namespace
+
+bool CoatedMetal::operator<(const CoatedMetal& other) const {
+  return std::tie(ior, coat_alpha, metal_alpha, thickness, bounces) <
+         std::tie(other.ior, other.coat_alpha, other.metal_alpha, other.thickness, other.bounces);
+}
+
+Table coated_metal_table(const CoatedMetal& coat) {
+  static TableCache<CoatedMetal> cache;
+  return cache.get(coat, [&] { return computed(coat); });
 }
 
 }  // namespace alhazen

@@ -453,8 +453,8 @@ class MaterialBuilder {
     return place->second;
   }
 
-  void append_table(const std::vector<double>& table) {
-    for (const double value : table) out_.albedo_tables.push_back(static_cast<Real>(value));
+  void append_table(const Table& table) {
+    for (const double value : *table) out_.albedo_tables.push_back(static_cast<Real>(value));
   }
 
   /// Where the table of an interface stands; one an index.
