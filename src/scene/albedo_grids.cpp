@@ -15,6 +15,11 @@ namespace {
 constexpr uint32_t max_quantities = 6;
 using Quantities = std::array<double, max_quantities>;
 
+struct GridNormals {
+  explicit GridNormals(size_t count) : even(count, Density::even), dense_in_tails(count, Density::dense_in_tails) {}
+  VisibleNormals even, dense_in_tails;
+};
+
 uint32_t quantities_of(AlbedoGrid::Kind kind) {
   return kind == AlbedoGrid::Kind::glass ? GlassGrid::count : kind == AlbedoGrid::Kind::sheen ? 1 : 2;
 }
@@ -33,81 +38,101 @@ Vec2d azimuth_of_node(uint32_t node, uint32_t azimuths) {
   return {t / length, (1 - t) / length};
 }
 
-/// base and edge of GGX whose Fresnel term is Schlick's.
-void add_ggx(const Vec3d& o, const Vec2d& alpha, int count, Quantities& q) {
-  for_visible_normals(o, alpha, count, Strata::dense_in_tails, [&](const Vec3d& m, double weight) {
-    const double cosine = dot(o, m);
-    const Vec3d i = m * (2 * cosine) - o;
-    if (!(i.z > 0 && cosine > 0)) return;
-    const double reflected = weight * ggx_g2(o, i, alpha) / ggx_g1(o, alpha), edge = schlick_share(cosine);
-    q[GgxGrid::base] += reflected * (1 - edge);
-    q[GgxGrid::edge] += reflected * edge;
+/// base and edge of GGX whose Fresnel term is Schlick's. In loops without branches, which compilers take several
+/// normals at once by.
+void add_ggx(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, Quantities& q) {
+  const UnshadowedShare unshadowed(o, alpha);
+  const double u2 = sqr(alpha.x), v2 = sqr(alpha.y);
+  normals.for_batches(o, alpha, [&](const VisibleNormals::Batch& m) {
+    double all[VisibleNormals::Batch::most], edges[VisibleNormals::Batch::most];
+    for (size_t k = 0; k < m.count; ++k) {
+      const double cosine = o.x * m.x[k] + o.y * m.y[k] + o.z * m.z[k];
+      const double x = 2 * cosine * m.x[k] - o.x, y = 2 * cosine * m.y[k] - o.y, z = 2 * cosine * m.z[k] - o.z;
+      const double above = z > 0 ? z : 0.0, share = unshadowed.by_squares(u2 * x * x + v2 * y * y, above);
+      const double rest = 1 - cosine, rest2 = rest * rest;
+      all[k] = cosine > 0 ? m.weight[k] * share : 0.0;
+      edges[k] = all[k] * (rest2 * rest2 * rest);
+    }
+    for (size_t k = 0; k < m.count; ++k) q[GgxGrid::base] += all[k] - edges[k], q[GgxGrid::edge] += edges[k];
   });
 }
 
 /// The quantities of glass on one side, `eta` being the index of the other one relative to it.
-void add_glass(const Vec3d& o, const Vec2d& alpha, double eta, int count, double* q) {
-  for_visible_normals(o, alpha, count, Strata::dense_in_tails, [&](const Vec3d& m, double weight) {
+void add_glass(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double eta, double* q) {
+  const UnshadowedShare unshadowed(o, alpha);
+  normals.for_each(o, alpha, [&](const Vec3d& m, double weight) {
     const double cosine = dot(o, m);
     if (!(cosine > 0)) return;
     double cos_t;
-    const double fresnel = fresnel_dielectric(cosine, eta, cos_t), scale = weight / ggx_g1(o, alpha);
+    const double fresnel = fresnel_dielectric(cosine, eta, cos_t);
     const Vec3d r = m * (2 * cosine) - o;
-    const double reflected = r.z > 0 ? scale * ggx_g2(o, r, alpha) : 0;
+    const double reflected = r.z > 0 ? weight * unshadowed(r) : 0;
     if (fresnel >= 1) {
       q[GlassGrid::bare] += reflected;
       return;
     }
     const Vec3d t = m * (cosine / eta - cos_t) - o * (1 / eta);
-    const double refracted = t.z < 0 ? scale * ggx_g2(o, t, alpha) : 0;
+    const double refracted = t.z < 0 ? weight * unshadowed(t) : 0;
     q[GlassGrid::bare] += refracted;
     q[GlassGrid::by_fresnel] += fresnel * (reflected - refracted);
     q[GlassGrid::by_constant] += reflected - refracted;
   });
 }
 
-void add_coat(const AlbedoGrid& grid, const Vec3d& o, const Vec2d& alpha, int count, Quantities& q) {
-  q[CoatGrid::interface] = reflected_share(
-      o, alpha, Strata::dense_in_tails,
-      [&](double cosine, double) {
-        double cos_t;
-        return fresnel_dielectric(cosine, grid.ior, cos_t);
-      },
-      count);
+void add_coat(const GridNormals& normals, const AlbedoGrid& grid, const Vec3d& o, const Vec2d& alpha, Quantities& q) {
+  q[CoatGrid::interface] = reflected_share(normals.dense_in_tails, o, alpha, [&](double cosine, double) {
+    double cos_t;
+    return fresnel_dielectric(cosine, grid.ior, cos_t);
+  });
   if (!grid.conserves) {
-    q[CoatGrid::transmission] = transmitted_share(o, alpha, grid.ior, grid.thickness, count);
+    q[CoatGrid::transmission] = transmitted_share(normals.even, o, alpha, grid.ior, grid.thickness);
     return;
   }
   q[CoatGrid::transmission] = (1 - q[CoatGrid::interface]) * std::exp(-grid.thickness / cosine_in_coat(o.z, grid.ior));
 }
 
-/// Albedo of sheen of colour 1, by midpoints over the hemisphere, which are dense along the horizon.
-double sheen_albedo(const Vec3d& o, double alpha) {
-  constexpr int rings = 64, sectors = 64;
-  const double roughness = std::max(std::sqrt(alpha), 0.07);
-  double sum = 0;
-  for (int r = 0; r < rings; ++r)
-    for (int s = 0; s < sectors; ++s) {
-      const double rest = 1 - (r + 0.5) / rings, turn = (s + 0.5) / sectors * pi<double>;
-      const double angle = (1 - rest * rest) * pi<double> / 2;
-      const Vec3d i{std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), std::cos(angle)};
-      sum += evaluate_sheen(roughness, o, i) * std::sin(angle) * 2 * rest;
+/// Directions of the hemisphere, dense along the horizon, and their solid angles.
+class SheenDirections {
+ public:
+  SheenDirections() {
+    constexpr double golden = 0.61803398874989485;
+    for (size_t k = 0; k < count; ++k) {
+      const double rest = 1 - (static_cast<double>(k) + 0.5) / count, angle = (1 - rest * rest) * pi<double> / 2;
+      const double turns = static_cast<double>(k) * golden, turn = 2 * pi<double> * (turns - std::floor(turns));
+      directions_[k] = {std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), std::cos(angle)};
+      weights_[k] = std::sin(angle) * rest * 2 * pi<double> * pi<double> / count;
     }
-  return sum * 2 * (pi<double> / 2 / rings) * (pi<double> / sectors);
-}
+  }
+
+  /// Albedo of sheen of colour 1.
+  double albedo(const Vec3d& o, double alpha) const {
+    const double roughness = std::max(std::sqrt(alpha), 0.07);
+    double sum = 0;
+    for (size_t k = 0; k < count; ++k) sum += evaluate_sheen(roughness, o, directions_[k]) * weights_[k];
+    return sum;
+  }
+
+ private:
+  static constexpr size_t count = 1024;
+  std::array<Vec3d, count> directions_;
+  std::array<double, count> weights_;
+};
 
 /// What quantities of a direction are computed together: those whose nodes have the same cosines.
-void add_side(const AlbedoGrid& grid, uint32_t first, const Vec3d& o, const Vec2d& alpha, int count, Quantities& q) {
+void add_side(const GridNormals& normals, const AlbedoGrid& grid, uint32_t first, const Vec3d& o, const Vec2d& alpha,
+              Quantities& q) {
   switch (grid.kind) {
     case AlbedoGrid::Kind::ggx:
-      return add_ggx(o, alpha, count, q);
+      return add_ggx(normals.dense_in_tails, o, alpha, q);
     case AlbedoGrid::Kind::coat:
-      return add_coat(grid, o, alpha, count, q);
-    case AlbedoGrid::Kind::sheen:
-      q[0] = sheen_albedo(o, alpha.x);
+      return add_coat(normals, grid, o, alpha, q);
+    case AlbedoGrid::Kind::sheen: {
+      static const SheenDirections sheen;
+      q[0] = sheen.albedo(o, alpha.x);
       return;
+    }
     case AlbedoGrid::Kind::glass:
-      return add_glass(o, alpha, index_of(grid, first), count, q.data() + first);
+      return add_glass(normals.dense_in_tails, o, alpha, index_of(grid, first), q.data() + first);
   }
 }
 
@@ -118,31 +143,46 @@ double mean_of(const double* rows, uint32_t azimuths, double ior) {
   constexpr int turns = 16;
   double sum = 0;
   for (int t = 0; t < turns; ++t) {
-    const double turn = (t + 0.5) / turns * pi<double> / 2;
+    const double turn = (t + 0.5) / turns * pi<double> / 2, x = std::cos(turn), y = std::sin(turn);
     sum += mean_over_cosines(ior, [&](double cosine) {
       const double sine = safe_sqrt(1 - cosine * cosine);
-      const Vec3d o{sine * std::cos(turn), sine * std::sin(turn), cosine};
+      const Vec3d o{sine * x, sine * y, cosine};
       return grid_albedo(place, 0, grid_direction(place, o, ior));
     });
   }
   return sum / turns;
 }
 
-void fill_block(const AlbedoGrid& grid, const AlbedoGridRecord& record, const Vec2d& alpha, int count, double* block) {
+void fill_block(const GridNormals& normals, const AlbedoGrid& grid, const AlbedoGridRecord& record, const Vec2d& alpha,
+                double* block) {
   const uint32_t sides = grid.kind == AlbedoGrid::Kind::glass ? 2 : 1, each = record.quantities / sides;
+  const uint32_t azimuths = alpha.x == alpha.y ? 1 : record.azimuths;  // the others are the same
   for (uint32_t first = 0; first < record.quantities; first += each)
-    for (uint32_t a = 0; a < record.azimuths; ++a)
+    for (uint32_t a = 0; a < azimuths; ++a)
       for (uint32_t i = 0; i < grid_cosines; ++i) {
         const double cosine = cosine_at(i, index_of(grid, first), grid_cosines), sine = safe_sqrt(1 - cosine * cosine);
         const Vec2d azimuth = azimuth_of_node(a, record.azimuths);
         Quantities q{};
-        add_side(grid, first, {sine * azimuth.x, sine * azimuth.y, cosine}, alpha, count, q);
-        for (uint32_t k = first; k < first + each; ++k) block[(k * record.azimuths + a) * grid_cosines + i] = q[k];
+        add_side(normals, grid, first, {sine * azimuth.x, sine * azimuth.y, cosine}, alpha, q);
+        for (uint32_t k = first; k < first + each; ++k)
+          for (uint32_t same = a; same < record.azimuths; same += azimuths)
+            block[(k * record.azimuths + same) * grid_cosines + i] = q[k];
       }
   if (grid.kind == AlbedoGrid::Kind::glass || grid.kind == AlbedoGrid::Kind::sheen) return;  // nobody asks for means
   for (uint32_t k = 0; k < record.quantities; ++k)
     block[record.quantities * record.azimuths * grid_cosines + k] =
-        mean_of(block + k * record.azimuths * grid_cosines, record.azimuths, index_of(grid, k));
+        mean_of(block + k * record.azimuths * grid_cosines, azimuths, index_of(grid, k));
+}
+
+/// The block of a pair of alphas from that of the pair the other way round.
+void mirror_block(const AlbedoGridRecord& record, const double* from, double* to) {
+  const uint32_t rows = record.quantities * record.azimuths;
+  for (uint32_t row = 0; row < rows; ++row) {
+    const uint32_t k = row / record.azimuths, a = row % record.azimuths;
+    std::copy_n(from + row * grid_cosines, grid_cosines,
+                to + (k * record.azimuths + record.azimuths - 1 - a) * grid_cosines);
+  }
+  std::copy_n(from + rows * grid_cosines, record.quantities, to + rows * grid_cosines);
 }
 
 double alpha_of_node(const std::optional<double>& constant, uint32_t node, uint32_t alphas) {
@@ -170,30 +210,41 @@ AlbedoGridRecord record_of(const AlbedoGrid& grid) {
 
 namespace {
 
+/// How many normals a direction sees, for errors of a thousandth at most where it is one material's alone and of a few
+/// where alphas are interpolated as well. Glass from within needs more of them: total reflection sets in with a leap.
+size_t normals_of(const AlbedoGrid& grid, const AlbedoGridRecord& record) {
+  const bool is_constant = record.alphas_u * record.alphas_v == 1;
+  if (grid.kind == AlbedoGrid::Kind::glass) return is_constant ? 1597 : 377;
+  return is_constant ? 610 : record.azimuths > 1 ? 256 : 377;
+}
+
 std::vector<double> computed(const AlbedoGrid& grid) {
   const AlbedoGridRecord record = record_of(grid);
   const uint32_t size = grid_block_size(record.quantities, record.azimuths), blocks = record.alphas_u * record.alphas_v;
-  const int count = blocks == 1 ? 48 : grid.is_anisotropic ? 16 : 24;
-  const bool constant = blocks == 1;
+  const GridNormals normals(normals_of(grid, record));
   std::vector<double> values(static_cast<size_t>(size) * blocks);
+  const auto block = [&](uint32_t u, uint32_t v) {
+    return values.data() + static_cast<size_t>(size) * (u * record.alphas_v + v);
+  };
+  const auto alpha_u = blocks == 1 ? grid.alpha_u : std::nullopt, alpha_v = blocks == 1 ? grid.alpha_v : std::nullopt;
 #pragma omp parallel for schedule(dynamic)
   for (uint32_t n = 0; n < blocks; ++n) {
-    const double u = alpha_of_node(constant ? grid.alpha_u : std::nullopt, n / record.alphas_v, record.alphas_u);
-    const double v = !grid.is_anisotropic
-                         ? u
-                         : alpha_of_node(constant ? grid.alpha_v : std::nullopt, n % record.alphas_v, record.alphas_v);
-    fill_block(grid, record, {u, v}, count, values.data() + static_cast<size_t>(n) * size);
+    const uint32_t u = n / record.alphas_v, v = n % record.alphas_v;
+    if (v > u) continue;
+    const double x = alpha_of_node(alpha_u, u, record.alphas_u);
+    const double y = grid.is_anisotropic ? alpha_of_node(alpha_v, v, record.alphas_v) : x;
+    fill_block(normals, grid, record, {x, y}, block(u, v));
   }
+  for (uint32_t u = 0; u < record.alphas_u; ++u)
+    for (uint32_t v = u + 1; v < record.alphas_v; ++v) mirror_block(record, block(v, u), block(u, v));
   return values;
 }
 
 }  // namespace
 
-std::vector<double> values_of(const AlbedoGrid& grid) {
-  // That of every principled material without anisotropy.
-  static const std::vector<double> isotropic = computed({.kind = AlbedoGrid::Kind::ggx});
-  const bool is_common = grid.kind == AlbedoGrid::Kind::ggx && !grid.is_anisotropic && !grid.alpha_u;
-  return is_common ? isotropic : computed(grid);
+Table values_of(const AlbedoGrid& grid) {
+  static TableCache<AlbedoGrid> cache;
+  return cache.get(grid, [&] { return computed(grid); });
 }
 
 }  // namespace alhazen

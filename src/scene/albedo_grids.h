@@ -4,9 +4,9 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "core/materials/albedo_grid.h"
+#include "scene/table_cache.h"
 
 namespace alhazen {
 
@@ -30,6 +30,7 @@ struct AlbedoGrid {
 
 /// The record, `first` left at 0.
 AlbedoGridRecord record_of(const AlbedoGrid& grid);
-std::vector<double> values_of(const AlbedoGrid& grid);
+/// Computed once a grid.
+Table values_of(const AlbedoGrid& grid);
 
 }  // namespace alhazen

@@ -1,10 +1,12 @@
 #pragma once
 
-// Integrals over the microfacet normals of GGX that a direction sees, by midpoints of strata: what the tables and grids
-// of albedo are computed by. `Alpha` is a number or a pair, as in core/materials/microfacet.h.
+// Integrals over the microfacet normals of GGX that a direction sees: what the tables and grids of albedo are computed
+// by.
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "core/materials/albedo_table.h"
 #include "core/materials/fresnel.h"
@@ -54,44 +56,103 @@ inline double mean_of_row(const double* row, double ior, uint32_t nodes) {
   });
 }
 
-/// How the square is cut into strata: evenly, or finer where normals are far from the mean. What these tails reflect
-/// counts where the interface reflects much.
-enum class Strata { even, dense_in_tails };
+/// How the disk that normals are taken from is weighted: evenly, or with more points where normals are far from the
+/// mean. What these tails reflect counts where the interface reflects much.
+enum class Density { even, dense_in_tails };
 
-/// Calls visit(normal, weight) for the normals seen from `o`; the weights add up to 1.
-template <class Alpha, class Visit>
-void for_visible_normals(const Vec3d& o, const Alpha& alpha, int count, Strata strata, const Visit& visit) {
-  for (int a = 0; a < count; ++a) {
-    const double rest = 1 - (a + 0.5) / count;
-    const double u = strata == Strata::even ? (a + 0.5) / count : 1 - rest * rest;
-    const double weight = (strata == Strata::even ? 1 : 2 * rest) / (count * count);
-    for (int b = 0; b < count; ++b) visit(sample_visible_normal(o, alpha, Vec2d{u, (b + 0.5) / count}), weight);
+/// Normals that a direction sees, with weights that add up to 1. As sample_visible_normal has them, of points that
+/// are the same for all directions: those of a Fibonacci lattice, which a kink in what is summed, as along the horizon,
+/// disturbs less than it does a square of as many.
+class VisibleNormals {
+ public:
+  /// As many of them as are at hand at once.
+  struct Batch {
+    static constexpr size_t most = 64;
+    size_t count;
+    double x[most], y[most], z[most];
+    const double* weight;
+  };
+
+  VisibleNormals(size_t count, Density density) : x_(count), y_(count), height_(count), weight_(count) {
+    constexpr double golden = 0.61803398874989485;
+    double sum = 0;
+    for (size_t k = 0; k < count; ++k) {
+      const double rest = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
+      const double turn = static_cast<double>(k) * golden + 0.25, angle = 2 * pi<double> * (turn - std::floor(turn));
+      const double radius = density == Density::even ? std::sqrt(1 - rest) : std::sqrt(1 - rest * rest);
+      x_[k] = radius * std::cos(angle), y_[k] = radius * std::sin(angle);
+      height_[k] = safe_sqrt(1 - x_[k] * x_[k]);
+      sum += weight_[k] = density == Density::even ? 1 : rest;
+    }
+    for (double& weight : weight_) weight /= sum;
   }
-}
 
-/// Mean of share(normal) over the visible normals.
-template <class Alpha, class Share>
-double mean_over_visible_normals(const Vec3d& o, const Alpha& alpha, Strata strata, const Share& share,
-                                 int count = 24) {
-  double sum = 0, weights = 0;
-  for_visible_normals(o, alpha, count, strata, [&](const Vec3d& m, double weight) {
-    const double counted = strata == Strata::even ? 1 : weight;
-    sum += counted * share(m), weights += counted;
-  });
-  return sum / weights;
-}
+  /// Calls visit(batch) until all were visited.
+  template <class Visit>
+  void for_batches(const Vec3d& o, const Vec2d& alpha, const Visit& visit) const {
+    const Vec3d stretched = normalize(stretch(o, alpha));
+    const double sin2 = stretched.x * stretched.x + stretched.y * stretched.y;
+    const Vec3d t1 = sin2 > 1e-12 ? Vec3d{-stretched.y, stretched.x, 0} * (1 / std::sqrt(sin2)) : Vec3d{1, 0, 0};
+    const Vec3d t2 = cross(stretched, t1);
+    const double up = 0.5 * (1 + stretched.z);
+    Batch batch;
+    for (size_t first = 0; first < x_.size(); first += batch.count) {
+      batch.count = std::min(Batch::most, x_.size() - first);
+      batch.weight = weight_.data() + first;
+      const double *x = x_.data() + first, *y = y_.data() + first, *height = height_.data() + first;
+      for (size_t k = 0; k < batch.count; ++k) {
+        const double py = (1 - up) * height[k] + up * y[k];
+        const double pz = safe_sqrt(height[k] * height[k] - py * py);
+        const double nx = alpha.x * (t1.x * x[k] + t2.x * py + stretched.x * pz);
+        const double ny = alpha.y * (t1.y * x[k] + t2.y * py + stretched.y * pz);
+        const double nz = larger(1e-6, t2.z * py + stretched.z * pz);
+        const double scale = 1 / std::sqrt(nx * nx + ny * ny + nz * nz);
+        batch.x[k] = nx * scale, batch.y[k] = ny * scale, batch.z[k] = nz * scale;
+      }
+      visit(batch);
+    }
+  }
+
+  /// Calls visit(normal, weight).
+  template <class Visit>
+  void for_each(const Vec3d& o, const Vec2d& alpha, const Visit& visit) const {
+    for_batches(o, alpha, [&](const Batch& batch) {
+      for (size_t k = 0; k < batch.count; ++k) visit(Vec3d{batch.x[k], batch.y[k], batch.z[k]}, batch.weight[k]);
+    });
+  }
+
+ private:
+  std::vector<double> x_, y_, height_, weight_;
+};
+
+/// Of what visible microfacets send from `o` to another direction, the share that no other one holds up: G2 / G1.
+class UnshadowedShare {
+ public:
+  UnshadowedShare(const Vec3d& o, const Vec2d& alpha) : alpha_(alpha), lambda_(ggx_lambda(o, alpha)) {}
+  double operator()(const Vec3d& i) const {
+    return i.z == 0 ? 0.0 : (1 + lambda_) / (1 + lambda_ + ggx_lambda(i, alpha_));
+  }
+  /// Of a direction by its squared coordinates, those along the surface times alpha^2, and its cosine: more than 0.
+  double by_squares(double stretched2, double cosine) const {
+    return (1 + lambda_) * cosine / ((0.5 + lambda_) * cosine + 0.5 * std::sqrt(cosine * cosine + stretched2));
+  }
+
+ private:
+  Vec2d alpha_;
+  double lambda_;
+};
 
 /// Mean of weight(cosine at the microfacet, that of the reflected direction) over what GGX of that alpha reflects.
-template <class Alpha, class Weight>
-double reflected_share(const Vec3d& o, const Alpha& alpha, Strata strata, const Weight& weight, int count = 24) {
-  return mean_over_visible_normals(
-      o, alpha, strata,
-      [&](const Vec3d& m) {
-        const double cosine = dot(o, m);
-        const Vec3d i = m * (2 * cosine) - o;
-        return i.z > 0 && cosine > 0 ? weight(cosine, i.z) * ggx_g2(o, i, alpha) / ggx_g1(o, alpha) : 0;
-      },
-      count);
+template <class Weight>
+double reflected_share(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, const Weight& weight) {
+  const UnshadowedShare unshadowed(o, alpha);
+  double sum = 0;
+  normals.for_each(o, alpha, [&](const Vec3d& m, double share) {
+    const double cosine = dot(o, m);
+    const Vec3d i = m * (2 * cosine) - o;
+    if (i.z > 0 && cosine > 0) sum += share * weight(cosine, i.z) * unshadowed(i);
+  });
+  return sum;
 }
 
 /// Cosine by which light from that cosine outside goes down through a coat. Where a smooth interface reflects
@@ -102,19 +163,19 @@ inline double cosine_in_coat(double cosine, double ior) {
 }
 
 /// Share of light from `o` that single scattering at a rough interface lets through to what lies below a medium.
-template <class Alpha>
-double transmitted_share(const Vec3d& o, const Alpha& alpha, double ior, double optical_thickness, int count = 24) {
-  return mean_over_visible_normals(
-      o, alpha, Strata::even,
-      [&](const Vec3d& m) {
-        const double cosine = dot(o, m);
-        double cos_t;
-        const double passes = cosine > 0 ? 1 - fresnel_dielectric(cosine, ior, cos_t) : 0;
-        if (passes == 0) return 0.0;
-        const Vec3d i = m * (cosine / ior - cos_t) - o * (1 / ior);
-        return i.z < 0 ? passes * std::exp(optical_thickness / i.z) * ggx_g2(o, i, alpha) / ggx_g1(o, alpha) : 0;
-      },
-      count);
+inline double transmitted_share(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double ior,
+                                double optical_thickness) {
+  const UnshadowedShare unshadowed(o, alpha);
+  double sum = 0;
+  normals.for_each(o, alpha, [&](const Vec3d& m, double share) {
+    const double cosine = dot(o, m);
+    double cos_t;
+    const double passes = cosine > 0 ? 1 - fresnel_dielectric(cosine, ior, cos_t) : 0;
+    if (passes == 0) return;
+    const Vec3d i = m * (cosine / ior - cos_t) - o * (1 / ior);
+    if (i.z < 0) sum += share * passes * std::exp(optical_thickness / i.z) * unshadowed(i);
+  });
+  return sum;
 }
 
 }  // namespace alhazen

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <mutex>
+#include <tuple>
 
 #include "core/materials/albedo_table.h"
 #include "core/materials/layered.h"
@@ -18,15 +17,17 @@ double alpha_at(uint32_t j) {
   return std::max(sqr(static_cast<double>(j) / (albedo_side - 1)), least_layered_alpha<double>);
 }
 
-/// `albedo(direction, alpha)` at every value, and its means over all directions. `ior`: of what interface it is.
+constexpr size_t normals = 377;
+
+/// `albedo(direction, alphas)` at every value, and its means over all directions. `ior`: of what interface it is.
 template <class Albedo>
 std::vector<double> table_of(const Albedo& albedo, double ior) {
   std::vector<double> table(albedo_table_size);
 #pragma omp parallel for schedule(dynamic)
   for (uint32_t j = 0; j < albedo_side; ++j)
     for (uint32_t i = 0; i < albedo_side; ++i) {
-      const double cosine = cosine_at(i, ior, albedo_side);
-      table[j * albedo_side + i] = albedo(Vec3d{std::sqrt(1 - cosine * cosine), 0, cosine}, alpha_at(j));
+      const double cosine = cosine_at(i, ior, albedo_side), alpha = alpha_at(j);
+      table[j * albedo_side + i] = albedo(Vec3d{std::sqrt(1 - cosine * cosine), 0, cosine}, Vec2d{alpha, alpha});
     }
   for (uint32_t j = 0; j < albedo_side; ++j)
     table[albedo_side * albedo_side + j] = mean_of_row(table.data() + j * albedo_side, ior, albedo_side);
@@ -34,7 +35,7 @@ std::vector<double> table_of(const Albedo& albedo, double ior) {
 }
 
 /// Share of diffuse light from below that the interface sends down again, after a way up and one down.
-double inner_reflectance(double ior, double alpha, double optical_thickness) {
+double inner_reflectance(const VisibleNormals& seen, double ior, double alpha, double optical_thickness) {
   const bool smooth = alpha <= least_layered_alpha<double>;
   const int steps = smooth ? 4096 : 96;
   double sum = 0;
@@ -45,34 +46,24 @@ double inner_reflectance(double ior, double alpha, double optical_thickness) {
       return fresnel_dielectric(cos_o, 1 / ior, cos_t) * std::exp(-optical_thickness * (1 / cosine + 1 / cos_i));
     };
     const Vec3d o{std::sqrt(1 - cosine * cosine), 0, cosine};
-    sum +=
-        2 * cosine * (smooth ? reflected(cosine, cosine) : reflected_share(o, alpha, Strata::even, reflected)) / steps;
+    sum += 2 * cosine *
+           (smooth ? reflected(cosine, cosine) : reflected_share(seen, o, Vec2d{alpha, alpha}, reflected)) / steps;
   }
   return sum;
 }
 
-}  // namespace
-
-const std::vector<double>& interface_albedo_table(double ior) {
-  static std::mutex mutex;
-  static std::map<double, std::vector<double>> tables;
-  const std::lock_guard lock(mutex);
-  std::vector<double>& table = tables[ior];
-  if (!table.empty()) return table;
+std::vector<double> interface_albedo(double ior) {
   // Glass and water reflect next to nothing of what the tails of GGX have.
-  const Strata strata = ior >= 1 && ior <= 2 ? Strata::even : Strata::dense_in_tails;
-  table = table_of(
-      [ior, strata](const Vec3d& o, double alpha) {
-        return reflected_share(o, alpha, strata, [ior](double cosine, double) {
+  const VisibleNormals seen(normals, ior >= 1 && ior <= 2 ? Density::even : Density::dense_in_tails);
+  return table_of(
+      [&](const Vec3d& o, const Vec2d& alpha) {
+        return reflected_share(seen, o, alpha, [ior](double cosine, double) {
           double cos_t;
           return fresnel_dielectric(cosine, ior, cos_t);
         });
       },
       ior);
-  return table;
 }
-
-namespace {
 
 double* column(std::vector<double>& table, uint32_t column) {
   return table.data() + (albedo_side + column) * albedo_side;
@@ -80,10 +71,11 @@ double* column(std::vector<double>& table, uint32_t column) {
 
 /// What the interface does not reflect goes through it.
 std::vector<double> conserving_transmission(double ior, double optical_thickness) {
-  std::vector<double> table = interface_albedo_table(ior);
+  const VisibleNormals seen(normals, Density::even);
+  std::vector<double> table = *interface_albedo_table(ior);
   table.resize(coat_transmission_size);
-  const double unabsorbed = inner_reflectance(ior, 0, 0);
-  const double kept = unabsorbed > 0 ? inner_reflectance(ior, 0, optical_thickness) / unabsorbed : 1;
+  const double unabsorbed = inner_reflectance(seen, ior, 0, 0);
+  const double kept = unabsorbed > 0 ? inner_reflectance(seen, ior, 0, optical_thickness) / unabsorbed : 1;
   for (uint32_t j = 0; j < albedo_side; ++j) {
     double* row = table.data() + j * albedo_side;
     std::array<double, albedo_side> entering;
@@ -104,14 +96,16 @@ std::vector<double> conserving_transmission(double ior, double optical_thickness
 
 /// What single scattering at the interface lets through.
 std::vector<double> lossy_transmission(double ior, double optical_thickness) {
-  std::vector<double> table =
-      table_of([&](const Vec3d& o, double alpha) { return transmitted_share(o, alpha, ior, optical_thickness); }, ior);
+  const VisibleNormals seen(normals, Density::even);
+  std::vector<double> table = table_of(
+      [&](const Vec3d& o, const Vec2d& alpha) { return transmitted_share(seen, o, alpha, ior, optical_thickness); },
+      ior);
   table.resize(coat_transmission_size);
 #pragma omp parallel for schedule(dynamic)
   for (uint32_t j = 0; j < albedo_side; ++j) {
     const double mean = column(table, CoatColumns::mean)[j] =
         mean_of_row(table.data() + j * albedo_side, ior, albedo_side);
-    const double back = inner_reflectance(ior, alpha_at(j), optical_thickness);
+    const double back = inner_reflectance(seen, ior, alpha_at(j), optical_thickness);
     column(table, CoatColumns::back)[j] = back;
     column(table, CoatColumns::escape)[j] = 1 - back;
     // Below an index of 1 an error of the mean would be scaled up.
@@ -123,8 +117,16 @@ std::vector<double> lossy_transmission(double ior, double optical_thickness) {
 
 }  // namespace
 
-std::vector<double> coat_transmission_table(double ior, double optical_thickness, bool conserves) {
-  return conserves ? conserving_transmission(ior, optical_thickness) : lossy_transmission(ior, optical_thickness);
+Table interface_albedo_table(double ior) {
+  static TableCache<double> cache;
+  return cache.get(ior, [&] { return interface_albedo(ior); });
+}
+
+Table coat_transmission_table(double ior, double optical_thickness, bool conserves) {
+  static TableCache<std::tuple<double, double, bool>> cache;
+  return cache.get({ior, optical_thickness, conserves}, [&] {
+    return conserves ? conserving_transmission(ior, optical_thickness) : lossy_transmission(ior, optical_thickness);
+  });
 }
 
 }  // namespace alhazen

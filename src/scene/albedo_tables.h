@@ -2,21 +2,20 @@
 
 // Computes the tables of core/materials/albedo_table.h. They depend on nothing but a coat.
 
-#include <vector>
-
 #include "core/materials/albedo_table.h"
+#include "scene/table_cache.h"
 
 namespace alhazen {
 
 inline constexpr uint32_t coat_transmission_size = (albedo_side + CoatColumns::count) * albedo_side;
 
 /// Of a rough dielectric interface of index `ior`, seen from outside: albedo_table_size values. Computed once an index.
-const std::vector<double>& interface_albedo_table(double ior);
+Table interface_albedo_table(double ior);
 
 /// What a coat of index `ior` over a diffuse base lets through from a direction, absorption on the way down included,
 /// and after the rows what CoatColumns says: coat_transmission_size values. `conserves`: all that the interface does
 /// not reflect goes through; otherwise what leaves its microfacets on the wrong side is lost, as in any model of single
-/// scattering.
-std::vector<double> coat_transmission_table(double ior, double optical_thickness, bool conserves);
+/// scattering. Computed once a coat.
+Table coat_transmission_table(double ior, double optical_thickness, bool conserves);
 
 }  // namespace alhazen

@@ -68,10 +68,13 @@ struct Bin {
 /// The first `count` bins of each axis.
 template <class Real>
 struct Bins {
-  int count;
+  int count = 0;
   Bin<Real> of_axis[3][most_bins];
 
-  explicit Bins(int bins) : count(bins) {
+  Bins() {}
+  explicit Bins(int bins) { clear(bins); }
+  void clear(int bins) {
+    count = bins;
     for (auto& row : of_axis)
       for (int i = 0; i < count; ++i) row[i] = {RowBounds<Real>::empty(), 0};
   }
@@ -198,8 +201,12 @@ class Builder {
   }
 
   void parallel_bins(uint32_t begin, uint32_t end, const Binning<Real>& binning, Bins<Real>& bins) const {
-    std::vector<Bins<Real>> parts(binning_chunks, Bins<Real>(bins.count));
-    for_chunks(begin, end, [&](uint32_t c, uint32_t b, uint32_t e) { fill_bins(b, e, binning, parts[c]); });
+    // Not in memory that may be lacking: what is thrown among threads ends the process.
+    std::array<Bins<Real>, binning_chunks> parts;
+    for_chunks(begin, end, [&](uint32_t c, uint32_t b, uint32_t e) {
+      parts[c].clear(bins.count);
+      fill_bins(b, e, binning, parts[c]);
+    });
     for (const Bins<Real>& part : parts) bins.extend(part);
   }
 

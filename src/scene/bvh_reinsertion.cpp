@@ -99,25 +99,24 @@ class Reinsertion {
     if (parents_[from] == 0) return best;  // its parent is the root, which stays
     const Bounds3<Real> box = box_of(nodes_[from]);
     const Real area = box.half_area();
-    thread_local std::vector<Place> stack;
-    stack.clear();
+    Place stack[most_visits + 1];  // each visit takes one and leaves two at most
+    int waiting = 0;
     uint32_t pivot = parents_[from], side = sibling_of(from);
     Bounds3<Real> without = box_of(nodes_[side]);  // the pivot's box once the subtree is gone
     Real gain = area_of(nodes_[pivot]);
     int visits = 0;
     for (;;) {
-      stack.push_back({gain, side});
-      for (; !stack.empty() && visits < most_visits; ++visits) {
-        const Place place = stack.back();
-        stack.pop_back();
+      stack[waiting++] = {gain, side};
+      for (; waiting > 0 && visits < most_visits; ++visits) {
+        const Place place = stack[--waiting];
         if (place.gain - area <= best.gain) continue;
         const BvhNode<Real>& there = nodes_[place.node];
         const Real with_parent = place.gain - united(box_of(there), box).half_area();
         if (with_parent > best.gain) best = {from, place.node, with_parent};
         if (there.count > 0) continue;
         const Real below = with_parent + area_of(there);
-        stack.push_back({below, there.first});
-        stack.push_back({below, there.first + 1});
+        stack[waiting++] = {below, there.first};
+        stack[waiting++] = {below, there.first + 1};
       }
       if (pivot != parents_[from]) {
         without.extend(box_of(nodes_[side]));

@@ -74,9 +74,11 @@ struct Reflected {
   double cosine, weight;
 };
 
-std::vector<Reflected> lobe_of(const Vec3d& o, double alpha) {
-  constexpr int strata = 24;
-  std::vector<Reflected> lobe;
+constexpr int lobe_strata = 24;
+
+/// Adds them to `lobe`, at most lobe_strata^2.
+void add_lobe(const Vec3d& o, double alpha, std::vector<Reflected>& lobe) {
+  constexpr int strata = lobe_strata;
   for (int a = 0; a < strata; ++a)
     for (int b = 0; b < strata; ++b) {
       // Anywhere in its stratum: midpoints would miss the tail of the distribution.
@@ -85,7 +87,6 @@ std::vector<Reflected> lobe_of(const Vec3d& o, double alpha) {
       const Vec3d i = m * (2 * dot(o, m)) - o;
       if (i.z > 0) lobe.push_back({i.z, ggx_g2(o, i, alpha) / ggx_g1(o, alpha) / (strata * strata)});
     }
-  return lobe;
 }
 
 /// Light of the lobe from direction `k`, before its own scale.
@@ -116,6 +117,8 @@ Row scales_for(const Row& wanted, const std::vector<std::vector<Reflected>>& lob
 void add_block(const CoatedMetal& coat, double coat_alpha, double metal_alpha, uint64_t walks, double* block) {
   Row once{}, all{};
   std::vector<std::vector<Reflected>> lobes(coated_metal_cosines);
+  // Before threads part: memory that ends in one of them would end the process.
+  for (std::vector<Reflected>& lobe : lobes) lobe.reserve(lobe_strata * lobe_strata);
 #pragma omp parallel for schedule(dynamic)
   for (size_t k = 0; k < coated_metal_cosines; ++k) {
     for (uint64_t i = 0; i < walks; ++i) {
@@ -123,7 +126,7 @@ void add_block(const CoatedMetal& coat, double coat_alpha, double metal_alpha, u
       once[k] += left.once / static_cast<double>(walks);
       all[k] += left.all / static_cast<double>(walks);
     }
-    lobes[k] = lobe_of(direction_at(k, coat.ior), coated_metal_alpha(coat_alpha, metal_alpha, coat.ior));
+    add_lobe(direction_at(k, coat.ior), coated_metal_alpha(coat_alpha, metal_alpha, coat.ior), lobes[k]);
   }
   const Row first = scales_for(once, lobes, coat.ior), second = scales_for(all, lobes, coat.ior);
   std::copy(first.begin(), first.end(), block);
@@ -138,14 +141,7 @@ std::vector<double> alphas_of(const std::optional<double>& alpha) {
   return all;
 }
 
-}  // namespace
-
-bool CoatedMetal::operator<(const CoatedMetal& other) const {
-  return std::tie(ior, coat_alpha, metal_alpha, thickness, bounces) <
-         std::tie(other.ior, other.coat_alpha, other.metal_alpha, other.thickness, other.bounces);
-}
-
-std::vector<double> coated_metal_table(const CoatedMetal& coat) {
+std::vector<double> computed(const CoatedMetal& coat) {
   const std::vector<double> coat_alphas = alphas_of(coat.coat_alpha), metal_alphas = alphas_of(coat.metal_alpha);
   std::vector<double> table(coat_alphas.size() * metal_alphas.size() * coated_metal_block);
   double* block = table.data();
@@ -155,6 +151,18 @@ std::vector<double> coated_metal_table(const CoatedMetal& coat) {
       block += coated_metal_block;
     }
   return table;
+}
+
+}  // namespace
+
+bool CoatedMetal::operator<(const CoatedMetal& other) const {
+  return std::tie(ior, coat_alpha, metal_alpha, thickness, bounces) <
+         std::tie(other.ior, other.coat_alpha, other.metal_alpha, other.thickness, other.bounces);
+}
+
+Table coated_metal_table(const CoatedMetal& coat) {
+  static TableCache<CoatedMetal> cache;
+  return cache.get(coat, [&] { return computed(coat); });
 }
 
 }  // namespace alhazen

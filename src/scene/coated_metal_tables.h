@@ -3,7 +3,8 @@
 // Computes the tables of core/materials/coated_metal.h.
 
 #include <optional>
-#include <vector>
+
+#include "scene/table_cache.h"
 
 namespace alhazen {
 
@@ -17,7 +18,7 @@ struct CoatedMetal {
 };
 
 /// Scales for GGX of coated_metal_alpha, so that its albedo is that of a random walk between the two surfaces, in which
-/// each scatters once a visit.
-std::vector<double> coated_metal_table(const CoatedMetal& coat);
+/// each scatters once a visit. Computed once a coat.
+Table coated_metal_table(const CoatedMetal& coat);
 
 }  // namespace alhazen

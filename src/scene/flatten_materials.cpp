@@ -370,7 +370,7 @@ class MaterialBuilder {
     record.ior = static_cast<Real>(ior);
     record.roughness = textures_.range(p.roughness);
     layers.type = LayersType::principled;
-    layers.thin = p.thin ? 1 : 0;
+    layers.thin = does_not_refract(p, record.ior) ? 1 : 0;
     layers.base_colour = textures_.range(p.base_colour);
     layers.metallic = textures_.range(p.metallic);
     layers.specular = textures_.range(p.specular);
@@ -414,12 +414,14 @@ class MaterialBuilder {
     layers.grid = grid_of(AlbedoGrid::Kind::ggx, 1.5, alpha);
     if (p.sheen_colour != no_index) layers.sheen_grid = albedo_grid(sheen_grid(p));
     if (p.transmission == no_index) return;
-    if (is_thin(p.thin, ior)) {
+    if (layers.thin) {
       layers.through_grid = grid_of(AlbedoGrid::Kind::ggx, 1.5, is_constant ? thin_alpha(alpha, ior) : alpha);
       return;
     }
     for (int channel = 0; channel < 3; ++channel) {
-      const double index = p.dispersion > 0 ? dispersed_ior(ior, p.dispersion, channel) : ior;
+      const double index = layers.dispersion > 0
+                               ? static_cast<double>(dispersed_ior(static_cast<Real>(ior), layers.dispersion, channel))
+                               : ior;
       layers.glass[channel] = grid_of(AlbedoGrid::Kind::glass, index, alpha);
     }
   }
@@ -451,8 +453,8 @@ class MaterialBuilder {
     return place->second;
   }
 
-  void append_table(const std::vector<double>& table) {
-    for (const double value : table) out_.albedo_tables.push_back(static_cast<Real>(value));
+  void append_table(const Table& table) {
+    for (const double value : *table) out_.albedo_tables.push_back(static_cast<Real>(value));
   }
 
   /// Where the table of an interface stands; one an index.
@@ -474,12 +476,16 @@ class MaterialBuilder {
     return texture == no_index ? textures_.constant(fallback) : textures_.range(texture);
   }
 
-  /// The index, or that from which on more of it makes no difference: an interface reflects everything.
+  /// The index, or that from which on more of it makes no difference: an interface reflects everything. It is rounded
+  /// to the precision of the scene, so that its tables are those of the index that is met where they are looked up.
   static double checked_ior(const Material& material, double ior) {
     if (!(ior > 0) || !std::isfinite(ior))
       throw InputError("material '" + material.name + "': the index of refraction must be above 0");
-    return std::clamp(ior, min_layered_ior<double>, max_layered_ior<double>);
+    return static_cast<double>(static_cast<Real>(std::clamp(ior, min_layered_ior<double>, max_layered_ior<double>)));
   }
+
+  /// Sheets, and what has the index of its surroundings.
+  static bool does_not_refract(const Principled& p, Real ior) { return p.thin || std::abs(ior - 1) < Real(1e-3); }
 
   const Scene& scene_;
   TextureBuilder<Real>& textures_;

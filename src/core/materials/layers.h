@@ -126,12 +126,6 @@ ALHAZEN_HD Real dispersed_ior(Real ior, Real dispersion, int channel) {
   return clamp(ior + spread * static_cast<Real>(channel - 1), Real(1.0001), max_layered_ior<Real>);
 }
 
-/// Transmission without refraction, of sheets and of what has the index of its surroundings.
-template <class Real>
-ALHAZEN_HD bool is_thin(bool thin, Real ior) {
-  return thin || std::abs(ior - 1) < Real(1e-3);
-}
-
 /// Microfacets refract by their slope and the difference of the indices: a sheet of index 1 does not blur. That of
 /// glTF's default index, 1.5, blurs as much as it reflects.
 template <class Real>
@@ -190,11 +184,13 @@ ALHAZEN_HD void add_film(LayeredBsdf<Real>& b, const FilmLayer<Real>& film, Real
 }
 
 /// What microfacets of glass reflect where Fresnel's term of the bare one is `smooth` in this direction and the film
-/// has it reflect `wanted`: the one or the other scaled.
+/// has it reflect `wanted`: the one or the other scaled. The tint is part of what the film is over, and so of `wanted`:
+/// of what is reflected, that share which is owed to the film is not tinted again.
 template <class Real>
 ALHAZEN_HD void add_film_to_glass(GlassBsdf<Real>& glass, Real smooth, const Vec3<Real>& wanted, Real amount) {
   for (int c = 0; c < 3; ++c) {
     const Real bare = glass.by_fresnel[c] * smooth, with = bare + (wanted[c] - bare) * amount;
+    if (with > 0) glass.tint[c] = 1 - (1 - glass.tint[c]) * smaller(Real(1), bare * (1 - amount) / with);
     if (with >= bare) {
       const Real let_in = (1 - with) / larger(1 - bare, Real(1e-6));
       glass.constant[c] = 1 - let_in;
@@ -269,7 +265,7 @@ ALHAZEN_HD void add_principled_base(const SceneView<Real>& scene, const Material
   const Vec3<Real> bare_f0 = b.f0;
   const FilmLayer<Real> film = film_of(scene, layers, at);
   if (film.amount > 0) add_film(b, film, std::abs(cosine));
-  b.thin = is_thin(layers.thin != 0, b.ior);
+  b.thin = layers.thin != 0;
   b.glass = b.thin ? Real(0) : rest * transmission;
   b.dielectric = rest - b.glass;
   b.diffuse = colour * (rest * (1 - transmission));

@@ -65,7 +65,7 @@ enum class LayersType : uint32_t { principled, coated_diffuse, coated_conductor 
 template <class Real>
 struct LayersRecord {
   LayersType type;
-  uint32_t thin;              ///< transmission does not refract
+  uint32_t thin;              ///< transmission does not refract: there are no grids of `glass`
   uint32_t interface_albedo;  ///< coats: where in SceneView::albedo_tables that of the interface lies
   uint32_t coat_albedo;       ///< the same of the clearcoat
   TextureRange base_colour, metallic, specular, specular_colour, transmission;
