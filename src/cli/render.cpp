@@ -177,7 +177,9 @@ int run(RenderOptions& options) {
   // Before the scene is read, which may take long; the rest of the outputs' names are known after it.
   refuse_same_file({s.checkpoint, "the checkpoint"},
                    {{options.scene, "the scene"}, {s.environment, "the environment map"}});
-  const ReadOptions choice{s.camera, s.variant, s.animation, s.animation_time, aspect_of(s.width, s.height), s.confine};
+  const auto record = std::make_shared<InputRecord>();
+  const ReadOptions choice{s.camera,  s.variant, s.animation, s.animation_time, aspect_of(s.width, s.height),
+                           s.confine, record};
   Scene scene = read_scene(options.scene, choice, diagnostics);
   if (!s.environment.empty()) use_environment(scene, path_beside(options.scene, s.environment, s.confine));
   scene.coats = parse_coats(options.settings.coats);
@@ -185,7 +187,7 @@ int run(RenderOptions& options) {
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene);
   check_files(options.output.paths, settings.checkpoint,
-              {{options.scene, "the scene"}, {s.environment, "the environment map"}});
+              {{options.scene, "the scene"}, {s.environment, "the environment map"}}, *record);
 
   const bool fits_exposure = scene.film.fits_exposure && !options.exposure;
   WarningPrinter warnings(diagnostics, printer);

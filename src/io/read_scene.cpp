@@ -59,7 +59,8 @@ std::string format_of(const InputPath& input) {
 namespace {
 
 Scene read_by_format(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
-  const InputPath input = path_beside(path, path, options.confine);
+  InputPath input = path_beside(path, path, options.confine);
+  input.scope.record = options.record;
   const std::string format = format_of(input);
   if (format == "gltf") return read_gltf(input, options, diagnostics);
   if (!options.is_default())
@@ -88,7 +89,7 @@ SceneListing list_scene(const std::string& path, const ReadOptions& options, Dia
 
 InputPath path_beside(const std::string& scene, const std::string& path, bool confine) {
   if (!confine) return path;
-  return {path, std::make_shared<const Confinement>(std::filesystem::path(scene).parent_path().string())};
+  return {path, {std::make_shared<const Confinement>(std::filesystem::path(scene).parent_path().string()), nullptr}};
 }
 
 }  // namespace alhazen

@@ -380,6 +380,43 @@ TEST_F(BadInput, OverWhatIsRead) {
   EXPECT_EQ(read_file(folder_.file("sky.exr")), map);
 }
 
+/// Textures, meshes, included files and what else the scene names, by whatever name; of glTF pictures and buffers.
+TEST_F(BadInput, OverWhatTheSceneNames) {
+  const Image grey{2, 2, {"R", "G", "B"}, std::vector(3, std::vector<float>(4, 0.5f))};
+  write_png(folder_.file("tex.png"), source_of(grey), {});
+  folder_.write_text("part.pbrt", "Shape \"sphere\"");
+  folder_.write_text("m.ply", ply_header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  folder_.write_text("a.pbrt",
+                     "WorldBegin LightSource \"infinite\"\n"
+                     "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"tex.png\"\n"
+                     "Material \"diffuse\" \"texture reflectance\" \"t\"\n"
+                     "Include \"part.pbrt\"\nShape \"plymesh\" \"string filename\" \"m.ply\"\n");
+  folder_.write("a.bin", Bytes(36, 0));
+  folder_.write_text(
+      "a.gltf",
+      "{\"asset\": {\"version\": \"2.0\"}, \"buffers\": [{\"byteLength\": 36, \"uri\": \"a.bin\"}], "
+      "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}], \"accessors\": [{\"bufferView\": 0, "
+      "\"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\"}], \"meshes\": [{\"primitives\": "
+      "[{\"attributes\": {\"POSITION\": 0}}]}], \"nodes\": [{\"mesh\": 0}], \"scenes\": [{\"nodes\": [0]}]}");
+  std::filesystem::create_hard_link(folder_.file("tex.png"), folder_.file("hard.png"));
+  std::filesystem::create_symlink("tex.png", folder_.file("link.png"));
+  const auto expect = [&](const std::string& scene, const std::vector<std::string>& options, const std::string& name) {
+    std::vector<std::string> all{"render", scene, "--spp", "1", "--size", "8x8", "-q"};
+    all.insert(all.end(), options.begin(), options.end());
+    expect_error(all, 2, {name + ": ", "same file", "the scene is read from"}, Place::file);
+  };
+  std::vector<Bytes> before;
+  const std::vector<std::string> files{"tex.png", "part.pbrt", "m.ply", "a.bin"};
+  for (const std::string& file : files) before.push_back(read_file(folder_.file(file)));
+  for (const std::string name : {"tex.png", "./tex.png", "hard.png", "link.png"}) expect("a.pbrt", {"-o", name}, name);
+  for (const std::string name : {"tex.png", "part.pbrt", "m.ply"})
+    expect("a.pbrt", {"-o", "target.exr", "--checkpoint", name, "--overwrite"}, name);
+  expect("a.pbrt", {"-o", "target.exr", "-o", "tex.png", "--confine"}, "tex.png");
+  expect("a.gltf", {"-o", "target.exr", "--checkpoint", "a.bin", "--overwrite"}, "a.bin");
+  for (size_t i = 0; i < files.size(); ++i) EXPECT_EQ(read_file(folder_.file(files[i])), before[i]) << files[i];
+  expect_untouched();
+}
+
 TEST_F(BadInput, ReadOnlyFolder) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
   std::filesystem::create_directory(folder_.file("locked"));
