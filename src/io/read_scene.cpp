@@ -84,7 +84,12 @@ Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostic
 
 SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
   const InputPath input = path_beside(path, path, options.confine);
-  return format_of(input) == "gltf" ? list_gltf(input, diagnostics) : SceneListing{};
+  if (format_of(input) == "gltf") return list_gltf(input, diagnostics);
+  // These offer nothing to choose from, but what cannot be read is told of all the same.
+  ReadOptions only_read;
+  only_read.confine = options.confine;
+  read_scene(path, only_read, diagnostics);
+  return {};
 }
 
 InputPath path_beside(const std::string& scene, const std::string& path, bool confine) {

@@ -215,6 +215,18 @@ TEST_F(BadInput, FilesThatAreNoScenes) {
                    {"photo.png: "}, Place::file);
 }
 
+TEST_F(BadInput, ListsOfWhatCannotBeRead) {
+  folder_.write_text("junk.ply", "junk");
+  folder_.write_text("broken.pbrt", "WorldBegin\nShape \"sphere\" \"float radius\"\n");
+  for (const std::string name : {"nothere.pbrt", "nothere.ply", "nothere.gltf", "junk.ply", "broken.pbrt"}) {
+    expect_error({"info", name, "--list"}, 2, {name + ":"}, Place::file);
+    expect_error({"render", name, "--list"}, 2, {name + ":"}, Place::file);
+  }
+  const CommandResult result = run({"info", "scene.pbrt", "--list"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "cameras: 0\nvariants: 0\nanimations: 0\nlights: 0\n");
+}
+
 TEST_F(BadInput, OddScenesAreWarnedOf) {
   const std::string camera = "Camera \"perspective\" \"float fov\" 60\nWorldBegin\n";
   const Image empty = expect_warning(camera, {"odd.pbrt", "no shapes"});
