@@ -79,10 +79,11 @@ int run(TuneOptions& o) {
   };
   catch_interrupts();
   const study::TuneOutcome outcome = study::tune(scene, o.settings, o.budget, events);
-  if (!o.quiet)
+  const bool has_costs = outcome.candidates[outcome.winner].rounds > 0;
+  if (!o.quiet && has_costs)
     tell("pictures of {} x {} pixels, {} in all{}\n", outcome.width, outcome.height, format_seconds(outcome.seconds),
          outcome.is_complete ? "" : "; ended before two engines were left: a larger --budget tells more");
-  print_outcome(o, outcome);
+  if (has_costs) print_outcome(o, outcome);
   if (is_interrupted()) {
     tell("interrupted: nothing is stored\n");
     return exit_interrupted;
