@@ -1,6 +1,7 @@
 #include "io/read_scene.h"
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <new>
@@ -62,6 +63,8 @@ Scene read_by_format(const std::string& path, const ReadOptions& options, Diagno
   InputPath input = path_beside(path, path, options.confine);
   input.scope.record = options.record;
   const std::string format = format_of(input);
+  if (options.time && !std::isfinite(*options.time))
+    throw InputError("the time of the animation must be a finite number of seconds");
   if (format == "gltf") return read_gltf(input, options, diagnostics);
   if (!options.is_default())
     throw InputError({path}, "cameras, variants, animations and their time can be chosen of glTF files alone");

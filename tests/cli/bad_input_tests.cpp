@@ -302,15 +302,27 @@ TEST_F(BadInput, Settings) {
   expect_bad_usage({"--exr-type", "double"}, {"double", "half, float"});
   expect_bad_usage({"--tone-map", "aces"}, {"aces", "reinhard"});
   expect_bad_usage({"--exposure", "bright"}, {"--exposure"});
-  expect_bad_usage({"--exposure", "nan"}, {"exposure"});
   expect_bad_usage({"--progress", "loud"}, {"loud", "auto, plain, json, none"});
+  expect_bad_usage({"-q", "--progress", "loud"}, {"loud", "auto, plain, json, none"});
   expect_bad_usage({"--stats=xml"}, {"xml", "text, json"});
   expect_bad_usage({"--time-limit", "-1"}, {"--time-limit"});
-  expect_bad_usage({"--time-limit", "nan"}, {"time"});
+  for (const char* number : {"nan", "-nan", "inf", "-inf"}) {
+    expect_bad_usage({"--time-limit", number}, {"--time-limit"});
+    expect_bad_usage({"--time", number}, {"--time"});
+    expect_bad_usage({"--exposure", number}, {"exposure"});
+    expect_bad_usage({"--checkpoint", std::string("state,") + number}, {"checkpoint"});
+    expect_bad_usage({"--crop", std::string("0,") + number + ",0,1"}, {"crop"});
+    expect_bad_usage({"--spp", number}, {"--spp"});
+    expect_error({"study", "tune", "scene.pbrt", "--budget", number}, 2, {"--budget"});
+    expect_error({"study", "compare", "a", "b", "--threshold", number}, 2, {"--threshold"});
+  }
+  for (const char* crop : {"0,2,0,1", "-1,1,0,1", "0,1,0,1.001", "0,1,-1e-9,1", "0.5,0.5,0,1", "1,0,0,1"})
+    expect_bad_usage({"--crop", crop}, {"crop window", "within 0 and 1"});
   expect_bad_usage({"--resume"}, {"--checkpoint"});
   expect_bad_usage({"--checkpoint", "state,soon"}, {"--checkpoint"});
   expect_bad_usage({"--checkpoint", "state,-1"}, {"checkpoint"});
   expect_bad_usage({"--checkpoint", ",5"}, {"--checkpoint"});
+  expect_bad_usage({"--checkpoint", ""}, {"--checkpoint"});
   expect_bad_usage({"--no-such-option"}, {"--no-such-option"});
   expect_bad_usage({"another.pbrt"}, {"another.pbrt"});
   expect_bad_usage({"--spp"}, {"--spp"});
