@@ -24,8 +24,8 @@ int open_path(const InputPath& path, int flags) {
 
 std::string opening_problem(int error) {
   if (error == EXDEV)
-    return "lies outside the scene's folder, and reading is confined to that (--confine): put the file into the "
-           "folder, or read without the confinement";
+    return "lies outside the scene's folder, or an absolute symbolic link leads to it, and reading is confined to that "
+           "folder (--confine): put the file into it, make the link relative, or read without the confinement";
   return std::string("cannot be opened: ") + std::strerror(error);
 }
 
