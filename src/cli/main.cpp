@@ -38,6 +38,9 @@ int run_guarded(CLI::App& app, int argc, char** argv, int& exit_code) {
     alhazen::tell(
         "alhazen: out of memory: what was asked for needs more than this machine, or a limit set on it, allows\n");
     return alhazen::exit_failed;
+  } catch (const alhazen::RenderError& error) {  // perhaps of several lines
+    alhazen::tell("alhazen: {}\n", error.what());
+    return alhazen::exit_failed;
   } catch (const std::exception& error) {
     alhazen::tell("alhazen: {}\n", alhazen::printable(error.what()));
     return alhazen::exit_failed;
