@@ -331,6 +331,8 @@ TEST_F(BadInput, Settings) {
 TEST_F(BadInput, Usage) {
   expect_error({"render"}, 2, {"SCENE"});
   expect_error({"paint", "scene.pbrt"}, 2, {"paint"});
+  expect_error({"study", "paint"}, 2, {"no subcommand 'study paint'"});
+  expect_error({"study"}, 2, {"subcommand"});
   expect_error({"info"}, 2, {"SCENE"});
   EXPECT_EQ(run({}).exit_code, 2);
   EXPECT_EQ(errors_of(run({}).err).size(), 1u);

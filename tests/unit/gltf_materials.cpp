@@ -340,6 +340,8 @@ TEST(GltfCameras, ReadPerspectiveAndOrthographicOnes) {
   EXPECT_EQ(file.parse(options).scene.camera.type, CameraType::orthographic);
   options.camera = "7";
   EXPECT_NE(file.error(options).find("no camera '7'; it may be one of 0 'front', 1 'flat'"), std::string::npos);
+  options.camera = "\x1b[31m\u00e9";
+  EXPECT_NE(file.error(options).find("no camera '\\x1b[31m\u00e9'"), std::string::npos) << file.error(options);
 }
 
 TEST(GltfCameras, FrameWhatHasNoCamera) {
