@@ -24,8 +24,10 @@ Picture render(const std::string& scene_file, const Settings& settings, const Pr
                            settings.animation,
                            settings.animation_time,
                            aspect_of(settings.width, settings.height),
-                           settings.confine};
+                           settings.confine,
+                           std::make_shared<InputRecord>()};
   Scene scene = read_scene(scene_file, choice, diagnostics);
+  choice.record->refuse(settings.checkpoint, "the checkpoint");
   if (!settings.environment.empty())
     use_environment(scene, path_beside(scene_file, settings.environment, settings.confine));
   scene.coats = parse_coats(settings.coats);

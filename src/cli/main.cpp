@@ -14,6 +14,16 @@
 
 namespace {
 
+/// The subcommand that was asked for, or one of `study`, where there is none of that name; else empty.
+std::string unknown_subcommand(const CLI::App& app, int argc, char** argv) {
+  const auto is_name = [&](int i) { return argc > i && argv[i][0] != '-'; };
+  if (!is_name(1)) return {};
+  const auto found = app.get_subcommands();
+  if (found.empty()) return argv[1];
+  const bool has_none_below = found[0]->get_name() == "study" && found[0]->get_subcommands().empty();
+  return has_none_below && is_name(2) ? std::string("study ") + argv[2] : std::string();
+}
+
 int parse_and_run(CLI::App& app, int argc, char** argv, int& exit_code) {
   try {
     app.parse(argc, argv);
@@ -21,9 +31,9 @@ int parse_and_run(CLI::App& app, int argc, char** argv, int& exit_code) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    const bool is_unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
+    const std::string unknown = unknown_subcommand(app, argc, argv);
     alhazen::tell("alhazen: {}\nRun 'alhazen --help' or 'alhazen SUBCOMMAND --help' for what may be given.\n",
-                  alhazen::printable(is_unknown ? fmt::format("there is no subcommand '{}'", argv[1]) : error.what()));
+                  alhazen::printable(unknown.empty() ? error.what() : "there is no subcommand '" + unknown + "'"));
     return alhazen::exit_bad_input;
   }
 }
@@ -37,6 +47,9 @@ int run_guarded(CLI::App& app, int argc, char** argv, int& exit_code) {
   } catch (const std::bad_alloc&) {
     alhazen::tell(
         "alhazen: out of memory: what was asked for needs more than this machine, or a limit set on it, allows\n");
+    return alhazen::exit_failed;
+  } catch (const alhazen::RenderError& error) {  // perhaps of several lines
+    alhazen::tell("alhazen: {}\n", error.what());
     return alhazen::exit_failed;
   } catch (const std::exception& error) {
     alhazen::tell("alhazen: {}\n", alhazen::printable(error.what()));

@@ -80,13 +80,15 @@ double fitting_exposure(const ImageSource& source) {
 }
 
 void check_files(const std::vector<std::string>& outputs, const std::string& checkpoint,
-                 const std::vector<NamedFile>& inputs) {
+                 const std::vector<NamedFile>& inputs, const InputRecord& record) {
   std::vector<NamedFile> taken = inputs;
   for (const std::string& path : outputs) {
     refuse_same_file({path, "the output"}, taken);
+    record.refuse(path, "the output");
     taken.push_back({path, "another output"});
   }
   refuse_same_file({checkpoint, "the checkpoint"}, taken);
+  record.refuse(checkpoint, "the checkpoint");
 }
 
 namespace {

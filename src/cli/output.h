@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/files/file_identity.h"
+#include "io/files/input_record.h"
 #include "io/images/image.h"
 #include "render/renderer.h"
 
@@ -23,10 +24,10 @@ struct OutputOptions {
 std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, const std::string& film_filename,
                                         const std::string& scene_path);
 
-/// Throws InputError where two of these files are one, by whatever names: written twice, or written over what is read.
-/// `checkpoint` may be empty.
+/// Throws InputError where two of these files are one, by whatever names: written twice, or written over what is read,
+/// `inputs` and those of `record`. `checkpoint` may be empty.
 void check_files(const std::vector<std::string>& outputs, const std::string& checkpoint,
-                 const std::vector<NamedFile>& inputs);
+                 const std::vector<NamedFile>& inputs, const InputRecord& record);
 
 struct OutputReport {
   std::vector<std::string> written;   ///< paths

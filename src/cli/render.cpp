@@ -14,6 +14,7 @@
 #include "cli/listing.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/range.h"
 #include "cli/subcommands.h"
 #include "io/environment.h"
 #include "io/read_scene.h"
@@ -29,7 +30,8 @@ struct RenderOptions {
   std::string scene;
   Settings settings;
   OutputOptions output;
-  std::string size, crop, pixel_bounds, checkpoint, seed;
+  std::string size, crop, pixel_bounds, seed;
+  std::optional<std::string> checkpoint;
   std::string tone_map = "none", exr_type = "half";
   std::string progress = "auto", stats;
   bool quiet = false, verbose = false, list = false;
@@ -66,13 +68,13 @@ void parse_settings(RenderOptions& o) {
     s.pixel_bounds = parse_numbers<int64_t, 4>(o.pixel_bounds, ',', "--pixelbounds x0,x1,y0,y1, in pixels");
   if (!o.seed.empty())
     s.seed = parse_numbers<uint32_t, 1>(o.seed, ',', "--seed N, a whole number from 0 to 4294967295")[0];
-  if (!o.checkpoint.empty()) {
-    const size_t comma = o.checkpoint.rfind(',');
-    s.checkpoint = o.checkpoint.substr(0, comma);
-    if (s.checkpoint.empty()) throw InputError("--checkpoint '" + o.checkpoint + "' names no file");
+  if (o.checkpoint) {
+    const size_t comma = o.checkpoint->rfind(',');
+    s.checkpoint = o.checkpoint->substr(0, comma);
+    if (s.checkpoint.empty()) throw InputError("--checkpoint '" + *o.checkpoint + "' names no file");
     if (comma != std::string::npos)
       s.checkpoint_seconds =
-          parse_numbers<double, 1>(o.checkpoint.substr(comma + 1), ',', "--checkpoint FILE,SECONDS")[0];
+          parse_numbers<double, 1>(o.checkpoint->substr(comma + 1), ',', "--checkpoint FILE,SECONDS")[0];
   }
   if (o.exposure) o.output.png.exposure = *o.exposure;
   if (!std::isfinite(o.output.png.exposure)) throw InputError("--exposure must be a finite number of stops");
@@ -170,14 +172,17 @@ int run(RenderOptions& options) {
     return exit_done;
   }
   parse_settings(options);
-  ProgressPrinter printer(options.quiet ? ProgressStyle::none : parse_progress_style(options.progress));
+  const ProgressStyle style = parse_progress_style(options.progress);
+  ProgressPrinter printer(options.quiet ? ProgressStyle::none : style);
   Diagnostics diagnostics;
   const auto start = std::chrono::steady_clock::now();
   const Settings& s = options.settings;
   // Before the scene is read, which may take long; the rest of the outputs' names are known after it.
   refuse_same_file({s.checkpoint, "the checkpoint"},
                    {{options.scene, "the scene"}, {s.environment, "the environment map"}});
-  const ReadOptions choice{s.camera, s.variant, s.animation, s.animation_time, aspect_of(s.width, s.height), s.confine};
+  const auto record = std::make_shared<InputRecord>();
+  const ReadOptions choice{s.camera,  s.variant, s.animation, s.animation_time, aspect_of(s.width, s.height),
+                           s.confine, record};
   Scene scene = read_scene(options.scene, choice, diagnostics);
   if (!s.environment.empty()) use_environment(scene, path_beside(options.scene, s.environment, s.confine));
   scene.coats = parse_coats(options.settings.coats);
@@ -185,7 +190,7 @@ int run(RenderOptions& options) {
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene);
   check_files(options.output.paths, settings.checkpoint,
-              {{options.scene, "the scene"}, {s.environment, "the environment map"}});
+              {{options.scene, "the scene"}, {s.environment, "the environment map"}}, *record);
 
   const bool fits_exposure = scene.film.fits_exposure && !options.exposure;
   WarningPrinter warnings(diagnostics, printer);
@@ -204,12 +209,6 @@ int run(RenderOptions& options) {
   printer.finish();
   warnings.show();
   return finish(options, rendering, fits_exposure);
-}
-
-/// A check whose limits are told when they are broken, not in the help.
-template <class Number>
-CLI::Validator within(Number low, Number high) {
-  return CLI::Range(low, high).description("");
 }
 
 void add_picture_options(CLI::App& command, RenderOptions& o) {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/console.h"
+#include "cli/range.h"
 #include "cli/subcommands.h"
 #include "study/cell_text.h"
 #include "study/compare.h"
@@ -69,7 +70,7 @@ void register_study_compare(CLI::App& study) {
   command->add_option("A", o->a, "a study.json, or the folder that holds it")->required()->type_name("");
   command->add_option("B", o->b, "a later one")->required()->type_name("");
   command->add_option("--threshold", o->threshold, "Changes of less are not told (5)")
-      ->check(CLI::Range(0.0, 1000.0).description(""))
+      ->check(within(0.0, 1000.0))
       ->type_name("PERCENT");
   command->add_flag("--json", o->json, "One JSON object instead of the list");
   command->callback([o] { run(*o); });

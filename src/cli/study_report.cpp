@@ -9,6 +9,7 @@
 #include "cli/console.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
+#include "cli/range.h"
 #include "cli/subcommands.h"
 #include "scene/diagnostics.h"
 #include "scene/printable.h"
@@ -108,9 +109,7 @@ void register_study_report(CLI::App& study, int& exit_code) {
   command->add_option("--scene", o->report.scene, "Another scene than the report's")->type_name("FILE");
   command->add_flag("--quick", o->quick, "About 3 minutes on 2 cores; without it about 15");
   command->add_flag("--full", o->full, "S = 1,000 and the scene's own size, as in the report: hours");
-  command->add_option("--repeats", o->repeats, "Runs of each cell")
-      ->check(CLI::Range(1, 1000).description(""))
-      ->type_name("N");
+  command->add_option("--repeats", o->repeats, "Runs of each cell")->check(within(1, 1000))->type_name("N");
   command
       ->add_option(
           "--only", o->report.only,
@@ -125,10 +124,10 @@ void register_study_report(CLI::App& study, int& exit_code) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("PARTS");
   command->add_option("--size", o->size, "Edge of the square pictures that the CPU is timed with, pixels")
-      ->check(CLI::Range(1, 10000).description(""))
+      ->check(within(1, 10000))
       ->type_name("N");
   command->add_option("--spp", o->samples, "S of the pictures that the CPU is timed with")
-      ->check(CLI::Range(1, 1 << 24).description(""))
+      ->check(within(1, 1 << 24))
       ->type_name("S");
   command->add_flag("--resume", o->report.resume, "Go on with the study in the folder");
   command->add_flag("--overwrite", o->report.overwrite, "Put this study in the place of the one in the folder");

@@ -7,6 +7,7 @@
 #include "cli/console.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
+#include "cli/range.h"
 #include "cli/subcommands.h"
 #include "io/read_scene.h"
 #include "render/settings.h"
@@ -79,10 +80,11 @@ int run(TuneOptions& o) {
   };
   catch_interrupts();
   const study::TuneOutcome outcome = study::tune(scene, o.settings, o.budget, events);
-  if (!o.quiet)
+  const bool has_costs = outcome.candidates[outcome.winner].rounds > 0;
+  if (!o.quiet && has_costs)
     tell("pictures of {} x {} pixels, {} in all{}\n", outcome.width, outcome.height, format_seconds(outcome.seconds),
          outcome.is_complete ? "" : "; ended before two engines were left: a larger --budget tells more");
-  print_outcome(o, outcome);
+  if (has_costs) print_outcome(o, outcome);
   if (is_interrupted()) {
     tell("interrupted: nothing is stored\n");
     return exit_interrupted;
@@ -97,16 +99,14 @@ void register_study_tune(CLI::App& study, int& exit_code) {
   CLI::App* command = study.add_subcommand("tune", "Find the fastest engine for a scene on this machine");
   auto o = std::make_shared<TuneOptions>();
   command->add_option("SCENE", o->scene, "Scene (.pbrt) or mesh (.ply), also as .gz")->required()->type_name("");
-  command->add_option("--budget", o->budget, "Time to spend (60)")
-      ->check(CLI::Range(1.0, 1e6).description(""))
-      ->type_name("SECONDS");
+  command->add_option("--budget", o->budget, "Time to spend (60)")->check(within(1.0, 1e6))->type_name("SECONDS");
   command->add_flag("--store", o->store, "Keep the answer, for --backend auto and this scene");
   command->add_flag("--store-default", o->store_default, "Keep it for every scene that has no entry of its own");
   command->add_option("--precision", o->settings.precision, "float or double")->type_name("NAME");
   command->add_option("--integrator", o->settings.integrator, "path, iterative, recursive or branching")
       ->type_name("NAME");
   command->add_option("--max-depth", o->settings.max_depth, "Bounces: a path has at most N + 1 segments")
-      ->check(CLI::Range(int64_t{0}, int64_t{1'000'000}).description(""))
+      ->check(within(int64_t{0}, int64_t{1'000'000}))
       ->type_name("N");
   command->add_flag("-q,--quiet", o->quiet, "Say nothing but the answer, warnings and errors");
   command->callback([o, &exit_code] { exit_code = run(*o); });

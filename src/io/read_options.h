@@ -3,11 +3,14 @@
 // What may be chosen of a scene file that offers a choice, and what it offers.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace alhazen {
+
+class InputRecord;
 
 /// Empty ones are left to the file. Names may be numbers too, which count from 0 in the order of SceneListing.
 struct ReadOptions {
@@ -20,7 +23,9 @@ struct ReadOptions {
   double aspect = 0;
   /// Whether the files that the scene names must lie in its folder (io/files/confinement.h).
   bool confine = false;
-  /// Whether nothing is chosen; `confine` chooses nothing of what the file offers.
+  /// Where the files that are read are noted; null: nowhere.
+  std::shared_ptr<InputRecord> record = nullptr;
+  /// Whether nothing is chosen; `confine` and `record` choose nothing of what the file offers.
   bool is_default() const { return camera.empty() && variant.empty() && animation.empty() && !time; }
 };
 

@@ -1,6 +1,7 @@
 #include "io/read_scene.h"
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <new>
@@ -59,8 +60,11 @@ std::string format_of(const InputPath& input) {
 namespace {
 
 Scene read_by_format(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
-  const InputPath input = path_beside(path, path, options.confine);
+  InputPath input = path_beside(path, path, options.confine);
+  input.scope.record = options.record;
   const std::string format = format_of(input);
+  if (options.time && !std::isfinite(*options.time))
+    throw InputError("the time of the animation must be a finite number of seconds");
   if (format == "gltf") return read_gltf(input, options, diagnostics);
   if (!options.is_default())
     throw InputError({path}, "cameras, variants, animations and their time can be chosen of glTF files alone");
@@ -83,12 +87,17 @@ Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostic
 
 SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
   const InputPath input = path_beside(path, path, options.confine);
-  return format_of(input) == "gltf" ? list_gltf(input, diagnostics) : SceneListing{};
+  if (format_of(input) == "gltf") return list_gltf(input, diagnostics);
+  // These offer nothing to choose from, but what cannot be read is told of all the same.
+  ReadOptions only_read;
+  only_read.confine = options.confine;
+  read_scene(path, only_read, diagnostics);
+  return {};
 }
 
 InputPath path_beside(const std::string& scene, const std::string& path, bool confine) {
   if (!confine) return path;
-  return {path, std::make_shared<const Confinement>(std::filesystem::path(scene).parent_path().string())};
+  return {path, {std::make_shared<const Confinement>(std::filesystem::path(scene).parent_path().string()), nullptr}};
 }
 
 }  // namespace alhazen

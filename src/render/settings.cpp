@@ -70,12 +70,13 @@ int64_t in_range(int64_t value, int64_t low, int64_t high, const std::string& wh
   return value;
 }
 
+constexpr const char* crop_form = "the crop window must be x0,x1,y0,y1 with x0 < x1 and y0 < y1, within 0 and 1";
+
 PixelWindow window_from(const std::array<double, 4>& crop, int width, int height) {
   const auto edge = [](double fraction, int size) {
     return static_cast<int>(std::ceil(std::clamp(fraction, 0.0, 1.0) * size));
   };
-  if (!(crop[0] < crop[1] && crop[2] < crop[3]))
-    throw InputError("the crop window must be x0,x1,y0,y1 with x0 < x1 and y0 < y1, within 0 and 1");
+  if (!(crop[0] < crop[1] && crop[2] < crop[3])) throw InputError(crop_form);
   return {edge(crop[0], width), edge(crop[1], width), edge(crop[2], height), edge(crop[3], height)};
 }
 
@@ -103,6 +104,9 @@ void resolve_picture(const Settings& asked, const Scene& scene, RenderSettings& 
   s.height =
       static_cast<int>(in_range(asked.height ? asked.height : scene.film.height, 1, longest, "the picture's height"));
   if (asked.crop_window && asked.pixel_bounds) throw InputError("give a crop window or pixel bounds, not both");
+  if (asked.crop_window)
+    for (const double edge : *asked.crop_window)
+      if (!(edge >= 0 && edge <= 1)) throw InputError(crop_form);
   s.window = asked.crop_window    ? window_from(*asked.crop_window, s.width, s.height)
              : asked.pixel_bounds ? window_from(*asked.pixel_bounds, s.width, s.height)
                                   : scene_window(scene.film, s.width, s.height);
@@ -199,7 +203,8 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   if (asked.time_limit < 0 || !std::isfinite(asked.time_limit)) throw InputError("the time limit must not be negative");
   s.time_limit = asked.time_limit;
   s.checkpoint = asked.checkpoint;
-  if (!(asked.checkpoint_seconds >= 0)) throw InputError("the time between checkpoints must not be negative");
+  if (!(asked.checkpoint_seconds >= 0) || !std::isfinite(asked.checkpoint_seconds))
+    throw InputError("the time between checkpoints must be a finite number of seconds, not negative");
   s.checkpoint_seconds = asked.checkpoint_seconds;
   s.texture_budget =
       static_cast<uint64_t>(in_range(asked.texture_budget, 0, int64_t{1} << 30, "the budget of textures")) << 20;

@@ -110,12 +110,8 @@ std::string draw_plots(const std::string& folder) {
   for (const Plot& plot : all_plots())
     for (const char* extension : {".png", ".svg"})
       fs::remove(fs::path(folder) / (std::string(plot.name) + extension), ignored);
-  const char* const advice =
-      "the tables are complete without them; to have them, install matplotlib (Debian: python3-matplotlib), or name a "
-      "Python that has it in ALHAZEN_PYTHON, and run the same command with --resume";
-  const char* const without = "; the tables and the page are complete without them";
   const WorkFolder work;
-  if (!work.is_there()) return std::string("no plots: there is no folder for temporary files (TMPDIR)") + without;
+  if (!work.is_there()) return "no plots: there is no folder for temporary files (TMPDIR)";
   {
     std::ofstream script(work.file("study_plots.py"));
     script << plot_script();
@@ -123,9 +119,11 @@ std::string draw_plots(const std::string& folder) {
   for (const std::string& python : candidates()) {
     if (run_program({python, "-c", "import matplotlib"}, work.file("log")) != 0) continue;
     if (run_program({python, work.file("study_plots.py"), folder}, work.file("log")) == 0) return {};
-    return "plots that could not be drawn by " + python + ": " + last_line_of(work.file("log")) + without;
+    return "plots that could not be drawn by " + python + ": " + last_line_of(work.file("log"));
   }
-  return std::string("no plots: no Python with matplotlib was found; ") + advice;
+  return "no plots: no Python with matplotlib was found; to have them, install matplotlib (Debian: "
+         "python3-matplotlib), "
+         "or name a Python that has it in ALHAZEN_PYTHON, and run the same command with --resume";
 }
 
 }  // namespace alhazen::study

@@ -15,8 +15,8 @@ struct Plot {
 
 const std::vector<Plot>& all_plots();
 
-/// Draws the plots of the study.json in `folder` into it. Empty, or a line that says why there are none and how to get
-/// them. Old plots are taken away first, so that none is of another study.
+/// Draws the plots of the study.json in `folder` into it. Empty, or a line that says why there are none and, where it
+/// is known, how to get them. Old plots are taken away first, so that none is of another study.
 std::string draw_plots(const std::string& folder);
 
 }  // namespace alhazen::study

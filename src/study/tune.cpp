@@ -178,7 +178,7 @@ class Tuning {
         outcome_.winner = i;
     if (list.empty() || !list[0].problem.empty())
       throw InputError("no engine can render this scene here: " + (list.empty() ? "there is none" : list[0].problem));
-    if (list[0].rounds == 0)
+    if (list[0].rounds == 0 && events_.go_on())
       throw InputError("the budget was over before every engine had a turn: give a larger --budget");
   }
 

@@ -38,7 +38,8 @@ struct TuneEvents {
 /// What could be tried here, for the precision and integrator of `asked`.
 std::vector<Candidate> tune_candidates(const Settings& asked);
 
-/// `budget` in seconds. Throws InputError where nothing can render the scene.
+/// `budget` in seconds. Throws InputError where nothing can render the scene, or not within the budget. Where the user
+/// ended it before every engine had a turn, no candidate has a cost.
 TuneOutcome tune(const Scene& scene, const Settings& asked, double budget, const TuneEvents& events);
 
 }  // namespace alhazen::study

@@ -55,8 +55,10 @@ std::vector<std::string> write_study(const Study& study, const std::string& fold
   attempt("study.json", [&](const std::string&) { write_json(study, folder); });
   attempt("tables.csv", [&](const std::string& path) { write_text(path, csv_of(study)); });
   attempt("tables.md", [&](const std::string& path) { write_text(path, markdown_of(study)); });
-  if (const std::string problem = draw_plots(folder); !problem.empty()) warning(problem);
+  const std::string problem = draw_plots(folder);
   attempt("index.html", [&](const std::string& path) { write_text(path, html_of(study, folder)); });
+  if (!problem.empty())
+    warning(problem + (failures.empty() ? "; the tables and the page are complete without them" : ""));
   if (!failures.empty()) throw RenderError(failures);
   return files;
 }

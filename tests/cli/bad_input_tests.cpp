@@ -215,6 +215,18 @@ TEST_F(BadInput, FilesThatAreNoScenes) {
                    {"photo.png: "}, Place::file);
 }
 
+TEST_F(BadInput, ListsOfWhatCannotBeRead) {
+  folder_.write_text("junk.ply", "junk");
+  folder_.write_text("broken.pbrt", "WorldBegin\nShape \"sphere\" \"float radius\"\n");
+  for (const std::string name : {"nothere.pbrt", "nothere.ply", "nothere.gltf", "junk.ply", "broken.pbrt"}) {
+    expect_error({"info", name, "--list"}, 2, {name + ":"}, Place::file);
+    expect_error({"render", name, "--list"}, 2, {name + ":"}, Place::file);
+  }
+  const CommandResult result = run({"info", "scene.pbrt", "--list"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "cameras: 0\nvariants: 0\nanimations: 0\nlights: 0\n");
+}
+
 TEST_F(BadInput, OddScenesAreWarnedOf) {
   const std::string camera = "Camera \"perspective\" \"float fov\" 60\nWorldBegin\n";
   const Image empty = expect_warning(camera, {"odd.pbrt", "no shapes"});
@@ -290,15 +302,27 @@ TEST_F(BadInput, Settings) {
   expect_bad_usage({"--exr-type", "double"}, {"double", "half, float"});
   expect_bad_usage({"--tone-map", "aces"}, {"aces", "reinhard"});
   expect_bad_usage({"--exposure", "bright"}, {"--exposure"});
-  expect_bad_usage({"--exposure", "nan"}, {"exposure"});
   expect_bad_usage({"--progress", "loud"}, {"loud", "auto, plain, json, none"});
+  expect_bad_usage({"-q", "--progress", "loud"}, {"loud", "auto, plain, json, none"});
   expect_bad_usage({"--stats=xml"}, {"xml", "text, json"});
   expect_bad_usage({"--time-limit", "-1"}, {"--time-limit"});
-  expect_bad_usage({"--time-limit", "nan"}, {"time"});
+  for (const char* number : {"nan", "-nan", "inf", "-inf"}) {
+    expect_bad_usage({"--time-limit", number}, {"--time-limit"});
+    expect_bad_usage({"--time", number}, {"--time"});
+    expect_bad_usage({"--exposure", number}, {"exposure"});
+    expect_bad_usage({"--checkpoint", std::string("state,") + number}, {"checkpoint"});
+    expect_bad_usage({"--crop", std::string("0,") + number + ",0,1"}, {"crop"});
+    expect_bad_usage({"--spp", number}, {"--spp"});
+    expect_error({"study", "tune", "scene.pbrt", "--budget", number}, 2, {"--budget"});
+    expect_error({"study", "compare", "a", "b", "--threshold", number}, 2, {"--threshold"});
+  }
+  for (const char* crop : {"0,2,0,1", "-1,1,0,1", "0,1,0,1.001", "0,1,-1e-9,1", "0.5,0.5,0,1", "1,0,0,1"})
+    expect_bad_usage({"--crop", crop}, {"crop window", "within 0 and 1"});
   expect_bad_usage({"--resume"}, {"--checkpoint"});
   expect_bad_usage({"--checkpoint", "state,soon"}, {"--checkpoint"});
   expect_bad_usage({"--checkpoint", "state,-1"}, {"checkpoint"});
   expect_bad_usage({"--checkpoint", ",5"}, {"--checkpoint"});
+  expect_bad_usage({"--checkpoint", ""}, {"--checkpoint"});
   expect_bad_usage({"--no-such-option"}, {"--no-such-option"});
   expect_bad_usage({"another.pbrt"}, {"another.pbrt"});
   expect_bad_usage({"--spp"}, {"--spp"});
@@ -307,6 +331,8 @@ TEST_F(BadInput, Settings) {
 TEST_F(BadInput, Usage) {
   expect_error({"render"}, 2, {"SCENE"});
   expect_error({"paint", "scene.pbrt"}, 2, {"paint"});
+  expect_error({"study", "paint"}, 2, {"no subcommand 'study paint'"});
+  expect_error({"study"}, 2, {"subcommand"});
   expect_error({"info"}, 2, {"SCENE"});
   EXPECT_EQ(run({}).exit_code, 2);
   EXPECT_EQ(errors_of(run({}).err).size(), 1u);
@@ -378,6 +404,43 @@ TEST_F(BadInput, OverWhatIsRead) {
                    {"sky.exr: ", "same file", "environment"});
   EXPECT_EQ(read_file(folder_.file("scene.pbrt")), scene);
   EXPECT_EQ(read_file(folder_.file("sky.exr")), map);
+}
+
+/// Textures, meshes, included files and what else the scene names, by whatever name; of glTF pictures and buffers.
+TEST_F(BadInput, OverWhatTheSceneNames) {
+  const Image grey{2, 2, {"R", "G", "B"}, std::vector(3, std::vector<float>(4, 0.5f))};
+  write_png(folder_.file("tex.png"), source_of(grey), {});
+  folder_.write_text("part.pbrt", "Shape \"sphere\"");
+  folder_.write_text("m.ply", ply_header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  folder_.write_text("a.pbrt",
+                     "WorldBegin LightSource \"infinite\"\n"
+                     "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"tex.png\"\n"
+                     "Material \"diffuse\" \"texture reflectance\" \"t\"\n"
+                     "Include \"part.pbrt\"\nShape \"plymesh\" \"string filename\" \"m.ply\"\n");
+  folder_.write("a.bin", Bytes(36, 0));
+  folder_.write_text(
+      "a.gltf",
+      "{\"asset\": {\"version\": \"2.0\"}, \"buffers\": [{\"byteLength\": 36, \"uri\": \"a.bin\"}], "
+      "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}], \"accessors\": [{\"bufferView\": 0, "
+      "\"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\"}], \"meshes\": [{\"primitives\": "
+      "[{\"attributes\": {\"POSITION\": 0}}]}], \"nodes\": [{\"mesh\": 0}], \"scenes\": [{\"nodes\": [0]}]}");
+  std::filesystem::create_hard_link(folder_.file("tex.png"), folder_.file("hard.png"));
+  std::filesystem::create_symlink("tex.png", folder_.file("link.png"));
+  const auto expect = [&](const std::string& scene, const std::vector<std::string>& options, const std::string& name) {
+    std::vector<std::string> all{"render", scene, "--spp", "1", "--size", "8x8", "-q"};
+    all.insert(all.end(), options.begin(), options.end());
+    expect_error(all, 2, {name + ": ", "same file", "the scene is read from"}, Place::file);
+  };
+  std::vector<Bytes> before;
+  const std::vector<std::string> files{"tex.png", "part.pbrt", "m.ply", "a.bin"};
+  for (const std::string& file : files) before.push_back(read_file(folder_.file(file)));
+  for (const std::string name : {"tex.png", "./tex.png", "hard.png", "link.png"}) expect("a.pbrt", {"-o", name}, name);
+  for (const std::string name : {"tex.png", "part.pbrt", "m.ply"})
+    expect("a.pbrt", {"-o", "target.exr", "--checkpoint", name, "--overwrite"}, name);
+  expect("a.pbrt", {"-o", "target.exr", "-o", "tex.png", "--confine"}, "tex.png");
+  expect("a.gltf", {"-o", "target.exr", "--checkpoint", "a.bin", "--overwrite"}, "a.bin");
+  for (size_t i = 0; i < files.size(); ++i) EXPECT_EQ(read_file(folder_.file(files[i])), before[i]) << files[i];
+  expect_untouched();
 }
 
 TEST_F(BadInput, ReadOnlyFolder) {

@@ -125,6 +125,9 @@ TEST_F(Hostile, ConfinedToItsFolderASceneReachesNothingElse) {
     }
   expect("WorldBegin Include \"part.pbrt\" Import \"sub/../part.pbrt\"", false);
   expect("WorldBegin Include \"" + folder_.file("in/part.pbrt") + "\"", false);
+  // Links within the folder are followed where they are relative; absolute ones would lead through what is outside.
+  fs::create_symlink("../part.pbrt", folder_.file("in/sub/relative.pbrt"));
+  expect("WorldBegin Include \"sub/relative.pbrt\"", false);
   // Without --confine files may be anywhere, as in pbrt.
   folder_.write_text("part.pbrt", "Shape \"sphere\"");
   folder_.write_text("in/a.pbrt", "WorldBegin Include \"../part.pbrt\"");

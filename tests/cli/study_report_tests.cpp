@@ -177,9 +177,23 @@ TEST_F(StudyReport, WithoutPythonThereIsAllButPlots) {
   const CommandResult result = report({"--output", "out", "--only", "table2,figure3"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.err.find("python3-matplotlib"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("complete without them"), std::string::npos) << result.err;
   EXPECT_FALSE(exists("out/figure3.png"));
   for (const char* file : {"study.json", "tables.csv", "tables.md", "index.html", "figure3-naive.pfm"})
     EXPECT_TRUE(exists(std::string("out/") + file)) << file;
+}
+
+/// As on a disk that is full: no file gets longer than this.
+TEST_F(StudyReport, WhatCannotBeWrittenIsToldInLines) {
+  without_plots();
+  CommandOptions options;
+  options.file_size = 100;
+  const CommandResult result = report({"--output", "out", "--only", "table2"}, options);
+  EXPECT_EQ(result.exit_code, 1) << result.everything();
+  EXPECT_NE(result.err.find("study.json"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("\nout/tables.md"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("\\n"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("complete without them"), std::string::npos) << result.err;
 }
 
 bool has_matplotlib() {

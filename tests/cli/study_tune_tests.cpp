@@ -109,6 +109,17 @@ TEST_F(StudyTune, TheFileLiesWhereTheVariablesSay) {
   EXPECT_EQ(run({"study", "tune", "scene.pbrt", "--budget", "2", "--store", "-q"}).exit_code, 2);
 }
 
+/// In the first round, before every engine had a turn, too.
+TEST_F(StudyTune, InterruptedItStoresNothing) {
+  CommandOptions options;
+  options.signal_when = [](const std::string& err) { return err.find("round 1") == std::string::npos ? 0 : SIGINT; };
+  const CommandResult result = run({"study", "tune", "scene.pbrt", "--budget", "600", "--store"}, options);
+  EXPECT_EQ(result.exit_code, 130) << result.everything();
+  EXPECT_NE(result.err.find("interrupted: nothing is stored"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("budget"), std::string::npos) << result.err;
+  EXPECT_FALSE(exists("config/tuned.json"));
+}
+
 TEST_F(StudyTune, RefusesBadInput) {
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"missing.pbrt"},

@@ -4,8 +4,10 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfMultiPartOutputFile.h>
+#include <ImfOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <gtest/gtest.h>
 
 #include "io/images/decoders.h"
@@ -57,7 +59,54 @@ TEST(ExrLayers, OfSeveralTheOneThatIsCalledTheWhole) {
   const std::string error = error_of({"left.R", "left.G", "left.B", "right.R", "right.G", "right.B"});
   EXPECT_NE(error.find("'left', 'right'"), std::string::npos) << error;
   EXPECT_NE(error_of({"normal.X", "normal.Y", "normal.Z"}), "") << "this Y is no grey";
+  EXPECT_NE(error_of({"X", "Y", "Z"}).find("has X, Y, Z and no R, G, B"), std::string::npos);
+  EXPECT_NE(error_of({"Y", "RY", "BY"}).find("chroma (Y, RY, BY)"), std::string::npos);
+  EXPECT_EQ(colour_of({"Y", "Z"}), Colour({0, 0, 0})) << "grey and a depth";
   EXPECT_NE(error_of({"layer.R", "layer.G"}).find("neither channels R, G, B nor grey"), std::string::npos);
+}
+
+/// The texel of a file of one pixel whose R, G and B have those primaries.
+std::vector<float> texel_of(const Imf::Chromaticities& primaries, const Colour& rgb, TextureEncoding encoding) {
+  const TemporaryFolder folder;
+  Imf::Header header(1, 1);
+  Imf::addChromaticities(header, primaries);
+  Imf::FrameBuffer frame;
+  Colour values = rgb;
+  for (size_t c = 0; c < 3; ++c) {
+    const std::string name(1, "RGB"[c]);
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    frame.insert(name, Imf::Slice::Make(Imf::FLOAT, &values[c], header.dataWindow()));
+  }
+  {
+    Imf::OutputFile file(folder.file("a.exr").c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writePixels(1);
+  }
+  return read_texture(folder.file("a.exr"), encoding).floats;
+}
+
+TEST(ExrPrimaries, ColoursAreTurnedToSrgb) {
+  const Imf::Chromaticities rec2020({0.708f, 0.292f}, {0.170f, 0.797f}, {0.131f, 0.046f}, {0.3127f, 0.3290f});
+  const Imf::Chromaticities aces({0.7347f, 0.2653f}, {0.0f, 1.0f}, {0.0001f, -0.0770f}, {0.32168f, 0.33767f});
+  const Colour rgb{0.25f, 0.5f, 0.125f}, green{0, 0.5f, 0};
+  for (const TextureEncoding encoding : {TextureEncoding::automatic, TextureEncoding::linear})
+    for (const auto& [primaries, name] : {std::pair{rec2020, "rec2020"}, {aces, "aces2065-1"}})
+      for (const Colour& colour : {rgb, green, Colour{1, 1, 1}}) {
+        const Vec3d expected = to_srgb(name, {colour[0], colour[1], colour[2]});
+        const Colour texel = texel_of(primaries, colour, encoding);
+        EXPECT_NEAR(texel[0], expected.x, 1e-5) << name;
+        EXPECT_NEAR(texel[1], expected.y, 1e-5) << name;
+        EXPECT_NEAR(texel[2], expected.z, 1e-5) << name;
+      }
+  EXPECT_EQ(texel_of(aces, rgb, TextureEncoding::data), rgb) << "numbers that are no colours";
+  EXPECT_EQ(texel_of(Imf::Chromaticities(), rgb, TextureEncoding::automatic), rgb) << "those of sRGB, bit for bit";
+}
+
+TEST(ExrPrimaries, ThoseOfNoColourSpaceAreRefused) {
+  for (const Imf::Chromaticities& primaries :
+       {Imf::Chromaticities({0, 0}, {0, 0}, {0, 0}, {0, 0}), Imf::Chromaticities({0.6f, 0.3f}, {0.6f, 0.3f}),
+        Imf::Chromaticities({0.6f, 0.3f}, {0.3f, 0.6f}, {0.1f, 0.1f}, {0.3f, 0})})
+    EXPECT_THROW(texel_of(primaries, {1, 1, 1}, TextureEncoding::automatic), InputError);
 }
 
 /// Writes a part for each list of channels, all of one pixel; part n holds n, n + 0.25, n + 0.5, ...

@@ -340,6 +340,8 @@ TEST(GltfCameras, ReadPerspectiveAndOrthographicOnes) {
   EXPECT_EQ(file.parse(options).scene.camera.type, CameraType::orthographic);
   options.camera = "7";
   EXPECT_NE(file.error(options).find("no camera '7'; it may be one of 0 'front', 1 'flat'"), std::string::npos);
+  options.camera = "\x1b[31m\u00e9";
+  EXPECT_NE(file.error(options).find("no camera '\\x1b[31m\u00e9'"), std::string::npos) << file.error(options);
 }
 
 TEST(GltfCameras, FrameWhatHasNoCamera) {
@@ -357,6 +359,22 @@ TEST(GltfCameras, FrameWhatHasNoCamera) {
   }
   // x is to the right, so that writing can be read.
   EXPECT_GT(camera_from_world.direction({1, 0, 0}).x, 0);
+}
+
+/// By the size of the scene in the picture, whatever its size in metres.
+TEST(GltfCameras, FrameTheSmallestAsTheLargest) {
+  const auto height_in_picture = [](double scale) {
+    GltfFile file;
+    file.add_node({{"mesh", file.add_mesh(file.triangle())}, {"scale", {scale, scale, scale}}});
+    const Camera camera = file.parse().scene.camera;
+    const Transform camera_from_world = camera.world_from_camera.start.inverse();
+    const Vec3d foot = camera_from_world.point({0, 0, 0}), head = camera_from_world.point({0, scale, 0});
+    return head.y / head.z - foot.y / foot.z;
+  };
+  const double expected = height_in_picture(1);
+  EXPECT_GT(expected, 0.1);
+  for (const double scale : {1e-6, 1e-9, 1e-10, 1e-12, 1e-15, 1e6, 1e12})
+    EXPECT_NEAR(height_in_picture(scale), expected, 1e-6) << scale;
 }
 
 // What is refused ---------------------------------------------------------------------------------------------------

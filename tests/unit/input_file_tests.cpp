@@ -93,7 +93,7 @@ class Confined : public ::testing::TestWithParam<bool> {
   }
 
   InputPath path(const std::string& name, const std::string& folder) const {
-    return {name, std::make_shared<const Confinement>(folder, GetParam())};
+    return {name, {std::make_shared<const Confinement>(folder, GetParam()), nullptr}};
   }
   InputPath path(const std::string& name) const { return path(folder_.file("scene/" + name), folder_.file("scene")); }
 

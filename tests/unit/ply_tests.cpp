@@ -300,6 +300,7 @@ TEST(Ply, FilesThatCannotBeRead) {
 
   file.write(std::string("\x1f\x8b\x08\0\0\0\0\0\0\3", 10) + std::string(100, '\xff'));
   EXPECT_TRUE(read_error(file.path()).starts_with(file.path() + ": the compressed data are damaged: "));
+  EXPECT_EQ(read_error(file.path()).find("<fd:"), std::string::npos) << read_error(file.path());
 }
 
 void expect_early_end(const std::string& bytes) {

@@ -18,10 +18,10 @@ size_t MemorySource::read(char* into, size_t capacity) {
   return count;
 }
 
-/// zlib puts the path before its messages; ours have it already.
-static std::string without_path(const std::string& message, const std::string& path) {
-  const std::string prefix = path + ": ";
-  return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
+/// zlib puts what it takes for the path before its messages, "<fd:5>: "; ours have the name already.
+static std::string without_path(const std::string& message) {
+  const size_t end = message.starts_with("<fd:") ? message.find(">: ") : std::string::npos;
+  return end == std::string::npos ? message : message.substr(end + 3);
 }
 
 struct FileSource::Handle {
@@ -52,7 +52,7 @@ size_t FileSource::read(char* into, size_t capacity) {
   if (status == Z_ERRNO) throw InputError({path_}, std::string("cannot be read: ") + std::strerror(errno));
   // A compressed stream that is cut off reads like the end of the file, with this status.
   if (status == Z_BUF_ERROR) throw InputError({path_}, "the compressed data end early; the file is cut off");
-  if (count < 0) throw InputError({path_}, "the compressed data are damaged: " + without_path(message, path_));
+  if (count < 0) throw InputError({path_}, "the compressed data are damaged: " + without_path(message));
   return 0;
 }
 

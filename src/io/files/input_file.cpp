@@ -18,14 +18,14 @@ namespace alhazen {
 namespace {
 
 int open_path(const InputPath& path, int flags) {
-  return path.confinement ? path.confinement->open(path.name, flags | O_CLOEXEC)
-                          : ::open(path.name.c_str(), flags | O_CLOEXEC);
+  return path.scope.confinement ? path.scope.confinement->open(path.name, flags | O_CLOEXEC)
+                                : ::open(path.name.c_str(), flags | O_CLOEXEC);
 }
 
 std::string opening_problem(int error) {
   if (error == EXDEV)
-    return "lies outside the scene's folder, and reading is confined to that (--confine): put the file into the "
-           "folder, or read without the confinement";
+    return "lies outside the scene's folder, or an absolute symbolic link leads to it, and reading is confined to that "
+           "folder (--confine): put the file into it, make the link relative, or read without the confinement";
   return std::string("cannot be opened: ") + std::strerror(error);
 }
 
@@ -76,6 +76,7 @@ InputFile::InputFile(const InputPath& path) : name_(path.name) {
   if (descriptor_ < 0) throw InputError({name_}, problem.message);
   size_ = static_cast<uint64_t>(std::max<off_t>(status.st_size, 0));
   identity_ = {static_cast<uint64_t>(status.st_dev), static_cast<uint64_t>(status.st_ino)};
+  if (path.scope.record) path.scope.record->add(identity_, name_);
 }
 
 InputFile::~InputFile() {

@@ -6,22 +6,29 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/files/confinement.h"
+#include "io/files/input_record.h"
 
 namespace alhazen {
 
-/// The path of a file to be read, and the folder that it must not lie outside of. A plain string is bound to none.
-/// There is no way back to a string but by `name`, so that no reader drops the bound without being seen to.
+/// What holds for all the files that one scene names.
+struct InputScope {
+  std::shared_ptr<const Confinement> confinement;  ///< the folder that they must not lie outside of; null: any
+  std::shared_ptr<InputRecord> record;             ///< where those that were opened are noted; null: nowhere
+};
+
+/// The path of a file to be read, and what holds for it. A plain string is bound by nothing. There is no way back to a
+/// string but by `name`, so that no reader drops the bound without being seen to.
 struct InputPath {
   InputPath(std::string name_) : name(std::move(name_)) {}  // NOLINT(google-explicit-constructor)
   InputPath(const char* name_) : name(name_) {}             // NOLINT(google-explicit-constructor)
-  InputPath(std::string name_, std::shared_ptr<const Confinement> confinement_)
-      : name(std::move(name_)), confinement(std::move(confinement_)) {}
+  InputPath(std::string name_, InputScope scope_) : name(std::move(name_)), scope(std::move(scope_)) {}
 
   std::string name;  ///< also as messages have it
-  std::shared_ptr<const Confinement> confinement;
+  InputScope scope;
 };
 
 /// An open regular file. Folders, devices, pipes and sockets are refused before they are opened, so that nothing waits
@@ -40,7 +47,7 @@ class InputFile {
   uint64_t size() const { return size_; }
   int descriptor() const { return descriptor_; }
   /// What tells it from every other file: its device and its number there.
-  std::pair<uint64_t, uint64_t> identity() const { return identity_; }
+  FileNumber identity() const { return identity_; }
 
   /// Up to `capacity` bytes from where the last reading ended; 0 at the end. Throws InputError.
   size_t read(void* into, size_t capacity);
@@ -51,7 +58,7 @@ class InputFile {
   std::string name_;
   int descriptor_ = -1;
   uint64_t size_ = 0;
-  std::pair<uint64_t, uint64_t> identity_;
+  FileNumber identity_;
 };
 
 /// The bytes of a file of a few numbers, a spectrum or a lens; over 1 MiB it is none. Throws InputError.

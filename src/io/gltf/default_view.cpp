@@ -67,8 +67,10 @@ void fit_camera(Scene& scene, double aspect) {
   };
   for_each_vertex(scene, visit);
   if (nearest == -1e300) visit(center);
-  const double distance = std::max({(to_right + to_left) / (2 * across), (to_top + to_bottom) / (2 * along),
-                                    nearest + std::max(length(half), 1e-6) * 1e-3});
+  // Of a scene that is one point, any distance will do.
+  const double size = length(half) > 0 ? length(half) : 1e-6;
+  const double distance =
+      std::max({(to_right + to_left) / (2 * across), (to_top + to_bottom) / (2 * along), nearest + size * 1e-3});
   const Vec3d eye = center + right * ((to_right - to_left) / 2) + up * ((to_top - to_bottom) / 2) + backward * distance;
   scene.camera.world_from_camera.start = Transform(Matrix4{{{right.x, up.x, -backward.x, eye.x},
                                                             {right.y, up.y, -backward.y, eye.y},

@@ -33,7 +33,7 @@ const std::vector<Json> no_items;
 
 Document::Document(std::span<const uint8_t> bytes, const InputPath& path, const std::string& folder,
                    Diagnostics& diagnostics)
-    : path_(path.name), folder_(folder), confinement_(path.confinement), diagnostics_(diagnostics) {
+    : path_(path.name), folder_(folder), scope_(path.scope), diagnostics_(diagnostics) {
   if (is_binary(bytes))
     read_container(bytes);
   else

@@ -27,8 +27,8 @@ class Document {
   /// Values may change as long as nobody holds on to one that moves.
   Json& mutable_root() { return root_; }
   const std::string& path() const { return path_; }
-  /// The folder that the files of the document must not leave; null: they may be anywhere.
-  const std::shared_ptr<const Confinement>& confinement() const { return confinement_; }
+  /// Of the files that the document names.
+  const InputScope& scope() const { return scope_; }
   const std::string& folder() const { return folder_; }
   /// The binary chunk of a .glb file; without one, null.
   const std::optional<std::span<const uint8_t>>& binary_chunk() const { return binary_chunk_; }
@@ -69,7 +69,7 @@ class Document {
   const Json* member(const Json& object, const char* key, JsonKind kind, const char* kind_name) const;
 
   std::string path_, folder_;
-  std::shared_ptr<const Confinement> confinement_;
+  InputScope scope_;
   Diagnostics& diagnostics_;
   Json root_;
   std::optional<std::span<const uint8_t>> binary_chunk_;

@@ -86,11 +86,11 @@ Resource load_uri(const Document& document, const Json& uri) {
   if (uri.string.empty() || decoded.find('\0') != decoded.npos || std::filesystem::path(decoded).is_absolute())
     document.fail(uri, "the path " + alhazen::quoted(decoded) + " must be a relative one");
   const std::filesystem::path folder = document.folder();
-  InputPath path((folder / decoded).string(), document.confinement());
+  InputPath path((folder / decoded).string(), document.scope());
   InputProblem problem = input_problem(path);
   if (!problem.message.empty() && decoded != uri.string && !std::filesystem::path(uri.string).is_absolute()) {
     // Some exporters forget to encode.
-    InputPath as_written((folder / uri.string).string(), document.confinement());
+    InputPath as_written((folder / uri.string).string(), document.scope());
     if (input_problem(as_written).message.empty()) {
       path = std::move(as_written);
       problem = {};

@@ -66,8 +66,9 @@ bool is_opaque(const ImageTexels& texels);
 /// `alpha`, or nothing where it is 1 everywhere.
 std::optional<ImageTexels> unless_opaque(ImageTexels&& alpha);
 
-/// The colours of an EXR image. Throws InputError where it has none.
-ImageTexels exr_texels(const Image& image, const std::string& path);
+/// The colours of an EXR image. Throws InputError where it has none. `is_data`: numbers that are no colours, which are
+/// left as they stand; else they are turned to linear sRGB where the file has other primaries.
+ImageTexels exr_texels(const Image& image, const std::string& path, bool is_data);
 /// The colours of an image of any other format.
 ImageTexels decode_texture(const std::string& path, PictureFormat format, std::span<const uint8_t> bytes,
                            TextureEncoding encoding);

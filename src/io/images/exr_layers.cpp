@@ -17,6 +17,8 @@ struct Layer {
   bool has_chroma = false, is_vector = false;
 
   bool has_colour() const { return red >= 0 && green >= 0 && blue >= 0; }
+  /// CIE XYZ, or the three numbers of a vector: Y alone is not the picture.
+  bool is_xyz() const { return is_vector && luminance >= 0 && !has_colour(); }
   /// Where chroma is stored beside it, the luminance alone is not the picture.
   bool has_grey() const { return luminance >= 0 && !has_chroma; }
 };
@@ -79,17 +81,30 @@ ColourChannels only_layer(const std::map<std::string, Layer>& layers, const Has&
   return none;
 }
 
+/// What there is instead of colours.
+std::string fault_of(const std::map<std::string, Layer>& layers) {
+  const auto any = [&](const auto& is) {
+    return std::any_of(layers.begin(), layers.end(), [&](const auto& entry) { return is(entry.second); });
+  };
+  if (any([](const Layer& layer) { return layer.luminance >= 0 && layer.has_chroma; }))
+    return "has luminance and chroma (Y, RY, BY), which are not read: convert it to R, G, B";
+  if (any([](const Layer& layer) { return layer.is_xyz(); }))
+    return "has X, Y, Z and no R, G, B; neither CIE XYZ nor vectors are read: convert it to R, G, B";
+  return "has neither channels R, G, B nor grey in Y or a single channel";
+}
+
 }  // namespace
 
 ColourChannels colour_channels(const Image& image) {
   if (image.channels.size() == 1) return {{0, 0, 0}, -1, {}};
   const std::map<std::string, Layer> layers = layers_of(image);
-  if (const auto base = layers.find(""); base != layers.end() && (base->second.has_colour() || base->second.has_grey()))
+  if (const auto base = layers.find("");
+      base != layers.end() && (base->second.has_colour() || base->second.has_grey()) && !base->second.is_xyz())
     return channels_of(base->second);
   ColourChannels found = only_layer(layers, [](const Layer& layer) { return layer.has_colour(); });
   if (!found && found.fault.empty())
     found = only_layer(layers, [](const Layer& layer) { return layer.has_grey() && !layer.is_vector; });
-  if (!found && found.fault.empty()) found.fault = "has neither channels R, G, B nor grey in Y or a single channel";
+  if (!found && found.fault.empty()) found.fault = fault_of(layers);
   return found;
 }
 

@@ -8,6 +8,7 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <ImfTileDescription.h>
 
 #include <algorithm>
@@ -90,6 +91,13 @@ void spread(std::vector<float>& plane, int width, int height, const ExrChannel& 
                 static_cast<size_t>(x / channel.x_sampling)];
 }
 
+std::optional<Chromaticities> chromaticities_of(const Imf::Header& header) {
+  if (!Imf::hasChromaticities(header)) return std::nullopt;
+  const Imf::Chromaticities& c = Imf::chromaticities(header);
+  const auto point = [](const Imath::V2f& v) { return Vec2d{static_cast<double>(v.x), static_cast<double>(v.y)}; };
+  return Chromaticities{point(c.red), point(c.green), point(c.blue), point(c.white)};
+}
+
 /// Refuses a picture, or a tile of it, that the file cannot hold.
 void check_header(const std::string& path, const Imf::Header& header, size_t channels, uint64_t file_size) {
   if (header.hasType() && Imf::isDeepData(header.type())) throw_malformed(path, "holds deep data; flatten it first");
@@ -137,6 +145,7 @@ Image read_picture_part(const std::string& path, std::span<const uint8_t> bytes)
   const int64_t width = int64_t{window.max.x} - window.min.x + 1, height = int64_t{window.max.y} - window.min.y + 1;
 
   Image image{static_cast<int>(width), static_cast<int>(height), {}, {}};
+  image.chromaticities = chromaticities_of(header);
   Imf::FrameBuffer frame;
   for (const ExrChannel& channel : channels) {
     image.channels.push_back(channel.name);

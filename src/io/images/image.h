@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/colour/rgb_space.h"
 #include "io/files/input_file.h"
 #include "scene/diagnostics.h"
 
@@ -20,6 +22,8 @@ struct Image {
   int width = 0, height = 0;
   std::vector<std::string> channels;       ///< "R", "G", "B", "albedo.R", "depth.Z", ...
   std::vector<std::vector<float>> planes;  ///< one a channel, width * height each
+  /// Of R, G and B, where the file names them; else those of sRGB are meant.
+  std::optional<Chromaticities> chromaticities = std::nullopt;
 
   /// Index of a channel, or -1.
   int channel(const std::string& name) const;
@@ -62,9 +66,8 @@ void write_exr(const std::string& path, const ImageSource& source, const ExrOpti
 /// Takes channels R, G, B; values are tone mapped, clamped to [0, 1] and sRGB-encoded. NaN becomes black.
 void write_png(const std::string& path, const ImageSource& source, const PngOptions& options);
 
-/// Reads EXR (all channels of its picture part) and what read_texture reads (as R, G, B; files of up to 16 bits are
-/// decoded to linear).
-/// Throws InputError.
+/// Reads EXR (all channels of its picture part, as they stand) and what read_texture reads (as R, G, B; files of up to
+/// 16 bits are decoded to linear). Throws InputError.
 Image read_image(const InputPath& path);
 
 /// The extension of a path in lower case, without the dot.

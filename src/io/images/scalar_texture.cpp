@@ -98,7 +98,7 @@ ScalarTexture read_scalar(const InputPath& input, TextureEncoding encoding) {
   if (format == PictureFormat::exr) {
     const Image image = read_exr(input);
     if (std::optional<ImageTexels> alpha = exr_alpha(image, path)) return {std::move(*alpha), true, false};
-    colours = exr_texels(image, path);
+    colours = exr_texels(image, path, true);
   } else {
     const std::vector<uint8_t> bytes = read_bytes(input);
     if (std::optional<ImageTexels> alpha = decode_alpha(path, format, bytes))

@@ -40,7 +40,19 @@ std::optional<ImageTexels> unless_opaque(ImageTexels&& alpha) {
   return is_opaque(alpha) ? std::nullopt : std::optional(std::move(alpha));
 }
 
-ImageTexels exr_texels(const Image& image, const std::string& path) {
+static void turn_to_srgb(const Chromaticities& chromaticities, std::vector<float>& rgb) {
+  const SrgbFromPrimaries to_linear_srgb(chromaticities);
+  if (to_linear_srgb.is_identity()) return;
+  for (size_t i = 0; i + 2 < rgb.size(); i += 3) {
+    const Vec3d colour =
+        to_linear_srgb({static_cast<double>(rgb[i]), static_cast<double>(rgb[i + 1]), static_cast<double>(rgb[i + 2])});
+    rgb[i] = static_cast<float>(colour.x);
+    rgb[i + 1] = static_cast<float>(colour.y);
+    rgb[i + 2] = static_cast<float>(colour.z);
+  }
+}
+
+ImageTexels exr_texels(const Image& image, const std::string& path, bool is_data) {
   const ColourChannels channels = colour_channels(image);
   if (!channels) throw_malformed(path, channels.fault);
   ImageTexels texels{image.width, image.height, {}, {}, false, path};
@@ -49,6 +61,12 @@ ImageTexels exr_texels(const Image& image, const std::string& path) {
   for (size_t c = 0; c < 3; ++c) {
     const std::vector<float>& plane = image.planes[static_cast<size_t>(channels.rgb[c])];
     for (size_t i = 0; i < count; ++i) texels.floats[3 * i + c] = plane[i];
+  }
+  if (is_data || !image.chromaticities || channels.rgb[0] == channels.rgb[1]) return texels;
+  try {
+    turn_to_srgb(*image.chromaticities, texels.floats);
+  } catch (const InputError& error) {
+    throw_malformed(path, error.what());
   }
   return texels;
 }
@@ -90,8 +108,9 @@ ImageTexels read_texture(const InputPath& input, TextureEncoding encoding) {
   const std::string& path = input.name;
   try {
     const PictureFormat format = picture_format(input);
-    if (format == PictureFormat::exr) return exr_texels(read_exr(input), path);
-    return decode_texture(path, format, read_bytes(input), encoding);
+    if (format == PictureFormat::exr) return exr_texels(read_exr(input), path, encoding == TextureEncoding::data);
+    return decode_texture(path, format, read_bytes(input),
+                          encoding == TextureEncoding::data ? TextureEncoding::linear : encoding);
   } catch (const std::bad_alloc&) {
     throw_malformed(path, "is too large for the memory of this machine");
   }

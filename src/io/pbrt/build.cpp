@@ -25,8 +25,8 @@ void require_definitions(const std::map<std::string, NamedEntry>& entries, const
 
 }  // namespace
 
-Build::Build(std::string folder_, std::shared_ptr<const Confinement> confinement_, Diagnostics& diagnostics_)
-    : diagnostics(diagnostics_), folder(std::move(folder_)), confinement(std::move(confinement_)) {}
+Build::Build(std::string folder_, InputScope scope_, Diagnostics& diagnostics_)
+    : diagnostics(diagnostics_), folder(std::move(folder_)), scope(std::move(scope_)) {}
 
 void Build::warn_replaced(const ParameterList& list, const std::string& instead) {
   warn(list.place(), list.directive() + " is not supported; " + instead);
@@ -34,7 +34,7 @@ void Build::warn_replaced(const ParameterList& list, const std::string& instead)
 
 InputPath Build::existing_file(const Place& place, const std::string& name) const {
   if (name.empty()) fail(place, "the name of a file is empty");
-  InputPath path((std::filesystem::path(folder) / name).string(), confinement);
+  InputPath path((std::filesystem::path(folder) / name).string(), scope);
   const InputProblem problem = input_problem(path);
   if (problem.is_missing)
     fail(place, "there is no file \"" + name + "\" (looked for " + path.name +

@@ -71,12 +71,12 @@ struct NamedEntry {
 };
 
 struct Build {
-  Build(std::string folder_, std::shared_ptr<const Confinement> confinement_, Diagnostics& diagnostics_);
+  Build(std::string folder_, InputScope scope_, Diagnostics& diagnostics_);
 
   Scene scene;
   Diagnostics& diagnostics;
-  std::string folder;                              ///< relative paths start here
-  std::shared_ptr<const Confinement> confinement;  ///< of all files that the scene names; null: they may be anywhere
+  std::string folder;  ///< relative paths start here
+  InputScope scope;    ///< of all files that the scene names
 
   GraphicsState state;
   bool in_world = false;

@@ -232,10 +232,10 @@ uint32_t read_normal_map(Build& build, ParameterList& list) {
   if (!list.has("normalmap")) return no_index;
   const InputPath path = build.existing_file(list.place_of("normalmap"), list.string("normalmap", ""));
   const auto [entry, is_new] =
-      build.images_by_key.try_emplace({path.name, static_cast<int>(TextureEncoding::linear), false}, 0u);
+      build.images_by_key.try_emplace({path.name, static_cast<int>(TextureEncoding::data), false}, 0u);
   if (is_new) {
     entry->second = static_cast<uint32_t>(build.scene.images.size());
-    build.scene.images.push_back(read_texture(path, TextureEncoding::linear));
+    build.scene.images.push_back(read_texture(path, TextureEncoding::data));
   }
   Texture texture;
   texture.kind = TextureKind::image;

@@ -77,7 +77,7 @@ const std::vector<Parser::Directive>& Parser::directives() {
 }
 
 void Parser::parse_top(std::shared_ptr<const SourceFile> source) {
-  open_files_.push_back(source->file ? InputFile(*source->file).identity() : std::pair<uint64_t, uint64_t>());
+  open_files_.push_back(source->file ? InputFile(*source->file).identity() : FileNumber());
   parse_file(source);
   if (!build_.in_world)
     fail({source, 1, 1}, "the scene has no WorldBegin; put it between the camera and the first shape");
@@ -225,7 +225,7 @@ void Parser::include(const Place& place) {
   const InputPath path = build_.existing_file(place, name);
   if (open_files_.size() == max_file_depth) fail(place, "files are included over 64 deep");
   if (++file_count_ > max_files) fail(place, "over 100000 files are included");
-  const std::pair<uint64_t, uint64_t> identity = InputFile(path).identity();
+  const FileNumber identity = InputFile(path).identity();
   if (std::find(open_files_.begin(), open_files_.end(), identity) != open_files_.end())
     fail(place, "\"" + name + "\" includes itself, directly or through others");
   open_files_.push_back(identity);

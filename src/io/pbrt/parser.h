@@ -79,7 +79,7 @@ class Parser {
   std::string directive_;   ///< name of the current one
   std::vector<OpenBlock> blocks_;
   /// Of the files that include each other now; what a text in memory has is nobody's.
-  std::vector<std::pair<uint64_t, uint64_t>> open_files_;
+  std::vector<FileNumber> open_files_;
   size_t file_count_ = 0;
 };
 

@@ -10,9 +10,8 @@ namespace alhazen {
 
 namespace {
 
-Scene parse(pbrt::SourceFile source, const std::string& folder, std::shared_ptr<const Confinement> confinement,
-            Diagnostics& diagnostics) {
-  pbrt::Build build(folder, std::move(confinement), diagnostics);
+Scene parse(pbrt::SourceFile source, const std::string& folder, const InputScope& scope, Diagnostics& diagnostics) {
+  pbrt::Build build(folder, scope, diagnostics);
   build.scene.name = source.name;
   pbrt::Parser(build).parse_top(std::make_shared<const pbrt::SourceFile>(std::move(source)));
   return build.finish();
@@ -22,7 +21,7 @@ Scene parse(pbrt::SourceFile source, const std::string& folder, std::shared_ptr<
 
 Scene read_pbrt(const InputPath& path, Diagnostics& diagnostics) {
   const std::string folder = std::filesystem::path(path.name).parent_path().string();
-  return parse({path.name, path, {}}, folder, path.confinement, diagnostics);
+  return parse({path.name, path, {}}, folder, path.scope, diagnostics);
 }
 
 Scene parse_pbrt(const std::string& text, const std::string& name, const std::string& folder,
