@@ -34,7 +34,7 @@ class OptixIntersector {
       if (!trace(ray, t_min, hit.t, OPTIX_RAY_FLAG_DISABLE_ANYHIT, met)) break;
       if (met.primitive.kind() == PrimitiveKind::triangle) {
         if (is_left(ray, met)) {
-          t_min = met.t * (1 + 4 * rounding_bound<float>(1));
+          t_min = next_towards(met.t, 1.0f);
           continue;
         }
         hit = met;
