@@ -268,7 +268,7 @@ TEST(SpectrumFile, Malformed) {
   EXPECT_EQ(message_of("400, 1"), ":1:1: '400,' is not a finite number");
   EXPECT_EQ(message_of("400 nan"), ":1:5: 'nan' is not a finite number");
   EXPECT_EQ(message_of("400 1e999"), ":1:5: '1e999' is not a finite number");
-  EXPECT_EQ(message_of(std::string("400 1\0", 6)), ":1:5: '1?' is not a finite number");
+  EXPECT_EQ(message_of(std::string("400 1\0", 6)), ":1:5: '1\\x00' is not a finite number");
   EXPECT_EQ(message_of("400 1\n500"), ":2:1: a wavelength without a value behind it");
   EXPECT_EQ(message_of("400 1\n400 2"), ":2:1: wavelengths must ascend; this one is not above the one before");
   EXPECT_EQ(message_of("400 1 # x\n 300 2"), ":2:2: wavelengths must ascend; this one is not above the one before");
