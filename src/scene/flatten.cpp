@@ -518,9 +518,12 @@ class Flattener {
 
   void warn_of_dropped_triangles() {
     if (without_area_ == 0) return;
+    const char* const what = sizeof(Real) == sizeof(float)
+                                 ? " triangles have no area, or less than --precision float resolves, and are left out "
+                                   "(the first of them here)"
+                                 : " triangles have no area and are left out (the first of them here)";
     diagnostics_.warn(without_area_place_, std::to_string(without_area_) + " of " +
-                                               std::to_string(without_area_ + out_.triangles.size()) +
-                                               " triangles have no area and are left out (the first of them here)");
+                                               std::to_string(without_area_ + out_.triangles.size()) + what);
   }
 
   Scene& scene_;
