@@ -60,8 +60,9 @@ ALHAZEN_HD void add_coated_diffuse(const SceneView<Real>& scene, const MaterialR
   b.ior = material.ior;
   b.interface_albedo = scene.albedo_tables + layers.interface_albedo;
   b.transmission = scene.albedo_tables + layers.coat_transmission;
-  b.diffuse_cone = smaller(Real(1), b.ior);
   const Real alpha = mean_alpha(b.alpha);
+  // With what a rough interface, and the table between its rows, lets out beyond the critical angle.
+  b.diffuse_cone = smaller(Real(1), b.ior + 3 * alpha + Real(0.015));
   const Real back = mean_albedo(b.transmission, alpha, CoatColumns::back);
   Real escape = 1 - back;
   if (escape < Real(1e-3)) escape = mean_albedo(b.transmission, alpha, CoatColumns::escape);
