@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -87,6 +86,11 @@ class Eye {
   BvhIntersector<Real> intersector_;
 };
 
+template <class Real>
+bool has_one_side(const SceneView<Real>& view, uint32_t index) {
+  return view.materials[view.surfaces[view.triangles[index].surface].material].features & MaterialFeatures::one_sided;
+}
+
 /// Whether the triangle may be absent.
 template <class Real>
 bool is_candidate(const SceneView<Real>& view, uint32_t index) {
@@ -146,23 +150,24 @@ class JoinedSets {
   std::vector<uint32_t> parent_;
 };
 
-/// The candidates below `end` by a corner each, or by an edge each whose ends are in ascending order.
+/// Triangles by so many of their corners, which stand in ascending order; those with the same ones next to each other.
 template <class Real, size_t points>
-std::vector<std::pair<std::array<Real, 3 * points>, uint32_t>> by_corner_or_edge(const SceneView<Real>& view,
-                                                                                 uint32_t end) {
-  std::vector<std::pair<std::array<Real, 3 * points>, uint32_t>> sorted;
-  for (uint32_t i = 0; i < end; ++i) {
-    if (!is_candidate(view, i)) continue;
-    for (size_t k = 0; k < 3; ++k) {
-      std::array<std::array<Real, 3>, points> ends;
+using ByCorners = std::vector<std::pair<std::array<std::array<Real, 3>, points>, uint32_t>>;
+
+/// Those from `first` on that `takes` takes: each by its corners (`points` is 1), its edges (2) or as a whole (3).
+template <size_t points, class Real, class Takes>
+ByCorners<Real, points> by_corners(const SceneView<Real>& view, uint32_t first, uint32_t end, const Takes& takes) {
+  ByCorners<Real, points> sorted;
+  for (uint32_t i = first; i < end; ++i) {
+    if (!takes(view, i)) continue;
+    for (size_t k = 0; k < (points == 3 ? 1 : 3); ++k) {
+      std::array<std::array<Real, 3>, points> corners;
       for (size_t n = 0; n < points; ++n) {
         const Vec3<Real>& p = view.positions[view.triangles[i].vertex[(k + n) % 3]];
-        ends[n] = {p.x, p.y, p.z};
+        corners[n] = {p.x, p.y, p.z};
       }
-      std::sort(ends.begin(), ends.end());
-      std::array<Real, 3 * points> key;
-      for (size_t n = 0; n < points; ++n) std::copy(ends[n].begin(), ends[n].end(), key.begin() + 3 * n);
-      sorted.push_back({key, i});
+      std::sort(corners.begin(), corners.end());
+      sorted.push_back({corners, i});
     }
   }
   std::sort(sorted.begin(), sorted.end());
@@ -176,7 +181,7 @@ constexpr double min_cosine_of_wall = 0.9999;
 template <class Real>
 void open_whole_walls(const SceneView<Real>& view, std::vector<uint8_t>& is_open) {
   const uint32_t end = static_cast<uint32_t>(is_open.size());
-  const auto edges = by_corner_or_edge<Real, 2>(view, end);
+  const auto edges = by_corners<2>(view, 0, end, is_candidate<Real>);
   JoinedSets walls(end);
   for (size_t i = 1; i < edges.size(); ++i) {
     if (edges[i].first != edges[i - 1].first) continue;
@@ -192,7 +197,7 @@ void open_whole_walls(const SceneView<Real>& view, std::vector<uint8_t>& is_open
 template <class Real>
 std::vector<uint8_t> rooms_of(const SceneView<Real>& view, const std::vector<uint8_t>& is_open) {
   const uint32_t end = static_cast<uint32_t>(is_open.size());
-  const auto corners = by_corner_or_edge<Real, 1>(view, end);
+  const auto corners = by_corners<1>(view, 0, end, is_candidate<Real>);
   JoinedSets rooms(end);
   for (size_t i = 1; i < corners.size(); ++i)
     if (corners[i].first == corners[i - 1].first) rooms.join(corners[i].second, corners[i - 1].second);
@@ -251,34 +256,6 @@ class SurfacesWithFeature {
   std::map<uint32_t, uint32_t> surfaces_, materials_;
 };
 
-/// A triangle by where it lies.
-template <class Real>
-struct Placed {
-  std::array<std::array<Real, 3>, 3> corners;  ///< in ascending order
-  uint32_t index;
-};
-
-/// The triangles of one side in a range, those in one place next to each other.
-template <class Real>
-std::vector<Placed<Real>> by_place(const SceneView<Real>& view, uint32_t first, uint32_t end) {
-  std::vector<Placed<Real>> placed;
-  for (uint32_t i = first; i < end; ++i) {
-    const TriangleRecord& triangle = view.triangles[i];
-    if (!(view.materials[view.surfaces[triangle.surface].material].features & MaterialFeatures::one_sided)) continue;
-    Placed<Real> p{{}, i};
-    for (size_t k = 0; k < 3; ++k) {
-      const Vec3<Real>& v = view.positions[triangle.vertex[k]];
-      p.corners[k] = {v.x, v.y, v.z};
-    }
-    std::sort(p.corners.begin(), p.corners.end());
-    placed.push_back(p);
-  }
-  std::sort(placed.begin(), placed.end(), [](const Placed<Real>& a, const Placed<Real>& b) {
-    return std::tie(a.corners, a.index) < std::tie(b.corners, b.index);
-  });
-  return placed;
-}
-
 }  // namespace
 
 template <class Real>
@@ -286,12 +263,12 @@ void split_coincident_sides(SceneArrays<Real>& out) {
   const SceneView<Real> view = out.view();
   std::vector<uint32_t> halves;
   const auto split = [&](uint32_t first, uint32_t end) {
-    const std::vector<Placed<Real>> placed = by_place(view, first, end);
+    const auto placed = by_corners<3>(view, first, end, has_one_side<Real>);
     for (size_t i = 0; i + 1 < placed.size(); ++i) {
-      const TriangleRecord &a = view.triangles[placed[i].index], &b = view.triangles[placed[i + 1].index];
-      if (placed[i].corners == placed[i + 1].corners &&
+      const TriangleRecord &a = view.triangles[placed[i].second], &b = view.triangles[placed[i + 1].second];
+      if (placed[i].first == placed[i + 1].first &&
           dot(triangle_front_normal(view, a), triangle_front_normal(view, b)) < 0)
-        halves.insert(halves.end(), {placed[i].index, placed[i + 1].index});
+        halves.insert(halves.end(), {placed[i].second, placed[i + 1].second});
     }
   };
   split(0, out.objects.empty() ? view.triangles_count : out.objects[0].first_triangle);

@@ -29,7 +29,7 @@ ALHAZEN_HD constexpr bool has_lobes(MaterialKind kind) {
 
 /// What costs something only where it is asked for: bits of MaterialRecord::features.
 struct MaterialFeatures {
-  static constexpr uint32_t cutout = 1;        ///< may let rays through: by alpha, or for one of the two reasons below
+  static constexpr uint32_t cutout = 1;        ///< may let rays through: by alpha, or as the four last bits say
   static constexpr uint32_t tangents = 2;      ///< normal map, bump, anisotropy: the frame follows dp/du
   static constexpr uint32_t absorbs = 4;       ///< so does what lies behind it, by MaterialRecord::absorption
   static constexpr uint32_t one_sided = 8;     ///< rays of the camera that come from behind go through

@@ -66,7 +66,7 @@ struct Slots {
             hit_primitive[s],
             hit_instance[s]};
   }
-  /// Until it has hit something, the ray's slot says that it leaves what was hit before.
+  /// A ray leaves what was hit last in its slot: `hit_primitive` and `hit_instance` say that until it hits something.
   ALHAZEN_HD void set_ray(uint32_t s, const Ray<Real>& ray) const {
     origin_x[s] = ray.origin.x, origin_y[s] = ray.origin.y, origin_z[s] = ray.origin.z;
     direction_x[s] = ray.direction.x, direction_y[s] = ray.direction.y, direction_z[s] = ray.direction.z;
