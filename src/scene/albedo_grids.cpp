@@ -186,8 +186,7 @@ void mirror_block(const AlbedoGridRecord& record, const double* from, double* to
 }
 
 double alpha_of_node(const std::optional<double>& constant, uint32_t node, uint32_t alphas) {
-  const double alpha = constant ? *constant : sqr(static_cast<double>(node) / (alphas - 1));
-  return std::clamp(alpha, least_layered_alpha<double>, 1.0);
+  return constant ? std::clamp(*constant, least_layered_alpha<double>, 1.0) : alpha_at(node, alphas);
 }
 
 }  // namespace

@@ -22,8 +22,15 @@ inline double cosine_at(uint32_t node, double ior, uint32_t nodes) {
     const double cos_t = sqr(static_cast<double>(node - critical) / (nodes - 1 - critical));
     return safe_sqrt(1 - ior * ior * (1 - cos_t * cos_t));
   }
-  const double turn = pi<double> * node / critical;
-  return std::max(0.5 * safe_sqrt(1 - ior * ior) * (1 - std::cos(turn)), 1e-4);
+  const double x = static_cast<double>(node) / critical;
+  return std::max(safe_sqrt(1 - ior * ior) * (1 - sqr(sqr(1 - x * x))), 1e-4);
+}
+
+/// The inverse of alpha_coordinate, at a node.
+inline double alpha_at(uint32_t node, uint32_t nodes) {
+  if (node == 0) return least_layered_alpha<double>;
+  const double least = std::sqrt(least_layered_alpha<double>);
+  return std::min(1.0, sqr(least + (1 - least) * node / (nodes - 1)));
 }
 
 /// Mean of value(cosine) over all directions, weighted by the cosine. Below an index of 1 the directions that are

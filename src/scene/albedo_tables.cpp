@@ -13,10 +13,6 @@ namespace alhazen {
 
 namespace {
 
-double alpha_at(uint32_t j) {
-  return std::max(sqr(static_cast<double>(j) / (albedo_side - 1)), least_layered_alpha<double>);
-}
-
 constexpr size_t normals = 377;
 
 /// `albedo(direction, alphas)` at every value, and its means over all directions. `ior`: of what interface it is.
@@ -26,7 +22,7 @@ std::vector<double> table_of(const Albedo& albedo, double ior) {
 #pragma omp parallel for schedule(dynamic)
   for (uint32_t j = 0; j < albedo_side; ++j)
     for (uint32_t i = 0; i < albedo_side; ++i) {
-      const double cosine = cosine_at(i, ior, albedo_side), alpha = alpha_at(j);
+      const double cosine = cosine_at(i, ior, albedo_side), alpha = alpha_at(j, albedo_side);
       table[j * albedo_side + i] = albedo(Vec3d{std::sqrt(1 - cosine * cosine), 0, cosine}, Vec2d{alpha, alpha});
     }
   for (uint32_t j = 0; j < albedo_side; ++j)
@@ -105,7 +101,7 @@ std::vector<double> lossy_transmission(double ior, double optical_thickness) {
   for (uint32_t j = 0; j < albedo_side; ++j) {
     const double mean = column(table, CoatColumns::mean)[j] =
         mean_of_row(table.data() + j * albedo_side, ior, albedo_side);
-    const double back = inner_reflectance(seen, ior, alpha_at(j), optical_thickness);
+    const double back = inner_reflectance(seen, ior, alpha_at(j, albedo_side), optical_thickness);
     column(table, CoatColumns::back)[j] = back;
     column(table, CoatColumns::escape)[j] = 1 - back;
     // Below an index of 1 an error of the mean would be scaled up.

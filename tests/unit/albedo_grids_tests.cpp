@@ -6,6 +6,8 @@
 
 #include "core/materials/layered.h"
 #include "scene/albedo_grids.h"
+#include "scene/albedo_quadrature.h"
+#include "scene/albedo_tables.h"
 
 namespace alhazen::test {
 namespace {
@@ -17,7 +19,7 @@ double ggx_share(const AlbedoGrid& grid, const Vec2d& alpha, const Vec3d& o) {
 
 TEST(AlbedoGrids, PairsThatVaryHoldTheConstantOnes) {
   const AlbedoGrid varying{.is_anisotropic = true};
-  const Vec2d alpha{std::pow(6.0 / 11, 2), std::pow(3.0 / 11, 2)}, turned{alpha.y, alpha.x};  // nodes
+  const Vec2d alpha{alpha_at(6, grid_alpha_pairs), alpha_at(3, grid_alpha_pairs)}, turned{alpha.y, alpha.x};
   for (const double cosine : {0.9, 0.5, 0.1})
     for (const double azimuth : {0.0, 0.5, 1.2, 1.57}) {
       const double sine = std::sqrt(1 - cosine * cosine), x = sine * std::cos(azimuth), y = sine * std::sin(azimuth);
@@ -33,6 +35,31 @@ TEST(AlbedoGrids, AreComputedOnce) {
   const AlbedoGrid grid{.alpha_u = 0.3, .alpha_v = 0.3};
   EXPECT_EQ(values_of(grid), values_of(grid));
   EXPECT_NE(values_of(grid), values_of({.alpha_u = 0.4, .alpha_v = 0.4}));
+}
+
+// Beyond the critical angle a nearly smooth interface goes over to total reflection within its alpha.
+TEST(AlbedoTables, FollowTheEdgeOfTotalReflection) {
+  const VisibleNormals seen(4096, Density::even);
+  for (const double ior : {0.1, 0.5, 0.9}) {
+    const Table table = interface_albedo_table(ior);
+    const Vec2d alpha{least_layered_alpha<double>, least_layered_alpha<double>};
+    double worst = 0, sum = 0;
+    constexpr int directions = 2000;
+    for (int k = 1; k < directions; ++k) {
+      // Evenly over the cone that light enters from and as much again beyond it.
+      const double cosine = std::sqrt(1 - std::min(1.0, 2 * ior * ior) * k / directions);
+      const double exact =
+          reflected_share(seen, {std::sqrt(1 - cosine * cosine), 0, cosine}, alpha, [&](double c, double) {
+            double cos_t;
+            return fresnel_dielectric(c, ior, cos_t);
+          });
+      const double error = std::abs(lookup_albedo(table->data(), cosine, alpha.x, ior) - exact);
+      worst = std::max(worst, error);
+      sum += error;
+    }
+    EXPECT_LT(worst, 0.1) << ior;
+    EXPECT_LT(sum / directions, 0.005) << ior;
+  }
 }
 
 }  // namespace

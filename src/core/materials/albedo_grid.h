@@ -9,8 +9,7 @@
 namespace ALHAZEN_CORE {
 
 inline constexpr uint32_t grid_cosines = 64;
-/// Nodes of sqrt(alpha) from 0 to 1 where a roughness varies over the surface: of equal alphas, and of either of a
-/// pair.
+/// Nodes by alpha_coordinate where a roughness varies over the surface: of equal alphas, and of either of a pair.
 inline constexpr uint32_t grid_alphas = 32, grid_alpha_pairs = 12;
 /// Nodes of the azimuth where the alphas differ: of a constant pair, and of pairs that vary.
 inline constexpr uint32_t grid_azimuths = 25, grid_azimuths_of_pairs = 9;
@@ -35,19 +34,10 @@ struct AlbedoGridPlace {
   Real weight_u, weight_v;
 };
 
-/// Weight of the node after `node`, which receives where `coordinate` lies among `nodes`.
-template <class Real>
-ALHAZEN_HD Real node_weight(Real coordinate, uint32_t nodes, uint32_t& node) {
-  const Real x = coordinate * static_cast<Real>(nodes - 1);
-  node = static_cast<uint32_t>(x);
-  node = node > nodes - 2 ? nodes - 2 : node;
-  return x - static_cast<Real>(node);
-}
-
 template <class Real>
 ALHAZEN_HD Real alpha_weight(Real alpha, uint32_t alphas, uint32_t& node) {
   node = 0;
-  return alphas > 1 ? node_weight(std::sqrt(clamp(alpha, Real(0), Real(1))), alphas, node) : Real(0);
+  return alphas > 1 ? node_weight(alpha_coordinate(alpha), alphas, node) : Real(0);
 }
 
 template <class Real>

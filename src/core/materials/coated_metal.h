@@ -9,7 +9,8 @@
 
 namespace ALHAZEN_CORE {
 
-/// Values of a row, by cosine_coordinate, and of the roughnesses of coat and metal by sqrt(alpha), where they vary.
+/// Values of a row, by cosine_coordinate, and of the roughnesses of coat and metal by alpha_coordinate, where they
+/// vary.
 inline constexpr uint32_t coated_metal_cosines = albedo_side, coated_metal_alphas = 8;
 /// Two rows: factors for light that meets the metal once, and for all of it where each further bounce leaves
 /// `coated_metal_fit` of it: in between and around it the sum is taken for that of a geometric series.
@@ -28,10 +29,8 @@ struct CoatedMetalPlace {
 
 template <class Real>
 ALHAZEN_HD uint32_t coated_metal_step(Real alpha, Real& share) {
-  const Real place = std::sqrt(clamp(alpha, Real(0), Real(1))) * static_cast<Real>(coated_metal_alphas - 1);
-  uint32_t i = static_cast<uint32_t>(place);
-  i = i > coated_metal_alphas - 2 ? coated_metal_alphas - 2 : i;
-  share = place - static_cast<Real>(i);
+  uint32_t i;
+  share = node_weight(alpha_coordinate(alpha), coated_metal_alphas, i);
   return i;
 }
 

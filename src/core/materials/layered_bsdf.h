@@ -9,8 +9,6 @@
 
 namespace ALHAZEN_CORE {
 
-template <class Real>
-inline constexpr Real least_layered_alpha = Real(1.5e-3);
 /// Beyond these an interface reflects all light but a ten-thousandth, and rounding would have the rest.
 template <class Real>
 inline constexpr Real min_layered_ior = Real(0.01);
