@@ -87,8 +87,10 @@ ALHAZEN_HD ALHAZEN_COLD LayeredLobes<Real> layered_lobes(const LayeredBsdf<Real>
   lobes.diffuse = below * sheen * lobes.sheen +
                   base * (max_component(b.diffuse * lobes.entering) +
                           (b.metal_is_exact ? Real(0) : b.metal * max_component(b.metal_f0) * lobes.ggx.missing()));
-  lobes.through = base * (b.thin ? max_component(b.through * (splat(Real(1)) - lobes.interface))
-                                 : b.glass * larger(max_component(b.refraction.through), Real(0.2)));
+  if (b.glass > 0)
+    lobes.through = base * b.glass * larger(max_component(b.refraction.through), Real(0.2));
+  else
+    lobes.through = base * max_component(b.through * (splat(Real(1)) - lobes.interface));
   lobes.diffuse_through = base * max_component(b.diffuse_through * (splat(Real(1)) - lobes.interface));
   const Real sum = lobes.coat + lobes.specular + lobes.diffuse + lobes.diffuse_through + lobes.through;
   const Real scale = sum > 0 ? 1 / sum : Real(0);
