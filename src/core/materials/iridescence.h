@@ -23,9 +23,10 @@ ALHAZEN_HD Vec3<Real> film_sensitivity(Real path_difference, const Vec3<Real>& s
   const Real z = band(Real(5.2481e-13 * 1e6), Real(2.2084), Real(6.6121e-3), shift.z);
   const Real scale = Real(1 / (1.0685e-7));
   const Vec3<Real> xyz = Vec3<Real>{x, y, z} * scale;
-  return {Real(3.2404542) * xyz.x - Real(1.5371385) * xyz.y - Real(0.4985314) * xyz.z,
-          Real(-0.9692660) * xyz.x + Real(1.8760108) * xyz.y + Real(0.0415560) * xyz.z,
-          Real(0.0556434) * xyz.x - Real(0.2040259) * xyz.y + Real(1.0572252) * xyz.z};
+  // By columns: of rows GCC makes fused additions and subtractions, -ffp-contract=off or not.
+  return Vec3<Real>{Real(3.2404542), Real(-0.9692660), Real(0.0556434)} * xyz.x +
+         Vec3<Real>{Real(-1.5371385), Real(1.8760108), Real(-0.2040259)} * xyz.y +
+         Vec3<Real>{Real(-0.4985314), Real(0.0415560), Real(1.0572252)} * xyz.z;
 }
 
 /// Reflectance of a film of `thickness` nanometres over a base of reflectance `f0`, at cosine `cosine` outside.
