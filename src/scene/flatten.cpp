@@ -17,6 +17,7 @@
 #include "scene/flatten_trees.h"
 #include "scene/lost_light.h"
 #include "scene/memory_limit.h"
+#include "scene/mixes.h"
 #include "scene/open_backs.h"
 #include "scene/render_space.h"
 #include "scene/thread_limit.h"

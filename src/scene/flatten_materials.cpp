@@ -14,6 +14,7 @@
 #include "scene/albedo_tables.h"
 #include "scene/coated_metal_tables.h"
 #include "scene/flatten_images.h"
+#include "scene/mixes.h"
 
 namespace alhazen {
 
@@ -561,42 +562,6 @@ bool looks_at_uv(const Material& material, const std::vector<bool>& textures) {
 }
 
 }  // namespace
-
-std::vector<uint32_t> order_of_mixes(const std::vector<Material>& materials, uint32_t& of_itself) {
-  enum class State : uint8_t { unknown, open, done };
-  std::vector<State> states(materials.size());
-  std::vector<uint32_t> order, path;
-  of_itself = no_index;
-  for (uint32_t i = 0; i < materials.size(); ++i) {
-    path.push_back(i);
-    while (!path.empty()) {
-      const uint32_t index = path.back();
-      const bool is_mix = materials[index].type == MaterialType::mix;
-      // A mix is met twice: before what it mixes, and when that is done.
-      if (states[index] != State::unknown || !is_mix) {
-        if (states[index] == State::open) order.push_back(index);
-        states[index] = State::done;
-        path.pop_back();
-        continue;
-      }
-      states[index] = State::open;
-      for (const uint32_t part : materials[index].mixed) {
-        if (part >= materials.size()) continue;
-        if (states[part] == State::open) of_itself = part;
-        if (states[part] == State::unknown) path.push_back(part);
-      }
-      if (of_itself != no_index) return order;
-    }
-  }
-  return order;
-}
-
-void check_mixes(const Scene& scene) {
-  uint32_t of_itself = no_index;
-  order_of_mixes(scene.materials, of_itself);
-  if (of_itself != no_index)
-    throw InputError({scene.name}, "the mix '" + scene.materials[of_itself].name + "' is made of itself");
-}
 
 std::vector<bool> materials_that_need_uv(const Scene& scene) {
   const std::vector<bool> textures = textures_that_need_uv(scene);

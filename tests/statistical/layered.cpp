@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/mixes.h"
 #include "support/density_check.h"
 #include "support/effort.h"
 #include "support/layered.h"

@@ -9,7 +9,7 @@
 #include "io/pbrt/colours.h"
 #include "io/pbrt/nearest.h"
 #include "io/pbrt/textures.h"
-#include "scene/flatten_materials.h"
+#include "scene/mixes.h"
 
 namespace alhazen::pbrt {
 
