@@ -51,6 +51,4 @@ Picture render(const std::string& scene_file, const Settings& settings, const Pr
   return picture;
 }
 
-const char* version() { return ALHAZEN_VERSION; }
-
 }  // namespace alhazen

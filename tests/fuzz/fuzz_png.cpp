@@ -6,7 +6,6 @@
 
 #include "fuzz/sound_texels.h"
 #include "io/images/decoders.h"
-#include "io/images/png_alpha.h"
 
 namespace {
 

@@ -141,10 +141,10 @@ ALHAZEN_HD ALHAZEN_HOT bool is_near_edge(const Vec3<Real> (&p)[3], Real b1, Real
   const Vec3<Real> e1 = p[2] - p[0], e2 = p[1] - p[0];
   const Real twice_area_squared = length_squared(cross(e2, e1));
   const Real clearance_squared = sqr(edge_clearance<Real> * max_component(error));
-  const auto is_near = [&](const Vec3<Real>& edge, Real b) {
+  const auto is_near = [&](const Vec3<Real>& edge, Real b) -> int {
     return b * b * twice_area_squared < clearance_squared * length_squared(edge);
   };
-  return is_near(p[2] - p[1], b0) | is_near(e1, b1) | is_near(e2, b2);
+  return (is_near(p[2] - p[1], b0) | is_near(e1, b1) | is_near(e2, b2)) != 0;
 }
 
 /// What brings the point away from the edges that it is too close to, within the plane. Of triangles too small for that

@@ -1,0 +1,7 @@
+#include "alhazen/alhazen.h"
+
+namespace alhazen {
+
+const char* version() { return ALHAZEN_VERSION; }
+
+}  // namespace alhazen
