@@ -1,7 +1,7 @@
 #pragma once
 
-// A flat scene as one would hand it to Embree without a renderer around it: its own triangles and spheres, no filters,
-// the flags that it has by default, the high-quality build. The yardstick that our traversal is measured with.
+// A compiled scene as one would hand it to Embree without a renderer around it: its own triangles and spheres, no
+// filters, the flags that it has by default, the high-quality build. The yardstick that our traversal is measured with.
 
 #include "backends/embree/api.h"
 #include "core/scene_view.h"

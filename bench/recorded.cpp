@@ -5,11 +5,11 @@
 #include <map>
 #include <random>
 
-#include "core/bvh/simd_traversal.h"
+#include "compile/compile_scene.h"
+#include "core/bvh/bvh8/traversal.h"
 #include "core/integrators/camera_sample.h"
 #include "core/sampling/sobol.h"
 #include "io/pbrt/pbrt.h"
-#include "scene/flatten.h"
 
 namespace alhazen {
 
@@ -73,8 +73,9 @@ Scene read_bench_scene(const std::string& name) {
 template <class Real>
 Recorded<Real>::Recorded(const std::string& name) {
   Diagnostics diagnostics;
-  flat = flatten<Real>(read_bench_scene(name),
-                       FlattenOptions{bench_width, bench_height, 0, {.binary = false, .simd = true}}, diagnostics);
+  flat =
+      compile_scene<Real>(read_bench_scene(name),
+                          CompileOptions{bench_width, bench_height, 0, {.binary = false, .simd = true}}, diagnostics);
   const SimdBvhIntersector<Real> intersector(flat.view);
   for (uint32_t y = 0; y < bench_height; ++y)
     for (uint32_t x = 0; x < bench_width; ++x)

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "compile/compiled_scene.h"
 #include "io/read_scene.h"
 #include "kernels/query.h"
-#include "scene/flat_scene.h"
 #if defined(ALHAZEN_WITH_EMBREE)
 #include "backends/embree/scene.h"
 #include "plain_embree.h"
@@ -29,7 +29,7 @@ Scene read_bench_scene(const std::string& name);
 
 template <class Real>
 struct Recorded {
-  FlatScene<Real> flat;
+  CompiledScene<Real> flat;
   std::array<std::vector<Query<Real>>, 4> sets;
 #if defined(ALHAZEN_WITH_EMBREE)
   std::unique_ptr<PlainEmbree> plain_embree;  ///< float alone

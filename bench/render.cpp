@@ -3,10 +3,10 @@
 
 #include <benchmark/benchmark.h>
 
+#include "compile/compile_scene.h"
 #include "io/pbrt/pbrt.h"
 #include "render/backend.h"
 #include "render/kernels/instances.h"
-#include "scene/flatten.h"
 #include "support/linear_intersector.h"
 
 namespace alhazen {
@@ -17,7 +17,7 @@ constexpr uint32_t samples = 16;
 
 template <class Real>
 struct SpheresScene {
-  FlatScene<Real> flat;
+  CompiledScene<Real> flat;
   RenderSettings settings;
 
   static const SpheresScene& get() {
@@ -35,8 +35,8 @@ struct SpheresScene {
     asked.samples_per_pixel = samples;
     SpheresScene loaded;
     loaded.settings = resolve_settings(asked, scene);
-    loaded.flat = flatten<Real>(
-        std::move(scene), FlattenOptions{picture_size, picture_size, 0, {.binary = false, .simd = true}}, diagnostics);
+    loaded.flat = compile_scene<Real>(
+        std::move(scene), CompileOptions{picture_size, picture_size, 0, {.binary = false, .simd = true}}, diagnostics);
     return loaded;
   }
 };

@@ -5,23 +5,23 @@
 
 #include <cstdlib>
 
-#include "core/bvh/wide.h"
+#include "compile/compile_scene.h"
+#include "core/bvh/cwbvh/traversal.h"
 #include "io/read_scene.h"
-#include "scene/flatten.h"
 #include "support/random.h"
 
 namespace alhazen {
 namespace {
 
-FlatScene<float> read_mesh(bool wide_bvh) {
+CompiledScene<float> read_mesh(bool wide_bvh) {
   const char* file = std::getenv("ALHAZEN_BENCH_MESH");
   Diagnostics diagnostics;
   Scene scene = read_scene(file ? file : ALHAZEN_SOURCE_DIR "/scenes/knot.ply.gz", diagnostics);
-  return flatten<float>(std::move(scene), FlattenOptions{64, 64, 0, {.wide = wide_bvh}}, diagnostics);
+  return compile_scene<float>(std::move(scene), CompileOptions{64, 64, 0, {.wide = wide_bvh}}, diagnostics);
 }
 
-const FlatScene<float>& mesh() {
-  static const FlatScene<float> flat = read_mesh(true);
+const CompiledScene<float>& mesh() {
+  static const CompiledScene<float> flat = read_mesh(true);
   return flat;
 }
 
@@ -57,7 +57,7 @@ void closest_hit(benchmark::State& state) {
 
 void build(benchmark::State& state, bool wide_bvh) {
   for (auto _ : state) {
-    const FlatScene<float> flat = read_mesh(wide_bvh);
+    const CompiledScene<float> flat = read_mesh(wide_bvh);
     state.SetIterationTime(flat.statistics.build_seconds);
   }
   const SceneView<float>& view = mesh().view;

@@ -5,9 +5,9 @@
 
 #include <thread>
 
+#include "compile/compile_scene.h"
 #include "recorded.h"
 #include "render/sample_kernel.h"
-#include "scene/flatten.h"
 
 namespace alhazen {
 namespace {
@@ -45,8 +45,8 @@ void build_ours(benchmark::State& state, const std::string& scene) {
   double bytes = 0;
   for (auto _ : state) {
     Diagnostics diagnostics;
-    const FlatScene<Real> flat = flatten<Real>(
-        read_bench_scene(scene), FlattenOptions{64, 64, processors(), {.binary = false, .simd = true}}, diagnostics);
+    const CompiledScene<Real> flat = compile_scene<Real>(
+        read_bench_scene(scene), CompileOptions{64, 64, processors(), {.binary = false, .simd = true}}, diagnostics);
     state.SetIterationTime(flat.statistics.build_seconds);
     bytes = static_cast<double>(flat.statistics.tree_bytes) / static_cast<double>(flat.statistics.triangles);
   }
@@ -56,8 +56,8 @@ void build_ours(benchmark::State& state, const std::string& scene) {
 #if defined(ALHAZEN_WITH_EMBREE)
 void build_embree(benchmark::State& state, const std::string& scene) {
   Diagnostics diagnostics;
-  const FlatScene<float> flat =
-      flatten<float>(read_bench_scene(scene), FlattenOptions{64, 64, processors(), {.binary = false}}, diagnostics);
+  const CompiledScene<float> flat = compile_scene<float>(
+      read_bench_scene(scene), CompileOptions{64, 64, processors(), {.binary = false}}, diagnostics);
   for (auto _ : state) PlainEmbree(flat.view, processors());
 }
 #endif

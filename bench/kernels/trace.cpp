@@ -1,6 +1,6 @@
 // Compiled once an instruction set, in its namespace.
 
-#include "core/bvh/simd_traversal.h"
+#include "core/bvh/bvh8/traversal.h"
 #include "kernels/query.h"
 #if defined(ALHAZEN_WITH_EMBREE)
 #include "backends/embree/intersector.h"

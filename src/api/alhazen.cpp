@@ -1,10 +1,10 @@
 #include "alhazen/alhazen.h"
 
+#include "files/file_identity.h"
 #include "io/environment.h"
-#include "io/files/file_identity.h"
 #include "io/read_scene.h"
 #include "render/renderer.h"
-#include "scene/thread_limit.h"
+#include "util/thread_limit.h"
 
 namespace alhazen {
 

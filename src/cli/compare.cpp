@@ -8,10 +8,10 @@
 
 #include "cli/console.h"
 #include "cli/subcommands.h"
-#include "io/files/file_identity.h"
-#include "io/images/atomic_file.h"
-#include "io/images/compare.h"
-#include "io/images/image.h"
+#include "files/atomic_file.h"
+#include "files/file_identity.h"
+#include "images/image.h"
+#include "images/metrics/compare.h"
 
 namespace alhazen {
 

@@ -8,10 +8,10 @@
 #include "cli/console.h"
 #include "cli/listing.h"
 #include "cli/subcommands.h"
+#include "compile/compile_scene.h"
 #include "io/read_scene.h"
 #include "render/statistics.h"
-#include "scene/flatten.h"
-#include "scene/printable.h"
+#include "util/printable.h"
 
 namespace alhazen {
 
@@ -51,9 +51,9 @@ void show(const InfoOptions& options) {
   const size_t materials = scene.materials.size(), textures = scene.textures.size(), images = scene.images.size(),
                meshes = scene.meshes.size(), instances = scene.instances.size();
   const char* filter = name_of(scene.filter.type);
-  FlattenOptions as_on_cpus{.trees = {.binary = false, .simd = true}};
+  CompileOptions as_on_cpus{.trees = {.binary = false, .simd = true}};
   as_on_cpus.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
-  const SceneStatistics sizes = flatten<float>(std::move(scene), as_on_cpus, diagnostics).statistics;
+  const SceneStatistics sizes = compile_scene<float>(std::move(scene), as_on_cpus, diagnostics).statistics;
   const nlohmann::ordered_json j{{"scene", options.scene},
                                  {"width", settings.window.width()},
                                  {"height", settings.window.height()},

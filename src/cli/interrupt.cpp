@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <ctime>
 
-#include "io/images/atomic_file.h"
+#include "files/atomic_file.h"
 
 namespace alhazen {
 

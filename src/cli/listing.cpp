@@ -6,7 +6,7 @@
 
 #include "cli/console.h"
 #include "io/read_scene.h"
-#include "scene/printable.h"
+#include "util/printable.h"
 
 namespace alhazen {
 

@@ -9,8 +9,8 @@
 #include "cli/console.h"
 #include "cli/stack.h"
 #include "cli/subcommands.h"
-#include "scene/diagnostics.h"
-#include "scene/printable.h"
+#include "util/diagnostics.h"
+#include "util/printable.h"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/files/file_identity.h"
-#include "io/images/atomic_file.h"
+#include "files/atomic_file.h"
+#include "files/file_identity.h"
 
 namespace alhazen {
 

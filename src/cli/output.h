@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "io/files/file_identity.h"
-#include "io/files/input_record.h"
-#include "io/images/image.h"
+#include "files/file_identity.h"
+#include "files/input_record.h"
+#include "images/image.h"
 #include "render/renderer.h"
 
 namespace alhazen {

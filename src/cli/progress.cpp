@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/console.h"
-#include "scene/diagnostics.h"
+#include "util/diagnostics.h"
 
 namespace alhazen {
 

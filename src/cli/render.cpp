@@ -19,8 +19,8 @@
 #include "io/environment.h"
 #include "io/read_scene.h"
 #include "render/renderer.h"
-#include "scene/printable.h"
 #include "study/tuned.h"
+#include "util/printable.h"
 
 namespace alhazen {
 

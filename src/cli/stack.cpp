@@ -3,7 +3,7 @@
 #include <pthread.h>
 #include <sys/resource.h>
 
-#include "scene/thread_limit.h"
+#include "util/thread_limit.h"
 
 namespace alhazen {
 

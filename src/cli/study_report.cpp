@@ -11,9 +11,9 @@
 #include "cli/progress.h"
 #include "cli/range.h"
 #include "cli/subcommands.h"
-#include "scene/diagnostics.h"
-#include "scene/printable.h"
 #include "study/report.h"
+#include "util/diagnostics.h"
+#include "util/printable.h"
 
 namespace alhazen {
 

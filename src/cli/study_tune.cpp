@@ -11,10 +11,10 @@
 #include "cli/subcommands.h"
 #include "io/read_scene.h"
 #include "render/settings.h"
-#include "scene/printable.h"
 #include "study/machine.h"
 #include "study/tune.h"
 #include "study/tuned.h"
+#include "util/printable.h"
 
 namespace alhazen {
 

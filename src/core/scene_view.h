@@ -1,19 +1,19 @@
 #pragma once
 
-// The flat scene: plain records in arrays, and the view of pointers and counts that is all an integrator sees.
+// The compiled scene: plain records in arrays, and the view of pointers and counts that is all an integrator sees.
 // Ids are indices, so the same bytes are right on every device.
 
 #include <cstdint>
 
-#include "core/bvh/node.h"
-#include "core/bvh/simd_node.h"
-#include "core/bvh/wide_node.h"
+#include "core/bvh/bvh2/node.h"
+#include "core/bvh/bvh8/node.h"
+#include "core/bvh/cwbvh/node.h"
 #include "core/cameras/camera.h"
 #include "core/cameras/filter.h"
-#include "core/lights/record.h"
-#include "core/materials/record.h"
-#include "core/shapes/records.h"
-#include "core/textures/record.h"
+#include "core/lights/light_record.h"
+#include "core/materials/material_record.h"
+#include "core/shapes/shape_records.h"
+#include "core/textures/texture_record.h"
 
 namespace ALHAZEN_CORE {
 

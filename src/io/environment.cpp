@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/lights/sphere_mapping.h"
-#include "io/images/image.h"
-#include "io/images/texture.h"
+#include "images/image.h"
+#include "images/read_texture.h"
 
 namespace alhazen {
 

@@ -21,7 +21,7 @@ struct ReadOptions {
   /// Width over height of the picture that is asked for, which counts where the file has no camera; 0: nothing is
   /// asked.
   double aspect = 0;
-  /// Whether the files that the scene names must lie in its folder (io/files/confinement.h).
+  /// Whether the files that the scene names must lie in its folder (files/confinement.h).
   bool confine = false;
   /// Where the files that are read are noted; null: nowhere.
   std::shared_ptr<InputRecord> record = nullptr;

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "core/math/bounds.h"
+#include "images/image.h"
 #include "io/gltf/gltf.h"
-#include "io/images/image.h"
 #include "io/pbrt/pbrt.h"
 #include "io/ply/ply.h"
 

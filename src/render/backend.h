@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "compile/compile_scene.h"
+#include "compile/compiled_scene.h"
 #include "render/control.h"
 #include "render/film.h"
 #include "render/sample_kernel.h"
 #include "render/settings.h"
-#include "scene/flat_scene.h"
-#include "scene/flatten.h"
 
 namespace alhazen {
 
@@ -20,7 +20,7 @@ namespace alhazen {
 /// pixel holds of them already, by a pass that was stopped, is not taken again.
 template <class Real>
 struct RenderPass {
-  const FlatScene<Real>& scene;
+  const CompiledScene<Real>& scene;
   SampleKernel<Real> kernel;
   const RenderSettings& settings;
   Film<Real>& film;
@@ -52,8 +52,8 @@ class Backend {
   /// What rays are traced by.
   virtual Trees wanted_trees(const RenderSettings&) const { return {.binary = false, .simd = true}; }
   /// Builds what rays are traced by, where that is not our own BVH; counts as building it. Called once, after start().
-  virtual void prepare(const FlatScene<float>&) {}
-  virtual void prepare(const FlatScene<double>&) {}
+  virtual void prepare(const CompiledScene<float>&) {}
+  virtual void prepare(const CompiledScene<double>&) {}
   /// Passes are no larger than this.
   virtual uint32_t most_samples_per_pass() const { return usual_samples_per_pass; }
   virtual void render_pass(const RenderPass<float>& pass) = 0;

@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "core/sampling/hash.h"
-#include "io/images/atomic_file.h"
+#include "files/atomic_file.h"
 #include "render/sample_kernel.h"
 
 namespace alhazen {
@@ -132,7 +132,7 @@ uint64_t plane_bytes(Film<Real>& film) {
 }  // namespace
 
 template <class Real>
-uint64_t scene_fingerprint(const FlatScene<Real>& scene) {
+uint64_t scene_fingerprint(const CompiledScene<Real>& scene) {
   const SceneView<Real>& v = scene.view;
   Hasher h;
 #define ALHAZEN_ARRAY(type, name) add_records(h, v.name, v.name##_count);
@@ -216,8 +216,8 @@ uint32_t CheckpointFile::load(Film<Real>& film) const {
   return static_cast<uint32_t>(header->samples_done);
 }
 
-template uint64_t scene_fingerprint(const FlatScene<float>&);
-template uint64_t scene_fingerprint(const FlatScene<double>&);
+template uint64_t scene_fingerprint(const CompiledScene<float>&);
+template uint64_t scene_fingerprint(const CompiledScene<double>&);
 template void CheckpointFile::save(Film<float>&, uint32_t) const;
 template void CheckpointFile::save(Film<double>&, uint32_t) const;
 template uint32_t CheckpointFile::load(Film<float>&) const;

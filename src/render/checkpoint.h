@@ -5,15 +5,15 @@
 #include <cstdint>
 #include <string>
 
+#include "compile/compiled_scene.h"
 #include "render/film.h"
 #include "render/settings.h"
-#include "scene/flat_scene.h"
 
 namespace alhazen {
 
 /// A hash over everything that decides the picture; scenes that differ differ in it.
 template <class Real>
-uint64_t scene_fingerprint(const FlatScene<Real>& scene);
+uint64_t scene_fingerprint(const CompiledScene<Real>& scene);
 
 /// Refuses a checkpoint that could not be saved, or whose saving would destroy what is in the file: a render that is to
 /// be resumed, or a file that is none. Leaves everything as it is. Throws InputError.

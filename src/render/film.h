@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/film/film_view.h"
-#include "io/images/image.h"
+#include "images/image.h"
 #include "render/settings.h"
 
 namespace alhazen {

@@ -11,11 +11,11 @@
 #include <optional>
 #include <thread>
 
+#include "compile/compile_scene.h"
 #include "render/backend.h"
 #include "render/checkpoint.h"
 #include "render/denoiser.h"
 #include "render/sample_kernel.h"
-#include "scene/flatten.h"
 
 namespace alhazen {
 
@@ -99,7 +99,7 @@ uint32_t pass_size(const RenderSettings& settings, uint32_t most, uint32_t sampl
 template <class Real>
 class PassLoop {
  public:
-  PassLoop(Backend& backend, const FlatScene<Real>& scene, const RenderSettings& settings, Film<Real>& film,
+  PassLoop(Backend& backend, const CompiledScene<Real>& scene, const RenderSettings& settings, Film<Real>& film,
            const RenderEvents& events, Diagnostics& diagnostics)
       : backend_(backend),
         scene_(scene),
@@ -176,7 +176,7 @@ class PassLoop {
   }
 
   Backend& backend_;
-  const FlatScene<Real>& scene_;
+  const CompiledScene<Real>& scene_;
   const RenderSettings& settings_;
   Film<Real>& film_;
   const RenderEvents& events_;
@@ -222,10 +222,10 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   std::future<void> started =
       std::async(is_on_gpu ? std::launch::async : std::launch::deferred, [&] { backend->start(settings); });
   const int build_threads = is_on_gpu ? 0 : settings.threads;
-  FlattenOptions options{settings.width, settings.height, build_threads, backend->wanted_trees(settings)};
+  CompileOptions options{settings.width, settings.height, build_threads, backend->wanted_trees(settings)};
   options.texture_budget = settings.texture_budget;
   options.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
-  const FlatScene<Real> flat = flatten<Real>(std::move(scene), options, diagnostics);
+  const CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
   started.get();
   statistics.scene_sizes = flat.statistics;
   statistics.load_seconds = load_seconds + seconds_since(start) - flat.statistics.build_seconds;

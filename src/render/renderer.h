@@ -1,6 +1,6 @@
 #pragma once
 
-// From a described scene and settings to a film: flatten, then pass after pass until all samples are taken, the time is
+// From a described scene and settings to a film: compile, then pass after pass until all samples are taken, the time is
 // up or somebody stops it.
 
 #include <functional>

@@ -8,7 +8,7 @@
 #include "render/backend.h"
 #include "render/checkpoint.h"
 #include "render/denoiser.h"
-#include "scene/thread_limit.h"
+#include "util/thread_limit.h"
 
 namespace alhazen {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "compile/compiled_scene.h"
 #include "render/control.h"
 #include "render/settings.h"
-#include "scene/flat_scene.h"
 
 namespace alhazen {
 
@@ -16,7 +16,7 @@ struct RenderStatistics {
   RenderSettings settings;
   std::string scene;
   SceneStatistics scene_sizes;
-  double load_seconds = 0;         ///< reading, flattening and starting a GPU, without the BVH
+  double load_seconds = 0;         ///< reading, compiling and starting a GPU, without the BVH
   double build_seconds = 0;        ///< the BVH
   double denoise_seconds = 0;      ///< 0 where nobody asked for it
   double render_seconds = 0;       ///< taking samples, nothing else

@@ -1,6 +1,6 @@
 #include "scene/mixes.h"
 
-#include "scene/diagnostics.h"
+#include "util/diagnostics.h"
 
 namespace alhazen {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The described scene: what a file says, before it is validated, flattened and given a BVH.
+// The described scene: what a file says, before it is validated, compiled and given a BVH.
 // Colours are linear sRGB (D65). Lengths are in the scene's own unit, angles in degrees, times in [0, 1] of the
 // shutter unless said otherwise.
 
@@ -14,9 +14,9 @@
 #include "core/math/frame.h"
 #include "core/math/vec.h"
 #include "core/sampling/any_sampler.h"
-#include "core/textures/kinds.h"
-#include "scene/diagnostics.h"
+#include "core/textures/functions.h"
 #include "scene/transform.h"
+#include "util/diagnostics.h"
 
 namespace alhazen {
 
@@ -280,7 +280,7 @@ struct Filter {
 
 enum class IntegratorType { branching, recursive, iterative, path };
 
-/// The whole description. A reader fills it; `flatten` (scene/flatten.h) turns it into what integrators see.
+/// The whole description. A reader fills it; `compile` (compile/compile_scene.h) turns it into what integrators see.
 struct Scene {
   std::string name;  ///< the file it came from
   Camera camera;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "scene/diagnostics.h"
+#include "util/diagnostics.h"
 
 namespace alhazen::study {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "io/files/input_file.h"
+#include "files/input_file.h"
 
 namespace alhazen::study {
 

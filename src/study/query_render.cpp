@@ -30,7 +30,7 @@ RenderStatistics render(Scene&& scene, const RenderSettings& settings, Queries q
                         const std::function<bool()>& go_on, double& processor_seconds, Diagnostics& diagnostics) {
   RenderStatistics statistics;
   statistics.settings = settings;
-  const FlatScene<Real> flat = flatten<Real>(
+  const CompiledScene<Real> flat = compile_scene<Real>(
       std::move(scene), {settings.width, settings.height, settings.threads, {.binary = queries == Queries::binary_bvh}},
       diagnostics);
   statistics.scene_sizes = flat.statistics;

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <set>
 
-#include "io/images/atomic_file.h"
+#include "compile/compile_scene.h"
+#include "files/atomic_file.h"
 #include "io/read_scene.h"
 #include "render/checkpoint.h"
 #include "render/renderer.h"
-#include "scene/flatten.h"
 #include "study/conclusions.h"
 #include "study/json.h"
 #include "study/plan.h"
@@ -53,7 +53,8 @@ void check_options(const ReportOptions& options) {
 SceneFacts facts_of(const Scene& scene, const std::string& path) {
   const RenderSettings settings = resolve_settings({}, scene);
   Diagnostics diagnostics;
-  const FlatScene<float> flat = flatten<float>(Scene(scene), {settings.width, settings.height, 0, {}}, diagnostics);
+  const CompiledScene<float> flat =
+      compile_scene<float>(Scene(scene), {settings.width, settings.height, 0, {}}, diagnostics);
   SceneFacts facts;
   facts.name = fs::path(path).filename().string();
   facts.hash = fmt::format("{:016x}", scene_fingerprint(flat));

@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "io/images/image.h"
+#include "images/image.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 #include "study/trial.h"

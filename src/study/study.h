@@ -65,7 +65,7 @@ Scale full_scale();
 
 struct SceneFacts {
   std::string name;  ///< of the file, without its folder
-  std::string hash;  ///< of what it holds, once flattened
+  std::string hash;  ///< of what it holds, once compiled
   int64_t width = 0, height = 0;
   int64_t segments = 0;  ///< D
   uint64_t spheres = 0, triangles = 0, lights = 0;

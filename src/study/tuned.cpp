@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "io/files/input_file.h"
+#include "files/input_file.h"
 #include "study/machine.h"
 #include "study/write.h"
 

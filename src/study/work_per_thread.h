@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/images/image.h"
+#include "images/image.h"
 
 namespace alhazen::study {
 

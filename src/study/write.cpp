@@ -3,7 +3,7 @@
 #include <bit>
 #include <filesystem>
 
-#include "io/images/atomic_file.h"
+#include "files/atomic_file.h"
 #include "study/json.h"
 #include "study/plots.h"
 

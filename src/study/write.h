@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/images/image.h"
+#include "images/image.h"
 #include "study/study.h"
 
 namespace alhazen::study {

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "io/images/image.h"
+#include "images/image.h"
 #include "support/scene_files.h"
 #include "support/temporary_folder.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -254,4 +254,4 @@ TEST_F(Api, KnowsItsVersion) { EXPECT_STRNE(version(), ""); }
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

@@ -9,7 +9,7 @@
 #include "cli/fixture.h"
 #include "support/effort.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -485,4 +485,4 @@ TEST_F(BadInput, Checkpoints) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

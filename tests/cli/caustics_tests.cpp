@@ -2,7 +2,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -53,4 +53,4 @@ TEST_F(Caustics, OtherIntegratorsSayWhatTheyDo) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

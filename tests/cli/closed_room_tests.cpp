@@ -6,7 +6,7 @@
 #include "cli/fixture.h"
 #include "core/math/vec.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -65,4 +65,4 @@ TEST_F(ClosedRoom, IsBlackInside) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

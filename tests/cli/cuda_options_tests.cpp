@@ -3,7 +3,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 namespace {
 
 using CudaOptions = Command;
@@ -102,4 +102,4 @@ TEST_F(CudaOptions, WithoutAGpuItSaysWhy) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

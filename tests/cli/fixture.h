@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/images/image.h"
+#include "images/image.h"
 #include "support/run_command.h"
 #include "support/scene_files.h"
 #include "support/temporary_folder.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 class Command : public ::testing::Test {
  protected:
@@ -66,4 +66,4 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

@@ -4,7 +4,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -138,4 +138,4 @@ TEST_F(Gltf, TellsWhereAFileIsBad) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

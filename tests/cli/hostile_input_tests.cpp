@@ -7,7 +7,7 @@
 #include "cli/fixture.h"
 #include "support/effort.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -350,4 +350,4 @@ TEST_F(Hostile, MatricesBeyondAllMeasure) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

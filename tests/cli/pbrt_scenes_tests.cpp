@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "cli/fixture.h"
-#include "unit/picture_files.h"
+#include "unit/images/picture_files.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -73,4 +73,4 @@ Shape "trianglemesh" "point3 P" [ -.2 -.2 1  .2 -.2 1  0 .2 1 ] "integer indices
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

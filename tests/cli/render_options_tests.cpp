@@ -9,7 +9,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -325,4 +325,4 @@ TEST_F(RenderOptions, MeshesAloneAndCompressedScenesRender) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

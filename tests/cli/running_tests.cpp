@@ -2,7 +2,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -144,4 +144,4 @@ TEST_F(Running, ResumeWithFewerSamplesThanThereAreIsRefused) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

@@ -2,7 +2,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -76,4 +76,4 @@ TEST_F(Signals, ALimitOnTheSizeOfFilesIsASentence) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

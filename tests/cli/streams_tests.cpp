@@ -2,7 +2,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -100,4 +100,4 @@ TEST_F(Streams, ReaderOfStdoutThatLeavesIsAFailureAndNoSignal) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

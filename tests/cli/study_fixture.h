@@ -6,7 +6,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 class StudyCommand : public Command {
  protected:
@@ -39,4 +39,4 @@ class StudyCommand : public Command {
   nlohmann::json json(const std::string& name) const { return nlohmann::json::parse(text(name)); }
 };
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

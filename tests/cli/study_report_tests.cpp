@@ -5,7 +5,7 @@
 
 #include "cli/study_fixture.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -273,4 +273,4 @@ TEST_F(StudyReport, TwoCanBeCompared) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

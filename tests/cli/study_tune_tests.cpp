@@ -2,7 +2,7 @@
 
 #include "cli/study_fixture.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -136,4 +136,4 @@ TEST_F(StudyTune, RefusesBadInput) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

@@ -2,7 +2,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -156,4 +156,4 @@ TEST_F(Subcommands, CompareTellsWhatItMeasuredWithoutThePicture) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

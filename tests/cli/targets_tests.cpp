@@ -4,7 +4,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -117,4 +117,4 @@ TEST_F(OutputTargets, KilledItLeavesNothing) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

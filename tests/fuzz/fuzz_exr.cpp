@@ -2,8 +2,8 @@
 
 #include "fuzz/memory_file.h"
 #include "fuzz/sound_texels.h"
-#include "io/images/decoders.h"
-#include "io/images/texture.h"
+#include "images/codecs/decoders.h"
+#include "images/read_texture.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace alhazen;

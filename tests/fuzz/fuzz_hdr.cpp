@@ -1,7 +1,7 @@
 // Any bytes as a Radiance HDR file: as many texels as the image declares, or an InputError.
 
 #include "fuzz/sound_texels.h"
-#include "io/images/decoders.h"
+#include "images/codecs/decoders.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace alhazen;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fuzz/sound_texels.h"
-#include "io/images/decoders.h"
+#include "images/codecs/decoders.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-// Any bytes as a glTF file, read, flattened and rendered at a few pixels; what it cannot say must be refused.
+// Any bytes as a glTF file, read, compiled and rendered at a few pixels; what it cannot say must be refused.
 
 #include "fuzz/render_few_pixels.h"
 #include "io/gltf/gltf.h"

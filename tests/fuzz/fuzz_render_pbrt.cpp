@@ -1,4 +1,4 @@
-// Any bytes as a scene text, read, flattened and rendered at a few pixels; what the text cannot say must be refused.
+// Any bytes as a scene text, read, compiled and rendered at a few pixels; what the text cannot say must be refused.
 
 #include <string>
 

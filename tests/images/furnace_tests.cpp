@@ -7,7 +7,7 @@
 #include "support/bits.h"
 #include "support/environments.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -108,4 +108,4 @@ Shape "sphere" "float radius" 2
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/images/compare.h"
+#include "images/metrics/compare.h"
 #include "io/read_scene.h"
 #include "render/renderer.h"
 #include "support/effort.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -211,4 +211,4 @@ TEST(References, EveryPbrtSceneHasAPicture) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

@@ -1,6 +1,6 @@
 // Compiled once an instruction set, in its namespace.
 
-#include "core/bvh/simd_traversal.h"
+#include "core/bvh/bvh8/traversal.h"
 #include "isa/request.h"
 
 namespace ALHAZEN_CORE {

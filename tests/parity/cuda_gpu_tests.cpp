@@ -7,7 +7,7 @@
 #include "render/backend.h"
 #include "support/statistics.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 namespace {
 
 using test::Moments;
@@ -167,4 +167,4 @@ INSTANTIATE_TEST_SUITE_P(Parity, OptixOnDevice,
                                             ::testing::Values("path", "iterative")));
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

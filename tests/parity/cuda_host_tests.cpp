@@ -3,10 +3,10 @@
 
 #include "backends/cuda/device_render.h"
 #include "backends/cuda/host_executor.h"
+#include "compile/compile_scene.h"
 #include "parity/scenes.h"
-#include "scene/flatten.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 namespace {
 
 const std::vector<std::string> schedules{"pixel", "chunk", "persistent", "wavefront"};
@@ -137,8 +137,8 @@ TEST(CudaOnHostWideBvh, GivesAllButTheSameBits) {
       Scene scene = parity_scene(name);
       const RenderSettings settings = resolve_settings(host_settings(serial, strategy), scene);
       Diagnostics diagnostics;
-      const FlatScene<float> flat =
-          flatten<float>(std::move(scene), {settings.width, settings.height, 1, {.wide = true}}, diagnostics);
+      const CompiledScene<float> flat =
+          compile_scene<float>(std::move(scene), {settings.width, settings.height, 1, {.wide = true}}, diagnostics);
       ASSERT_GT(flat.view.wide_nodes_count, 0u);
       auto film = std::make_unique<Film<float>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
       RenderControl control(1);
@@ -165,8 +165,8 @@ TEST(CudaOnHostShares, AddUpToThePicture) {
     Scene scene = parity_scene("spheres");
     const RenderSettings settings = resolve_settings(host_settings(serial, "persistent"), scene);
     Diagnostics diagnostics;
-    const FlatScene<double> flat =
-        flatten<double>(std::move(scene), {settings.width, settings.height, 1, {}}, diagnostics);
+    const CompiledScene<double> flat =
+        compile_scene<double>(std::move(scene), {settings.width, settings.height, 1, {}}, diagnostics);
     auto film = std::make_unique<Film<double>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
     RenderControl control(1);
     for (uint32_t device = 0; device < devices; ++device) {
@@ -189,4 +189,4 @@ TEST(CudaOnHostLayers, NoneAreAskedFor) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

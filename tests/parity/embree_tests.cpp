@@ -14,7 +14,7 @@
 #include "support/primitive_scenes.h"
 #include "support/ulps.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 namespace {
 
 using test::Random;
@@ -26,7 +26,7 @@ Ray<float> random_ray(Random& random, double size) {
   return {convert<float>(origin), normalize(convert<float>(direction)), random.uniform<float>()};
 }
 
-void expect_what_looking_at_every_primitive_finds(const FlatScene<float>& scene, size_t rays) {
+void expect_what_looking_at_every_primitive_finds(const CompiledScene<float>& scene, size_t rays) {
   const EmbreeScene embree(scene.view, 1);
   const EmbreeIntersector intersector(scene.view, &embree.tracer());
   const test::LinearIntersector<float> linear(scene.view);
@@ -64,13 +64,13 @@ TEST(Embree, MeetsWhatLookingAtEveryPrimitiveFinds) {
 }
 
 TEST(Embree, MeetsInstances) {
-  const FlatScene<float> scene = test::flat_instanced_scene<float>(test::instanced_scene(5, 80, 10), false);
+  const CompiledScene<float> scene = test::flat_instanced_scene<float>(test::instanced_scene(5, 80, 10), false);
   ASSERT_EQ(scene.view.instances_count, 80u);
   expect_what_looking_at_every_primitive_finds(scene, 5'000);
 }
 
 TEST(Embree, IsNotHurtByNothing) {
-  const FlatScene<float> scene = test::PrimitiveScene().flat<float>();
+  const CompiledScene<float> scene = test::PrimitiveScene().flat<float>();
   const EmbreeScene embree(scene.view, 1);
   const EmbreeIntersector intersector(scene.view, &embree.tracer());
   Hit<float> hit;
@@ -79,7 +79,7 @@ TEST(Embree, IsNotHurtByNothing) {
 }
 
 TEST(Embree, IsNotAskedAboutRaysOutOfItsRange) {
-  const FlatScene<float> scene = test::mixed_primitives(7, 50).flat<float>();
+  const CompiledScene<float> scene = test::mixed_primitives(7, 50).flat<float>();
   const EmbreeScene embree(scene.view, 1);
   const EmbreeIntersector intersector(scene.view, &embree.tracer());
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -109,7 +109,7 @@ TEST(Embree, RefusesWhatItWouldLeaveOut) {
       for (Vec3d& position : mesh.positions) position = position * 1e8;
     scene.groups[0].shapes[0].world_from_object = {small, small};
     for (Instance& instance : scene.instances) instance.world_from_group = {placed, placed};
-    const FlatScene<float> flat = test::flat_instanced_scene<float>(std::move(scene), false);
+    const CompiledScene<float> flat = test::flat_instanced_scene<float>(std::move(scene), false);
     ASSERT_EQ(flat.view.instances_count, 3u);
     if (distance > 1)
       EXPECT_THROW(EmbreeScene(flat.view, 1), InputError);
@@ -119,7 +119,7 @@ TEST(Embree, RefusesWhatItWouldLeaveOut) {
 }
 
 TEST(Embree, ReportsItsMemory) {
-  const FlatScene<float> scene = test::mixed_primitives(3, 1000).flat<float>();
+  const CompiledScene<float> scene = test::mixed_primitives(3, 1000).flat<float>();
   EXPECT_GT(EmbreeScene(scene.view, 1).bytes(), 1000 * 64);
 }
 
@@ -175,7 +175,7 @@ TEST(Embree, TracesInFloatAlone) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::test
 
 #else
 

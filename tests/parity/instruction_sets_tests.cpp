@@ -6,14 +6,14 @@
 
 #include "parity/scenes.h"
 #include "render/sample_kernel.h"
-#include "support/flat_scenes.h"
+#include "support/compiled_scenes.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 namespace {
 
 template <class Real>
-std::vector<BlockSum<Real>> take_picture(const FlatScene<Real>& flat, IntegratorKind integrator, SamplerType sampler,
-                                         InstructionSet set) {
+std::vector<BlockSum<Real>> take_picture(const CompiledScene<Real>& flat, IntegratorKind integrator,
+                                         SamplerType sampler, InstructionSet set) {
   std::vector<BlockRequest> requests;
   for (uint32_t y = 0; y < parity_height; ++y)
     for (uint32_t x = 0; x < parity_height; ++x) requests.push_back({x, y, 4, 1 + (x + y) % 4});
@@ -27,7 +27,7 @@ std::vector<BlockSum<Real>> take_picture(const FlatScene<Real>& flat, Integrator
 
 template <class Real>
 void expect_same_bits(const std::string& name) {
-  const FlatScene<Real> flat = test::flat_scene<Real>(parity_scene(name));
+  const CompiledScene<Real> flat = test::compiled_scene<Real>(parity_scene(name));
   for (const IntegratorKind integrator : {IntegratorKind::path, IntegratorKind::recursive})
     for (const SamplerType sampler : {SamplerType::sobol, SamplerType::independent}) {
       const auto expected = take_picture(flat, integrator, sampler, InstructionSet::baseline);
@@ -52,4 +52,4 @@ TEST(InstructionSets, GiveTheSameBitsInDouble) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

@@ -10,13 +10,13 @@
 #include "backends/cuda/host_executor.h"
 #include "backends/optix/denoiser.h"
 #include "backends/optix/executor.h"
+#include "compile/compile_scene.h"
 #include "parity/scenes.h"
-#include "scene/flatten.h"
 
 namespace alhazen::optix {
 namespace {
 
-using namespace alhazen::testing;
+using namespace alhazen::test;
 using cuda::HostExecutor;
 
 /// What the driver was asked for, in the order of the calls.
@@ -272,7 +272,8 @@ Outcome render(const OptixFunctionTable& table, Scene scene, Settings asked) {
   asked.backend = "serial";
   const RenderSettings settings = resolve_settings(asked, scene);
   Diagnostics diagnostics;
-  const FlatScene<float> flat = flatten<float>(std::move(scene), {settings.width, settings.height, 1, {}}, diagnostics);
+  const CompiledScene<float> flat =
+      compile_scene<float>(std::move(scene), {settings.width, settings.height, 1, {}}, diagnostics);
   auto film = std::make_unique<Film<float>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
   RenderControl control(1);
   {

@@ -1,10 +1,10 @@
 // The picture does not depend on how its samples are cut into passes, nor on which part of it is rendered.
 
+#include "compile/compile_scene.h"
 #include "parity/scenes.h"
 #include "render/backend.h"
-#include "scene/flatten.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -46,8 +46,8 @@ template <class Real>
 Outcome render_in_passes(Scene scene, const Settings& asked, const std::vector<uint32_t>& sizes) {
   Diagnostics diagnostics;
   const RenderSettings settings = resolve_settings(asked, scene);
-  const FlatScene<Real> flat =
-      flatten<Real>(std::move(scene), {settings.width, settings.height, 1, {.simd = true}}, diagnostics);
+  const CompiledScene<Real> flat =
+      compile_scene<Real>(std::move(scene), {settings.width, settings.height, 1, {.simd = true}}, diagnostics);
   Rendering rendering;
   auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
   RenderControl control(settings.threads);
@@ -142,4 +142,4 @@ INSTANTIATE_TEST_SUITE_P(Parity, Passes,
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

@@ -2,7 +2,7 @@
 
 #include "parity/scenes.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -189,4 +189,4 @@ INSTANTIATE_TEST_SUITE_P(Parity, Resume,
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

@@ -2,14 +2,14 @@
 
 // The scenes of the parity tests, read once.
 
-#include "io/images/image.h"
+#include "images/image.h"
 #include "support/bits.h"
 #include "support/environments.h"
 #include "support/light_scenes.h"
 #include "support/scene_files.h"
 #include "support/temporary_folder.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 /// Wider than a tile and not a multiple of one in either direction.
 inline constexpr int parity_width = 20, parity_height = 17;
@@ -189,4 +189,4 @@ inline const Scene& parity_scene(const std::string& name) {
   return spheres;
 }
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

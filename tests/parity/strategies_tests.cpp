@@ -3,7 +3,7 @@
 
 #include "parity/scenes.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 namespace {
 
@@ -147,4 +147,4 @@ TEST(Parity, SeedsSamplersAndIntegratorsDiffer) {
 
 }  // namespace
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

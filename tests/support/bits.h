@@ -12,7 +12,7 @@
 #include "io/pbrt/pbrt.h"
 #include "render/renderer.h"
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 /// All layers that there are.
 inline const std::vector<std::string> all_aovs{"albedo", "normal", "depth", "bounces", "samples", "variance"};
@@ -79,4 +79,4 @@ inline ::testing::AssertionResult same_bits(const Outcome& a, const Outcome& b) 
   return ::testing::AssertionSuccess();
 }
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

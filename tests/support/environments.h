@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "io/images/image.h"
-#include "support/flat_scenes.h"
+#include "images/image.h"
+#include "support/compiled_scenes.h"
 #include "support/random.h"
 
 namespace alhazen::test {

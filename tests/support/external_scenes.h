@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 /// The folder that ALHAZEN_SCENES names, else `shared/scenes` in the repository or beside it; empty where there is
 /// none.
@@ -37,4 +37,4 @@ inline std::vector<std::filesystem::path> external_files(const std::string& fold
   return files;
 }
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "support/closed_meshes.h"
-#include "support/flat_scenes.h"
+#include "support/compiled_scenes.h"
 #include "support/random.h"
 
 namespace alhazen::test {
@@ -59,14 +59,14 @@ inline Scene instanced_scene(uint64_t seed, int instances, double reach, bool mo
 
 /// Instances as such, or copied into the world.
 template <class Real>
-FlatScene<Real> flat_instanced_scene(const Scene& scene, bool as_copies) {
+CompiledScene<Real> flat_instanced_scene(const Scene& scene, bool as_copies) {
   Diagnostics diagnostics;
-  FlattenOptions options;
+  CompileOptions options;
   options.threads = 1;
   options.trees = {.binary = true, .wide = true, .simd = true};
   options.in_render_space = false;
   options.most_copied_triangles = as_copies ? ~uint64_t{0} : 0;
-  FlatScene<Real> flat = flatten<Real>(Scene(scene), options, diagnostics);
+  CompiledScene<Real> flat = compile_scene<Real>(Scene(scene), options, diagnostics);
   expect_no_warnings(diagnostics);
   return flat;
 }

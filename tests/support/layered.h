@@ -1,14 +1,14 @@
 #pragma once
 
-// Layered materials for the tests: a described material, flattened without shapes.
+// Layered materials for the tests: a described material, compiled without shapes.
 
 #include <initializer_list>
 #include <string>
 #include <utility>
 
+#include "compile/materials.h"
+#include "compile/scene_arrays.h"
 #include "core/materials/bsdf.h"
-#include "scene/flatten_materials.h"
-#include "scene/scene_arrays.h"
 #include "support/bsdfs.h"
 
 namespace alhazen::test {
@@ -51,13 +51,13 @@ inline Material principled_material(Scene& scene, const PrincipledValues& values
   return material;
 }
 
-/// One material of a flat scene without shapes.
+/// One material of a compiled scene without shapes.
 template <class Real>
 class FlatMaterial {
  public:
   FlatMaterial(Scene& scene, const Material& material) {
     scene.materials = {material};
-    flatten_materials(scene, arrays_);
+    compile_materials(scene, arrays_);
     view_.materials = arrays_.materials.data();
     view_.layers = arrays_.layers.data();
     view_.textures = arrays_.textures.data();

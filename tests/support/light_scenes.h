@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "support/flat_scenes.h"
+#include "support/compiled_scenes.h"
 #include "support/random.h"
 
 namespace alhazen::test {

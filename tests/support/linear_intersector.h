@@ -2,7 +2,7 @@
 
 // The linear scan, under the name that tests know it by.
 
-#include "core/bvh/linear.h"
+#include "core/bvh/brute_force/linear.h"
 
 namespace alhazen::test {
 

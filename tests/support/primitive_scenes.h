@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "support/flat_scenes.h"
+#include "support/compiled_scenes.h"
 #include "support/random.h"
 
 namespace alhazen::test {
@@ -39,14 +39,14 @@ class PrimitiveScene {
   }
 
   template <class Real>
-  FlatScene<Real> flat(int threads = 1) const {
+  CompiledScene<Real> flat(int threads = 1) const {
     Scene copy = scene_;
     if (!copy.meshes[0].indices.empty()) {
       Shape loose;
       loose.mesh = 0;
       copy.groups[0].shapes.push_back(loose);
     }
-    return flat_scene<Real>(std::move(copy), threads);
+    return compiled_scene<Real>(std::move(copy), threads);
   }
 
  private:

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace alhazen::testing {
+namespace alhazen::test {
 
 using Bytes = std::vector<uint8_t>;
 
@@ -59,4 +59,4 @@ inline Bytes read_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-}  // namespace alhazen::testing
+}  // namespace alhazen::test

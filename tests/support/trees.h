@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/bvh/simd_traversal.h"
-#include "core/bvh/wide.h"
+#include "core/bvh/bvh8/traversal.h"
+#include "core/bvh/cwbvh/traversal.h"
 #include "isa/queries.h"
 
 namespace alhazen::test {

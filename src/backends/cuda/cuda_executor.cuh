@@ -9,7 +9,7 @@
 #include "backends/cuda/cuda_error.h"
 #include "backends/cuda/device_thread.cuh"
 #include "backends/cuda/executor.h"
-#include "scene/diagnostics.h"
+#include "util/diagnostics.h"
 
 namespace alhazen::cuda {
 

@@ -17,7 +17,7 @@ class Engine {
  public:
   virtual ~Engine() = default;
   /// As Backend::prepare.
-  virtual void prepare(const FlatScene<float>&) {}
+  virtual void prepare(const CompiledScene<float>&) {}
   virtual void render_pass(const RenderPass<float>& pass, ThreadStatistics& statistics) = 0;
   virtual void render_pass(const RenderPass<double>& pass, ThreadStatistics& statistics) = 0;
 };

@@ -37,7 +37,7 @@ void DeviceBackend::on_every_engine(const Action& action) {
   if (failure) std::rethrow_exception(failure);
 }
 
-void DeviceBackend::prepare(const FlatScene<float>& scene) {
+void DeviceBackend::prepare(const CompiledScene<float>& scene) {
   on_every_engine([&](Engine& engine, int) { engine.prepare(scene); });
 }
 

@@ -9,7 +9,7 @@ namespace alhazen::cuda {
 class DeviceBackend : public Backend {
  public:
   void start(const RenderSettings& settings) override;
-  void prepare(const FlatScene<float>& scene) override;
+  void prepare(const CompiledScene<float>& scene) override;
   /// A GPU takes many samples in the time that a pass costs it, and looks for an end of the render between slices.
   uint32_t most_samples_per_pass() const override { return 1024; }
   void render_pass(const RenderPass<float>& pass) override;

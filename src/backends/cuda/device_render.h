@@ -12,7 +12,7 @@
 #include "backends/cuda/kernels/pixel.h"
 #include "backends/cuda/kernels/wavefront.h"
 #include "backends/cuda/slices.h"
-#include "core/bvh/wide.h"
+#include "core/bvh/cwbvh/traversal.h"
 #include "render/backend.h"
 
 namespace alhazen::cuda {
@@ -51,7 +51,7 @@ class DeviceRender {
         counter_(executor) {}
 
   /// For executors that trace rays by something of their own: has it built.
-  void prepare(const FlatScene<Real>& scene) {
+  void prepare(const CompiledScene<Real>& scene) {
     upload_scene(scene);
     executor_.build(scene.view, device_scene(scene));
   }
@@ -92,7 +92,7 @@ class DeviceRender {
     }
   }
 
-  void upload_scene(const FlatScene<Real>& scene) {
+  void upload_scene(const CompiledScene<Real>& scene) {
     const typename Executor::Range range("upload the scene");
     const size_t bytes = scene.statistics.bytes;
     arena_.reset();
@@ -102,7 +102,7 @@ class DeviceRender {
   }
 
   /// The view of the scene with its pointers shifted from the host's arena to the device's.
-  SceneView<Real> device_scene(const FlatScene<Real>& scene) const {
+  SceneView<Real> device_scene(const CompiledScene<Real>& scene) const {
     SceneView<Real> view = scene.view;
     const auto shift = [&](auto& pointer) {
       using Pointer = std::remove_reference_t<decltype(pointer)>;
@@ -297,7 +297,7 @@ class DeviceRender {
 
   Executor& executor_;
   RowShare share_;
-  const FlatScene<Real>* scene_ = nullptr;
+  const CompiledScene<Real>* scene_ = nullptr;
   const Film<Real>* host_film_ = nullptr;
   FilmView<Real> film_view_;
   Buffer<Executor, std::byte> arena_, film_;

@@ -10,7 +10,7 @@
 
 #include "backends/cuda/executor.h"
 #include "core/bvh/stack.h"
-#include "scene/diagnostics.h"
+#include "util/diagnostics.h"
 
 namespace alhazen::cuda {
 

@@ -9,7 +9,7 @@
 #endif
 
 #include "core/math/ray.h"
-#include "core/shapes/records.h"
+#include "core/shapes/shape_records.h"
 
 namespace ALHAZEN_CORE {
 

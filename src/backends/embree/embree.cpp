@@ -43,7 +43,7 @@ class EmbreeBackend final : public Backend {
 #if defined(ALHAZEN_WITH_EMBREE)
   Trees wanted_trees(const RenderSettings&) const override { return {.binary = false}; }
   void start(const RenderSettings& settings) override { threads_ = settings.threads; }
-  void prepare(const FlatScene<float>& scene) override { scene_.emplace(scene.view, threads_); }
+  void prepare(const CompiledScene<float>& scene) override { scene_.emplace(scene.view, threads_); }
 
   void render_pass(const RenderPass<float>& pass) override {
     const auto select = ALHAZEN_KERNEL_OF(instruction_sets().back(), select_embree_kernel);

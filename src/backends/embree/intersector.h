@@ -4,7 +4,7 @@
 // primitives; from embree_instances on they are instances.
 
 #include "backends/embree/api.h"
-#include "core/bvh/traversal.h"
+#include "core/bvh/bvh2/traversal.h"
 
 namespace ALHAZEN_CORE {
 
@@ -34,7 +34,7 @@ class EmbreeIntersector {
     return query.tfar < 0;
   }
 
-  /// Many queries, as core/bvh/simd_traversal.h has it; one after the other.
+  /// Many queries, as core/bvh/bvh8/traversal.h has it; one after the other.
   template <bool any_hit, class RayOf, class Limit, class Answer>
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     for (uint32_t i = 0; i < count; ++i) {

@@ -8,7 +8,7 @@
 #include "core/shapes/instance.h"
 #include "core/shapes/sphere.h"
 #include "core/shapes/triangle.h"
-#include "scene/diagnostics.h"
+#include "util/diagnostics.h"
 
 namespace alhazen {
 

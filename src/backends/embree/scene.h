@@ -1,6 +1,6 @@
 #pragma once
 
-// A flat scene as Embree takes it: triangles read from the arena where they lie, spheres by our own test.
+// A compiled scene as Embree takes it: triangles read from the arena where they lie, spheres by our own test.
 
 #include <vector>
 

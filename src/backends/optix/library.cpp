@@ -4,7 +4,7 @@
 
 #include <dlfcn.h>
 
-#include "scene/diagnostics.h"
+#include "util/diagnostics.h"
 
 namespace alhazen::optix {
 

@@ -13,7 +13,7 @@ class OptixEngine final : public cuda::Engine {
   OptixEngine(int device, const cuda::RowShare& share)
       : executor_(optix_library().functions, device_code(), device), render_(executor_, share) {}
 
-  void prepare(const FlatScene<float>& scene) override {
+  void prepare(const CompiledScene<float>& scene) override {
     executor_.use_device();
     render_.prepare(scene);
   }

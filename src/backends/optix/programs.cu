@@ -4,7 +4,7 @@
 #include <optix.h>
 
 #include "backends/optix/params.h"
-#include "core/bvh/traversal.h"
+#include "core/bvh/bvh2/traversal.h"
 
 namespace alhazen::optix {
 

@@ -2,7 +2,7 @@
 
 // Sums over a few samples of one pixel: the unit in which every backend adds to the film.
 
-#include "core/integrators/record.h"
+#include "core/integrators/sample_record.h"
 #include "core/math/scalar.h"
 
 namespace ALHAZEN_CORE {

@@ -3,11 +3,11 @@
 // The stages that every integrator is made of: meet the surface, gather emission, light it directly, scatter.
 // A megakernel runs them in a row, queues one kernel each. A `Record` is a PathRecord that is told of the first hit.
 
-#include "core/integrators/passage.h"
-#include "core/integrators/record.h"
+#include "core/integrators/sample_record.h"
+#include "core/integrators/transparency.h"
 #include "core/lights/light.h"
 #include "core/materials/bsdf.h"
-#include "core/materials/detail.h"
+#include "core/materials/normal_maps.h"
 #include "core/math/ray.h"
 #include "core/sampling/dimensions.h"
 
@@ -29,7 +29,7 @@ ALHAZEN_HD ALHAZEN_COLD const MaterialRecord<Real>& mixed_material(const SceneVi
                                                                    const MaterialRecord<Real>& mix,
                                                                    const TexturePoint<Real>& at, uint32_t hash) {
   const MaterialRecord<Real>* material = &mix;
-  // The flattener sees to it that mixes end; each level draws anew.
+  // The compiler sees to it that mixes end; each level draws anew.
   for (uint32_t level = 0; material->kind == MaterialKind::mix; ++level) {
     const Real amount = evaluate_texture(scene, material->amount, at).x;
     const bool second = random_of_hit<Real>(combine32(hash, level), HitChoice::mix) < amount;

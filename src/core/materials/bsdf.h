@@ -6,8 +6,8 @@
 #include "core/materials/conductor.h"
 #include "core/materials/dielectric.h"
 #include "core/materials/diffuse.h"
-#include "core/materials/layers.h"
-#include "core/materials/sheet.h"
+#include "core/materials/layer_parameters.h"
+#include "core/materials/thin_dielectric.h"
 #include "core/math/frame.h"
 #include "core/textures/texture.h"
 

@@ -2,10 +2,10 @@
 
 // Metal below a rough dielectric coat, as a single lobe. Where light goes once down, off the metal and out again it
 // leaves about GGX of an alpha that both roughnesses and the refraction make; what share of it leaves after one bounce
-// and after any number is tabulated by a simulation of the layers (scene/coated_metal_tables.cpp).
+// and after any number is tabulated by a simulation of the layers (compile/tables/coated_metal_tables.cpp).
 
-#include "core/materials/albedo_table.h"
-#include "core/materials/fresnel.h"
+#include "core/materials/lobes/albedo_table.h"
+#include "core/materials/lobes/fresnel.h"
 
 namespace ALHAZEN_CORE {
 

@@ -2,8 +2,8 @@
 
 // Metal: Fresnel reflection from a smooth surface or from GGX microfacets (single scattering).
 
-#include "core/materials/fresnel.h"
-#include "core/materials/microfacet.h"
+#include "core/materials/lobes/fresnel.h"
+#include "core/materials/lobes/microfacet.h"
 #include "core/materials/sample.h"
 
 namespace ALHAZEN_CORE {

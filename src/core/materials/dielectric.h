@@ -3,8 +3,8 @@
 // Glass and other dielectrics: reflection and refraction at a smooth interface or at GGX microfacets (Walter et al.
 // 2007). Radiance is scaled by 1 / eta^2 when it is refracted, as camera paths need.
 
-#include "core/materials/fresnel.h"
-#include "core/materials/microfacet.h"
+#include "core/materials/lobes/fresnel.h"
+#include "core/materials/lobes/microfacet.h"
 #include "core/materials/sample.h"
 
 namespace ALHAZEN_CORE {

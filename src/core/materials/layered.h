@@ -1,16 +1,16 @@
 #pragma once
 
 // Layers over each other: a clearcoat over sheen over a base that mixes metal and dielectric, the dielectric over
-// diffuse or transmitted light. What a layer sends back by its albedo (core/materials/albedo_grid.h) is kept from what
-// lies below, so that all layers together send on as much light as arrives where none of them absorbs. The layers are
-// those of appendix B of glTF 2.0 and of its KHR_materials extensions; pbrt's coats are the same with the dielectric's
-// exact Fresnel term. Light that metal scatters several times is given back as Kulla and Conty 2017 do ("Revisiting
-// Physically Based Shading at Imageworks"), that of glass as core/materials/glass.h does. Coat and sheen take their
-// light by the direction of the camera alone, so these are not reciprocal. There are no single directions: what is
-// smooth has an alpha of `least_layered_alpha`.
+// diffuse or transmitted light. What a layer sends back by its albedo (core/materials/lobes/albedo_grid.h) is kept from
+// what lies below, so that all layers together send on as much light as arrives where none of them absorbs. The layers
+// are those of appendix B of glTF 2.0 and of its KHR_materials extensions; pbrt's coats are the same with the
+// dielectric's exact Fresnel term. Light that metal scatters several times is given back as Kulla and Conty 2017 do
+// ("Revisiting Physically Based Shading at Imageworks"), that of glass as core/materials/lobes/rough_glass.h does. Coat
+// and sheen take their light by the direction of the camera alone, so these are not reciprocal. There are no single
+// directions: what is smooth has an alpha of `least_layered_alpha`.
 
 #include "core/materials/layered_bsdf.h"
-#include "core/materials/sheen.h"
+#include "core/materials/lobes/sheen.h"
 
 namespace ALHAZEN_CORE {
 

@@ -2,9 +2,9 @@
 
 // The parameters of layers over each other at a point, and the albedos by which a layer leaves light to what is below.
 
-#include "core/materials/albedo_grid.h"
 #include "core/materials/coated_metal.h"
-#include "core/materials/glass.h"
+#include "core/materials/lobes/albedo_grid.h"
+#include "core/materials/lobes/rough_glass.h"
 #include "core/math/frame.h"
 
 namespace ALHAZEN_CORE {

@@ -4,7 +4,7 @@
 
 #include "core/math/ray.h"
 #include "core/math/scalar.h"
-#include "core/shapes/records.h"
+#include "core/shapes/shape_records.h"
 
 namespace ALHAZEN_CORE {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/text/quoted.h"
+#include "util/quoted.h"
 
 namespace alhazen::gltf {
 

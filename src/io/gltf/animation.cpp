@@ -4,7 +4,7 @@
 
 #include "io/gltf/nodes.h"
 #include "io/gltf/pointers.h"
-#include "io/text/quoted.h"
+#include "util/quoted.h"
 
 namespace alhazen::gltf {
 

@@ -2,8 +2,8 @@
 #include <numbers>
 
 #include "io/gltf/punctual.h"
-#include "io/text/numbers.h"
-#include "io/text/quoted.h"
+#include "util/numbers.h"
+#include "util/quoted.h"
 
 namespace alhazen::gltf {
 

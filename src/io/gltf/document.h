@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/math/vec.h"
-#include "io/files/input_file.h"
+#include "files/input_file.h"
 #include "io/gltf/json.h"
-#include "scene/diagnostics.h"
+#include "util/diagnostics.h"
 
 namespace alhazen::gltf {
 

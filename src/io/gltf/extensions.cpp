@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "io/gltf/document.h"
-#include "io/text/quoted.h"
+#include "util/quoted.h"
 
 namespace alhazen::gltf {
 

@@ -7,6 +7,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "images/codecs/image_bytes.h"
 #include "io/gltf/accessors.h"
 #include "io/gltf/materials.h"
 #include "io/gltf/meshes.h"
@@ -14,7 +15,6 @@
 #include "io/gltf/pointers.h"
 #include "io/gltf/punctual.h"
 #include "io/gltf/validate.h"
-#include "io/images/input_file.h"
 
 namespace alhazen {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "io/files/input_file.h"
+#include "files/input_file.h"
 #include "io/read_options.h"
 #include "scene/scene.h"
 

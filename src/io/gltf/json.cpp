@@ -3,9 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include "io/text/numbers.h"
-#include "io/text/quoted.h"
-#include "scene/diagnostics.h"
+#include "util/diagnostics.h"
+#include "util/numbers.h"
+#include "util/quoted.h"
 
 namespace alhazen::gltf {
 

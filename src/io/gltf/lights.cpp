@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "io/gltf/punctual.h"
-#include "io/text/quoted.h"
+#include "util/quoted.h"
 
 namespace alhazen::gltf {
 

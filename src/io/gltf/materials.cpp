@@ -5,7 +5,7 @@
 #include <numbers>
 #include <set>
 
-#include "io/text/quoted.h"
+#include "util/quoted.h"
 
 namespace alhazen::gltf {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/tangents.h"
 #include "io/gltf/draco.h"
 #include "io/gltf/matrices.h"
-#include "io/gltf/tangents.h"
 
 namespace alhazen::gltf {
 

@@ -1,7 +1,7 @@
 // EXT_meshopt_compression, by the meshoptimizer library.
 
 #include "io/gltf/buffers.h"
-#include "io/text/quoted.h"
+#include "util/quoted.h"
 
 #ifdef ALHAZEN_WITH_MESHOPTIMIZER
 #include <meshoptimizer.h>

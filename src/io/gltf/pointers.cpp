@@ -1,7 +1,7 @@
 #include "io/gltf/pointers.h"
 
-#include "io/text/numbers.h"
-#include "io/text/quoted.h"
+#include "util/numbers.h"
+#include "util/quoted.h"
 
 namespace alhazen::gltf {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "images/codecs/decoders.h"
 #include "io/gltf/uri.h"
-#include "io/images/decoders.h"
 
 namespace alhazen::gltf {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <filesystem>
 
-#include "io/images/input_file.h"
-#include "io/text/quoted.h"
+#include "images/codecs/image_bytes.h"
+#include "util/quoted.h"
 
 namespace alhazen::gltf {
 

@@ -12,8 +12,8 @@
 #include <tuple>
 #include <vector>
 
-#include "io/colour/spectrum.h"
-#include "io/files/input_file.h"
+#include "colour/spectrum.h"
+#include "files/input_file.h"
 #include "io/pbrt/parameters.h"
 #include "scene/scene.h"
 

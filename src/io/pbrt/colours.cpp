@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "io/colour/rgb_space.h"
+#include "colour/rgb_space.h"
 
 namespace alhazen::pbrt {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "io/colour/spectrum.h"
+#include "colour/spectrum.h"
 #include "io/pbrt/build.h"
 
 namespace alhazen::pbrt {

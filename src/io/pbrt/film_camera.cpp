@@ -9,7 +9,7 @@
 
 #include "io/pbrt/nearest.h"
 #include "io/pbrt/options.h"
-#include "io/text/quoted.h"
+#include "util/quoted.h"
 
 namespace alhazen::pbrt {
 

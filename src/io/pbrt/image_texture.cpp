@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "io/images/scalar_texture.h"
-#include "io/images/texture.h"
+#include "images/read_scalar_texture.h"
+#include "images/read_texture.h"
 
 namespace alhazen::pbrt {
 

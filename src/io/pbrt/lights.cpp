@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "images/image.h"
+#include "images/read_texture.h"
 #include "io/environment.h"
-#include "io/images/image.h"
-#include "io/images/texture.h"
 #include "io/pbrt/colours.h"
 #include "io/pbrt/nearest.h"
 

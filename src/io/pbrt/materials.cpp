@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/images/texture.h"
+#include "images/read_texture.h"
 #include "io/pbrt/colours.h"
 #include "io/pbrt/nearest.h"
 #include "io/pbrt/textures.h"

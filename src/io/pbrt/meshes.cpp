@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "io/pbrt/loop_subdivision.h"
-#include "io/pbrt/tessellate.h"
+#include "geometry/loop_subdivision.h"
+#include "geometry/tessellate.h"
 #include "io/ply/ply.h"
 
 namespace alhazen::pbrt {

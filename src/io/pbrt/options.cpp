@@ -133,7 +133,7 @@ void set_integrator(Build& build, const std::string& kind, ParameterList& list) 
   if (list.boolean("regularize", false))
     build.warn(list.place_of("regularize"), "\"regularize\" is not supported; it is left out");
   // Of these settings none changes what a picture converges to; what `path` does not find at all is warned of where the
-  // scene is flattened.
+  // scene is compiled.
   set_light_sampler(build, list);
   list.ignore({"samplelights", "samplebsdf", "visualizestrategies", "visualizeweights", "bootstrapsamples", "chains",
                "mutationsperpixel", "largestepprobability", "sigma", "photonsperiteration", "radius", "seed",

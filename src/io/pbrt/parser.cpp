@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "io/colour/rgb_space.h"
+#include "colour/rgb_space.h"
 #include "io/pbrt/lights.h"
 #include "io/pbrt/materials.h"
 #include "io/pbrt/nearest.h"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "io/files/input_file.h"
+#include "files/input_file.h"
 #include "scene/scene.h"
 
 namespace alhazen {

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/tessellate.h"
 #include "io/pbrt/curves.h"
 #include "io/pbrt/materials.h"
 #include "io/pbrt/meshes.h"
 #include "io/pbrt/nearest.h"
-#include "io/pbrt/tessellate.h"
 #include "io/pbrt/textures.h"
 
 namespace alhazen::pbrt {

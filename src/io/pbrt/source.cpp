@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/printable.h"
+#include "util/printable.h"
 
 namespace alhazen::pbrt {
 

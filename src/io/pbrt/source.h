@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "io/files/byte_source.h"
-#include "scene/diagnostics.h"
+#include "files/byte_source.h"
+#include "util/diagnostics.h"
 
 namespace alhazen::pbrt {
 

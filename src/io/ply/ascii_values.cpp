@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "io/text/numbers.h"
-#include "io/text/quoted.h"
+#include "util/numbers.h"
+#include "util/quoted.h"
 
 namespace alhazen {
 

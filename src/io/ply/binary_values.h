@@ -9,7 +9,7 @@
 
 #include "io/ply/input_buffer.h"
 #include "io/ply/ply_header.h"
-#include "scene/diagnostics.h"
+#include "util/diagnostics.h"
 
 namespace alhazen {
 

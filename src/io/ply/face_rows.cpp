@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scene/diagnostics.h"
+#include "util/diagnostics.h"
 
 namespace alhazen {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/polygons.h"
 #include "io/ply/ply_header.h"
-#include "io/ply/polygons.h"
 
 namespace alhazen {
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <memory>
 
-#include "io/files/byte_source.h"
+#include "files/byte_source.h"
 
 namespace alhazen {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "io/files/byte_source.h"
+#include "files/byte_source.h"
 #include "scene/scene.h"
 
 namespace alhazen {

@@ -1,6 +1,6 @@
 #include "io/ply/ply.h"
 
-#include "io/files/byte_source.h"
+#include "files/byte_source.h"
 #include "io/ply/parse_ply.h"
 
 namespace alhazen {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <set>
 
-#include "io/text/quoted.h"
-#include "scene/diagnostics.h"
+#include "util/diagnostics.h"
+#include "util/quoted.h"
 
 namespace alhazen {
 

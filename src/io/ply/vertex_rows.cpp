@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "scene/diagnostics.h"
+#include "util/diagnostics.h"
 
 namespace alhazen {
 

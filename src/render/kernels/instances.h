@@ -2,7 +2,7 @@
 
 // The body of the sample kernels, for the files that instantiate it.
 
-#include "core/bvh/simd_traversal.h"
+#include "core/bvh/bvh8/traversal.h"
 #include "core/film/block_sum.h"
 #include "core/integrators/batch.h"
 #include "core/sampling/any_sampler.h"

@@ -1,0 +1,33 @@
+#pragma once
+
+// Builds the binary BVH on the host: binned surface area heuristic, in parallel, the same tree for any thread count.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/bvh/bvh2/node.h"
+
+namespace alhazen {
+
+template <class Real>
+struct BvhTree {
+  std::vector<BvhNode<Real>> nodes;  ///< depth-first; empty where there were no boxes
+  /// Leaves refer to ranges of this: the boxes' indices in the order of the leaves.
+  std::vector<uint32_t> order;
+};
+
+struct BvhOptions {
+  uint32_t max_leaf = 8;        ///< primitives
+  double traversal_cost = 1.2;  ///< of a visit to a node's two children, in units of a primitive test
+  int threads = 0;              ///< 0: as OpenMP has it
+
+  /// Down to single primitives, for a collapse that chooses its leaves itself.
+  static BvhOptions for_collapse(int threads) { return {4, 1, threads}; }
+};
+
+/// `boxes` must be finite and not empty.
+template <class Real>
+BvhTree<Real> build_bvh(std::span<const Bounds3<Real>> boxes, const BvhOptions& options);
+
+}  // namespace alhazen

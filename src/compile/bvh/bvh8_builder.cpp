@@ -1,0 +1,232 @@
+#include "compile/bvh/bvh8_builder.h"
+
+#include <omp.h>
+
+#include "compile/bvh/collapse.h"
+#include "compile/bvh/octant_slots.h"
+#include "core/bvh/bvh8/traversal.h"
+#include "util/diagnostics.h"
+
+namespace alhazen {
+
+namespace {
+
+SimdChild::Kind kind_of(PrimitiveId primitive) {
+  switch (primitive.kind()) {
+    case PrimitiveKind::sphere:
+      return SimdChild::spheres;
+    case PrimitiveKind::moving_sphere:
+      return SimdChild::moving_spheres;
+    default:
+      return SimdChild::triangles;
+  }
+}
+
+template <class Real>
+uint32_t lanes_of(SimdChild::Kind kind) {
+  return static_cast<uint32_t>(kind == SimdChild::triangles ? TriangleBlock<Real>::lanes : SphereBlock<Real>::lanes);
+}
+
+/// The number of blocks, infinite for primitives of several kinds or more of them than pay. An instance is a leaf of
+/// its own, whatever it costs.
+template <class Real>
+struct BlockCost {
+  std::span<const PrimitiveId> primitives;
+  static constexpr uint32_t most_primitives = 16;
+  static constexpr float instance_cost = 16;
+
+  float operator()(uint32_t first, uint32_t count) const {
+    if (count > most_primitives) return std::numeric_limits<float>::infinity();
+    if (count == 1 && primitives[first].kind() == PrimitiveKind::instance) return instance_cost;
+    const SimdChild::Kind kind = kind_of(primitives[first]);
+    for (uint32_t i = first; i < first + count; ++i)
+      if (kind_of(primitives[i]) != kind || primitives[i].kind() == PrimitiveKind::instance)
+        return std::numeric_limits<float>::infinity();
+    const uint32_t lanes = lanes_of<Real>(kind);
+    return static_cast<float>((count + lanes - 1) / lanes);
+  }
+};
+
+/// The box in float, wider by what the box test and the primitive tests round.
+template <class Real>
+Bounds3<float> simd_box(const Bounds3<Real>& box) {
+  const Vec3<Real> far = max(abs(box.low), abs(box.high));
+  const float slack = static_cast<float>(max_component(far)) * box_slack;
+  const Vec3<float> low = convert<float>(box.low), high = convert<float>(box.high);
+  return {low - splat(slack), high + splat(slack)};
+}
+
+template <class Real>
+class SimdBuilder {
+ public:
+  SimdBuilder(std::span<const BvhNode<Real>> tree, std::span<const Bounds3<Real>> boxes, uint32_t first_primitive,
+              int threads, SceneArrays<Real>& scene)
+      : scene_(scene),
+        primitives_(std::span(scene.primitives).subspan(first_primitive, boxes.size())),
+        threads_(threads),
+        cost_{primitives_},
+        collapse_(tree, boxes, cost_, threads) {}
+
+  void run() {
+    first_node_ = static_cast<uint32_t>(scene_.simd_nodes.size());
+    block_count_[SimdChild::triangles] = static_cast<uint32_t>(scene_.triangle_blocks.size());
+    block_count_[SimdChild::spheres] = static_cast<uint32_t>(scene_.sphere_blocks.size());
+    block_count_[SimdChild::moving_spheres] = static_cast<uint32_t>(scene_.moving_sphere_blocks.size());
+    plan();
+    for (const size_t count : {first_node_ + plan_.size(), size_t{block_count_[SimdChild::triangles]}})
+      if (count > SimdChild::most_of_a_kind)
+        throw InputError("the scene is too large: its tree would have more than 2^26 nodes or blocks of triangles");
+    scene_.simd_nodes.resize(first_node_ + plan_.size());
+    scene_.triangle_blocks.resize(block_count_[SimdChild::triangles]);
+    scene_.sphere_blocks.resize(block_count_[SimdChild::spheres]);
+    scene_.moving_sphere_blocks.resize(block_count_[SimdChild::moving_spheres]);
+#pragma omp parallel for schedule(dynamic, 1024) num_threads(threads_)
+    for (size_t i = 0; i < plan_.size(); ++i) fill(i);
+  }
+
+ private:
+  /// A wide node to be: the binary node it stands for, and where what is below it begins.
+  struct Planned {
+    uint32_t binary;
+    uint32_t first_node;
+    uint32_t first_block[4];  ///< by SimdChild::Kind
+  };
+
+  bool is_instance(uint32_t leaf) const { return primitives_[collapse_.first(leaf)].kind() == PrimitiveKind::instance; }
+
+  /// 0 for an instance.
+  uint32_t blocks_of(uint32_t leaf, SimdChild::Kind& kind) const {
+    if (is_instance(leaf)) return 0;
+    kind = kind_of(primitives_[collapse_.first(leaf)]);
+    const uint32_t lanes = lanes_of<Real>(kind);
+    return (collapse_.count(leaf) + lanes - 1) / lanes;
+  }
+
+  /// Places: siblings side by side, and a node's descendants close behind it.
+  void plan() {
+    plan_.push_back({});
+    std::vector<uint32_t> pending{0};
+    while (!pending.empty()) {
+      const uint32_t at = pending.back();
+      pending.pop_back();
+      Planned& node = plan_[at];
+      node.first_node = first_node_ + static_cast<uint32_t>(plan_.size());
+      std::copy(std::begin(block_count_), std::end(block_count_), node.first_block);
+      uint32_t children[simd_children];
+      const uint32_t count = collapse_.children_of(node.binary, children);
+      for (uint32_t c = 0; c < count; ++c) {
+        if (collapse_.makes_leaf(children[c])) {
+          SimdChild::Kind kind{};
+          const uint32_t blocks = blocks_of(children[c], kind);
+          block_count_[kind] += blocks;
+        } else {
+          pending.push_back(static_cast<uint32_t>(plan_.size()));
+          plan_.push_back({children[c], 0, {}});
+        }
+      }
+    }
+  }
+
+  void fill(size_t at) {
+    Planned next = plan_[at];
+    SimdNode& node = scene_.simd_nodes[first_node_ + at];
+    uint32_t children[simd_children];
+    const uint32_t count = collapse_.children_of(next.binary, children);
+    const Vec3<Real> middle = collapse_.box(next.binary).center();
+    Vec3<Real> offsets[simd_children];
+    for (uint32_t c = 0; c < count; ++c) offsets[c] = collapse_.box(children[c]).center() - middle;
+    const std::array<uint32_t, 8> slots = octant_slots(offsets, count);
+    for (uint32_t slot = 0; slot < simd_children; ++slot) leave_free(node, slot);
+    for (uint32_t c = 0; c < count; ++c) {
+      const Bounds3<float> box = simd_box(collapse_.box(children[c]));
+      const uint32_t slot = slots[c];
+      for (int axis = 0; axis < 3; ++axis) {
+        node.bounds[2 * axis][slot] = box.low[axis];
+        node.bounds[2 * axis + 1][slot] = box.high[axis];
+      }
+      if (collapse_.makes_leaf(children[c]) && is_instance(children[c])) {
+        node.child[slot] = SimdChild::instance(primitives_[collapse_.first(children[c])].index());
+      } else if (collapse_.makes_leaf(children[c])) {
+        SimdChild::Kind kind{};
+        const uint32_t blocks = blocks_of(children[c], kind);
+        node.child[slot] = SimdChild::pack(kind, blocks, next.first_block[kind]);
+        fill_blocks(children[c], kind, next.first_block[kind], blocks);
+        next.first_block[kind] += blocks;
+      } else {
+        node.child[slot] = SimdChild::pack(SimdChild::node, 0, next.first_node++);
+      }
+    }
+  }
+
+  static void leave_free(SimdNode& node, uint32_t slot) {
+    for (int axis = 0; axis < 3; ++axis) {
+      node.bounds[2 * axis][slot] = infinity<float>;
+      node.bounds[2 * axis + 1][slot] = -infinity<float>;
+    }
+    node.child[slot] = SimdChild::nothing;
+  }
+
+  void fill_blocks(uint32_t leaf, SimdChild::Kind kind, uint32_t first_block, uint32_t blocks) {
+    const uint32_t lanes = lanes_of<Real>(kind);
+    const uint32_t first = collapse_.first(leaf), count = collapse_.count(leaf);
+    for (uint32_t i = 0; i < blocks * lanes; ++i) {
+      const uint32_t block = first_block + i / lanes, lane = i % lanes;
+      // Lanes that are left over hold the last primitive's numbers, but for what makes them none.
+      const uint32_t index = primitives_[first + std::min(i, count - 1)].index();
+      switch (kind) {
+        case SimdChild::spheres:
+          set_lane(scene_.sphere_blocks[block], lane, index, i < count, scene_.spheres[index]);
+          break;
+        case SimdChild::moving_spheres:
+          set_lane(scene_.moving_sphere_blocks[block], lane, index, i < count, scene_.moving_spheres[index]);
+          for (int axis = 0; axis < 3; ++axis)
+            scene_.moving_sphere_blocks[block].motion[axis][lane] = scene_.moving_spheres[index].motion[axis];
+          break;
+        default:
+          set_triangle(scene_.triangle_blocks[block], lane, index, i < count);
+          break;
+      }
+    }
+  }
+
+  template <class Block, class Record>
+  static void set_lane(Block& block, uint32_t lane, uint32_t index, bool is_there, const Record& sphere) {
+    for (int axis = 0; axis < 3; ++axis) block.center[axis][lane] = sphere.center[axis];
+    block.radius[lane] = is_there ? sphere.radius : std::numeric_limits<Real>::quiet_NaN();
+    block.index[lane] = index;
+  }
+
+  void set_triangle(TriangleBlock<Real>& block, uint32_t lane, uint32_t index, bool is_there) const {
+    const uint32_t* vertex = scene_.triangles[index].vertex;
+    for (int v = 0; v < 3; ++v)
+      for (int axis = 0; axis < 3; ++axis)
+        block.vertex[v][axis][lane] = scene_.positions[vertex[is_there ? v : 0]][axis];
+    block.index[lane] = index;
+  }
+
+  SceneArrays<Real>& scene_;
+  std::span<const PrimitiveId> primitives_;
+  uint32_t first_node_ = 0;
+  int threads_;
+  BlockCost<Real> cost_;
+  BvhCollapse<Real, BlockCost<Real>> collapse_;
+  std::vector<Planned> plan_;
+  uint32_t block_count_[4]{};
+};
+
+}  // namespace
+
+template <class Real>
+void build_simd_bvh(std::span<const BvhNode<Real>> tree, std::span<const Bounds3<Real>> boxes, uint32_t first_primitive,
+                    int threads, SceneArrays<Real>& scene) {
+  constexpr size_t fewest_shared_nodes = 8192;  // below, it is not worth waking other threads
+  const int team = tree.size() < fewest_shared_nodes ? 1 : threads > 0 ? threads : omp_get_max_threads();
+  if (!tree.empty()) SimdBuilder<Real>(tree, boxes, first_primitive, team, scene).run();
+}
+
+template void build_simd_bvh(std::span<const BvhNode<float>>, std::span<const Bounds3<float>>, uint32_t, int,
+                             SceneArrays<float>&);
+template void build_simd_bvh(std::span<const BvhNode<double>>, std::span<const Bounds3<double>>, uint32_t, int,
+                             SceneArrays<double>&);
+
+}  // namespace alhazen

@@ -1,0 +1,23 @@
+#pragma once
+
+// Collapses the binary BVH into the compressed wide one.
+
+#include <span>
+#include <vector>
+
+#include "core/bvh/bvh2/node.h"
+#include "core/bvh/cwbvh/node.h"
+
+namespace alhazen {
+
+struct WideBvh {
+  std::vector<WideNode> nodes;  ///< the root first; empty where there was no primitive
+  std::vector<uint32_t>
+      primitives;  ///< places in the binary tree's order of primitives, in the order of the wide leaves
+};
+
+/// `boxes` bound the primitives in the order of the binary tree's leaves. Of all ways to gather binary nodes into wide
+/// ones it takes the one of least surface area cost, by dynamic programming (Ylitie, Karras, Laine 2017, section 3.2).
+WideBvh build_wide_bvh(std::span<const BvhNode<float>> nodes, std::span<const Bounds3<float>> boxes);
+
+}  // namespace alhazen

@@ -1,0 +1,564 @@
+#include "compile/compile_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "compile/camera.h"
+#include "compile/emission.h"
+#include "compile/images.h"
+#include "compile/lights.h"
+#include "compile/lost_light.h"
+#include "compile/materials.h"
+#include "compile/open_backs.h"
+#include "compile/render_space.h"
+#include "compile/trees.h"
+#include "core/shapes/interaction.h"
+#include "scene/mixes.h"
+#include "util/memory_limit.h"
+#include "util/thread_limit.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Where a shape stands in the end: its own transform, or that of an instance over it.
+struct Placement {
+  const Shape* shape;
+  MovingTransform world_from_object;
+  bool reverse_orientation;
+};
+
+template <class Real>
+class SceneCompiler {
+ public:
+  SceneCompiler(Scene& scene, const CompileOptions& options, Diagnostics& diagnostics)
+      : scene_(scene), options_(options), diagnostics_(diagnostics) {}
+
+  /// Why memory did not hold the scene.
+  std::string too_large() const {
+    uint64_t texels = 0;
+    for (const ImageTexels& image : scene_.images)
+      texels += static_cast<uint64_t>(image.width) * static_cast<uint64_t>(image.height);
+    return "the scene is too large for the memory of this machine, or for a limit set on it (ulimit -v, a "
+           "container's): it "
+           "places " +
+           std::to_string(placed_shapes_) + " shapes, meshes of " + std::to_string(placed_triangles_) +
+           " triangles among them, and has pictures of " + std::to_string(texels >> 20) +
+           " million texels; give it fewer instances, less geometry or smaller pictures (--texture-budget)";
+  }
+
+  CompiledScene<Real> run() {
+    check_film();
+    CompiledScene<Real> flat;
+    if (options_.in_render_space) move_to_render_space(scene_);
+    compile_camera(scene_, width_, height_, out_, flat.view, diagnostics_);
+    check_mixes(scene_);
+    needs_uv_ = materials_that_need_uv(scene_);
+    fit_images(scene_, options_.texture_budget, diagnostics_);
+    emission_textures_ = compile_materials(scene_, out_);
+    for (const MaterialRecord<Real>& material : out_.materials) {
+      if (material.features & MaterialFeatures::cutout) flat.view.has_cutouts = 1;
+      if (material.opacity.count > 0) flat.view.lets_light_through = 1;
+      if (material.features & MaterialFeatures::one_sided) has_one_sided_ = true;
+      if (has_lobes(material.kind)) flat.view.has_lobes = 1;
+    }
+    add_described_lights(scene_, out_, flat.view, light_measures_);
+    place_shapes();
+    weigh_emission_textures(out_, light_measures_);
+    warn_of_dropped_triangles();
+    build_trees_and_ask(flat);
+    flat.statistics.triangles = out_.triangles.size();
+    flat.statistics.spheres = out_.spheres.size() + out_.moving_spheres.size();
+    flat.statistics.lights = out_.lights.size();
+    flat.statistics.instances = out_.instances.size();
+    out_.move_into(flat);
+    return flat;
+  }
+
+ private:
+  /// Builds the trees, and asks with rays what only they tell. The binary tree serves for that.
+  void build_trees_and_ask(CompiledScene<Real>& flat) {
+    if (has_one_sided_) split_coincident_sides(out_);
+    const bool asks_for_lost_light = options_.path_segments > 0 && may_lose_light(out_.view());
+    CompileOptions options = options_;
+    if (has_one_sided_ || asks_for_lost_light) options.trees.binary = true;
+    build_trees(options, out_, flat.statistics);
+    add_shining_triangles(out_);
+    assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
+    if (has_one_sided_ && open_seen_backs(whole_view(flat), static_cast<uint32_t>(width_),
+                                          static_cast<uint32_t>(height_), options_.threads, out_))
+      flat.view.lets_light_through = 1;
+    if (asks_for_lost_light)
+      if (const auto lost = find_lost_light(whole_view(flat), options_.path_segments))
+        warn_of_lost_light(*lost, scene_, surface_shapes_[lost->surface]->where, diagnostics_);
+    if (options_.trees.binary || out_.nodes.empty()) return;
+    flat.statistics.tree_bytes -= out_.nodes.size() * sizeof(out_.nodes[0]);
+    flat.statistics.nodes = out_.simd_nodes.size();
+    std::vector<BvhNode<Real>>().swap(out_.nodes);
+  }
+
+  /// The settings of `flat` over the arrays as they stand.
+  SceneView<Real> whole_view(const CompiledScene<Real>& flat) const {
+    SceneView<Real> view = out_.view();
+    view.camera = flat.view.camera;
+    view.has_cutouts = flat.view.has_cutouts;
+    view.lets_light_through = flat.view.lets_light_through;
+    return view;
+  }
+
+  void check_film() {
+    width_ = options_.width > 0 ? options_.width : scene_.film.width;
+    height_ = options_.height > 0 ? options_.height : scene_.film.height;
+    if (width_ < 1 || height_ < 1 || width_ > 100'000 || height_ > 100'000)
+      throw InputError({scene_.name}, "a picture of " + std::to_string(width_) + " x " + std::to_string(height_) +
+                                          " pixels cannot be rendered: give sides between 1 and 100000");
+  }
+
+  /// Meshes that move become groups of their own: with one instance where they stand in the world, and with one for
+  /// each instance of the object that they are part of.
+  void group_moving_meshes() {
+    const size_t group_count = scene_.groups.size();
+    std::vector<std::vector<Instance>> instances(group_count);
+    instances.at(0).emplace_back();  // the world itself
+    for (const Instance& instance : scene_.instances)
+      if (instance.group < group_count) instances[instance.group].push_back(instance);
+    for (size_t g = 0; g < group_count; ++g) {
+      std::vector<Shape> still;
+      for (Shape& shape : std::exchange(scene_.groups[g].shapes, {}))
+        if (shape.world_from_object.is_moving() && lies_in_object(shape))
+          move_by_instances(std::move(shape), instances[g]);
+        else
+          still.push_back(std::move(shape));
+      scene_.groups[g].shapes = std::move(still);
+    }
+  }
+
+  /// Where the instance moves too, start and end are right, and every point goes along a line between them.
+  void move_by_instances(Shape shape, const std::vector<Instance>& of_object) {
+    const MovingTransform inner = std::exchange(shape.world_from_object, {});
+    for (Instance instance : of_object) {
+      const MovingTransform& outer = instance.world_from_group;
+      if (instance.group == no_index) instance.where = shape.where;
+      instance.world_from_group = {outer.start * inner.start, outer.end * inner.end};
+      instance.group = static_cast<uint32_t>(scene_.groups.size());
+      scene_.instances.push_back(std::move(instance));
+    }
+    scene_.groups.push_back({{}, {std::move(shape)}});
+  }
+
+  /// Which groups become objects: those that move, and those that stand in several places, unless all their copies are
+  /// few triangles.
+  std::vector<bool> find_objects() const {
+    std::vector<uint64_t> uses(scene_.groups.size()), triangles(scene_.groups.size());
+    std::vector<bool> moves(scene_.groups.size());
+    for (const Instance& instance : scene_.instances) {
+      if (instance.group >= scene_.groups.size()) throw InputError(instance.where, "the instance names no object");
+      ++uses[instance.group];
+      if (instance.world_from_group.is_moving()) moves[instance.group] = true;
+    }
+    uint64_t copied = 0;
+    for (size_t g = 0; g < scene_.groups.size(); ++g) {
+      for (const Shape& shape : scene_.groups[g].shapes)
+        if (lies_in_object(shape)) triangles[g] += mesh_of(shape).triangle_count();
+      if (uses[g] > 1) copied += uses[g] * triangles[g];
+    }
+    std::vector<bool> is_object(scene_.groups.size());
+    for (size_t g = 0; g < is_object.size(); ++g)
+      is_object[g] = triangles[g] > 0 && (moves[g] || (copied > options_.most_copied_triangles && uses[g] > 1));
+    return is_object;
+  }
+
+  /// What of a group an object holds: lights and spheres are placed in the world, copy by copy.
+  static bool lies_in_object(const Shape& shape) { return shape.type == ShapeType::mesh && !emits(shape); }
+
+  const Mesh& mesh_of(const Shape& shape) const {
+    if (shape.mesh >= scene_.meshes.size()) throw InputError(shape.where, "the shape names no mesh");
+    return scene_.meshes[shape.mesh];
+  }
+
+  std::vector<Placement> world_placements() const {
+    std::vector<Placement> all;
+    for (const Shape& shape : scene_.groups.at(0).shapes)
+      all.push_back({&shape, shape.world_from_object, shape.reverse_orientation});
+    for (const Instance& instance : scene_.instances) {
+      const MovingTransform& outer = instance.world_from_group;
+      for (const Shape& shape : scene_.groups[instance.group].shapes)
+        if (!is_object_[instance.group] || !lies_in_object(shape))
+          all.push_back({&shape,
+                         {outer.start * shape.world_from_object.start, outer.end * shape.world_from_object.end},
+                         shape.reverse_orientation != instance.reverse_orientation});
+    }
+    return all;
+  }
+
+  std::vector<Placement> object_placements(const ShapeGroup& group) const {
+    std::vector<Placement> all;
+    for (const Shape& shape : group.shapes)
+      if (lies_in_object(shape)) all.push_back({&shape, shape.world_from_object, shape.reverse_orientation});
+    return all;
+  }
+
+  void place_shapes() {
+    group_moving_meshes();
+    is_object_ = find_objects();
+    check_placements();
+    const std::vector<Placement> world = world_placements();
+    std::vector<std::vector<Placement>> objects(scene_.groups.size());
+    for (size_t g = 0; g < objects.size(); ++g)
+      if (is_object_[g]) objects[g] = object_placements(scene_.groups[g]);
+    reserve(world, objects);
+    for (const Placement& p : world) place(p);
+    std::vector<uint32_t> object_of(objects.size(), no_index);
+    for (size_t g = 0; g < objects.size(); ++g) {
+      ObjectRecord object{};
+      object.first_triangle = static_cast<uint32_t>(out_.triangles.size());
+      for (const Placement& p : objects[g]) place(p);
+      object.triangle_count = static_cast<uint32_t>(out_.triangles.size()) - object.first_triangle;
+      if (object.triangle_count == 0) continue;
+      object_of[g] = static_cast<uint32_t>(out_.objects.size());
+      out_.objects.push_back(object);
+    }
+    for (const Instance& instance : scene_.instances)
+      if (object_of[instance.group] != no_index) add_instance(instance, object_of[instance.group]);
+  }
+
+  /// Counts what is to be placed, and how often each mesh is.
+  void reserve(const std::vector<Placement>& world, const std::vector<std::vector<Placement>>& objects) {
+    uses_.assign(scene_.meshes.size(), 0);
+    size_t triangles = 0, vertices = 0, normals = 0, uvs = 0;
+    const auto count = [&](const std::vector<Placement>& placements) {
+      for (const Placement& p : placements) {
+        if (p.shape->type != ShapeType::mesh) continue;
+        const Mesh& mesh = mesh_of(*p.shape);
+        ++uses_[p.shape->mesh];
+        triangles += mesh.triangle_count();
+        vertices += mesh.positions.size();
+        normals += mesh.normals.size();
+        uvs += mesh.uvs.size() + mesh.second_uvs.size();
+      }
+    };
+    count(world);
+    for (const std::vector<Placement>& object : objects) count(object);
+    placed_triangles_ = triangles;
+    if (triangles > max_primitives_of_a_kind || vertices > 0xfffffff0u || world.size() > max_primitives_of_a_kind)
+      throw InputError({scene_.name}, "the scene has " + std::to_string(triangles) + " triangles with " +
+                                          std::to_string(vertices) + " vertices, more than 2^30 or 2^32: split it");
+    if (scene_.instances.size() > SimdChild::most_of_a_kind)
+      throw InputError({scene_.name}, "the scene has " + std::to_string(scene_.instances.size()) +
+                                          " instances, more than 2^26: split it");
+    check_memory(triangles, vertices);
+    out_.triangles.reserve(triangles);
+    out_.positions.reserve(vertices);
+    out_.normals.reserve(normals);
+    out_.uvs.reserve(uvs);
+  }
+
+  /// Spheres and lights of objects are placed copy by copy.
+  void check_placements() {
+    placed_shapes_ = scene_.groups.at(0).shapes.size();
+    for (const Instance& instance : scene_.instances)
+      if (!is_object_[instance.group]) placed_shapes_ += scene_.groups[instance.group].shapes.size();
+    if (placed_shapes_ * sizeof(Placement) > physical_memory() / 10 * 9) throw InputError({scene_.name}, too_large());
+  }
+
+  void check_memory(uint64_t triangles, uint64_t vertices) const {
+    const uint64_t least =
+        triangles * (sizeof(TriangleRecord) + sizeof(TriangleBlock<Real>) / 4) + vertices * sizeof(Vec3<Real>);
+    if (least > physical_memory() / 10 * 9) throw InputError({scene_.name}, too_large());
+  }
+
+  void place(const Placement& p) {
+    if (p.shape->type == ShapeType::sphere) return place_sphere(p);
+    Mesh& mesh = scene_.meshes[p.shape->mesh];
+    place_mesh(p, mesh);
+    if (--uses_[p.shape->mesh] == 0) mesh = Mesh{};
+  }
+
+  void add_instance(const Instance& instance, uint32_t object) {
+    const Transform opening = transform_at(instance, scene_.camera.shutter_open);
+    const Transform closing = transform_at(instance, scene_.camera.shutter_close);
+    const Matrix4 &there = opening.matrix(), back = opening.inverse().matrix(), in_the_end = closing.matrix();
+    InstanceRecord<Real> record{};
+    InstanceMotion<Real> motion{};
+    for (size_t i = 0; i < 3; ++i)
+      for (size_t j = 0; j < 4; ++j) {
+        record.world_from_object[i][j] = static_cast<Real>(there[i][j]);
+        record.object_from_world[i][j] = static_cast<Real>(back[i][j]);
+        motion.change[i][j] = static_cast<Real>(in_the_end[i][j] - there[i][j]);
+        if (!std::isfinite(record.world_from_object[i][j]) || !std::isfinite(record.object_from_world[i][j]) ||
+            !std::isfinite(motion.change[i][j]))
+          throw InputError(instance.where, "the transform of the object is not finite, or makes it flat");
+      }
+    record.object = object;
+    record.flip_normal = instance.reverse_orientation ? 1 : 0;
+    record.motion = no_motion;
+    if (!(opening == closing)) {
+      record.motion = static_cast<uint32_t>(out_.instance_motions.size());
+      out_.instance_motions.push_back(motion);
+    }
+    out_.instances.push_back(record);
+  }
+
+  /// Matrices are interpolated linearly.
+  Transform transform_at(const Instance& instance, double time) const {
+    const MovingTransform& transform = instance.world_from_group;
+    const double s = share_of_motion(transform, time);
+    if (s == 0) return transform.start;
+    Matrix4 matrix;
+    for (size_t i = 0; i < 4; ++i)
+      for (size_t j = 0; j < 4; ++j)
+        matrix[i][j] = transform.start.matrix()[i][j] * (1 - s) + transform.end.matrix()[i][j] * s;
+    try {
+      return Transform(matrix);
+    } catch (const std::domain_error&) {
+      throw InputError(instance.where, "the transform makes the object flat on its way");
+    }
+  }
+
+  /// How much of its way something has gone at `time`.
+  double share_of_motion(const MovingTransform& transform, double time) const {
+    const double span = scene_.transform_end_time - scene_.transform_start_time;
+    if (!transform.is_moving() || !(span > 0)) return 0;
+    return clamp((time - scene_.transform_start_time) / span, 0.0, 1.0);
+  }
+
+  uint32_t material_of(const Shape& shape) const {
+    if (shape.material == no_index) return static_cast<uint32_t>(scene_.materials.size());
+    if (shape.material >= scene_.materials.size()) throw InputError(shape.where, "the shape names no material");
+    return shape.material;
+  }
+
+  uint32_t add_surface(const Shape& shape, uint32_t light, uint32_t normal_offset, uint32_t uv_offset, bool flip,
+                       uint32_t attributes = no_offset) {
+    out_.surfaces.push_back({material_of(shape), light, normal_offset, uv_offset, flip ? 1u : 0u, attributes});
+    surface_shapes_.push_back(&shape);
+    return static_cast<uint32_t>(out_.surfaces.size() - 1);
+  }
+
+  /// Lights that let rays through are found by chance alone: their samples would not know what they let through.
+  uint32_t add_light(const Shape& shape, LightKind kind, size_t primitive, double area) {
+    const Emission& emission = *shape.emission;
+    static const Material opaque;
+    const Material& material = shape.material == no_index ? opaque : scene_.materials[material_of(shape)];
+    LightRecord<Real> light{};
+    light.kind = kind;
+    light.primitive = static_cast<uint32_t>(primitive);
+    light.radiance = convert<Real>(emission.radiance);
+    if (!is_finite(light.radiance))
+      throw InputError(shape.where, "the radiance of the light is not finite in this precision: make it less");
+    light.two_sided = emission.two_sided && material.double_sided ? 1 : 0;
+    if (emission.texture != no_index) light.texture = emission_textures_.at(emission.texture);
+    out_.lights.push_back(light);
+    light_measures_.push_back(material.alpha == no_index ? area : 0);
+    return static_cast<uint32_t>(out_.lights.size() - 1);
+  }
+
+  static bool emits(const Shape& shape) { return shape.emission && max_component(shape.emission->radiance) > 0; }
+
+  void place_sphere(const Placement& p) {
+    const Shape& shape = *p.shape;
+    if (!(shape.radius > 0) || !std::isfinite(shape.radius))
+      throw InputError(shape.where, "the radius of a sphere must be above 0, not " + std::to_string(shape.radius));
+    double scale = 1;
+    if (!p.world_from_object.start.is_similarity(scale))
+      diagnostics_.warn(shape.where, "a sphere is stretched by an instance; it stays round here, of the same volume");
+    const double radius = shape.radius * scale;
+    const auto [center, motion] = motion_of(p.world_from_object);
+    check_sphere_range(shape, abs(center) + abs(motion), radius);
+    if (is_too_small(shape, radius)) return;
+    const bool moves = !is_zero(motion);
+    const size_t index = moves ? out_.moving_spheres.size() : out_.spheres.size();
+    uint32_t light = no_light;
+    if (emits(shape))
+      light = add_light(shape, moves ? LightKind::moving_sphere : LightKind::sphere, index,
+                        4 * 3.14159265358979 * radius * radius);
+    const uint32_t surface = add_surface(shape, light, no_offset, no_offset, p.reverse_orientation);
+    const uint32_t frame = sphere_frame(shape, p.world_from_object.start);
+    if (moves)
+      out_.moving_spheres.push_back(
+          {convert<Real>(center), static_cast<Real>(radius), convert<Real>(motion), surface, frame});
+    else
+      out_.spheres.push_back({convert<Real>(center), static_cast<Real>(radius), surface, frame});
+  }
+
+  /// `farthest` bounds the coordinates of the centre.
+  static void check_sphere_range(const Shape& shape, const Vec3d& farthest, double radius) {
+    if (!(max_component(farthest) + radius <= max_coordinate))
+      throw too_large(shape, "the sphere is too large or lies too far away");
+  }
+
+  /// Whether intersection tests of this precision see nothing of it; they divide by the square of the radius.
+  bool is_too_small(const Shape& shape, double radius) {
+    const Real squared = sqr(static_cast<Real>(radius));
+    if (squared > 0 && std::isfinite(1 / squared)) return false;
+    diagnostics_.warn(shape.where, "a sphere is too small for this precision and is left out: scale the scene up");
+    return true;
+  }
+
+  /// Centre when the shutter opens, and the way it goes until the shutter closes.
+  std::pair<Vec3d, Vec3d> motion_of(const MovingTransform& transform) const {
+    const Vec3d start = transform.start.point({}), end = transform.end.point({});
+    const auto at = [&](double time) { return lerp(start, end, share_of_motion(transform, time)); };
+    const Vec3d open = at(scene_.camera.shutter_open);
+    return {open, at(scene_.camera.shutter_close) - open};
+  }
+
+  uint32_t sphere_frame(const Shape& shape, const Transform& world_from_object) {
+    const bool shines_by_texture = shape.emission && shape.emission->texture != no_index;
+    if (!shines_by_texture && (shape.material == no_index || !needs_uv_[shape.material])) return no_sphere_frame;
+    const auto axis = [&](const Vec3d& a) { return convert<Real>(normalize(world_from_object.direction(a))); };
+    out_.sphere_frames.push_back({axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})});
+    return static_cast<uint32_t>(out_.sphere_frames.size() - 1);
+  }
+
+  /// Intersection multiplies three coordinates, normals four: beyond this they overflow.
+  static constexpr double max_coordinate = sizeof(Real) == sizeof(float) ? 1e12 : 1e75;
+
+  static InputError too_large(const Shape& shape, const std::string& what) {
+    const std::string remedy =
+        sizeof(Real) == sizeof(float) ? "use --precision double, or scale the scene down" : "scale the scene down";
+    return InputError(shape.where, what + " for this precision: " + remedy);
+  }
+
+  void check_mesh(const Shape& shape, const Mesh& mesh) const {
+    const size_t vertices = mesh.positions.size();
+    if (mesh.indices.size() % 3 != 0) throw InputError(shape.where, "the mesh's indices do not come in threes");
+    for (const uint32_t index : mesh.indices)
+      if (index >= vertices)
+        throw InputError(shape.where, "vertex index " + std::to_string(index) + " is out of range: the mesh has " +
+                                          std::to_string(vertices) + " vertices");
+    const auto fits = [&](const auto& values) { return values.empty() || values.size() == vertices; };
+    if (!fits(mesh.normals) || !fits(mesh.uvs))
+      throw InputError(shape.where, "the mesh has another number of normals or uvs than of vertices");
+    if (!fits(mesh.second_uvs) || !fits(mesh.colours) || !fits(mesh.tangents))
+      throw InputError(shape.where, "the mesh has another number of second uvs, colours or tangents than of vertices");
+  }
+
+  void place_mesh(const Placement& p, const Mesh& mesh) {
+    const Shape& shape = *p.shape;
+    check_mesh(shape, mesh);
+    if (p.world_from_object.is_moving())
+      diagnostics_.warn(shape.where, "a mesh moves that shines; it stands still here, where it is at the start");
+    const Transform& transform = p.world_from_object.start;
+    const uint32_t base = static_cast<uint32_t>(out_.positions.size());
+    const auto offset_to = [&](size_t count) { return static_cast<uint32_t>(count) - base; };
+    for (const Vec3d& position : mesh.positions) {
+      const Vec3<Real> moved = convert<Real>(transform.point(position));
+      if (!is_finite(moved)) throw InputError(shape.where, "a vertex of the mesh is not finite");
+      if (static_cast<double>(max_component(abs(moved))) > max_coordinate)
+        throw too_large(shape, "a vertex of the mesh lies too far away");
+      out_.positions.push_back(moved);
+    }
+    const uint32_t normal_offset = mesh.normals.empty() ? no_offset : offset_to(out_.normals.size());
+    for (const Vec3f& normal : mesh.normals) {
+      const Vec3d n = transform.normal(convert<double>(normal));
+      out_.normals.push_back(length_squared(n) > 0 ? convert<Real>(normalize(n)) : Vec3<Real>{});
+    }
+    const uint32_t uv_offset = mesh.uvs.empty() ? no_offset : offset_to(out_.uvs.size());
+    for (const Vec2f& uv : mesh.uvs) out_.uvs.push_back({static_cast<Real>(uv.x), static_cast<Real>(uv.y)});
+    // With shading normals the front is theirs; without, that of the winding in object space.
+    const bool flip =
+        mesh.normals.empty() ? p.reverse_orientation != transform.swaps_handedness() : p.reverse_orientation;
+    add_triangles(shape, mesh, base, normal_offset, uv_offset, flip, add_attributes(p, mesh, base));
+  }
+
+  /// What the mesh has at its vertices beside normals and uvs.
+  uint32_t add_attributes(const Placement& p, const Mesh& mesh, uint32_t base) {
+    const Transform& transform = p.world_from_object.start;
+    // A normal that is turned round makes what was right-handed left-handed, as a mirror does.
+    const bool swaps_handedness = transform.swaps_handedness() != p.reverse_orientation;
+    if (mesh.second_uvs.empty() && mesh.colours.empty() && mesh.tangents.empty()) return no_offset;
+    const auto offset_to = [&](const auto& values, size_t count) {
+      return values.empty() ? no_offset : static_cast<uint32_t>(count) - base;
+    };
+    const AttributesRecord record{offset_to(mesh.second_uvs, out_.uvs.size()),
+                                  offset_to(mesh.colours, out_.vertex_colours.size()),
+                                  offset_to(mesh.tangents, out_.vertex_tangents.size())};
+    for (const Vec2f& uv : mesh.second_uvs) out_.uvs.push_back({static_cast<Real>(uv.x), static_cast<Real>(uv.y)});
+    for (const auto& c : mesh.colours) out_.vertex_colours.push_back({c[0], c[1], c[2], c[3]});
+    for (const auto& t : mesh.tangents) {
+      const Vec3d along = transform.direction(convert<double>(Vec3f{t[0], t[1], t[2]}));
+      const double size = length(along);
+      const Vec3f unit = size > 0 ? convert<float>(along / size) : Vec3f{};
+      const float handedness = (t[3] < 0) != swaps_handedness ? -1.0f : 1.0f;
+      out_.vertex_tangents.push_back({unit.x, unit.y, unit.z, handedness});
+    }
+    out_.vertex_attributes.push_back(record);
+    return static_cast<uint32_t>(out_.vertex_attributes.size() - 1);
+  }
+
+  void add_triangles(const Shape& shape, const Mesh& mesh, uint32_t base, uint32_t normal_offset, uint32_t uv_offset,
+                     bool flip, uint32_t attributes) {
+    const uint32_t shared = emits(shape) ? 0 : add_surface(shape, no_light, normal_offset, uv_offset, flip, attributes);
+    size_t without_area = 0;
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      TriangleRecord triangle{{base + mesh.indices[i], base + mesh.indices[i + 1], base + mesh.indices[i + 2]}, shared};
+      const Vec3<Real> p0 = out_.positions[triangle.vertex[0]];
+      const Real twice_area =
+          length(cross(out_.positions[triangle.vertex[1]] - p0, out_.positions[triangle.vertex[2]] - p0));
+      if (!std::isfinite(twice_area)) throw too_large(shape, "a triangle of the mesh is too large");
+      if (!(twice_area > 0) || !std::isfinite(1 / twice_area)) {
+        ++without_area;
+        continue;
+      }
+      if (emits(shape)) {
+        const uint32_t light =
+            add_light(shape, LightKind::triangle, out_.triangles.size(), 0.5 * static_cast<double>(twice_area));
+        triangle.surface = add_surface(shape, light, normal_offset, uv_offset, flip, attributes);
+      }
+      out_.triangles.push_back(triangle);
+    }
+    if (without_area > 0 && without_area_ == 0) without_area_place_ = shape.where;
+    without_area_ += without_area;
+  }
+
+  void warn_of_dropped_triangles() {
+    if (without_area_ == 0) return;
+    const char* const what = sizeof(Real) == sizeof(float)
+                                 ? " triangles have no area, or less than --precision float resolves, and are left out "
+                                   "(the first of them here)"
+                                 : " triangles have no area and are left out (the first of them here)";
+    diagnostics_.warn(without_area_place_, std::to_string(without_area_) + " of " +
+                                               std::to_string(without_area_ + out_.triangles.size()) + what);
+  }
+
+  Scene& scene_;
+  const CompileOptions& options_;
+  Diagnostics& diagnostics_;
+  int64_t width_ = 0, height_ = 0;
+  SceneArrays<Real> out_;
+  std::vector<bool> needs_uv_;
+  bool has_one_sided_ = false;
+  std::vector<const Shape*> surface_shapes_;     ///< by surface
+  std::vector<bool> is_object_;                  ///< by group
+  std::vector<uint32_t> uses_;                   ///< by mesh: placements to come
+  std::vector<TextureRange> emission_textures_;  ///< by texture
+  std::vector<double> light_measures_;           ///< by light, see assign_light_probabilities
+  uint64_t placed_shapes_ = 0, placed_triangles_ = 0;
+  size_t without_area_ = 0;
+  SourceLocation without_area_place_;
+};
+
+}  // namespace
+
+template <class Real>
+CompiledScene<Real> compile_scene(Scene&& scene, const CompileOptions& options, Diagnostics& diagnostics) {
+  limit_default_team();
+  SceneCompiler<Real> compiler(scene, options, diagnostics);
+  try {
+    return compiler.run();
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {
+  }
+  throw InputError({scene.name}, compiler.too_large());
+}
+
+template CompiledScene<float> compile_scene(Scene&&, const CompileOptions&, Diagnostics&);
+template CompiledScene<double> compile_scene(Scene&&, const CompileOptions&, Diagnostics&);
+
+}  // namespace alhazen

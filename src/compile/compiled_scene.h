@@ -1,0 +1,34 @@
+#pragma once
+
+// The compiled scene in memory: one arena that holds every array, and the view over it.
+
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+
+#include "core/scene_view.h"
+
+namespace alhazen {
+
+struct FreeArena {
+  void operator()(std::byte* memory) const { std::free(memory); }
+};
+
+/// Sizes and times of a compiled scene, for reports.
+struct SceneStatistics {
+  uint64_t triangles = 0, spheres = 0, nodes = 0, lights = 0, instances = 0;
+  uint64_t bytes = 0;        ///< of the arena
+  uint64_t tree_bytes = 0;   ///< of what rays walk: nodes, and the copies of primitives beside them
+  double build_seconds = 0;  ///< of the BVH alone
+};
+
+/// Owns what `view` points into. Every pointer of the view lies in [arena, arena + statistics.bytes), so copying those
+/// bytes and shifting the pointers makes the same scene elsewhere.
+template <class Real>
+struct CompiledScene {
+  std::unique_ptr<std::byte, FreeArena> arena;
+  SceneView<Real> view;
+  SceneStatistics statistics;
+};
+
+}  // namespace alhazen

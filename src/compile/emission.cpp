@@ -1,0 +1,89 @@
+#include "compile/emission.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/lights/light.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Lookups for all lights together, and how fine the grid of one may be.
+constexpr double most_lookups = 4e6;
+constexpr int coarsest = 8, finest = 128;
+
+/// What a colour is worth to the sampler: its luminance, and not nothing where the colour is.
+template <class Real>
+double worth(const Vec3<Real>& colour) {
+  return std::max(static_cast<double>(luminance(colour)), 1e-3 * static_cast<double>(max_component(colour)));
+}
+
+/// Mean of `value(b1, b2)` over the cells of a grid of `side` rows of small triangles.
+template <class Value>
+double mean_over_triangle(int side, const Value& value) {
+  double sum = 0;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; i + j < side; ++j) {
+      sum += value((i + 1.0 / 3) / side, (j + 1.0 / 3) / side);
+      if (i + j + 1 < side) sum += value((i + 2.0 / 3) / side, (j + 2.0 / 3) / side);
+    }
+  return sum / side / side;
+}
+
+/// Mean of `value(direction)` over the sphere.
+template <class Value>
+double mean_over_sphere(int side, const Value& value) {
+  double sum = 0;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) sum += value(direction_of_octahedral(Vec2d{(i + 0.5) / side, (j + 0.5) / side}));
+  return sum / side / side;
+}
+
+template <class Real>
+double mean_factor(const SceneView<Real>& view, const LightRecord<Real>& light, int side) {
+  const auto share = [&](const Vec3<Real>& factor) {
+    const double value = worth(light.radiance * factor) / worth(light.radiance);
+    return std::isfinite(value) ? value : 0;
+  };
+  const auto on_sphere = [&](const Vec3<Real>& center, Real radius, uint32_t frame) {
+    return mean_over_sphere(side, [&](const Vec3d& d) {
+      const Vec3<Real> outward = convert<Real>(d);
+      return share(sphere_emission_factor(view, light, frame, outward, center + outward * radius));
+    });
+  };
+  switch (light.kind) {
+    case LightKind::sphere: {
+      const SphereRecord<Real>& sphere = view.spheres[light.primitive];
+      return on_sphere(sphere.center, sphere.radius, sphere.frame);
+    }
+    case LightKind::moving_sphere: {
+      const MovingSphereRecord<Real>& sphere = view.moving_spheres[light.primitive];
+      return on_sphere(sphere.center, sphere.radius, sphere.frame);
+    }
+    default:
+      return mean_over_triangle(side, [&](double b1, double b2) {
+        return share(triangle_emission_factor(view, light, static_cast<Real>(b1), static_cast<Real>(b2)));
+      });
+  }
+}
+
+}  // namespace
+
+template <class Real>
+void weigh_emission_textures(const SceneArrays<Real>& arrays, std::vector<double>& measures) {
+  const auto textured = std::count_if(arrays.lights.begin(), arrays.lights.end(),
+                                      [](const LightRecord<Real>& light) { return light.texture.count > 0; });
+  if (textured == 0) return;
+  const int side =
+      std::clamp(static_cast<int>(std::sqrt(most_lookups / static_cast<double>(textured))), coarsest, finest);
+  const SceneView<Real> view = arrays.view();
+#pragma omp parallel for schedule(dynamic, 64)
+  for (size_t i = 0; i < arrays.lights.size(); ++i)
+    if (arrays.lights[i].texture.count > 0) measures[i] *= mean_factor(view, arrays.lights[i], side);
+}
+
+template void weigh_emission_textures(const SceneArrays<float>&, std::vector<double>&);
+template void weigh_emission_textures(const SceneArrays<double>&, std::vector<double>&);
+
+}  // namespace alhazen

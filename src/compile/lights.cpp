@@ -1,0 +1,210 @@
+#include "compile/lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compile/environment.h"
+#include "compile/light_tree_builder.h"
+#include "core/lights/light.h"
+
+namespace alhazen {
+
+namespace {
+
+bool is_at_infinity(LightKind kind) {
+  return kind == LightKind::distant || kind == LightKind::constant_infinite || kind == LightKind::environment;
+}
+
+/// Emitted power, W, by luminance; of lights at infinity the irradiance, W / m^2, that they make.
+template <class Real>
+double light_weight(const LightRecord<Real>& light, double measure) {
+  const double value = static_cast<double>(luminance(light.radiance));
+  const double strongest = static_cast<double>(max_component(light.radiance));
+  const double amount = std::max(value, 1e-3 * strongest);
+  switch (light.kind) {
+    case LightKind::point:
+      return amount * 4 * std::numbers::pi;
+    case LightKind::spot:
+      return amount * 2 * std::numbers::pi * (1 - 0.5 * static_cast<double>(light.cos_outer + light.cos_inner));
+    case LightKind::distant:
+      return amount;
+    case LightKind::constant_infinite:
+    case LightKind::environment:
+      return amount * std::numbers::pi;
+    case LightKind::goniometric:
+    case LightKind::projection:
+      return amount * measure;
+    default:
+      return amount * std::numbers::pi * measure * (light.two_sided ? 2 : 1);
+  }
+}
+
+double cos_degrees(double angle) { return std::cos(angle * std::numbers::pi / 180); }
+
+/// Appends the picture of a light. Returns its integral by luminance over all directions, steradians.
+template <class Real>
+double add_light_picture(const Light& light, Scene& scene, SceneArrays<Real>& out) {
+  if (light.picture >= scene.light_pictures.size()) throw InputError(light.where, "the light names no picture");
+  ImageTexels& picture = scene.light_pictures[light.picture];
+  const bool is_sphere = light.type == LightType::goniometric;
+  if (picture.width < 1 || picture.height < 1 || (is_sphere && picture.width != picture.height) ||
+      picture.floats.size() != 3 * static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height))
+    throw InputError(light.where, "the picture of a light does not hold three values a texel, or is not square");
+  LightPictureRecord<Real> record{};
+  record.first_texel = out.texel_floats.size();
+  record.width = static_cast<uint32_t>(picture.width);
+  record.height = static_cast<uint32_t>(picture.height);
+  record.axes = {convert<Real>(light.axes.tangent), convert<Real>(light.axes.bitangent),
+                 convert<Real>(light.axes.normal)};
+  const double width = picture.width, height = picture.height;
+  const double half = std::tan(light.fov * std::numbers::pi / 360), shorter = std::min(width, height);
+  record.half_width = static_cast<Real>(half * width / shorter);
+  record.half_height = static_cast<Real>(half * height / shorter);
+  double integral = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const float* t =
+          &picture.floats[3 * (static_cast<size_t>(y) * static_cast<size_t>(picture.width) + static_cast<size_t>(x))];
+      const Vec3d colour{static_cast<double>(t[0]), static_cast<double>(t[1]), static_cast<double>(t[2])};
+      double solid_angle = 4 * std::numbers::pi / (width * height);
+      if (!is_sphere) {
+        const double px = half / shorter * (2 * x + 1 - width), py = half / shorter * (2 * y + 1 - height);
+        solid_angle = sqr(2 * half / shorter) / std::pow(1 + px * px + py * py, 1.5);
+      }
+      integral += luminance(colour) * solid_angle;
+    }
+  out.texel_floats.insert(out.texel_floats.end(), picture.floats.begin(), picture.floats.end());
+  out.light_pictures.push_back(record);
+  return integral;
+}
+
+}  // namespace
+
+template <class Real>
+void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>& view, std::vector<double>& measures) {
+  Vec3d background{};
+  for (const Light& light : scene.lights) {
+    if (!is_finite(light.radiance) || !is_finite(light.position) || !is_finite(light.direction))
+      throw InputError(light.where, "the light has a value that is not finite");
+    LightRecord<Real> record{};
+    record.radiance = convert<Real>(light.radiance);
+    record.position = convert<Real>(light.position);
+    record.direction = convert<Real>(light.direction);
+    if (!is_finite(record.radiance) || !is_finite(record.position))
+      throw InputError(light.where, "the light is too bright or too far away for this precision");
+    switch (light.type) {
+      case LightType::constant_infinite:
+        background += light.radiance;
+        continue;
+      case LightType::environment:
+        add_environment(light, scene, out);
+        measures.resize(out.lights.size());
+        continue;
+      case LightType::goniometric:
+      case LightType::projection:
+        if (is_zero(light.radiance)) continue;
+        record.kind = light.type == LightType::goniometric ? LightKind::goniometric : LightKind::projection;
+        record.primitive = static_cast<uint32_t>(out.light_pictures.size());
+        record.direction = convert<Real>(light.axes.normal);
+        measures.push_back(add_light_picture(light, scene, out));
+        out.lights.push_back(record);
+        continue;
+      case LightType::point:
+        record.kind = LightKind::point;
+        break;
+      case LightType::distant:
+        record.kind = LightKind::distant;
+        break;
+      case LightType::spot:
+        record.kind = LightKind::spot;
+        record.cos_outer = static_cast<Real>(cos_degrees(light.cone_angle));
+        record.cos_inner = static_cast<Real>(cos_degrees(std::min(light.falloff_start, light.cone_angle)));
+        break;
+    }
+    if (!is_zero(light.radiance)) out.lights.push_back(record);
+    measures.resize(out.lights.size());
+  }
+  if (is_zero(background)) return;
+  LightRecord<Real> record{};
+  record.kind = LightKind::constant_infinite;
+  record.radiance = convert<Real>(background);
+  if (!is_finite(record.radiance))
+    throw InputError({scene.name}, "the infinite lights are together too bright for this precision");
+  view.background = record.radiance;
+  view.background_light = static_cast<uint32_t>(out.lights.size());
+  out.lights.push_back(record);
+  measures.resize(out.lights.size());
+}
+
+template <class Real>
+bool has_only_lights_without_size(const SceneArrays<Real>& out) {
+  return std::all_of(out.lights.begin(), out.lights.end(), [](const LightRecord<Real>& light) {
+    return light.kind == LightKind::point || light.kind == LightKind::spot || light.kind == LightKind::distant ||
+           light.kind == LightKind::goniometric || light.kind == LightKind::projection;
+  });
+}
+
+template bool has_only_lights_without_size(const SceneArrays<float>&);
+template bool has_only_lights_without_size(const SceneArrays<double>&);
+
+template <class Real>
+void assign_light_probabilities(const std::vector<double>& measures, LightSampling sampling, SceneArrays<Real>& out,
+                                SceneView<Real>& view) {
+  const size_t count = out.lights.size();
+  std::vector<double> weights(count);
+  double total[2] = {0, 0};
+  size_t finite = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const bool is_infinite = is_at_infinity(out.lights[i].kind);
+    weights[i] = light_weight(out.lights[i], i < measures.size() ? measures[i] : 0);
+    total[is_infinite] += weights[i];
+    finite += !is_infinite && weights[i] > 0 ? 1 : 0;
+  }
+  const bool both = total[0] > 0 && total[1] > 0;
+  for (size_t i = 0; i < count; ++i) {
+    const double share = total[is_at_infinity(out.lights[i].kind)];
+    out.lights[i].pmf = static_cast<Real>(share > 0 ? weights[i] / share * (both ? 0.5 : 1) : 0);
+  }
+  const bool has_tree = finite > 0 && sampling != LightSampling::power &&
+                        (sampling == LightSampling::tree || finite > most_lights_without_tree);
+  // With a tree the others are chosen among those at infinity, which stand before all shapes.
+  size_t chosen = count;
+  while (has_tree && chosen > 0 && !is_at_infinity(out.lights[chosen - 1].kind)) --chosen;
+  double sum = 0;
+  out.light_cdf.assign(1, Real(0));
+  for (size_t i = 0; i < chosen; ++i) {
+    const bool counts = !has_tree || is_at_infinity(out.lights[i].kind);
+    const double share = total[is_at_infinity(out.lights[i].kind)];
+    if (counts && share > 0) sum += weights[i] / share * (both && !has_tree ? 0.5 : 1);
+    out.light_cdf.push_back(i + 1 == chosen ? Real(1) : static_cast<Real>(sum));
+  }
+  if (!has_tree) return;
+  view.light_tree_share = both ? Real(0.5) : Real(1);
+  build_light_tree(weights, out);
+}
+
+template <class Real>
+void add_shining_triangles(SceneArrays<Real>& out) {
+  SceneView<Real> view;
+  view.triangles = out.triangles.data();
+  view.positions = out.positions.data();
+  view.normals = out.normals.data();
+  view.surfaces = out.surfaces.data();
+  for (LightRecord<Real>& light : out.lights) {
+    if (light.kind != LightKind::triangle) continue;
+    light.shining = static_cast<uint32_t>(out.shining_triangles.size());
+    out.shining_triangles.push_back(make_shining_triangle(view, light));
+  }
+}
+
+template void add_described_lights(Scene&, SceneArrays<float>&, SceneView<float>&, std::vector<double>&);
+template void add_described_lights(Scene&, SceneArrays<double>&, SceneView<double>&, std::vector<double>&);
+template void add_shining_triangles(SceneArrays<float>&);
+template void add_shining_triangles(SceneArrays<double>&);
+template void assign_light_probabilities(const std::vector<double>&, LightSampling, SceneArrays<float>&,
+                                         SceneView<float>&);
+template void assign_light_probabilities(const std::vector<double>&, LightSampling, SceneArrays<double>&,
+                                         SceneView<double>&);
+
+}  // namespace alhazen

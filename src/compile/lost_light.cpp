@@ -1,0 +1,316 @@
+#include "compile/lost_light.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "core/bvh/bvh2/traversal.h"
+#include "core/integrators/stages.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr uint32_t points_per_material = 32, max_materials = 64, max_lights = 16, rays_per_light = 256;
+constexpr uint32_t directions_per_point = 8;
+/// Of the light that falls on a material, how much must be sent on sharply, which a varnish or glass by its reflection
+/// alone does not come to, and how much of it must then be lost.
+constexpr double min_sharp = 0.15, min_lost = 0.005;
+/// Density over solid angle above which a lobe is as good as a mirror: that of GGX with an alpha of 0.009.
+constexpr double sharp_pdf = 1000;
+
+bool is_without_size(LightKind kind) {
+  return kind == LightKind::point || kind == LightKind::spot || kind == LightKind::distant ||
+         kind == LightKind::goniometric || kind == LightKind::projection;
+}
+
+bool may_be_sharp(MaterialKind kind) {
+  return kind != MaterialKind::diffuse && kind != MaterialKind::diffuse_transmission;
+}
+
+constexpr uint32_t no_object = 0xffffffffu;
+
+/// A place on a primitive, for any ray that comes to it.
+struct Candidate {
+  PrimitiveId primitive;
+  uint32_t instance = no_instance;
+};
+
+template <class Real>
+class LostLightSearch {
+ public:
+  LostLightSearch(const SceneView<Real>& view, uint32_t max_segments)
+      : view_(view), intersector_(view), max_segments_(max_segments) {}
+
+  std::optional<LostLight> run() {
+    std::vector<uint32_t> lights;
+    for (uint32_t i = 0; i < view_.lights_count; ++i)
+      if (is_without_size(view_.lights[i].kind)) lights.push_back(i);
+    if (lights.empty()) return {};
+    collect_candidates();
+    if (candidates_.empty()) return {};
+    std::optional<LostLight> lost;
+    for (uint32_t i = 0; i < lights.size() && i < max_lights; ++i) {
+      std::optional<LostLight> of_this = lost_of(view_.lights[lights[i]]);
+      if (of_this) of_this->light = i;
+      if (!of_this) continue;
+      if (lost)
+        ++lost->others;
+      else
+        lost = of_this;
+    }
+    if (lost) lost->others_may_be_more = lights.size() > max_lights;
+    return lost;
+  }
+
+ private:
+  /// The instances, those of the same object beside each other.
+  struct Uses {
+    std::vector<uint32_t> first;      ///< by object, and the end of the last one's: index into `instances`
+    std::vector<uint32_t> instances;  ///< indices into `instances` of the scene
+    uint32_t count(uint32_t object) const { return first[object + 1] - first[object]; }
+  };
+
+  Uses uses_of_objects() const {
+    Uses uses;
+    uses.first.assign(size_t{view_.objects_count} + 1, 0);
+    for (uint32_t k = 0; k < view_.instances_count; ++k) ++uses.first[view_.instances[k].object + 1];
+    std::partial_sum(uses.first.begin(), uses.first.end(), uses.first.begin());
+    uses.instances.resize(view_.instances_count);
+    std::vector<uint32_t> next = uses.first;
+    for (uint32_t k = 0; k < view_.instances_count; ++k) uses.instances[next[view_.instances[k].object]++] = k;
+    return uses;
+  }
+
+  /// Visits each primitive once, with the object that it is part of, or `no_object`.
+  template <class Visit>
+  void for_each_primitive(const Visit& visit) const {
+    const uint32_t in_world = view_.objects_count > 0 ? view_.objects[0].first_triangle : view_.triangles_count;
+    for (uint32_t i = 0; i < in_world; ++i) visit(PrimitiveId(PrimitiveKind::triangle, i), no_object);
+    for (uint32_t i = 0; i < view_.spheres_count; ++i) visit(PrimitiveId(PrimitiveKind::sphere, i), no_object);
+    for (uint32_t i = 0; i < view_.moving_spheres_count; ++i)
+      visit(PrimitiveId(PrimitiveKind::moving_sphere, i), no_object);
+    for (uint32_t k = 0; k < view_.objects_count; ++k)
+      for (uint32_t i = 0; i < view_.objects[k].triangle_count; ++i)
+        visit(PrimitiveId(PrimitiveKind::triangle, view_.objects[k].first_triangle + i), k);
+  }
+
+  /// Some primitives of each material that may be smooth, evenly from all that have it. One of an object counts as
+  /// often as the object stands somewhere, and each point on it is on an instance of its own.
+  void collect_candidates() {
+    std::vector<uint64_t> counts(view_.materials_count), seen(view_.materials_count);
+    std::vector<bool> wanted(view_.materials_count);
+    uint32_t materials = 0;
+    for (uint32_t s = 0; s < view_.surfaces_count && materials < max_materials; ++s) {
+      const uint32_t m = view_.surfaces[s].material;
+      if (!wanted[m] && may_be_sharp(view_.materials[m].kind)) wanted[m] = true, ++materials;
+    }
+    if (materials == 0) return;
+    const Uses uses = uses_of_objects();
+    const auto material_of = [&](PrimitiveId id) { return view_.surfaces[surface_of(view_, id)].material; };
+    const auto uses_of = [&](uint32_t object) { return object == no_object ? 1 : uses.count(object); };
+    for_each_primitive([&](PrimitiveId id, uint32_t object) { counts[material_of(id)] += uses_of(object); });
+    for_each_primitive([&](PrimitiveId id, uint32_t object) {
+      const uint32_t m = material_of(id);
+      if (!wanted[m]) return;
+      // As many points on each of few primitives, one each on some of many.
+      const uint64_t before = seen[m] * points_per_material / counts[m];
+      const uint64_t after = (seen[m] += uses_of(object)) * points_per_material / counts[m];
+      for (uint64_t i = before; i < after; ++i)
+        candidates_.push_back({id, object == no_object ? no_instance : any_instance(uses, object)});
+    });
+  }
+
+  uint32_t any_instance(const Uses& uses, uint32_t object) {
+    const uint32_t count = uses.count(object);
+    const auto chosen = static_cast<uint32_t>(random() * static_cast<Real>(count));
+    return uses.instances[uses.first[object] + std::min(chosen, count - 1)];
+  }
+
+  Real random() { return unit_interval<Real>(mix32(++drawn_)); }
+
+  /// A point of the candidate, as a ray meets it.
+  SurfaceInteraction<Real> point_on(const Candidate& candidate, Hit<Real>& hit) {
+    hit = {Real(0), Real(0), Real(0), candidate.primitive, candidate.instance};
+    Ray<Real> ray{};
+    const Vec2<Real> u{random(), random()};
+    if (candidate.primitive.kind() == PrimitiveKind::triangle) {
+      const Vec2<Real> b = sample_triangle(u);
+      hit.b1 = b.y;
+      hit.b2 = 1 - b.x - b.y;
+    } else {
+      const bool moves = candidate.primitive.kind() == PrimitiveKind::moving_sphere;
+      const uint32_t i = candidate.primitive.index();
+      ray.direction = sample_uniform_sphere(u);
+      hit.t = moves ? view_.moving_spheres[i].radius : view_.spheres[i].radius;
+      ray.origin = moves ? view_.moving_spheres[i].center : view_.spheres[i].center;
+    }
+    return surface_interaction(view_, ray, hit);
+  }
+
+  bool is_cut_out(const Hit<Real>& hit, const SurfaceInteraction<Real>& si) const {
+    const MaterialRecord<Real>& material = material_met(view_, hit);
+    return (material.features & MaterialFeatures::cutout) &&
+           opacity(view_, material, Ray<Real>{}, hit, si, RayKind::scattered) < Real(0.5);
+  }
+
+  /// What becomes of light that falls on a material: shares of it.
+  struct Tally {
+    double incident = 0, sharp = 0, lost = 0;
+    LostLight where;
+  };
+
+  std::optional<LostLight> lost_of(const LightRecord<Real>& light) {
+    tallies_.assign(view_.materials_count, {});
+    for (const Candidate& candidate : candidates_) light_candidate(light, candidate);
+    if (light.kind != LightKind::distant)
+      for (uint32_t i = 0; i < rays_per_light; ++i) send_ray(light);
+    for (const Tally& tally : tallies_)
+      if (tally.lost > min_lost * tally.incident && tally.sharp > min_sharp * tally.incident) return tally.where;
+    return {};
+  }
+
+  /// Light on a point of a surface that is known to be smooth, which may be small and far away.
+  void light_candidate(const LightRecord<Real>& light, const Candidate& candidate) {
+    Hit<Real> hit;
+    const SurfaceInteraction<Real> si = point_on(candidate, hit);
+    if (is_cut_out(hit, si)) return;
+    const LightSample<Real> s = sample_chosen_light(view_, light, si.position, false, Real(0), Vec2<Real>{});
+    if (!(s.pdf > 0) || is_zero(s.radiance)) return;
+    if (!(free_share(view_, intersector_, shadow_ray(si, s)) > 0)) return;
+    // The way that the light comes to the point.
+    hit.t = s.is_finite ? length(s.point - si.position) : Real(1);
+    follow({si.position + s.direction * hit.t, -s.direction, Real(0)}, hit);
+  }
+
+  /// Light on whatever is met in a direction that the light shines in, so that narrow cones on large surfaces count.
+  void send_ray(const LightRecord<Real>& light) {
+    const Vec2<Real> u{random(), random()};
+    Vec3<Real> direction = sample_uniform_sphere(u);
+    if (light.kind == LightKind::spot) {
+      const Real cosine = 1 - u.x * (1 - light.cos_outer), sine = safe_sqrt(1 - cosine * cosine);
+      const auto [sine_phi, cosine_phi] = sine_cosine_of_turn(2 * pi<Real> * u.y);
+      direction = frame_about(light.direction).to_world({sine * cosine_phi, sine * sine_phi, cosine});
+    } else if (light.kind == LightKind::projection) {
+      const LightPictureRecord<Real>& picture = view_.light_pictures[light.primitive];
+      direction = normalize(
+          picture.axes.to_world({picture.half_width * (2 * u.x - 1), picture.half_height * (2 * u.y - 1), Real(1)}));
+    }
+    Ray<Real> ray{light.position, direction, Real(0)};
+    Hit<Real> hit;
+    Real travelled = 0;
+    if (!closest_stop(view_, intersector_, RayKind::scattered, ray, hit, travelled)) return;
+    const SurfaceInteraction<Real> si = surface_interaction(view_, ray, hit);
+    if (is_zero(sample_chosen_light(view_, light, si.position, false, Real(0), u).radiance)) return;
+    if (may_be_sharp(view_.materials[view_.surfaces[si.surface].material].kind)) follow(ray, hit);
+  }
+
+  /// Follows light that comes along `ray` to `hit` in all directions that it is sent to there.
+  void follow(const Ray<Real>& ray, const Hit<Real>& hit) {
+    const ShadingPoint<Real> point = shading_point(view_, ray, hit);
+    Tally& tally = tallies_[view_.surfaces[point.si.surface].material];
+    const double incident = static_cast<double>(abs_dot(point.si.normal, point.wo)), before = tally.lost;
+    for (uint32_t i = 0; i < directions_per_point; ++i) {
+      const Real u_lobe = (static_cast<Real>(i) + Real(0.5)) / directions_per_point;
+      const BsdfSample<Real> s = sample_bsdf(point.bsdf, point.wo, u_lobe, Vec2<Real>{random(), random()});
+      tally.incident += incident;
+      if (!is_sharp(s)) continue;
+      const double sent = incident * static_cast<double>(max_component(s.weight));
+      tally.sharp += sent;
+      if (is_lost(spawn_ray(point.si, s.direction))) tally.lost += sent;
+    }
+    if (before > 0 || !(tally.lost > 0)) return;
+    const MaterialKind kind = point.bsdf.kind;
+    tally.where.surface = point.si.surface;
+    tally.where.is_mirror = kind == MaterialKind::conductor || kind == MaterialKind::anisotropic_conductor;
+  }
+
+  static bool is_sharp(const BsdfSample<Real>& s) {
+    return s.pdf > 0 && !is_zero(s.weight) && (s.specular || static_cast<double>(s.pdf) > sharp_pdf);
+  }
+
+  /// Whether light along `ray`, which one smooth surface has sent on, arrives at a surface that scatters it. A path has
+  /// a segment from the camera to that surface, one for each smooth surface and one to the light.
+  bool is_lost(Ray<Real> ray) {
+    for (uint32_t segments = 3; segments <= max_segments_; ++segments) {
+      Hit<Real> hit;
+      Real travelled = 0;
+      if (!closest_stop(view_, intersector_, RayKind::scattered, ray, hit, travelled)) return false;
+      const ShadingPoint<Real> point = shading_point(view_, ray, hit);
+      const BsdfSample<Real> s = sample_bsdf(point.bsdf, point.wo, random(), Vec2<Real>{random(), random()});
+      if (!(s.pdf > 0) || is_zero(s.weight)) return false;
+      if (!is_sharp(s)) return true;
+      ray = spawn_ray(point.si, s.direction);
+    }
+    return false;
+  }
+
+  const SceneView<Real>& view_;
+  BvhIntersector<Real> intersector_;
+  uint32_t max_segments_;
+  std::vector<Candidate> candidates_;
+  std::vector<Tally> tallies_;  ///< by material
+  uint32_t drawn_ = 0;
+};
+
+bool has_no_size(const Light& light) {
+  return light.type != LightType::constant_infinite && light.type != LightType::environment && !is_zero(light.radiance);
+}
+
+const char* name_of(LightType type) {
+  switch (type) {
+    case LightType::spot:
+      return "spot light";
+    case LightType::distant:
+      return "distant light";
+    case LightType::goniometric:
+      return "goniometric light";
+    case LightType::projection:
+      return "projection light";
+    default:
+      return "point light";
+  }
+}
+
+}  // namespace
+
+template <class Real>
+bool may_lose_light(const SceneView<Real>& view) {
+  const auto is_light = [](const LightRecord<Real>& light) { return is_without_size(light.kind); };
+  const auto is_smooth = [&](const SurfaceRecord& s) { return may_be_sharp(view.materials[s.material].kind); };
+  return std::any_of(view.lights, view.lights + view.lights_count, is_light) &&
+         std::any_of(view.surfaces, view.surfaces + view.surfaces_count, is_smooth);
+}
+
+template bool may_lose_light(const SceneView<float>&);
+template bool may_lose_light(const SceneView<double>&);
+
+void warn_of_lost_light(const LostLight& lost, const Scene& scene, const SourceLocation& where,
+                        Diagnostics& diagnostics) {
+  uint32_t before = lost.light;
+  const auto light = std::find_if(scene.lights.begin(), scene.lights.end(),
+                                  [&](const Light& l) { return has_no_size(l) && before-- == 0; });
+  if (light == scene.lights.end()) return;
+  std::string message = std::string("light of this ") + name_of(light->type) + " is lost at the " +
+                        (lost.is_mirror ? "mirror " : "glass ") + where.to_string() +
+                        ": 'path' looks for lights without size along straight lines alone, not through glass or by "
+                        "way of mirrors";
+  if (!scene.replaced_integrator.empty())
+    message += ", as the \"" + scene.replaced_integrator + "\" that the file asks for would";
+  message += "; a small shape that shines in its place is found";
+  if (lost.others > 0)
+    message += std::string(" (so it is with ") + (lost.others_may_be_more ? "at least " : "") +
+               std::to_string(lost.others) + (lost.others == 1 ? " other)" : " others)");
+  diagnostics.warn(light->where, message);
+}
+
+template <class Real>
+std::optional<LostLight> find_lost_light(const SceneView<Real>& view, uint32_t max_segments) {
+  return LostLightSearch<Real>(view, max_segments).run();
+}
+
+template std::optional<LostLight> find_lost_light(const SceneView<float>&, uint32_t);
+template std::optional<LostLight> find_lost_light(const SceneView<double>&, uint32_t);
+
+}  // namespace alhazen

@@ -1,0 +1,66 @@
+#pragma once
+
+// Host storage of a scene while it grows, one vector for each array of the list, and its move into one arena.
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <vector>
+
+#include "compile/compiled_scene.h"
+
+namespace alhazen {
+
+inline constexpr size_t arena_alignment = 64;
+
+template <class Real>
+struct SceneArrays {
+#define ALHAZEN_ARRAY(type, name) std::vector<type> name;
+  ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+
+  /// What has been filled so far, for the functions of the core; arrays that grow leave it behind.
+  SceneView<Real> view() const {
+    SceneView<Real> view;
+#define ALHAZEN_ARRAY(type, name) \
+  view.name = name.data();        \
+  view.name##_count = static_cast<uint32_t>(std::min<size_t>(name.size(), 0xffffffffu));
+    ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+    return view;
+  }
+
+  /// Bytes of the arena, each array starting on a multiple of the alignment.
+  size_t arena_bytes() const {
+    size_t bytes = 0;
+    const auto add = [&](size_t size) { bytes += (size + arena_alignment - 1) / arena_alignment * arena_alignment; };
+#define ALHAZEN_ARRAY(type, name) add(name.size() * sizeof(type));
+    ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+    return std::max(bytes, arena_alignment);
+  }
+
+  /// Moves the arrays into `scene`'s arena, one after the other; each is freed once it is copied.
+  void move_into(CompiledScene<Real>& scene) {
+    const size_t bytes = arena_bytes();
+    scene.arena.reset(static_cast<std::byte*>(std::aligned_alloc(arena_alignment, bytes)));
+    if (!scene.arena) throw std::bad_alloc();
+    scene.statistics.bytes = bytes;
+    std::byte* next = scene.arena.get();
+    const auto move = [&](auto& array, auto& pointer, uint32_t& count) {
+      const size_t size = array.size() * sizeof(array[0]);
+      const size_t padded = (size + arena_alignment - 1) / arena_alignment * arena_alignment;
+      if (size > 0) std::memcpy(next, static_cast<const void*>(array.data()), size);
+      std::memset(next + size, 0, padded - size);
+      pointer = reinterpret_cast<std::remove_reference_t<decltype(pointer)>>(next);
+      count = static_cast<uint32_t>(std::min<size_t>(array.size(), 0xffffffffu));
+      next += padded;
+      std::remove_reference_t<decltype(array)>().swap(array);
+    };
+#define ALHAZEN_ARRAY(type, name) move(name, scene.view.name, scene.view.name##_count);
+    ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+  }
+};
+
+}  // namespace alhazen

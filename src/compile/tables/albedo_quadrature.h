@@ -1,0 +1,188 @@
+#pragma once
+
+// Integrals over the microfacet normals of GGX that a direction sees: what the tables and grids of albedo are computed
+// by.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "core/materials/lobes/albedo_table.h"
+#include "core/materials/lobes/fresnel.h"
+#include "core/materials/lobes/microfacet.h"
+
+namespace alhazen {
+
+/// The cosine of a node: the inverse of cosine_coordinate, a little inside of where there is no direction.
+inline double cosine_at(uint32_t node, double ior, uint32_t nodes) {
+  if (ior >= 1) return std::max(sqr(static_cast<double>(node) / (nodes - 1)), 1e-4);
+  const uint32_t critical = critical_node(nodes);
+  if (node > critical) {
+    const double cos_t = sqr(static_cast<double>(node - critical) / (nodes - 1 - critical));
+    return safe_sqrt(1 - ior * ior * (1 - cos_t * cos_t));
+  }
+  const double x = static_cast<double>(node) / critical;
+  return std::max(safe_sqrt(1 - ior * ior) * (1 - sqr(sqr(1 - x * x))), 1e-4);
+}
+
+/// The inverse of alpha_coordinate, at a node.
+inline double alpha_at(uint32_t node, uint32_t nodes) {
+  if (node == 0) return least_layered_alpha<double>;
+  const double least = std::sqrt(least_layered_alpha<double>);
+  return std::min(1.0, sqr(least + (1 - least) * node / (nodes - 1)));
+}
+
+/// Mean of value(cosine) over all directions, weighted by the cosine. Below an index of 1 the directions that are
+/// totally reflected and the others are taken apart: the latter may fill a small cone.
+template <class Value>
+double mean_over_cosines(double ior, const Value& value) {
+  constexpr int steps = 256;
+  double sum = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double x = (k + 0.5) / steps;
+    if (ior >= 1) {
+      // Midpoints by sqrt(cosine) = x: 2 cos d cos = 4 x^3 dx.
+      sum += value(x * x) * 4 * x * x * x / steps;
+      continue;
+    }
+    const double critical2 = 1 - ior * ior, cos2 = critical2 * (1 - (1 - x) * (1 - x));
+    sum += value(std::sqrt(cos2)) * critical2 * 2 * (1 - x) / steps;
+    // By x = sqrt(cosine of refraction), where 2 cos d cos = ior^2 4 x^3 dx.
+    sum += value(safe_sqrt(1 - ior * ior * (1 - x * x * x * x))) * ior * ior * 4 * x * x * x / steps;
+  }
+  return sum;
+}
+
+/// Mean over all directions of what is looked up in a row of a table.
+inline double mean_of_row(const double* row, double ior, uint32_t nodes) {
+  return mean_over_cosines(ior, [&](double cosine) {
+    const double place = cosine_coordinate(cosine, ior, nodes) * (nodes - 1);
+    const uint32_t i = std::min(static_cast<uint32_t>(place), nodes - 2);
+    return row[i] + (row[i + 1] - row[i]) * (place - i);
+  });
+}
+
+/// How the disk that normals are taken from is weighted: evenly, or with more points where normals are far from the
+/// mean. What these tails reflect counts where the interface reflects much.
+enum class Density { even, dense_in_tails };
+
+/// Normals that a direction sees, with weights that add up to 1. As sample_visible_normal has them, of points that
+/// are the same for all directions: those of a Fibonacci lattice, which a kink in what is summed, as along the horizon,
+/// disturbs less than it does a square of as many.
+class VisibleNormals {
+ public:
+  /// As many of them as are at hand at once.
+  struct Batch {
+    static constexpr size_t most = 64;
+    size_t count;
+    double x[most], y[most], z[most];
+    const double* weight;
+  };
+
+  VisibleNormals(size_t count, Density density) : x_(count), y_(count), height_(count), weight_(count) {
+    constexpr double golden = 0.61803398874989485;
+    double sum = 0;
+    for (size_t k = 0; k < count; ++k) {
+      const double rest = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
+      const double turn = static_cast<double>(k) * golden + 0.25, angle = 2 * pi<double> * (turn - std::floor(turn));
+      const double radius = density == Density::even ? std::sqrt(1 - rest) : std::sqrt(1 - rest * rest);
+      x_[k] = radius * std::cos(angle), y_[k] = radius * std::sin(angle);
+      height_[k] = safe_sqrt(1 - x_[k] * x_[k]);
+      sum += weight_[k] = density == Density::even ? 1 : rest;
+    }
+    for (double& weight : weight_) weight /= sum;
+  }
+
+  /// Calls visit(batch) until all were visited.
+  template <class Visit>
+  void for_batches(const Vec3d& o, const Vec2d& alpha, const Visit& visit) const {
+    const Vec3d stretched = normalize(stretch(o, alpha));
+    const double sin2 = stretched.x * stretched.x + stretched.y * stretched.y;
+    const Vec3d t1 = sin2 > 1e-12 ? Vec3d{-stretched.y, stretched.x, 0} * (1 / std::sqrt(sin2)) : Vec3d{1, 0, 0};
+    const Vec3d t2 = cross(stretched, t1);
+    const double up = 0.5 * (1 + stretched.z);
+    Batch batch;
+    for (size_t first = 0; first < x_.size(); first += batch.count) {
+      batch.count = std::min(Batch::most, x_.size() - first);
+      batch.weight = weight_.data() + first;
+      const double *x = x_.data() + first, *y = y_.data() + first, *height = height_.data() + first;
+      for (size_t k = 0; k < batch.count; ++k) {
+        const double py = (1 - up) * height[k] + up * y[k];
+        const double pz = safe_sqrt(height[k] * height[k] - py * py);
+        const double nx = alpha.x * (t1.x * x[k] + t2.x * py + stretched.x * pz);
+        const double ny = alpha.y * (t1.y * x[k] + t2.y * py + stretched.y * pz);
+        const double nz = larger(1e-6, t2.z * py + stretched.z * pz);
+        const double scale = 1 / std::sqrt(nx * nx + ny * ny + nz * nz);
+        batch.x[k] = nx * scale, batch.y[k] = ny * scale, batch.z[k] = nz * scale;
+      }
+      visit(batch);
+    }
+  }
+
+  /// Calls visit(normal, weight).
+  template <class Visit>
+  void for_each(const Vec3d& o, const Vec2d& alpha, const Visit& visit) const {
+    for_batches(o, alpha, [&](const Batch& batch) {
+      for (size_t k = 0; k < batch.count; ++k) visit(Vec3d{batch.x[k], batch.y[k], batch.z[k]}, batch.weight[k]);
+    });
+  }
+
+ private:
+  std::vector<double> x_, y_, height_, weight_;
+};
+
+/// Of what visible microfacets send from `o` to another direction, the share that no other one holds up: G2 / G1.
+class UnshadowedShare {
+ public:
+  UnshadowedShare(const Vec3d& o, const Vec2d& alpha) : alpha_(alpha), lambda_(ggx_lambda(o, alpha)) {}
+  double operator()(const Vec3d& i) const {
+    return i.z == 0 ? 0.0 : (1 + lambda_) / (1 + lambda_ + ggx_lambda(i, alpha_));
+  }
+  /// Of a direction by its squared coordinates, those along the surface times alpha^2, and its cosine: more than 0.
+  double by_squares(double stretched2, double cosine) const {
+    return (1 + lambda_) * cosine / ((0.5 + lambda_) * cosine + 0.5 * std::sqrt(cosine * cosine + stretched2));
+  }
+
+ private:
+  Vec2d alpha_;
+  double lambda_;
+};
+
+/// Mean of weight(cosine at the microfacet, that of the reflected direction) over what GGX of that alpha reflects.
+template <class Weight>
+double reflected_share(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, const Weight& weight) {
+  const UnshadowedShare unshadowed(o, alpha);
+  double sum = 0;
+  normals.for_each(o, alpha, [&](const Vec3d& m, double share) {
+    const double cosine = dot(o, m);
+    const Vec3d i = m * (2 * cosine) - o;
+    if (i.z > 0 && cosine > 0) sum += share * weight(cosine, i.z) * unshadowed(i);
+  });
+  return sum;
+}
+
+/// Cosine by which light from that cosine outside goes down through a coat. Where a smooth interface reflects
+/// everything, below an index of 1, what a rough one lets in goes along it.
+inline double cosine_in_coat(double cosine, double ior) {
+  const double within = safe_sqrt(1 - (1 - cosine * cosine) / (ior * ior));
+  return ior < 1 ? std::max(within, 0.1) : within;
+}
+
+/// Share of light from `o` that single scattering at a rough interface lets through to what lies below a medium.
+inline double transmitted_share(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double ior,
+                                double optical_thickness) {
+  const UnshadowedShare unshadowed(o, alpha);
+  double sum = 0;
+  normals.for_each(o, alpha, [&](const Vec3d& m, double share) {
+    const double cosine = dot(o, m);
+    double cos_t;
+    const double passes = cosine > 0 ? 1 - fresnel_dielectric(cosine, ior, cos_t) : 0;
+    if (passes == 0) return;
+    const Vec3d i = m * (cosine / ior - cos_t) - o * (1 / ior);
+    if (i.z < 0) sum += share * passes * std::exp(optical_thickness / i.z) * unshadowed(i);
+  });
+  return sum;
+}
+
+}  // namespace alhazen

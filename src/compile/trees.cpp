@@ -1,0 +1,226 @@
+#include "compile/trees.h"
+
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "compile/bvh/bvh2_builder.h"
+#include "compile/bvh/bvh8_builder.h"
+#include "compile/bvh/cwbvh_builder.h"
+#include "compile/bvh/reinsertion.h"
+#include "core/shapes/instance.h"
+
+namespace alhazen {
+
+namespace {
+
+template <class Real>
+class TreeBuilder {
+ public:
+  TreeBuilder(const CompileOptions& options, SceneArrays<Real>& out) : options_(options), out_(out) {}
+
+  void run() {
+    const uint32_t in_world =
+        out_.objects.empty() ? static_cast<uint32_t>(out_.triangles.size()) : out_.objects.front().first_triangle;
+    std::vector<Bounds3<Real>> boxes = triangle_boxes(0, in_world);
+    add_sphere_boxes(boxes);
+    add_instance_boxes(boxes);
+    build(std::move(boxes), 0, in_world);
+    for (ObjectRecord& object : out_.objects) {
+      object.first_primitive = static_cast<uint32_t>(out_.primitives.size());
+      object.node = static_cast<uint32_t>(out_.nodes.size());
+      object.wide_node = static_cast<uint32_t>(out_.wide_nodes.size());
+      object.simd_node = static_cast<uint32_t>(out_.simd_nodes.size());
+      build(triangle_boxes(object.first_triangle, object.triangle_count), object.first_triangle, object.triangle_count);
+    }
+  }
+
+ private:
+  std::vector<Bounds3<Real>> triangle_boxes(uint32_t first, uint32_t count) const {
+    std::vector<Bounds3<Real>> boxes;
+    boxes.reserve(count + out_.spheres.size() + out_.moving_spheres.size() + out_.instances.size());
+    for (uint32_t i = first; i < first + count; ++i) {
+      Bounds3<Real> box;
+      for (const uint32_t v : out_.triangles[i].vertex) box.extend(out_.positions[v]);
+      boxes.push_back(box);
+    }
+    return boxes;
+  }
+
+  void add_sphere_boxes(std::vector<Bounds3<Real>>& boxes) const {
+    const auto sphere_box = [](const Vec3<Real>& center, Real radius) {
+      // Wider by what rounding of centre +- radius can lose.
+      const Vec3<Real> r = splat(radius) + (abs(center) + splat(radius)) * (2 * std::numeric_limits<Real>::epsilon());
+      return Bounds3<Real>{center - r, center + r};
+    };
+    for (const SphereRecord<Real>& s : out_.spheres) boxes.push_back(sphere_box(s.center, s.radius));
+    for (const MovingSphereRecord<Real>& s : out_.moving_spheres) {
+      boxes.push_back(sphere_box(s.center, s.radius));
+      boxes.back().extend(sphere_box(s.center + s.motion, s.radius));
+    }
+  }
+
+  /// Boxes about the corners of the objects' own, wider by what rounding of the ways there and back can lose.
+  void add_instance_boxes(std::vector<Bounds3<Real>>& boxes) const {
+    std::vector<Bounds3<Real>> object_boxes(out_.objects.size());
+#pragma omp parallel for schedule(dynamic)
+    for (size_t o = 0; o < object_boxes.size(); ++o) {
+      const ObjectRecord& object = out_.objects[o];
+      for (uint32_t i = object.first_triangle; i < object.first_triangle + object.triangle_count; ++i)
+        for (const uint32_t v : out_.triangles[i].vertex) object_boxes[o].extend(out_.positions[v]);
+    }
+    SceneView<Real> view;
+    view.instances = out_.instances.data();
+    view.instance_motions = out_.instance_motions.data();
+    for (uint32_t i = 0; i < out_.instances.size(); ++i) {
+      const Bounds3<Real>& object = object_boxes[out_.instances[i].object];
+      boxes.push_back(instance_box(instance_at(view, i, Real(0)), object));
+      if (out_.instances[i].motion != no_motion)
+        boxes.back().extend(instance_box(instance_at(view, i, Real(1)), object));
+    }
+  }
+
+  static Bounds3<Real> instance_box(const InstanceRecord<Real>& instance, const Bounds3<Real>& object) {
+    Bounds3<Real> box;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3<Real> p{corner & 1 ? object.high.x : object.low.x, corner & 2 ? object.high.y : object.low.y,
+                         corner & 4 ? object.high.z : object.low.z};
+      const Vec3<Real> there = transform_point(instance.world_from_object, p);
+      const Vec3<Real> slack = world_position_error(instance, p, Vec3<Real>{}, there);
+      box.extend(there - slack);
+      box.extend(there + slack);
+    }
+    return box;
+  }
+
+  /// Trees over triangles from `first` on and, in the world's, over spheres and instances.
+  void build(std::vector<Bounds3<Real>> boxes, uint32_t first, uint32_t triangles) {
+    const Trees& trees = options_.trees;
+    BvhTree<Real> tree;
+    if (trees.binary || trees.wide || trees.simd) {
+      BvhOptions options = trees.simd ? BvhOptions::for_collapse(options_.threads) : BvhOptions{};
+      options.threads = options_.threads;
+      if (boxes.size() > triangles + out_.spheres.size() + out_.moving_spheres.size())
+        options.max_leaf = 1;  // an instance is to be alone in its leaf
+      tree = build_bvh<Real>(boxes, options);
+      reinsert_subtrees(tree, options_.threads);
+    } else {
+      tree.order.resize(boxes.size());
+      std::iota(tree.order.begin(), tree.order.end(), 0u);
+    }
+    const uint32_t first_primitive = static_cast<uint32_t>(out_.primitives.size());
+    order_primitives(tree.order, first, triangles);
+    if (trees.wide || trees.simd) {
+      std::vector<Bounds3<Real>> ordered(tree.order.size());
+#pragma omp parallel for if (ordered.size() > 65'536)
+      for (size_t i = 0; i < ordered.size(); ++i) ordered[i] = boxes[tree.order[i]];
+      std::vector<Bounds3<Real>>().swap(boxes);
+      if constexpr (sizeof(Real) == sizeof(float))
+        if (trees.wide) add_wide_bvh(tree.nodes, ordered, first_primitive);
+      if (trees.simd) build_simd_bvh<Real>(tree.nodes, ordered, first_primitive, options_.threads, out_);
+    }
+    if (trees.binary) add_nodes(std::move(tree.nodes), first_primitive);
+  }
+
+  void add_nodes(std::vector<BvhNode<Real>> nodes, uint32_t first_primitive) {
+    if (out_.nodes.empty()) {
+      out_.nodes = std::move(nodes);
+      return;
+    }
+    const uint32_t base = static_cast<uint32_t>(out_.nodes.size());
+    for (BvhNode<Real>& node : nodes) node.first += node.count > 0 ? first_primitive : base;
+    out_.nodes.insert(out_.nodes.end(), nodes.begin(), nodes.end());
+  }
+
+  void add_wide_bvh(const std::vector<BvhNode<float>>& nodes, const std::vector<Bounds3<float>>& boxes,
+                    uint32_t first_primitive) {
+    WideBvh wide = build_wide_bvh(nodes, boxes);
+    const uint32_t base = static_cast<uint32_t>(out_.wide_nodes.size());
+    const uint32_t primitive_base = static_cast<uint32_t>(out_.wide_primitives.size());
+    for (WideNode& node : wide.nodes) {
+      node.first_child += base;
+      node.first_primitive += primitive_base;
+    }
+    out_.wide_nodes.insert(out_.wide_nodes.end(), wide.nodes.begin(), wide.nodes.end());
+    out_.wide_primitives.reserve(primitive_base + wide.primitives.size());
+    for (const uint32_t place : wide.primitives)
+      out_.wide_primitives.push_back(wide_primitive(out_.primitives[first_primitive + place]));
+  }
+
+  WidePrimitive wide_primitive(PrimitiveId id) const {
+    WidePrimitive primitive{};
+    primitive.id = id;
+    switch (id.kind()) {
+      case PrimitiveKind::triangle: {
+        const uint32_t* v = out_.triangles[id.index()].vertex;
+        primitive.a = convert<float>(out_.positions[v[0]]);
+        primitive.b = convert<float>(out_.positions[v[1]]);
+        primitive.c = convert<float>(out_.positions[v[2]]);
+        break;
+      }
+      case PrimitiveKind::sphere: {
+        const SphereRecord<Real>& s = out_.spheres[id.index()];
+        primitive.a = convert<float>(s.center);
+        primitive.b.x = static_cast<float>(s.radius);
+        break;
+      }
+      case PrimitiveKind::moving_sphere: {
+        const MovingSphereRecord<Real>& s = out_.moving_spheres[id.index()];
+        primitive.a = convert<float>(s.center);
+        primitive.b.x = static_cast<float>(s.radius);
+        primitive.c = convert<float>(s.motion);
+        break;
+      }
+      case PrimitiveKind::instance:
+        break;
+    }
+    return primitive;
+  }
+
+  /// Lays triangles down in the order of the leaves, so that a leaf's triangles are neighbours in memory.
+  void order_primitives(const std::vector<uint32_t>& order, uint32_t first, uint32_t triangles) {
+    const uint32_t spheres = static_cast<uint32_t>(out_.spheres.size());
+    const uint32_t moving_spheres = static_cast<uint32_t>(out_.moving_spheres.size());
+    std::vector<TriangleRecord> ordered;
+    ordered.reserve(triangles);
+    for (uint32_t i : order) {
+      if (i < triangles) {
+        const uint32_t place = first + static_cast<uint32_t>(ordered.size());
+        out_.primitives.emplace_back(PrimitiveKind::triangle, place);
+        ordered.push_back(out_.triangles[first + i]);
+        const uint32_t light = out_.surfaces[ordered.back().surface].light;
+        if (light != no_light) out_.lights[light].primitive = place;
+      } else if ((i -= triangles) < spheres) {
+        out_.primitives.emplace_back(PrimitiveKind::sphere, i);
+      } else if ((i -= spheres) < moving_spheres) {
+        out_.primitives.emplace_back(PrimitiveKind::moving_sphere, i);
+      } else {
+        out_.primitives.emplace_back(PrimitiveKind::instance, i - moving_spheres);
+      }
+    }
+    std::copy(ordered.begin(), ordered.end(), out_.triangles.begin() + first);
+  }
+
+  const CompileOptions& options_;
+  SceneArrays<Real>& out_;
+};
+
+}  // namespace
+
+template <class Real>
+void build_trees(const CompileOptions& options, SceneArrays<Real>& out, SceneStatistics& statistics) {
+  const auto start = std::chrono::steady_clock::now();
+  out.primitives.reserve(out.triangles.size() + out.spheres.size() + out.moving_spheres.size() + out.instances.size());
+  TreeBuilder<Real>(options, out).run();
+  const auto bytes = [](const auto& array) { return array.size() * sizeof(array[0]); };
+  statistics.nodes = options.trees.binary ? out.nodes.size() : out.simd_nodes.size();
+  statistics.tree_bytes = bytes(out.nodes) + bytes(out.wide_nodes) + bytes(out.wide_primitives) +
+                          bytes(out.simd_nodes) + bytes(out.triangle_blocks) + bytes(out.sphere_blocks) +
+                          bytes(out.moving_sphere_blocks) + bytes(out.instances);
+  statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+template void build_trees(const CompileOptions&, SceneArrays<float>&, SceneStatistics&);
+template void build_trees(const CompileOptions&, SceneArrays<double>&, SceneStatistics&);
+
+}  // namespace alhazen

@@ -1,0 +1,203 @@
+#pragma once
+
+// Scenes of so few primitives that a tree is not worth its branches: as many rays at a time as a register has numbers,
+// against every primitive. What a ray meets does not depend on the others, and is what a tree would find.
+
+#include <bit>
+
+#include "core/bvh/bvh8/primitive_tests.h"
+#include "core/bvh/bvh8/ray.h"
+
+namespace ALHAZEN_CORE {
+
+template <class Real>
+class FewPrimitives {
+ public:
+  explicit FewPrimitives(const SceneView<Real>& scene)
+      : triangles_(scene.triangles_count), spheres_(scene.spheres_count), moving_(scene.moving_spheres_count) {
+    is_few_ = scene.instances_count == 0 && triangles_ <= most_triangles && spheres_ + moving_ <= most_spheres &&
+              triangles_ * most_spheres + (spheres_ + moving_) * most_triangles <= most_triangles * most_spheres &&
+              take_triangles(scene);
+    if (!is_few_) return;
+    for (uint32_t i = 0; i < spheres_; ++i) sphere_[i] = {scene.spheres[i].center, {}, scene.spheres[i].radius};
+    for (uint32_t i = 0; i < moving_; ++i) {
+      const MovingSphereRecord<Real>& sphere = scene.moving_spheres[i];
+      sphere_[spheres_ + i] = {sphere.center, sphere.motion, sphere.radius};
+    }
+  }
+
+  /// Whether the scene is one of those; else nothing else may be called.
+  bool is_few() const { return is_few_; }
+
+  /// As SimdBvhIntersector::trace. `alone(i)` is called for queries that are better off with a tree.
+  template <bool any_hit, class RayOf, class Limit, class Answer, class Alone>
+  void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer, const Alone& alone) const {
+    for (uint32_t first = 0; first < count; first += width) {
+      const uint32_t some = count - first < width ? count - first : width;
+      if (some > width / 4)
+        trace_group<any_hit>(first, some, ray, t_max, answer);
+      else
+        for (uint32_t i = first; i < count; ++i) alone(i);
+    }
+  }
+
+ private:
+  static constexpr uint32_t width = most_register_bytes / sizeof(Real);
+  /// Where a tree is as fast, measured on scenes of triangles only and of spheres only.
+  static constexpr uint32_t most_triangles = 7 * width, most_spheres = 8 * width;
+  static constexpr uint32_t most_vertices = most_triangles;
+  using V = Lanes<Real, static_cast<int>(width)>;
+
+  /// The rays of a group, a row a coordinate.
+  struct Rays {
+    alignas(64) Real origin[3][width], direction[3][width], time[width], limit[width];
+    alignas(64) Real left[width];  ///< the triangle that the ray starts from, counted as in Met; or -1
+  };
+
+  /// What the rays have met so far: primitives are counted through, triangles before spheres before moving ones.
+  struct Met {
+    V t, b1, b2, which;
+    uint32_t lanes = 0;
+
+    ALHAZEN_INLINE void take(uint32_t some, const V& at, Real primitive) {
+      t = choose(some, at, t);
+      which = choose(some, V::all(primitive), which);
+      lanes |= some;
+    }
+  };
+
+  /// Of vertices in one place only one is kept. False where there are too many.
+  bool take_triangles(const SceneView<Real>& scene) {
+    for (uint32_t i = 0; i < triangles_; ++i)
+      for (int v = 0; v < 3; ++v) {
+        const Vec3<Real>& p = scene.positions[scene.triangles[i].vertex[v]];
+        uint32_t at = vertices_;  // searched from the last on: neighbours share them
+        while (at > 0 && __builtin_memcmp(&vertex_[at - 1], &p, sizeof(p)) != 0) --at;
+        if (at == 0) {
+          if (vertices_ == most_vertices) return false;
+          vertex_[vertices_++] = p;
+          at = vertices_;
+        }
+        triangle_[i].vertex[v] = at - 1;
+      }
+    return true;
+  }
+
+  template <bool any_hit, class RayOf, class Limit, class Answer>
+  ALHAZEN_INLINE void trace_group(uint32_t first, uint32_t size, const RayOf& ray, const Limit& t_max,
+                                  const Answer& answer) const {
+    Rays rays;
+    for (uint32_t i = 0; i < width; ++i) {
+      const uint32_t from = first + (i < size ? i : 0);
+      const Ray<Real>& r = ray(from);
+      for (int axis = 0; axis < 3; ++axis) {
+        rays.origin[axis][i] = r.origin[axis];
+        rays.direction[axis][i] = r.direction[axis];
+      }
+      rays.time[i] = r.time;
+      rays.left[i] = r.left.bits < triangles_ ? static_cast<Real>(r.left.bits) : Real(-1);
+      rays.limit[i] = i < size && can_walk(r) ? t_max(from) : Real(0);
+    }
+    const uint32_t wanted = (1u << (size - 1)) * 2 - 1;
+    Met met;
+    met.t = V::load(rays.limit);
+    met.b1 = met.b2 = met.which = V::all(0);
+    if (triangles_ > 0) meet_triangles<any_hit>(rays, wanted, met);
+    if (spheres_ + moving_ > 0) meet_spheres<any_hit>(rays, wanted, met);
+    alignas(64) Real t[width], b1[width], b2[width], which[width];
+    met.t.store(t);
+    met.b1.store(b1);
+    met.b2.store(b2);
+    met.which.store(which);
+    for (uint32_t i = 0; i < size; ++i) {
+      const bool found = met.lanes >> i & 1;
+      answer(first + i, found, Hit<Real>{t[i], b1[i], b2[i], primitive(static_cast<uint32_t>(which[i])), no_instance});
+    }
+  }
+
+  // Primitives come in the order of their identifiers, so that of those at the same distance the lowest is kept.
+
+  template <bool any_hit>
+  ALHAZEN_INLINE void meet_triangles(const Rays& rays, uint32_t wanted, Met& met) const {
+    const V d[3] = {V::load(rays.direction[0]), V::load(rays.direction[1]), V::load(rays.direction[2])};
+    // The rays whose directions are longest along x, and along y.
+    const uint32_t x_over_y = less(magnitude(d[1]), magnitude(d[0]));
+    const uint32_t along_x = x_over_y & less(magnitude(d[2]), magnitude(d[0]));
+    const uint32_t along_y = ~x_over_y & less(magnitude(d[2]), magnitude(d[1]));
+    const auto turned = [&](const V& x, const V& y, const V& z, V(&to)[3]) {
+      to[0] = choose(along_x, y, choose(along_y, z, x));
+      to[1] = choose(along_x, z, choose(along_y, x, y));
+      to[2] = choose(along_x, x, choose(along_y, y, z));
+    };
+    V origin[3], direction[3];
+    turned(V::load(rays.origin[0]), V::load(rays.origin[1]), V::load(rays.origin[2]), origin);
+    turned(d[0], d[1], d[2], direction);
+    const V inverse = V::all(1) / direction[2];
+    const V shear[3] = {direction[0] * inverse, direction[1] * inverse, inverse};
+    const V left = V::load(rays.left);
+    ShearedLanes<V> sheared[most_vertices];
+    for (uint32_t i = 0; i < vertices_; ++i) {
+      V p[3];
+      turned(V::all(vertex_[i].x), V::all(vertex_[i].y), V::all(vertex_[i].z), p);
+      sheared[i] = {p, origin, shear};
+    }
+    for (uint32_t i = 0; i < triangles_; ++i) {
+      const uint32_t* const v = triangle_[i].vertex;
+      const TriangleLanes<V> at(sheared[v[0]], sheared[v[1]], sheared[v[2]], shear[2]);
+      if (at.inside == 0) continue;
+      uint32_t lanes = at.inside & less(V::all(0), at.t) & less(at.t, met.t);
+      if (lanes == 0) continue;
+      lanes &= ~equal(left, V::all(static_cast<Real>(i)));
+      met.take(lanes, at.t, static_cast<Real>(i));
+      met.b1 = choose(lanes, at.e[1] * at.inverse, met.b1);
+      met.b2 = choose(lanes, at.e[2] * at.inverse, met.b2);
+      if (any_hit && (wanted & ~met.lanes) == 0) return;
+    }
+  }
+
+  template <bool any_hit>
+  ALHAZEN_INLINE void meet_spheres(const Rays& rays, uint32_t wanted, Met& met) const {
+    const V direction[3] = {V::load(rays.direction[0]), V::load(rays.direction[1]), V::load(rays.direction[2])};
+    for (uint32_t i = 0; i < spheres_ + moving_; ++i) {
+      if (any_hit && (wanted & ~met.lanes) == 0) return;
+      const Sphere& sphere = sphere_[i];
+      const auto from_center = [&](int axis) {
+        const V center = i < spheres_ ? V::all(sphere.center[axis])
+                                      : V::all(sphere.center[axis]) + V::all(sphere.motion[axis]) * V::load(rays.time);
+        return V::load(rays.origin[axis]) - center;
+      };
+      const V f[3] = {from_center(0), from_center(1), from_center(2)};
+      const SphereLanes<V> at(f, direction, V::all(sphere.radius));
+      if (at.crossed == 0) continue;
+      const uint32_t lanes = at.crossed & less(V::all(0), at.t) & less(at.t, met.t);
+      if (lanes == 0) continue;
+      met.take(lanes, at.t, static_cast<Real>(triangles_ + i));
+      met.b1 = choose(lanes, V::all(0), met.b1);
+      met.b2 = choose(lanes, V::all(0), met.b2);
+    }
+  }
+
+  PrimitiveId primitive(uint32_t which) const {
+    if (which < triangles_) return {PrimitiveKind::triangle, which};
+    which -= triangles_;
+    if (which < spheres_) return {PrimitiveKind::sphere, which};
+    return {PrimitiveKind::moving_sphere, which - spheres_};
+  }
+
+  struct Triangle {
+    uint32_t vertex[3];  ///< in vertex_
+  };
+  struct Sphere {
+    Vec3<Real> center, motion;
+    Real radius;
+  };
+
+  uint32_t triangles_, spheres_, moving_;
+  bool is_few_;
+  Triangle triangle_[most_triangles];
+  uint32_t vertices_ = 0;
+  Vec3<Real> vertex_[most_vertices];
+  Sphere sphere_[most_spheres];
+};
+
+}  // namespace ALHAZEN_CORE

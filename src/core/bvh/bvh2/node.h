@@ -1,0 +1,27 @@
+#pragma once
+
+// The binary BVH: nodes in depth-first order, siblings side by side.
+
+#include <cstdint>
+
+#include "core/math/bounds.h"
+
+namespace ALHAZEN_CORE {
+
+/// An inner node has count 0 and its children at `first` and `first + 1`; a leaf has `count` primitives from `first`
+/// in SceneView::primitives. `axis` is the axis along which the children were parted.
+template <class Real>
+struct BvhNode {
+  Vec3<Real> corners[2];  ///< low and high; an array, so that the slab test can pick by index
+  uint32_t first;
+  uint16_t count;
+  uint16_t axis;
+
+  ALHAZEN_HD const Vec3<Real>& low() const { return corners[0]; }
+  ALHAZEN_HD const Vec3<Real>& high() const { return corners[1]; }
+};
+
+/// No tree is deeper: the builder ends in leaves before (compile/bvh/bvh2_builder.h).
+inline constexpr int max_bvh_depth = 64;
+
+}  // namespace ALHAZEN_CORE

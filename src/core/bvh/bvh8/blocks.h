@@ -1,0 +1,99 @@
+#pragma once
+
+// A ray against a block of primitives at once.
+
+#include "core/bvh/bvh8/node.h"
+#include "core/bvh/bvh8/primitive_tests.h"
+
+namespace ALHAZEN_CORE {
+
+/// Of `lanes`, which might be hit, replaces `hit` by the nearest at a distance in (0, hit.t]. `left` is skipped.
+template <class Met, class Real>
+ALHAZEN_INLINE bool take_nearest(const Met& met, uint32_t lanes, const uint32_t* index, PrimitiveKind kind,
+                                 PrimitiveId left, Hit<Real>& hit) {
+  using V = decltype(met.t);
+  lanes &= less(V::all(0), met.t) & less_equal(met.t, V::all(hit.t));
+  if (lanes == 0) return false;
+  Real distance[sizeof(V) / sizeof(Real)];
+  met.t.store(distance);
+  int nearest = -1;
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = std::countr_zero(lanes);
+    const PrimitiveId id(kind, index[lane]);
+    if (id == left || !is_nearer(distance[lane], id, hit)) continue;
+    hit.t = distance[lane];
+    hit.primitive = id;
+    nearest = lane;
+  }
+  if (nearest < 0) return false;
+  met.fill(nearest, hit);
+  return true;
+}
+
+template <class Real>
+ALHAZEN_INLINE bool intersect_block(const TriangleBlock<Real>& block, const Ray<Real>&, const ShearedRay<Real>& ray,
+                                    Hit<Real>& hit) {
+  using V = Lanes<Real, TriangleBlock<Real>::lanes>;
+  const int axis[3] = {ray.kx, ray.ky, ray.kz};
+  const V origin[3] = {V::all(ray.origin.x), V::all(ray.origin.y), V::all(ray.origin.z)};
+  const V shear[3] = {V::all(ray.shear.x), V::all(ray.shear.y), V::all(ray.shear.z)};
+  const TriangleLanes<V> met([&](int v, int k) { return V::load(block.vertex[v][axis[k]]); }, origin, shear);
+  if (met.inside == 0) return false;
+  return take_nearest(met, met.inside, block.index, PrimitiveKind::triangle, ray.left, hit);
+}
+
+template <class V, class Real>
+ALHAZEN_INLINE bool intersect_spheres(const V (&f)[3], const Real* radii, const uint32_t* index, PrimitiveKind kind,
+                                      const Ray<Real>& ray, Hit<Real>& hit) {
+  const V d[3] = {V::all(ray.direction.x), V::all(ray.direction.y), V::all(ray.direction.z)};
+  const SphereLanes<V> met(f, d, V::load(radii));
+  if (met.crossed == 0) return false;
+  return take_nearest(met, met.crossed, index, kind, PrimitiveId(), hit);
+}
+
+template <class Real>
+ALHAZEN_INLINE bool intersect_block(const SphereBlock<Real>& block, const Ray<Real>& ray, const ShearedRay<Real>&,
+                                    Hit<Real>& hit) {
+  using V = Lanes<Real, SphereBlock<Real>::lanes>;
+  const V f[3] = {V::all(ray.origin.x) - V::load(block.center[0]), V::all(ray.origin.y) - V::load(block.center[1]),
+                  V::all(ray.origin.z) - V::load(block.center[2])};
+  return intersect_spheres(f, block.radius, block.index, PrimitiveKind::sphere, ray, hit);
+}
+
+template <class Real>
+ALHAZEN_INLINE bool intersect_block(const MovingSphereBlock<Real>& block, const Ray<Real>& ray, const ShearedRay<Real>&,
+                                    Hit<Real>& hit) {
+  using V = Lanes<Real, MovingSphereBlock<Real>::lanes>;
+  const auto from_center = [&](int axis) {
+    const V center = V::load(block.center[axis]) + V::load(block.motion[axis]) * V::all(ray.time);
+    return V::all(ray.origin[axis]) - center;
+  };
+  const V f[3] = {from_center(0), from_center(1), from_center(2)};
+  return intersect_spheres(f, block.radius, block.index, PrimitiveKind::moving_sphere, ray, hit);
+}
+
+template <class Block, class Real>
+ALHAZEN_INLINE bool intersect_blocks(const Block* blocks, uint32_t child, const Ray<Real>& ray,
+                                     const ShearedRay<Real>& sheared, Hit<Real>& hit) {
+  bool met = false;
+  const Block* block = blocks + SimdChild::first(child);
+  for (const Block* const end = block + SimdChild::blocks(child); block != end; ++block)
+    met |= intersect_block(*block, ray, sheared, hit);
+  return met;
+}
+
+/// All that a child that is no node holds.
+template <class Real>
+ALHAZEN_INLINE bool intersect_leaf(const SceneView<Real>& scene, uint32_t child, const Ray<Real>& ray,
+                                   const ShearedRay<Real>& sheared, Hit<Real>& hit) {
+  switch (SimdChild::kind(child)) {
+    case SimdChild::spheres:
+      return intersect_blocks(scene.sphere_blocks, child, ray, sheared, hit);
+    case SimdChild::moving_spheres:
+      return intersect_blocks(scene.moving_sphere_blocks, child, ray, sheared, hit);
+    default:
+      return intersect_blocks(scene.triangle_blocks, child, ray, sheared, hit);
+  }
+}
+
+}  // namespace ALHAZEN_CORE

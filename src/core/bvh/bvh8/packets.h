@@ -1,0 +1,315 @@
+#pragma once
+
+// Closest-hit queries of rays that go much the same way, such as camera rays of one pixel: as many at a time as a
+// register has floats, walking the BVH of simd_node.h together. A node's children are each tested against all rays;
+// where few rays are left, each of them against all children. What a ray meets does not depend on the others.
+
+#include <bit>
+
+#include "core/bvh/bvh8/blocks.h"
+#include "core/bvh/bvh8/prefetch.h"
+#include "core/bvh/bvh8/ray.h"
+
+namespace ALHAZEN_CORE {
+
+template <class Real>
+class RayPacket {
+ public:
+  ALHAZEN_INLINE explicit RayPacket(const SimdPrefetch<Real>& prefetch) : prefetch_(prefetch) {}
+
+  static constexpr int width = most_register_bytes / static_cast<int>(sizeof(float));
+
+  /// `ray(i)` and `t_max(i)` for i below `count` <= width. False where the rays go so different ways that they are
+  /// better off alone: then nothing else may be called.
+  template <class RayOf, class Limit>
+  ALHAZEN_INLINE bool load(uint32_t count, const RayOf& ray, const Limit& t_max) {
+    for (uint32_t i = 0; i < width; ++i) {
+      const uint32_t from = i < count ? i : 0;  // lanes that are left over are never active
+      const Ray<Real>& r = ray(from);
+      rays_[i] = &r;
+      left_[i] = r.left.kind() == PrimitiveKind::triangle ? r.left : PrimitiveId();
+      for (int axis = 0; axis < 3; ++axis) {
+        origin_[axis][i] = r.origin[axis];
+        direction_[axis][i] = r.direction[axis];
+        float_origin_[axis][i] = static_cast<float>(r.origin[axis]);
+        float_direction_[axis][i] = static_cast<float>(r.direction[axis]);
+      }
+      time_[i] = r.time;
+      hits_[i] = no_hit_before(t_max(from));
+      hits_[i].instance = no_instance;  // packets are for scenes without
+      limit_[i] = simd_limit(hits_[i].t);
+    }
+    active_ = (1u << (count - 1)) * 2 - 1;
+    met_ = 0;
+    return make_box_rays() && shear();
+  }
+
+  void walk(const SceneView<Real>& scene) {
+    if (scene.simd_nodes_count == 0) return;
+    height_ = 0;
+    uint32_t child = 0, rays = active_;
+    do {
+      if (SimdChild::kind(child) == SimdChild::node)
+        enter(scene.simd_nodes[child], rays);
+      else
+        intersect(scene, child, rays);
+    } while (pop(child, rays));
+  }
+
+  bool found(uint32_t i) const { return met_ >> i & 1; }
+  const Hit<Real>& hit(uint32_t i) const { return hits_[i]; }
+
+ private:
+  using F = Lanes<float, width>;
+  using V = Lanes<Real, width>;
+  static constexpr uint32_t all_rays = (1u << (width - 1)) * 2 - 1;
+
+  /// What box_ray does, for all of them. False where they do not lie in one octant, or are none.
+  ALHAZEN_INLINE bool make_box_rays() {
+    const F zero = F::all(0), most = F::all(infinity<float>);
+    F reach = zero;
+    for (int axis = 0; axis < 3; ++axis) reach = larger(magnitude(F::load(float_origin_[axis])), reach);
+    if (less(reach, most) != all_rays) return false;
+    for (int axis = 0; axis < 3; ++axis) {
+      const F d = F::load(float_direction_[axis]);
+      const uint32_t negative = less(d, zero);
+      if (negative != 0 && negative != all_rays) return false;
+      const F least = F::all(negative ? -least_direction : least_direction);
+      const F inverse = F::all(1) / where_less(F::all(least_direction), magnitude(d), d, least);
+      const F offset = F::load(float_origin_[axis]) * inverse;
+      const F slack = magnitude(inverse) * reach * F::all(box_slack);
+      inverse.store(inverse_[axis]);
+      (zero - (offset + slack)).store(near_offset_[axis]);
+      (zero - (offset - slack)).store(far_offset_[axis]);
+      near_row_[axis] = 2 * static_cast<uint32_t>(axis) + (negative ? 1 : 0);
+    }
+    return true;
+  }
+
+  /// What shear_ray does. False where their directions are not longest along the same axis.
+  ALHAZEN_INLINE bool shear() {
+    const V x = magnitude(V::load(direction_[0])), y = magnitude(V::load(direction_[1])),
+            z = magnitude(V::load(direction_[2]));
+    const uint32_t by_x = less(y, x) & less(z, x), by_y = ~less(y, x) & less(z, y);
+    const int kz = by_x == all_rays ? 0 : by_y == all_rays ? 1 : 2;
+    if (kz == 2 && ((by_x | by_y) & all_rays) != 0) return false;
+    axis_[2] = kz;
+    axis_[0] = kz == 2 ? 0 : kz + 1;
+    axis_[1] = axis_[0] == 2 ? 0 : axis_[0] + 1;
+    const V inverse = V::all(1) / V::load(direction_[kz]);
+    (V::load(direction_[axis_[0]]) * inverse).store(shear_[0]);
+    (V::load(direction_[axis_[1]]) * inverse).store(shear_[1]);
+    inverse.store(shear_[2]);
+    return true;
+  }
+
+  ALHAZEN_INLINE BoxRay box_ray_of(int ray) const {
+    BoxRay b;
+    for (int axis = 0; axis < 3; ++axis) {
+      b.inverse[axis] = inverse_[axis][ray];
+      b.near_offset[axis] = near_offset_[axis][ray];
+      b.far_offset[axis] = far_offset_[axis][ray];
+      b.near_row[axis] = near_row_[axis];
+    }
+    return b;
+  }
+
+  ALHAZEN_INLINE ShearedRay<Real> sheared_ray_of(int ray) const {
+    return {{origin_[axis_[0]][ray], origin_[axis_[1]][ray], origin_[axis_[2]][ray]},
+            {shear_[0][ray], shear_[1][ray], shear_[2][ray]},
+            axis_[0],
+            axis_[1],
+            axis_[2],
+            left_[ray]};
+  }
+
+  /// So few rays are tested one by one.
+  static constexpr int few = width / 4;
+
+  /// Puts the children that rays enter on the stack, the nearest on top, near being where the first of its rays does.
+  ALHAZEN_INLINE void enter(const SimdNode& node, uint32_t rays) {
+    alignas(64) float entry[simd_children][width];
+    uint32_t entered[simd_children];
+    if (std::popcount(rays) <= few)
+      enter_singly(node, rays, entry, entered);
+    else
+      enter_together(node, rays, entry, entered);
+    uint64_t order[simd_children];
+    int count = 0;
+    for (uint32_t child = 0; child < simd_children; ++child) {
+      if (entered[child] == 0) continue;
+      const float t = entry[child][std::countr_zero(entered[child])];
+      const uint64_t key = static_cast<uint64_t>(std::bit_cast<uint32_t>(t)) << 32 | child;
+      int place = count++;
+      for (; place > 0 && order[place - 1] < key; --place) order[place] = order[place - 1];
+      order[place] = key;
+    }
+    for (int i = 0; i < count; ++i, ++height_) {
+      const uint32_t child = static_cast<uint32_t>(order[i]);
+      stack_entry_[height_] = F::load(entry[child]);
+      stack_[height_] = {node.child[child], entered[child]};
+      prefetch_(node.child[child]);
+    }
+  }
+
+  ALHAZEN_INLINE void enter_together(const SimdNode& node, uint32_t rays, float (&entry)[simd_children][width],
+                                     uint32_t (&entered)[simd_children]) const {
+    const F limit = F::load(limit_);
+    F inverse[3], near_offset[3], far_offset[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      inverse[axis] = F::load(inverse_[axis]);
+      near_offset[axis] = F::load(near_offset_[axis]);
+      far_offset[axis] = F::load(far_offset_[axis]);
+    }
+    for (uint32_t child = 0; child < simd_children; ++child) {
+      const auto side = [&](int axis, uint32_t row, const F* offset) {
+        return fused_multiply_add(F::all(node.bounds[row][child]), inverse[axis], offset[axis]);
+      };
+      const auto near = [&](int axis) { return side(axis, near_row_[axis], near_offset); };
+      const auto far = [&](int axis) { return side(axis, near_row_[axis] ^ 1, far_offset); };
+      const F t_near = larger(larger(near(0), near(1)), larger(near(2), F::all(0)));
+      const F t_far = smaller(smaller(far(0), far(1)), smaller(far(2), limit));
+      entered[child] = less_equal(t_near, t_far) & rays;
+      t_near.store(entry[child]);
+    }
+  }
+
+  ALHAZEN_INLINE void enter_singly(const SimdNode& node, uint32_t rays, float (&entry)[simd_children][width],
+                                   uint32_t (&entered)[simd_children]) const {
+    for (uint32_t& of_child : entered) of_child = 0;
+    for (; rays != 0; rays &= rays - 1) {
+      const int ray = std::countr_zero(rays);
+      const SimdEntry entered_at = enter_children(node, box_ray_of(ray), limit_[ray]);
+      float t[simd_children];
+      entered_at.near.store(t);
+      uint32_t children = entered_at.children();
+      for (; children != 0; children &= children - 1) {
+        const int child = std::countr_zero(children);
+        entered[child] |= 1u << ray;
+        entry[child][ray] = t[child];
+      }
+    }
+  }
+
+  /// The next child with those of its rays that have met nothing nearer since.
+  ALHAZEN_INLINE bool pop(uint32_t& child, uint32_t& rays) {
+    while (height_ > 0) {
+      --height_;
+      rays = stack_[height_].rays & less_equal(stack_entry_[height_], F::load(limit_));
+      if (rays == 0) continue;
+      child = stack_[height_].child;
+      return true;
+    }
+    return false;
+  }
+
+  ALHAZEN_INLINE void intersect(const SceneView<Real>& scene, uint32_t child, uint32_t rays) {
+    switch (SimdChild::kind(child)) {
+      case SimdChild::spheres:
+        return intersect_blocks_of(scene.sphere_blocks, child, rays);
+      case SimdChild::moving_spheres:
+        return intersect_blocks_of(scene.moving_sphere_blocks, child, rays);
+      default:
+        return intersect_blocks_of(scene.triangle_blocks, child, rays);
+    }
+  }
+
+  template <class Block>
+  ALHAZEN_INLINE void intersect_blocks_of(const Block* blocks, uint32_t child, uint32_t rays) {
+    const Block* block = blocks + SimdChild::first(child);
+    for (const Block* const end = block + SimdChild::blocks(child); block != end; ++block) {
+      const int primitives = count_of(*block);
+      if (std::popcount(rays) <= primitives) {
+        for (uint32_t left = rays; left != 0; left &= left - 1) {
+          const int ray = std::countr_zero(left);
+          if (intersect_block(*block, *rays_[ray], sheared_ray_of(ray), hits_[ray])) note_hit(ray);
+        }
+      } else {
+        for (int p = 0; p < primitives; ++p) intersect_primitive_of(*block, p, rays);
+      }
+    }
+  }
+
+  /// How many primitives a block holds: the places behind them repeat the last.
+  template <class Block>
+  static ALHAZEN_INLINE int count_of(const Block& block) {
+    int count = 1;
+    while (count < Block::lanes && block.index[count] != block.index[count - 1]) ++count;
+    return count;
+  }
+
+  ALHAZEN_INLINE void intersect_primitive_of(const TriangleBlock<Real>& block, int p, uint32_t rays) {
+    const V origin[3] = {V::load(origin_[axis_[0]]), V::load(origin_[axis_[1]]), V::load(origin_[axis_[2]])};
+    const V shear[3] = {V::load(shear_[0]), V::load(shear_[1]), V::load(shear_[2])};
+    const TriangleLanes<V> met([&](int v, int k) { return V::all(block.vertex[v][axis_[k]][p]); }, origin, shear);
+    if ((met.inside & rays) == 0) return;
+    take(met, met.inside & rays, PrimitiveId(PrimitiveKind::triangle, block.index[p]));
+  }
+
+  ALHAZEN_INLINE void intersect_primitive_of(const SphereBlock<Real>& block, int p, uint32_t rays) {
+    const auto from_center = [&](int axis) { return V::load(origin_[axis]) - V::all(block.center[axis][p]); };
+    const V f[3] = {from_center(0), from_center(1), from_center(2)};
+    intersect_sphere_of(f, block.radius[p], PrimitiveId(PrimitiveKind::sphere, block.index[p]), rays);
+  }
+
+  ALHAZEN_INLINE void intersect_primitive_of(const MovingSphereBlock<Real>& block, int p, uint32_t rays) {
+    const auto from_center = [&](int axis) {
+      const V center = V::all(block.center[axis][p]) + V::all(block.motion[axis][p]) * V::load(time_);
+      return V::load(origin_[axis]) - center;
+    };
+    const V f[3] = {from_center(0), from_center(1), from_center(2)};
+    intersect_sphere_of(f, block.radius[p], PrimitiveId(PrimitiveKind::moving_sphere, block.index[p]), rays);
+  }
+
+  ALHAZEN_INLINE void intersect_sphere_of(const V (&f)[3], Real radius, PrimitiveId id, uint32_t rays) {
+    const V direction[3] = {V::load(direction_[0]), V::load(direction_[1]), V::load(direction_[2])};
+    const SphereLanes<V> met(f, direction, V::all(radius));
+    if ((met.crossed & rays) == 0) return;
+    take(met, met.crossed & rays, id);
+  }
+
+  /// What take_nearest does, where a lane is a ray. Only triangles are skipped, by their `left` alone: packets are for
+  /// scenes without instances.
+  template <class Met>
+  ALHAZEN_INLINE void take(const Met& met, uint32_t rays, PrimitiveId id) {
+    rays &= less(V::all(0), met.t);
+    if (rays == 0) return;
+    Real distance[width];
+    met.t.store(distance);
+    for (; rays != 0; rays &= rays - 1) {
+      const int ray = std::countr_zero(rays);
+      Hit<Real>& hit = hits_[ray];
+      if (id == left_[ray] || !is_nearer(distance[ray], id, hit)) continue;
+      met.fill(ray, hit);
+      hit.t = distance[ray];
+      hit.primitive = id;
+      note_hit(ray);
+    }
+  }
+
+  ALHAZEN_INLINE void note_hit(int ray) {
+    met_ |= 1u << ray;
+    limit_[ray] = simd_limit(hits_[ray].t);
+  }
+
+  struct Entry {
+    uint32_t child, rays;
+  };
+
+  const SimdPrefetch<Real>& prefetch_;
+  // A row a coordinate, a place in it a ray.
+  alignas(64) float inverse_[3][width], near_offset_[3][width], far_offset_[3][width], limit_[width];
+  alignas(64) float float_origin_[3][width], float_direction_[3][width];
+  alignas(64) Real origin_[3][width], direction_[3][width], shear_[3][width], time_[width];
+  uint32_t near_row_[3];
+  int axis_[3];  ///< kx, ky, kz
+  uint32_t active_ = 0, met_ = 0;
+  int height_ = 0;
+  const Ray<Real>* rays_[width];
+  PrimitiveId left_[width];  ///< where that is a triangle
+  Hit<Real> hits_[width];
+  F stack_entry_[simd_stack_size];
+  Entry stack_[simd_stack_size];
+};
+
+}  // namespace ALHAZEN_CORE

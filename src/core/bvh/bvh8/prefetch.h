@@ -1,0 +1,34 @@
+#pragma once
+
+// What the next step of a walk reads is asked for before it is needed.
+
+#include <cstddef>
+
+#include "core/bvh/bvh8/node.h"
+#include "core/scene_view.h"
+
+namespace ALHAZEN_CORE {
+
+/// Where the children of each kind lie, for fetching them without a branch.
+template <class Real>
+class SimdPrefetch {
+ public:
+  ALHAZEN_INLINE explicit SimdPrefetch(const SceneView<Real>& scene)
+      : begin_{bytes_of(scene.simd_nodes), bytes_of(scene.triangle_blocks), bytes_of(scene.sphere_blocks),
+               bytes_of(scene.moving_sphere_blocks)} {}
+
+  ALHAZEN_INLINE void operator()(uint32_t child) const {
+    constexpr size_t size[4] = {sizeof(SimdNode), sizeof(TriangleBlock<Real>), sizeof(SphereBlock<Real>),
+                                sizeof(MovingSphereBlock<Real>)};
+    const char* const at = begin_[SimdChild::kind(child)] + SimdChild::first(child) * size[SimdChild::kind(child)];
+    for (int line = 0; line < 3; ++line) __builtin_prefetch(at + 64 * line);
+    __builtin_prefetch(at + sizeof(SimdNode) - 1);
+  }
+
+ private:
+  static const char* bytes_of(const void* array) { return static_cast<const char*>(array); }
+
+  const char* begin_[4];
+};
+
+}  // namespace ALHAZEN_CORE

@@ -1,0 +1,103 @@
+#pragma once
+
+// The primitive tests of core/shapes on several lanes, operation by operation, so that hits are the same to the last
+// bit, whatever the instruction set. A lane is a pair of a ray and a primitive: one ray and many primitives
+// (simd_blocks.h) or many rays and one primitive (simd_packet.h).
+
+#include <bit>
+
+#include "core/bvh/bvh2/traversal.h"
+#include "core/simd/lanes.h"
+
+namespace ALHAZEN_CORE {
+
+/// Vertices as seen along the rays, about their origins; z is yet to be scaled by the third of `shear`.
+template <class V>
+struct ShearedLanes {
+  V x, y, z;
+
+  ShearedLanes() = default;
+  /// `p`, `origin` and `shear` are along the rays' axes kx, ky, kz.
+  ALHAZEN_INLINE ShearedLanes(const V (&p)[3], const V (&origin)[3], const V (&shear)[3]) {
+    z = p[2] - origin[2];
+    x = p[0] - origin[0] - shear[0] * z;
+    y = p[1] - origin[1] - shear[1] * z;
+  }
+};
+
+/// Where the rays meet the triangles' planes (Woop, Benthin, Wald 2013).
+template <class V>
+struct TriangleLanes {
+  V e[3];  ///< edge functions
+  V inverse, t;
+  uint32_t inside = 0;  ///< a bit for each lane; where none is set, `inverse` and `t` are not there
+
+  /// `vertex(v, k)` is coordinate k of vertex v; k is 0 to 2 and stands for the ray's axes kx, ky, kz.
+  template <class Vertex>
+  ALHAZEN_INLINE TriangleLanes(const Vertex& vertex, const V (&origin)[3], const V (&shear)[3])
+      : TriangleLanes(sheared(vertex, 0, origin, shear), sheared(vertex, 1, origin, shear),
+                      sheared(vertex, 2, origin, shear), shear[2]) {}
+
+  ALHAZEN_INLINE TriangleLanes(const ShearedLanes<V>& a, const ShearedLanes<V>& b, const ShearedLanes<V>& c,
+                               const V& scale) {
+    const V zero = V::all(0);
+    e[0] = b.x * c.y - b.y * c.x;
+    e[1] = c.x * a.y - c.y * a.x;
+    e[2] = a.x * b.y - a.y * b.x;
+    inside = less_equal(zero, smaller(smaller(e[0], e[1]), e[2])) | less_equal(larger(larger(e[0], e[1]), e[2]), zero);
+    if (inside == 0) return;
+    // Where the sum is 0, t is infinite or not a number, and not taken.
+    inverse = V::all(1) / (e[0] + e[1] + e[2]);
+    t = (e[0] * (a.z * scale) + e[1] * (b.z * scale) + e[2] * (c.z * scale)) * inverse;
+  }
+
+  /// Sets the barycentric weights of a lane.
+  template <class Real>
+  ALHAZEN_INLINE void fill(int lane, Hit<Real>& hit) const {
+    const Real inverse_det = inverse.lane(lane);
+    hit.b1 = e[1].lane(lane) * inverse_det;
+    hit.b2 = e[2].lane(lane) * inverse_det;
+  }
+
+ private:
+  template <class Vertex>
+  ALHAZEN_INLINE static ShearedLanes<V> sheared(const Vertex& vertex, int v, const V (&origin)[3],
+                                                const V (&shear)[3]) {
+    const V p[3] = {vertex(v, 0), vertex(v, 1), vertex(v, 2)};
+    return {p, origin, shear};
+  }
+};
+
+/// Where the rays meet the spheres.
+template <class V>
+struct SphereLanes {
+  V t;
+  uint32_t crossed = 0;  ///< a bit for each lane that might be met; where none is set, `t` is not there
+
+  /// Spheres about `f` from their centres to the rays' origins.
+  ALHAZEN_INLINE SphereLanes(const V (&f)[3], const V (&d)[3], const V& radius) {
+    const V zero = V::all(0);
+    const V b = zero - (f[0] * d[0] + f[1] * d[1] + f[2] * d[2]);
+    const V closest[3] = {f[0] + d[0] * b, f[1] + d[1] * b, f[2] + d[2] * b};
+    const V discriminant =
+        radius * radius - (closest[0] * closest[0] + closest[1] * closest[1] + closest[2] * closest[2]);
+    crossed = less_equal(zero, discriminant);
+    if (crossed == 0) return;
+    const V c = f[0] * f[0] + f[1] * f[1] + f[2] * f[2] - radius * radius;
+    // Of what lies behind rays that begin outside both distances are negative: no need to wait for them.
+    crossed &= ~(less(b, zero) & less(zero, c));
+    if (crossed == 0) return;
+    const V root = square_root(discriminant);
+    const V q = where_less(b, zero, b - root, b + root);
+    const V other = c / q;
+    const V near = where_less(b, zero, q, other), far = where_less(b, zero, other, q);
+    t = where_less(zero, c, near, far);
+  }
+
+  template <class Real>
+  ALHAZEN_INLINE void fill(int, Hit<Real>& hit) const {
+    hit.b1 = hit.b2 = 0;
+  }
+};
+
+}  // namespace ALHAZEN_CORE

@@ -1,0 +1,99 @@
+#pragma once
+
+// A ray and the boxes of a SimdNode, and what of the walk is the same for one ray and for many.
+
+#include <bit>
+
+#include "core/bvh/bvh2/node.h"
+#include "core/bvh/bvh8/node.h"
+#include "core/math/ray.h"
+#include "core/simd/lanes.h"
+#include "core/simd/pack.h"
+
+namespace ALHAZEN_CORE {
+
+/// A ray as boxes are tested: side * inverse + near_offset is where it enters a slab, side * inverse + far_offset where
+/// it leaves it. The offsets are apart by more than rounding can add up to, the boxes too are wider (simd_box): a box
+/// is never missed that holds what the primitive tests find.
+struct BoxRay {
+  float inverse[3], near_offset[3], far_offset[3];
+  uint32_t near_row[3];  ///< which bounds of a node the ray meets first
+  uint32_t octant;       ///< a bit for each axis along which the direction is negative
+};
+
+/// Relative widening of rays and of boxes: a few times the rounding of float.
+inline constexpr float box_slack = 4e-7f;
+
+/// Directions this close to a slab's plane do not leave it, and the offsets of coordinates up to 1e20 stay finite.
+inline constexpr float least_direction = 1e-18f;
+
+template <class Real>
+ALHAZEN_INLINE BoxRay box_ray(const Ray<Real>& ray) {
+  BoxRay b;
+  b.octant = 0;
+  const float reach = static_cast<float>(max_component(abs(ray.origin)));
+  for (int axis = 0; axis < 3; ++axis) {
+    const float d = static_cast<float>(ray.direction[axis]);
+    const float inverse = 1 / (std::abs(d) > least_direction ? d : std::copysign(least_direction, d));
+    const float offset = static_cast<float>(ray.origin[axis] * static_cast<Real>(inverse));
+    const float slack = std::abs(inverse) * reach * box_slack;
+    b.inverse[axis] = inverse;
+    b.near_offset[axis] = -(offset + slack);
+    b.far_offset[axis] = -(offset - slack);
+    b.near_row[axis] = 2 * static_cast<uint32_t>(axis) + (inverse < 0 ? 1 : 0);
+    b.octant |= inverse < 0 ? 1u << axis : 0;
+  }
+  return b;
+}
+
+/// Where a ray enters and leaves the boxes of a node's children.
+struct SimdEntry {
+  Lanes<float, simd_children> near, far;
+
+  /// A bit for each child that is entered.
+  ALHAZEN_INLINE uint32_t children() const { return less_equal(near, far); }
+};
+
+/// Up to t_max.
+ALHAZEN_INLINE SimdEntry enter_children(const SimdNode& node, const BoxRay& ray, float t_max) {
+  using V = Lanes<float, simd_children>;
+  const auto side = [&](int axis, uint32_t row, float offset) {
+    return fused_multiply_add(V::load(node.bounds[row]), V::all(ray.inverse[axis]), V::all(offset));
+  };
+  const auto near = [&](int axis) { return side(axis, ray.near_row[axis], ray.near_offset[axis]); };
+  const auto far = [&](int axis) { return side(axis, ray.near_row[axis] ^ 1, ray.far_offset[axis]); };
+  // A number that is none counts as inside.
+  return {larger(larger(near(0), near(1)), larger(near(2), V::all(0))),
+          smaller(smaller(far(0), far(1)), smaller(far(2), V::all(t_max)))};
+}
+
+/// For each octant of directions, the children from the one that a ray meets last to the one that it meets first, as
+/// far as their slots say (compile/bvh/octant_slots.h).
+struct SimdOrders {
+  uint32_t of_octant[8][simd_children];
+};
+
+inline constexpr SimdOrders simd_orders = [] {
+  SimdOrders orders{};
+  for (uint32_t octant = 0; octant < 8; ++octant)
+    for (uint32_t i = 0; i < 8; ++i) orders.of_octant[octant][i] = (7 - i) ^ octant;
+  return orders;
+}();
+
+/// One level of the tree leaves at most 7 children behind.
+inline constexpr int max_simd_depth = max_bvh_depth + 4;
+inline constexpr int simd_stack_size = (simd_children - 1) * max_simd_depth + simd_children;
+
+/// Boxes are entered up to a little beyond a hit at t, whose own distance is rounded.
+template <class Real>
+ALHAZEN_INLINE float simd_limit(Real t) {
+  return static_cast<float>(t) * (1 + 8 * box_slack);
+}
+
+/// Whether there is a ray at all: what comes of infinities meets nothing.
+template <class Real>
+ALHAZEN_INLINE bool can_walk(const Ray<Real>& ray) {
+  return max_component(abs(ray.origin)) < infinity<Real>;
+}
+
+}  // namespace ALHAZEN_CORE

@@ -1,0 +1,193 @@
+#pragma once
+
+// Closest-hit and any-hit queries over the compressed wide BVH: children in the order of the ray's octant, a stack of
+// groups of siblings (Ylitie, Karras, Laine 2017, section 4). Boxes are tested as the binary BVH's are (traversal.h).
+
+#include "core/bvh/bvh2/traversal.h"
+#include "core/bvh/cwbvh/node.h"
+
+namespace ALHAZEN_CORE {
+
+/// Nodes: `bits` has in the high byte which of the siblings are to be visited, by priority, in the low byte which of
+/// them are nodes; they begin at `base`. Primitives: a bit for each of 24 from `base` on.
+struct WideGroup {
+  uint32_t base, bits;
+};
+
+/// A walk puts at most one group aside a level, and a level of the wide tree takes at least one of the binary tree,
+/// whose leaves are split in up to two more.
+inline constexpr int max_wide_depth = max_bvh_depth + 2;
+
+ALHAZEN_HD inline uint32_t highest_bit(uint32_t x) {
+#if defined(__CUDA_ARCH__)
+  return 31u - static_cast<uint32_t>(__clz(static_cast<int>(x)));
+#else
+  return 31u - static_cast<uint32_t>(__builtin_clz(x));
+#endif
+}
+
+ALHAZEN_HD inline uint32_t count_bits(uint32_t x) {
+#if defined(__CUDA_ARCH__)
+  return static_cast<uint32_t>(__popc(x));
+#else
+  return static_cast<uint32_t>(__builtin_popcount(x));
+#endif
+}
+
+/// 2 to the power of a biased exponent from 1 to 254.
+ALHAZEN_HD inline float power_of_two(uint32_t biased) {
+#if defined(__CUDA_ARCH__)
+  return __uint_as_float(biased << 23);
+#else
+  return __builtin_bit_cast(float, biased << 23);
+#endif
+}
+
+/// A coordinate of a child's box. The builder makes boxes conservative as rounded here.
+ALHAZEN_HD ALHAZEN_INLINE float box_coordinate(float origin, float scale, uint32_t steps) {
+  return origin + static_cast<float>(steps) * scale;
+}
+
+ALHAZEN_HD ALHAZEN_INLINE uint32_t byte_of(const uint32_t words[2], uint32_t child) {
+  return words[child / 4] >> (8 * (child % 4)) & 255u;
+}
+
+/// Which children the ray enters before t_max: high byte the nodes by priority, below a bit for each primitive.
+ALHAZEN_HD ALHAZEN_INLINE uint32_t enter_children(const WideNode& node, const SlabRay<float>& ray, uint32_t octant,
+                                                  float t_max) {
+  constexpr float raise = 1 + 2 * rounding_bound<float>(3);
+  const float scale[3] = {power_of_two(node.exponents_and_inner & 255u),
+                          power_of_two(node.exponents_and_inner >> 8 & 255u),
+                          power_of_two(node.exponents_and_inner >> 16 & 255u)};
+  uint32_t hits = 0;
+#if defined(__CUDA_ARCH__)
+#pragma unroll
+#endif
+  for (uint32_t child = 0; child < WideNode::children; ++child) {
+    const uint32_t meta = byte_of(node.meta, child);
+    float t_near = 0, t_far = t_max;
+#if defined(__CUDA_ARCH__)
+#pragma unroll
+#endif
+    for (int axis = 0; axis < 3; ++axis) {
+      const float low_side = box_coordinate(node.origin[axis], scale[axis], byte_of(node.low[axis], child));
+      const float high_side = box_coordinate(node.origin[axis], scale[axis], byte_of(node.high[axis], child));
+      const float near_side = ray.from_high[axis] ? high_side : low_side;
+      const float far_side = ray.from_high[axis] ? low_side : high_side;
+      const float low = (near_side - ray.origin[axis]) * ray.inverse[axis];
+      const float high = (far_side - ray.origin[axis]) * ray.inverse[axis] * raise;
+      t_near = low > t_near ? low : t_near;
+      t_far = high < t_far ? high : t_far;
+    }
+    if (!(t_near <= t_far)) continue;
+    const uint32_t place = meta & 31u;
+    hits |= (meta >> 5) << (place >= 24 ? place ^ (7u - octant) : place);
+  }
+  return hits;
+}
+
+ALHAZEN_HD inline bool intersect_primitive(const WidePrimitive& primitive, const Ray<float>& ray,
+                                           const ShearedRay<float>& sheared, Hit<float>& hit) {
+  Hit<float> found{hit.t, 0, 0, primitive.id};
+  bool met = false;
+  switch (primitive.id.kind()) {
+    case PrimitiveKind::triangle:
+      met = primitive.id != sheared.left &&
+            intersect_triangle(sheared, primitive.a, primitive.b, primitive.c, hit.t, found.t, found.b1, found.b2);
+      break;
+    case PrimitiveKind::sphere:
+      met = intersect_sphere(ray, primitive.a, primitive.b.x, hit.t, found.t);
+      break;
+    case PrimitiveKind::moving_sphere:
+      met = intersect_sphere(ray, primitive.a + primitive.c * ray.time, primitive.b.x, hit.t, found.t);
+      break;
+    case PrimitiveKind::instance:
+      break;
+  }
+  if (!met || !is_nearer(found.t, primitive.id, hit)) return false;
+  hit = found;
+  return true;
+}
+
+ALHAZEN_HD ALHAZEN_INLINE uint32_t octant_of(const SlabRay<float>& ray) {
+  return (ray.from_high[0] ? 1u : 0u) | (ray.from_high[1] ? 2u : 0u) | (ray.from_high[2] ? 4u : 0u);
+}
+
+/// Walks the tree. With `any_hit` it ends at the first primitive met before `hit.t`.
+template <bool any_hit, class Stacks>
+ALHAZEN_HD bool traverse_wide_bvh(const SceneView<float>& scene, const Ray<float>& ray, const Stacks& stacks,
+                                  Hit<float>& hit) {
+  constexpr uint32_t to_visit = 0xff000000u, root = 0x80000000u;
+  if (scene.wide_nodes_count == 0) return false;
+  WalkSpace<float> space(ray);
+  uint32_t octant = octant_of(space.slabs);
+  auto stack = stacks.template make<WideGroup, 2 * max_wide_depth + 2>();
+  bool found = false;
+  WideGroup nodes{0, root};
+  for (;;) {
+    WideGroup primitives{};
+    if (nodes.bits & to_visit) {
+      const uint32_t bit = highest_bit(nodes.bits);
+      nodes.bits &= ~(1u << bit);
+      if (nodes.bits & to_visit) stack.push(nodes);
+      const uint32_t slot = (bit - 24) ^ (7u - octant);
+      const WideNode node = scene.wide_nodes[nodes.base + count_bits(nodes.bits & ((1u << slot) - 1))];
+      const uint32_t hits = enter_children(node, space.slabs, octant, hit.t);
+      primitives = {node.first_primitive, hits & ~to_visit};
+      nodes = {node.first_child, (hits & to_visit) | node.exponents_and_inner >> 24};
+    } else {  // primitives that were put aside for an instance
+      primitives = nodes;
+      nodes.bits = 0;
+    }
+    while (primitives.bits != 0) {
+      const uint32_t i = highest_bit(primitives.bits);
+      primitives.bits &= ~(1u << i);
+      const WidePrimitive primitive = scene.wide_primitives[primitives.base + i];
+      if (primitive.id.kind() == PrimitiveKind::instance) {
+        if (nodes.bits & to_visit) stack.push(nodes);
+        if (primitives.bits != 0) stack.push(primitives);
+        space.enter(scene, ray, primitive.id.index(), stack.height(), hit);
+        octant = octant_of(space.slabs);
+        nodes = {scene.objects[scene.instances[space.instance].object].wide_node, root};
+        break;
+      }
+      if (!intersect_primitive(primitive, ray, space.sheared, hit)) continue;
+      hit.instance = space.instance;
+      found = true;
+      if (any_hit) return true;
+    }
+    if (nodes.bits & to_visit) continue;
+    if (stack.height() == space.base && space.instance != no_instance) {
+      space.leave(ray, hit);
+      octant = octant_of(space.slabs);
+    }
+    if (stack.height() == 0) return found;
+    nodes = stack.pop();
+  }
+}
+
+/// As BvhIntersector, over the wide BVH.
+template <class Stacks = LocalStacks>
+class WideBvhIntersector {
+ public:
+  ALHAZEN_HD explicit WideBvhIntersector(const SceneView<float>& scene, const Stacks& stacks = {})
+      : scene_(&scene), stacks_(stacks) {}
+
+  ALHAZEN_HD bool closest_hit(const Ray<float>& ray, float t_max, Hit<float>& hit) const {
+    hit = no_hit_before(t_max);
+    const bool found = traverse_wide_bvh<false>(*scene_, ray, stacks_, hit);
+    if (!found) hit.primitive = PrimitiveId();
+    return found;
+  }
+
+  ALHAZEN_HD bool occluded(const Ray<float>& ray, float t_max) const {
+    Hit<float> hit = no_hit_before(t_max);
+    return traverse_wide_bvh<true>(*scene_, ray, stacks_, hit);
+  }
+
+ private:
+  const SceneView<float>* scene_;
+  Stacks stacks_;
+};
+
+}  // namespace ALHAZEN_CORE

@@ -1,0 +1,87 @@
+#pragma once
+
+// Rough glass that keeps all light: reflection and refraction at GGX microfacets (core/materials/dielectric.h), scaled
+// by what single scattering loses from a direction (Turquin 2019, "Practical multiple scattering compensation for
+// microfacet models"). A coating may change what the microfacets reflect; they let the rest through.
+
+#include "core/materials/dielectric.h"
+#include "core/materials/lobes/albedo_grid.h"
+
+namespace ALHAZEN_CORE {
+
+/// What an AlbedoGrid of glass holds, first as it is seen from outside, then the same from within. Where microfacets
+/// reflect  c + s * Fresnel's term,  and everything where nothing is refracted, the share of light that single
+/// scattering keeps is  bare + c * by_constant + s * by_fresnel.
+struct GlassGrid {
+  static constexpr uint32_t bare = 0, by_constant = 1, by_fresnel = 2;
+  static constexpr uint32_t from_within = 3;
+  static constexpr uint32_t count = 6;
+};
+
+template <class Real>
+struct GlassBsdf {
+  DielectricBsdf<Real, Vec2<Real>> interface;
+  Vec3<Real> constant, by_fresnel;  ///< what microfacets reflect: constant + by_fresnel * Fresnel's term
+  Vec3<Real> tint;                  ///< factor on what is reflected outside; the rest of it is absorbed
+  Vec3<Real> through;               ///< factor on what is let through
+  AlbedoGridPlace<Real> albedo;
+};
+
+/// What a microfacet reflects; `total`: it refracts nothing.
+template <class Real>
+ALHAZEN_HD Vec3<Real> glass_reflectance(const GlassBsdf<Real>& glass, Real fresnel, bool total) {
+  if (total) return splat(Real(1));
+  return max(min(glass.constant + glass.by_fresnel * fresnel, splat(Real(1))), Vec3<Real>{});
+}
+
+/// Probability of sampling reflection at a microfacet.
+template <class Real>
+ALHAZEN_HD Real glass_reflection_rate(const Vec3<Real>& reflectance) {
+  return smaller(Real(1), (reflectance.x + reflectance.y + reflectance.z) * (Real(1) / 3));
+}
+
+/// Factor by which all light from `wo` is kept.
+template <class Real>
+ALHAZEN_HD Vec3<Real> glass_compensation(const GlassBsdf<Real>& glass, const Vec3<Real>& wo) {
+  const bool within = wo.z < 0;
+  const GridDirection<Real> d = grid_direction(glass.albedo, Vec3<Real>{wo.x, wo.y, std::abs(wo.z)},
+                                               within ? 1 / glass.interface.ior : glass.interface.ior);
+  const uint32_t first = within ? GlassGrid::from_within : 0;
+  const Vec3<Real> kept = splat(grid_albedo(glass.albedo, first + GlassGrid::bare, d)) +
+                          glass.constant * grid_albedo(glass.albedo, first + GlassGrid::by_constant, d) +
+                          glass.by_fresnel * grid_albedo(glass.albedo, first + GlassGrid::by_fresnel, d);
+  return splat(Real(1)) / max(kept, splat(Real(0.01)));
+}
+
+template <class Real>
+ALHAZEN_HD BsdfValue<Real> evaluate_glass(const GlassBsdf<Real>& glass, const Vec3<Real>& wo, const Vec3<Real>& wi) {
+  DielectricFacet<Real> f;
+  if (wo.z == 0 || wi.z == 0 || !dielectric_facet(glass.interface, wo, wi, f)) return {};
+  const Vec3<Real> reflectance = glass_reflectance(glass, f.rate, f.total);
+  const Real rate = glass_reflection_rate(reflectance);
+  BsdfValue<Real> v;
+  if (f.reflects) {
+    v.value = reflectance * (f.d * f.g2 / (4 * f.cos_n));
+    if (wo.z > 0) v.value *= glass.tint;
+    v.pdf = rate * f.density / (4 * f.cos_o);
+  } else {
+    const Real jacobian = -f.cos_i / sqr(f.cos_i + f.cos_o / f.eta);
+    v.value =
+        (splat(Real(1)) - reflectance) * glass.through * (f.d * f.g2 * jacobian * f.cos_o / (f.cos_n * f.eta * f.eta));
+    v.pdf = (1 - rate) * f.density * jacobian;
+  }
+  v.value *= glass_compensation(glass, wo);
+  return v;
+}
+
+/// A direction; zero: none. Its density and weight are those of evaluate_glass.
+template <class Real>
+ALHAZEN_HD Vec3<Real> sample_glass(const GlassBsdf<Real>& glass, const Vec3<Real>& wo, Real u_lobe,
+                                   const Vec2<Real>& u) {
+  const DielectricBranches<Real> branches = dielectric_branches(glass.interface, wo, u);
+  const bool total = !(branches.reflected_rate < 1);
+  const Real rate = glass_reflection_rate(glass_reflectance(glass, branches.reflected_rate, total));
+  return u_lobe < rate ? branches.reflected.direction : branches.refracted.direction;
+}
+
+}  // namespace ALHAZEN_CORE

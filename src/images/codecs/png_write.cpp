@@ -1,0 +1,135 @@
+// PNG output with 8 bits, by libpng.
+
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csetjmp>
+
+#include "files/atomic_file.h"
+#include "images/display/tone_map.h"
+#include "images/image.h"
+
+namespace alhazen {
+
+namespace {
+
+/// libpng reports errors by longjmp. Each method here sets the jump, calls libpng and nothing else, and has no object
+/// with a destructor on its frame; no C++ exception passes through libpng's frames.
+class PngWriter {
+ public:
+  PngWriter(const std::string& path, AtomicFile& file) : path_(path), file_(file) {}
+  ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
+  PngWriter(const PngWriter&) = delete;
+  PngWriter& operator=(const PngWriter&) = delete;
+
+  void begin(int width, int height) { require(try_begin(width, height)); }
+  void write_row(const std::vector<uint8_t>& row) { require(try_write_row(row.data())); }
+  void end() { require(try_end()); }
+
+ private:
+  bool try_begin(int width, int height) {
+    png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
+    if (png_ == nullptr) return false;
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    info_ = png_create_info_struct(png_);
+    if (info_ == nullptr) return false;
+    png_set_write_fn(png_, this, on_write, on_flush);
+    png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+    png_set_IHDR(png_, info_, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(png_, info_);
+    return true;
+  }
+
+  bool try_write_row(const uint8_t* row) {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_write_row(png_, row);
+    return true;
+  }
+
+  bool try_end() {
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;
+    png_write_end(png_, nullptr);
+    return true;
+  }
+
+  void require(bool succeeded) const {
+    if (succeeded) return;
+    if (file_.failed()) file_.commit();  // throws the failure of the disk
+    throw RenderError("cannot write " + path_ + ": " + (message_[0] != '\0' ? message_ : "not enough memory"));
+  }
+
+  static void on_error(png_structp png, png_const_charp message) {
+    auto* writer = static_cast<PngWriter*>(png_get_error_ptr(png));
+    std::copy_n(message, std::min(std::char_traits<char>::length(message), sizeof(message_) - 1), writer->message_);
+    png_longjmp(png, 1);
+  }
+  static void on_warning(png_structp, png_const_charp) {}
+  static void on_flush(png_structp) {}
+
+  static void on_write(png_structp png, png_bytep data, size_t size) {
+    if (!static_cast<PngWriter*>(png_get_io_ptr(png))->take(data, size)) png_error(png, "the write failed");
+  }
+  bool take(const uint8_t* data, size_t size) noexcept {
+    try {
+      file_.write(data, size);
+      return true;
+    } catch (const RenderError&) {
+      return false;  // the file remembers why
+    }
+  }
+
+  const std::string& path_;
+  AtomicFile& file_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+  char message_[256] = {};
+};
+
+uint8_t encode(double linear) { return static_cast<uint8_t>(std::floor(255 * srgb_encode(linear) + 0.5)); }
+
+/// `channels`: where R, G and B stand in `row`.
+void encode_row(std::span<const float> row, const Vec3<size_t>& channels, const PngOptions& options,
+                std::vector<uint8_t>& encoded) {
+  const size_t width = encoded.size() / 3;
+  const double factor = std::exp2(options.exposure);
+  for (size_t x = 0; x < width; ++x) {
+    Vec3d colour;
+    for (int c = 0; c < 3; ++c) colour[c] = factor * static_cast<double>(row[channels[c] * width + x]);
+    colour = tone_map(colour, options.tone_map);
+    for (int c = 0; c < 3; ++c) encoded[3 * x + static_cast<size_t>(c)] = encode(colour[c]);
+  }
+}
+
+size_t find_channel(const std::string& path, const ImageSource& source, const char* name) {
+  const auto found = std::find(source.channels.begin(), source.channels.end(), name);
+  if (found == source.channels.end())
+    throw RenderError("cannot write " + path + ": the picture has no channel " + name);
+  return static_cast<size_t>(found - source.channels.begin());
+}
+
+}  // namespace
+
+void write_png(const std::string& path, const ImageSource& source, const PngOptions& options) {
+  if (source.width <= 0 || source.height <= 0)
+    throw RenderError("cannot write " + path + ": the picture has no pixels");
+  const Vec3<size_t> channels{find_channel(path, source, "R"), find_channel(path, source, "G"),
+                              find_channel(path, source, "B")};
+  AtomicFile file(path);
+  PngWriter writer(path, file);
+  writer.begin(source.width, source.height);
+  const size_t width = static_cast<size_t>(source.width);
+  std::vector<float> row(source.channels.size() * width);
+  std::vector<uint8_t> encoded(3 * width);
+  for (int y = 0; y < source.height; ++y) {
+    source.fill_row(y, row);
+    encode_row(row, channels, options, encoded);
+    writer.write_row(encoded);
+  }
+  writer.end();
+  file.commit();
+}
+
+}  // namespace alhazen

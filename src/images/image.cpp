@@ -1,0 +1,56 @@
+#include "images/image.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "images/codecs/decoders.h"
+#include "images/read_texture.h"
+
+namespace alhazen {
+
+int Image::channel(const std::string& name) const {
+  const auto found = std::find(channels.begin(), channels.end(), name);
+  return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
+}
+
+ImageSource source_of(const Image& image) {
+  const auto fill_row = [&image](int y, std::span<float> row) {
+    const size_t width = static_cast<size_t>(image.width);
+    for (size_t c = 0; c < image.planes.size(); ++c)
+      std::copy_n(image.planes[c].begin() + static_cast<std::ptrdiff_t>(width) * y, width,
+                  row.begin() + static_cast<std::ptrdiff_t>(c * width));
+  };
+  return {image.width, image.height, image.channels, fill_row};
+}
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+namespace {
+
+float linear_value(const ImageTexels& texels, size_t i) {
+  if (texels.bytes.empty()) return texels.floats[i];
+  const double value = texels.bytes[i] / 255.0;
+  return static_cast<float>(texels.srgb ? srgb_decode(value) : value);
+}
+
+}  // namespace
+
+Image read_image(const InputPath& path) {
+  if (picture_format(path) == PictureFormat::exr) return read_exr(path);
+  const ImageTexels texels = read_texture(path, TextureEncoding::automatic);
+  Image image{texels.width, texels.height, {"R", "G", "B"}, {}};
+  const size_t count = static_cast<size_t>(texels.width) * static_cast<size_t>(texels.height);
+  image.planes.assign(3, std::vector<float>(count));
+  for (size_t i = 0; i < count; ++i)
+    for (size_t c = 0; c < 3; ++c) image.planes[c][i] = linear_value(texels, 3 * i + c);
+  return image;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,35 @@
+#pragma once
+
+// How far two pictures are apart.
+
+#include <cstdint>
+
+#include "images/image.h"
+
+namespace alhazen {
+
+/// Over the channels R, G, B of linear values unless said otherwise; pixels that are not finite in either picture are
+/// counted and left out of every mean.
+struct ImageDifference {
+  double mse = 0;     ///< mean squared error
+  double rmse = 0;    ///< its root
+  double relmse = 0;  ///< mean of (a - b)^2 / (b^2 + 0.01), b the reference
+  double psnr = 0;    ///< dB, of the sRGB-encoded values clamped to [0, 1]; infinite for equal pictures
+  double ssim = 0;    ///< structural similarity of the encoded luminance (Wang et al. 2004), Gaussian window of 11
+  double flip = 0;    ///< mean LDR-FLIP (Andersson et al. 2020) at 67 pixels per degree
+  double mean_a = 0, mean_b = 0;             ///< mean luminance of each
+  double max_abs = 0;                        ///< largest absolute difference of a channel
+  int64_t nonfinite_a = 0, nonfinite_b = 0;  ///< pixels with a NaN or infinite channel
+};
+
+/// Throws InputError where the sizes differ or a picture has neither R, G, B nor a single channel.
+ImageDifference compare_images(const Image& a, const Image& b);
+
+/// The picture with each `factor` x `factor` pixels made one, their mean; rows and columns that are left over at the
+/// right and the bottom are dropped. Throws InputError where nothing would be left.
+Image reduced(const Image& image, int factor);
+
+/// A picture (R, G, B) of where they differ: the FLIP error of each pixel through a perceptually ordered colour map.
+Image difference_image(const Image& a, const Image& b);
+
+}  // namespace alhazen

@@ -1,0 +1,32 @@
+#include "util/diagnostics.h"
+
+#include "util/printable.h"
+
+namespace alhazen {
+
+std::string SourceLocation::to_string() const {
+  std::string text = file;
+  if (line > 0) text += ":" + std::to_string(line);
+  if (line > 0 && column > 0) text += ":" + std::to_string(column);
+  return text;
+}
+
+static std::string located(const SourceLocation& where, const std::string& message) {
+  const std::string place = where.to_string();
+  return printable(place.empty() ? message : place + ": " + message);
+}
+
+InputError::InputError(const SourceLocation& where, const std::string& message, const std::string& excerpt)
+    : std::runtime_error(located(where, message) + (excerpt.empty() ? "" : "\n" + printable_lines(excerpt))) {}
+
+InputError::InputError(const std::string& message) : std::runtime_error(printable(message)) {}
+
+RenderError::RenderError(const std::string& message) : std::runtime_error(printable_lines(message)) {}
+
+std::string Diagnostics::Warning::to_string() const { return located(where, message); }
+
+void Diagnostics::warn(const SourceLocation& where, const std::string& message) {
+  if (seen_.insert(message).second) warnings_.push_back({where, message});
+}
+
+}  // namespace alhazen

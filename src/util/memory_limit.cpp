@@ -1,0 +1,122 @@
+#include "util/memory_limit.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+namespace alhazen {
+
+namespace {
+
+constexpr uint64_t no_limit = std::numeric_limits<uint64_t>::max();
+
+/// A hierarchy of control groups that limits memory, and where its files are.
+struct Hierarchy {
+  bool is_version_2 = false;
+  std::string root;   ///< the group that is mounted
+  std::string mount;  ///< the folder that it is mounted on
+};
+
+/// Whether `name` is in a list with commas between.
+bool lists(std::string_view list, std::string_view name) {
+  while (!list.empty()) {
+    const size_t end = std::min(list.find(','), list.size());
+    if (list.substr(0, end) == name) return true;
+    list.remove_prefix(std::min(end + 1, list.size()));
+  }
+  return false;
+}
+
+/// Paths in mountinfo have blanks and backslashes as \ and three octal digits.
+std::string without_escapes(const std::string& text) {
+  const auto is_digit = [&](size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '7'; };
+  std::string plain;
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\\' || !is_digit(i + 1) || !is_digit(i + 2) || !is_digit(i + 3)) {
+      plain += text[i];
+      continue;
+    }
+    plain += static_cast<char>((text[i + 1] - '0') * 64 + (text[i + 2] - '0') * 8 + (text[i + 3] - '0'));
+    i += 3;
+  }
+  return plain;
+}
+
+/// Of lines such as `34 30 0:31 / /sys/fs/cgroup/memory rw - cgroup cgroup rw,memory`, proc(5).
+std::vector<Hierarchy> hierarchies(const std::string& mountinfo) {
+  std::vector<Hierarchy> all;
+  std::ifstream file(mountinfo);
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string skipped, root, mount, type, options;
+    words >> skipped >> skipped >> skipped >> root >> mount;
+    while (words >> skipped && skipped != "-") {
+    }
+    if (!(words >> type >> skipped >> options)) continue;
+    if (type == "cgroup2" || (type == "cgroup" && lists(options, "memory")))
+      all.push_back({type == "cgroup2", without_escapes(root), without_escapes(mount)});
+  }
+  return all;
+}
+
+/// The group of the process, from lines such as `4:memory:/a/b`, of version 2 `0::/a/b`. Empty: none.
+std::string group_in(const std::string& groups, bool version_2) {
+  std::ifstream file(groups);
+  for (std::string line; std::getline(file, line);) {
+    const size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string_view controllers = std::string_view(line).substr(first + 1, second - first - 1);
+    if (version_2 ? line.starts_with("0::") : lists(controllers, "memory")) return line.substr(second + 1);
+  }
+  return {};
+}
+
+/// A file that holds one number; version 2 writes `max` for none.
+uint64_t limit_in(const std::string& path) {
+  std::ifstream file(path);
+  std::string text;
+  uint64_t limit = 0;
+  if (!(file >> text)) return no_limit;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), limit);
+  return error == std::errc() && end == text.data() + text.size() && limit > 0 ? limit : no_limit;
+}
+
+/// The way from what is mounted down to the group. A group that lies elsewhere, as it may seem from within a container,
+/// is taken for the one that is mounted.
+std::string way_to(const std::string& group, const std::string& root) {
+  const std::string above = root == "/" ? "" : root;
+  const bool is_below = group.starts_with(above) && (group.size() == above.size() || group[above.size()] == '/');
+  if (!is_below || group.find("/..") != std::string::npos) return {};
+  return group == "/" ? "" : group.substr(above.size());
+}
+
+}  // namespace
+
+uint64_t control_group_memory(const std::string& process) {
+  uint64_t least = no_limit;
+  for (const Hierarchy& h : hierarchies(process + "/mountinfo")) {
+    const std::string group = group_in(process + "/cgroup", h.is_version_2);
+    if (group.empty()) continue;
+    const char* const name = h.is_version_2 ? "/memory.max" : "/memory.limit_in_bytes";
+    for (std::string way = way_to(group, h.root);; way.resize(way.rfind('/'))) {
+      least = std::min(least, limit_in(h.mount + way + name));
+      if (way.empty()) break;
+    }
+  }
+  return least;
+}
+
+uint64_t physical_memory() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
+  const uint64_t machine =
+      pages > 0 && page > 0 ? static_cast<uint64_t>(pages) * static_cast<uint64_t>(page) : no_limit;
+  return std::min(machine, control_group_memory("/proc/self"));
+}
+
+}  // namespace alhazen

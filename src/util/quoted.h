@@ -1,0 +1,23 @@
+#pragma once
+
+// Pieces of input as they appear in messages.
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "util/printable.h"
+
+namespace alhazen {
+
+/// `text` in single quotes, cut after 40 bytes, between characters; what a terminal might take for commands is escaped.
+inline std::string quoted(std::string_view text) {
+  constexpr size_t longest = 40;
+  size_t size = std::min(longest, text.size());
+  const auto is_within_character = [&] { return (static_cast<unsigned char>(text[size]) & 0xc0) == 0x80; };
+  if (size < text.size())
+    while (size > longest - 3 && is_within_character()) --size;
+  return "'" + printable(text.substr(0, size)) + (size < text.size() ? "...'" : "'");
+}
+
+}  // namespace alhazen

@@ -1,0 +1,221 @@
+// Environment maps: sampled directions against the density, the density against 1, radiance over density against the
+// integral of the map, and pictures with and without sampling it.
+
+#include <gtest/gtest.h>
+
+#include "core/lights/light.h"
+#include "support/direction_histogram.h"
+#include "support/effort.h"
+#include "support/environments.h"
+#include "support/reals.h"
+#include "support/render_pixels.h"
+
+namespace alhazen::test {
+namespace {
+
+struct MapCase {
+  std::string name;
+  ImageTexels map;
+  Frame<double> axes;
+};
+
+std::vector<MapCase> map_cases() {
+  return {{"equirectangular sun", sun_map(32, 16, 1000), map_as_world},
+          {"equirectangular sun, askew", sun_map(32, 16, 1000), map_askew()},
+          {"equirectangular lamps", lamps_map(16, 8), map_askew()},
+          {"octahedral sun", sun_map(16, 16, 1000), map_as_world},
+          {"octahedral sun, askew", sun_map(16, 16, 1000), map_askew()},
+          {"octahedral lamps", lamps_map(16, 16), map_askew()},
+          {"one texel", even_map(1, 1, 2), map_askew()}};
+}
+
+template <class Real>
+class EnvironmentSampling : public ::testing::Test {};
+TYPED_TEST_SUITE(EnvironmentSampling, Reals);
+
+TYPED_TEST(EnvironmentSampling, DirectionsFollowTheDensity) {
+  using Real = TypeParam;
+  const std::vector<MapCase> cases = map_cases();
+  for (const MapCase& c : cases) {
+    const CompiledScene<Real> scene = compiled_scene<Real>(map_alone(c.map, c.axes));
+    const EnvironmentRecord<Real>& map = scene.view.environments[0];
+    // Lamps stand at the poles, where the density is too steep for bins that are not those of the map.
+    const bool has_lamps = c.name.find("lamps") != std::string::npos;
+    DirectionHistogram histogram(has_lamps ? c.axes : map_as_world, pi<double>);
+    Random random(1);
+    for (size_t i = 0; i < effort(1'000'000); ++i) {
+      const LightSample<Real> s =
+          sample_light(scene.view, Vec3<Real>{}, Vec3<Real>{}, Real(0), Real(0), random.uniform_2d<Real>());
+      if (s.pdf > 0)
+        histogram.add(convert<double>(s.direction));
+      else
+        histogram.add_nothing();
+    }
+    double integral = 0;
+    const ChiSquared test = histogram.test(
+        [&](const Vec3d& w) { return pdf_environment_light(scene.view, map, convert<Real>(w)); }, integral);
+    EXPECT_NEAR(integral, 1, 1e-3) << c.name;
+    EXPECT_GT(test.p_value, sidak(0.01, 2 * cases.size()))
+        << c.name << ": " << test.statistic << " for " << test.degrees_of_freedom << " degrees of freedom";
+  }
+}
+
+TYPED_TEST(EnvironmentSampling, WhatIsSampledIsWhatARayFinds) {
+  using Real = TypeParam;
+  for (const MapCase& c : map_cases()) {
+    const CompiledScene<Real> scene = compiled_scene<Real>(map_alone(c.map, c.axes, 3));
+    const EnvironmentRecord<Real>& map = scene.view.environments[0];
+    Random random(2);
+    size_t differing = 0;
+    for (int i = 0; i < 100'000; ++i) {
+      const EnvironmentSample<Real> s = sample_environment(scene.view, map, random.uniform_2d<Real>());
+      ASSERT_GT(s.pdf, Real(0)) << c.name;
+      ASSERT_NEAR(static_cast<double>(length(s.direction)), 1, 1e-6) << c.name;
+      // Near the poles of the one mapping rounding turns directions far.
+      if (map.mapping == SphereMapping::equirectangular && abs_dot(map.axes.normal, s.direction) > Real(0.9999))
+        continue;
+      const Vec3<Real> found = evaluate_environment(scene.view, map, s.direction);
+      const double scale = static_cast<double>(max_component(found)) + 1;
+      ASSERT_LT(static_cast<double>(length(found - s.radiance)), by_precision<Real>(0.01, 1e-9) * scale) << c.name;
+      const double ratio = static_cast<double>(pdf_environment(scene.view, map, s.direction) / s.pdf);
+      if (std::abs(ratio - 1) > by_precision<Real>(1e-3, 1e-9)) ++differing;  // rounded into the next texel
+    }
+    EXPECT_LT(differing, by_precision<Real>(100, 1)) << c.name;
+  }
+}
+
+TYPED_TEST(EnvironmentSampling, RadianceOverDensityIsTheIntegral) {
+  using Real = TypeParam;
+  const std::vector<MapCase> cases = map_cases();
+  for (const MapCase& c : cases) {
+    const CompiledScene<Real> scene = compiled_scene<Real>(map_alone(c.map, c.axes));
+    const EnvironmentRecord<Real>& map = scene.view.environments[0];
+    const double expected = integral_over_sphere(1024, [&](const Vec3d& d) {
+      return static_cast<double>(evaluate_environment(scene.view, map, convert<Real>(d)).y);
+    });
+    Moments moments;
+    Random random(3);
+    for (size_t i = 0; i < effort(1'000'000); ++i) {
+      const EnvironmentSample<Real> s = sample_environment(scene.view, map, random.uniform_2d<Real>());
+      moments.add(s.pdf > 0 ? static_cast<double>(s.radiance.y / s.pdf) : 0);
+    }
+    EXPECT_GT(mean_p_value(moments, expected, 2e-4 * expected), sidak(0.01, 2 * cases.size()))
+        << c.name << ": " << moments.mean() << " +- " << moments.standard_error() << " instead of " << expected;
+    // A constant over texels cannot follow the slopes between them, but hardly anything else is noise.
+    EXPECT_LT(moments.variance(), 1.5 * expected * expected) << c.name << ": the sampler does not follow the map";
+  }
+}
+
+TYPED_TEST(EnvironmentSampling, NoLightIsOutOfReach) {
+  using Real = TypeParam;
+  for (MapCase& c : map_cases()) {
+    if (c.name.find("sun") != std::string::npos)  // so bright that float keeps nothing of the rest beside it
+      for (size_t k = 0; k < 3; ++k) channel_of(c.map, c.map.width * 5 / 8, c.map.height * 3 / 8, k) = 1e12f;
+    const CompiledScene<Real> scene = compiled_scene<Real>(map_alone(c.map, c.axes));
+    const EnvironmentRecord<Real>& map = scene.view.environments[0];
+    Random random(4);
+    size_t lit = 0;
+    for (int i = 0; i < 100'000; ++i) {
+      const Vec3<Real> d = convert<Real>(random.on_sphere());
+      if (is_zero(evaluate_environment(scene.view, map, d))) continue;
+      ++lit;
+      // Beside an edge rounding may look up the next texel.
+      const Vec3<Real> beside = convert<Real>(normalize(convert<double>(d) + random.on_sphere() * 1e-5));
+      if (is_zero(evaluate_environment(scene.view, map, beside))) continue;
+      ASSERT_GT(pdf_environment(scene.view, map, d), Real(0)) << c.name;
+    }
+    EXPECT_GT(lit, 100u) << c.name;
+  }
+}
+
+TYPED_TEST(EnvironmentSampling, ChosenByPower) {
+  using Real = TypeParam;
+  // Of mean 1 and 3, and a constant light of 2.
+  Scene scene = described_scene("WorldBegin LightSource \"infinite\" \"rgb L\" [2 2 2]");
+  scene = lit_by(lit_by(std::move(scene), even_map(4, 4, 1)), even_map(8, 4, 0.5f), map_askew(), 6);
+  const CompiledScene<Real> flat = compiled_scene<Real>(std::move(scene));
+  ASSERT_EQ(flat.view.lights_count, 3u);
+  ASSERT_EQ(flat.view.environments_count, 2u);
+  const auto pmf = [&](uint32_t light) { return static_cast<double>(flat.view.lights[light].pmf); };
+  EXPECT_NEAR(pmf(flat.view.environments[0].light), 1.0 / 6, 1e-6);
+  EXPECT_NEAR(pmf(flat.view.environments[1].light), 3.0 / 6, 1e-6);
+  EXPECT_NEAR(pmf(flat.view.background_light), 2.0 / 6, 1e-6);
+  // All of them count where a ray leaves the scene.
+  const Vec3<Real> radiance = background_radiance(flat.view, Vec3<Real>{0, 0, 1});
+  EXPECT_NEAR(static_cast<double>(radiance.x), 6, 1e-5);
+}
+
+constexpr uint32_t side = 16;
+
+/// What lies on a plane and around it meets the map in all ways.
+const std::string objects = film_of(side, side) + R"(
+    LookAt 0 -5 2.5  0 0 0.4  0 0 1
+    Camera "perspective" "float fov" 40
+    WorldBegin
+    Material "diffuse" "rgb reflectance" [0.6 0.6 0.6]
+    Shape "trianglemesh" "point3 P" [-9 -9 0  9 -9 0  9 9 0  -9 9 0] "integer indices" [0 1 2 0 2 3]
+    AttributeBegin Translate -1.1 0 0.6 Shape "sphere" "float radius" 0.6 AttributeEnd
+    Material "conductor" "rgb reflectance" [0.9 0.9 0.9] "float roughness" 0.2
+    AttributeBegin Translate 0.2 0.5 0.6 Shape "sphere" "float radius" 0.6 AttributeEnd
+    Material "dielectric" "float eta" 1.5
+    AttributeBegin Translate 1.3 -0.3 0.6 Shape "sphere" "float radius" 0.6 AttributeEnd
+)";
+
+TYPED_TEST(EnvironmentSampling, IntegratorsAgree) {
+  using Real = TypeParam;
+  // A second map and a constant light beside the one with a sun, so that weights are those of each light.
+  for (const int width : {32, 16}) {
+    Scene described = described_scene(objects + "LightSource \"infinite\" \"rgb L\" [0.2 0.2 0.2]");
+    described = lit_by(lit_by(std::move(described), sun_map(width, 16, 60)), lamps_map(8, 8), map_askew());
+    const CompiledScene<Real> scene = compiled_scene<Real>(std::move(described));
+    std::array<Moments, std::size(all_integrators)> moments;
+    for (size_t i = 0; i < moments.size(); ++i)
+      for (uint32_t picture = 0; picture < effort(32); ++picture) {
+        const Take take{all_integrators[i], SamplerType::sobol, 5, 16, static_cast<uint32_t>(1000 * i) + picture};
+        moments[i].add(render_pixels(scene.view, take, side, side).mean());
+      }
+    for (size_t i = 0; i < moments.size(); ++i)
+      for (size_t j = i + 1; j < moments.size(); ++j)
+        EXPECT_GT(welch_p_value(moments[i], moments[j], 1e-6), sidak(0.01, 2 * 2 * 6))
+            << to_string(all_integrators[i]) << " " << moments[i].mean() << " +- " << moments[i].standard_error()
+            << ", " << to_string(all_integrators[j]) << " " << moments[j].mean() << " +- "
+            << moments[j].standard_error();
+    // Next-event estimation is what finds a sun.
+    EXPECT_LT(moments[3].standard_error(), 0.7 * moments[2].standard_error());
+    EXPECT_LT(moments[2].standard_error(), (is_sanitized ? 0.06 : 0.01) * moments[2].mean()) << "the test is blunt";
+  }
+}
+
+/// The irradiance of a plane, by sampling and by chance, against the integral over the map.
+TYPED_TEST(EnvironmentSampling, IrradianceOfAPlane) {
+  using Real = TypeParam;
+  const std::string plane = film_of(side, side) + R"(
+      LookAt 0 0 1  0 0.1 0  0 0 1
+      Camera "perspective" "float fov" 0.001
+      WorldBegin
+      Material "diffuse" "rgb reflectance" [1 1 1]
+      Shape "trianglemesh" "point3 P" [-9 -9 0  9 -9 0  9 9 0  -9 9 0] "integer indices" [0 1 2 0 2 3]
+      LightSource "infinite" "rgb L" [0 0 0]
+  )";
+  for (const MapCase& c : map_cases()) {
+    const CompiledScene<Real> scene = compiled_scene<Real>(lit_by(described_scene(plane), c.map, c.axes));
+    const EnvironmentRecord<Real>& map = scene.view.environments[0];
+    const double irradiance = integral_over_sphere(1024, [&](const Vec3d& d) {
+      const Vec3d radiance = convert<double>(evaluate_environment(scene.view, map, convert<Real>(d)));
+      return luminance(radiance) * std::max(d.z, 0.0);
+    });
+    for (const IntegratorKind integrator : {IntegratorKind::path, IntegratorKind::iterative}) {
+      const Take take{integrator, SamplerType::independent, 2, static_cast<uint32_t>(effort(256)), 5};
+      const Moments pixels = render_pixels(scene.view, take, side, side);
+      EXPECT_GT(mean_p_value(pixels, irradiance / pi<double>, 5e-4 * irradiance), sidak(0.01, 2 * 2 * 7))
+          << c.name << ", " << take.name() << ": " << pixels.mean() << " +- " << pixels.standard_error()
+          << " instead of " << irradiance / pi<double>;
+      if (integrator == IntegratorKind::path) {
+        EXPECT_LT(pixels.standard_error(), (is_sanitized ? 0.08 : 0.02) * irradiance / pi<double>) << c.name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace alhazen::test

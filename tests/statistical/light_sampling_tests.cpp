@@ -1,0 +1,176 @@
+// sample_light against pdf_light: for every kind of light that has a density, from several points, the directions that
+// are sampled against the density that a ray finds along them; and what a ray finds is what was said.
+
+#include <gtest/gtest.h>
+
+#include "core/integrators/stages.h"
+#include "support/direction_histogram.h"
+#include "support/effort.h"
+#include "support/linear_intersector.h"
+#include "support/primitive_scenes.h"
+#include "support/random.h"
+#include "support/reals.h"
+
+namespace alhazen::test {
+namespace {
+
+struct LightCase {
+  std::string name, text;
+  Vec3d reference;
+  double time;
+  Vec3d axis;        ///< of the cap that holds the light
+  double theta_max;  ///< its half angle
+};
+
+const std::string triangle = R"(WorldBegin AreaLightSource "diffuse" "rgb L" [1 1 1] "bool twosided" true
+    Shape "trianglemesh" "point3 P" [-1 -1 3  2 -1 4  0 1 3] "integer indices" [0 1 2])";
+const std::string sphere = R"(WorldBegin Translate 0 0 3 AreaLightSource "diffuse" "rgb L" [1 1 1] "bool twosided" true
+    Shape "sphere" "float radius" 1)";
+const std::string moving_sphere = R"(WorldBegin ActiveTransform EndTime Translate 2 0 0 ActiveTransform All
+    Translate 0 0 3 AreaLightSource "diffuse" "rgb L" [1 1 1] "bool twosided" true Shape "sphere" "float radius" 1)";
+const std::string sky = R"(WorldBegin LightSource "infinite" "rgb L" [1 1 1])";
+/// None of them in front of another, as seen from the origin.
+const std::string several = R"(WorldBegin LightSource "infinite" "rgb L" [0.1 0.1 0.1]
+    AreaLightSource "diffuse" "rgb L" [2 1 1] "bool twosided" true
+    Shape "trianglemesh" "point3 P" [-1 -1 3  2 -1 4  0 1 3] "integer indices" [0 1 2]
+    Translate -4 0 0 AreaLightSource "diffuse" "rgb L" [3 4 5] "bool twosided" true
+    Shape "sphere" "float radius" 1)";
+
+/// Enough of them for a light tree, and none in front of another.
+const std::string many = R"(WorldBegin LightSource "infinite" "rgb L" [0.1 0.1 0.1]
+    AreaLightSource "diffuse" "rgb L" [2 1 1] "bool twosided" true
+    Shape "trianglemesh" "point3 P" [-1 -1 3  2 -1 4  0 1 3] "integer indices" [0 1 2]
+    Shape "trianglemesh" "point3 P" [-1 -1 -3  2 -1 -4  0 1 -3] "integer indices" [0 1 2]
+    Shape "trianglemesh" "point3 P" [3 -1 -1  4 -1 2  3 1 0] "integer indices" [0 1 2]
+    AttributeBegin Translate -4 0 0 AreaLightSource "diffuse" "rgb L" [3 4 5] Shape "sphere" AttributeEnd
+    AttributeBegin Translate 0 5 0 AreaLightSource "diffuse" "rgb L" [1 2 3] Shape "sphere" AttributeEnd
+    AttributeBegin Translate 0 -9 0 AreaLightSource "diffuse" "rgb L" [9 9 9] Shape "sphere" AttributeEnd)";
+
+const LightCase light_cases[] = {
+    {"triangle", triangle, {}, 0, {0.3, -0.3, 3.3}, 0.9},
+    {"triangle from the side", triangle, {3, -0.5, 1}, 0, {-2.7, 0.2, 2.3}, 0.9},
+    {"triangle from close by", triangle, {0.3, -0.5, 3}, 0, {0, 0, 1}, pi<double>},
+    {"sphere", sphere, {}, 0, {0, 0, 1}, std::asin(1 / 3.0) * (1 + 1e-5)},
+    {"sphere from close by", sphere, {0.1, 0, 1.9}, 0, {0, 0, 1}, pi<double>},
+    {"sphere from far away", sphere, {300, 200, 100}, 0, {-300, -200, -97}, 0.003},
+    {"sphere from inside", sphere, {0.2, -0.5, 3.3}, 0, {0, 0, 1}, pi<double>},
+    {"moving sphere", moving_sphere, {}, 0.75, {1.5, 0, 3}, 0.35},
+    {"moving sphere from inside", moving_sphere, {0.8, 0, 3}, 0.25, {0, 0, 1}, pi<double>},
+    {"sky", sky, {1, 2, 3}, 0, {0, 0, 1}, pi<double>},
+    {"several", several, {}, 0, {0, 0, 1}, pi<double>},
+    {"many", many, {}, 0, {0, 0, 1}, pi<double>},
+};
+constexpr size_t cases = 2 * std::size(light_cases);
+
+/// The density with which any of the lights gives this direction: that of the surface which the ray meets, and that of
+/// what is behind all surfaces.
+template <class Real>
+Real pdf_of_direction(const SceneView<Real>& scene, const Ray<Real>& ray) {
+  Hit<Real> hit;
+  Real pdf = pdf_background(scene);
+  if (LinearIntersector<Real>(scene).closest_hit(ray, infinity<Real>, hit)) {
+    const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
+    pdf += pdf_light(scene, scene.lights[scene.surfaces[si.surface].light], ray, hit, si, Vec3<Real>{});
+  }
+  return pdf;
+}
+
+template <class Real>
+class LightSampling : public ::testing::Test {};
+TYPED_TEST_SUITE(LightSampling, Reals);
+
+TYPED_TEST(LightSampling, DirectionsFollowTheDensity) {
+  using Real = TypeParam;
+  for (const LightCase& c : light_cases) {
+    const CompiledScene<Real> scene = compiled_scene_of<Real>(c.text);
+    const Vec3<Real> reference = convert<Real>(c.reference);
+    const Real time = static_cast<Real>(c.time);
+    DirectionHistogram histogram(frame_about(normalize(c.axis)), c.theta_max);
+    Random random(1);
+    for (size_t i = 0; i < effort(1'000'000); ++i) {
+      const Real u_choice = random.uniform<Real>();
+      const LightSample<Real> s =
+          sample_light(scene.view, reference, Vec3<Real>{}, time, u_choice, random.uniform_2d<Real>());
+      if (s.pdf > 0)
+        histogram.add(convert<double>(s.direction));
+      else
+        histogram.add_nothing();
+    }
+    double integral = 0;
+    const ChiSquared test = histogram.test(
+        [&](const Vec3d& w) {
+          return pdf_of_direction(scene.view, Ray<Real>{reference, convert<Real>(w), time});
+        },
+        integral);
+    EXPECT_NEAR(integral, 1, 1e-3) << c.name;
+    EXPECT_GT(test.p_value, sidak(0.01, cases)) << c.name << ": " << test.statistic << " for "
+                                                << test.degrees_of_freedom << " degrees of freedom, " << integral;
+  }
+}
+
+TYPED_TEST(LightSampling, RayFindsWhatWasSampled) {
+  using Real = TypeParam;
+  for (const LightCase& c : light_cases) {
+    if (&c >= &light_cases[std::size(light_cases) - 2]) continue;  // there the sky adds to the density
+    const CompiledScene<Real> scene = compiled_scene_of<Real>(c.text);
+    Random random(2);
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3<Real> reference = convert<Real>(c.reference);
+      const Real time = static_cast<Real>(c.time);
+      const LightSample<Real> s =
+          sample_light(scene.view, reference, Vec3<Real>{}, time, Real(0.5), random.uniform_2d<Real>());
+      EXPECT_FALSE(s.is_delta);
+      EXPECT_NEAR(static_cast<double>(s.radiance.y), 1, 1e-6);
+      // Where the light is seen from its edge rounding decides whether it is met, and where.
+      if (s.is_finite && abs_dot(s.normal, s.direction) < Real(0.2)) continue;
+      const Real pdf = pdf_of_direction(scene.view, Ray<Real>{reference, s.direction, time});
+      ASSERT_NEAR(static_cast<double>(pdf / s.pdf), 1, by_precision<Real>(5e-3, 1e-9)) << c.name;
+    }
+  }
+}
+
+TYPED_TEST(LightSampling, LightsWithoutSizeAreSampledSurely) {
+  using Real = TypeParam;
+  for (const std::string light : {"LightSource \"point\" \"point3 from\" [0 5 0]",
+                                  "LightSource \"spot\" \"point3 from\" [0 5 0] \"point3 to\" [0 0 0]",
+                                  "LightSource \"distant\" \"point3 from\" [0 5 0] \"point3 to\" [0 0 0]"}) {
+    const CompiledScene<Real> scene = compiled_scene_of<Real>("WorldBegin " + light);
+    const LightSample<Real> s = sample_light(scene.view, Vec3<Real>{}, Vec3<Real>{}, Real(0), Real(0.3), Vec2<Real>{});
+    EXPECT_TRUE(s.is_delta);
+    EXPECT_EQ(s.pdf, Real(1));
+    EXPECT_NEAR(static_cast<double>(s.direction.y), 1, 1e-6);
+    EXPECT_EQ(pdf_background(scene.view), Real(0));
+  }
+}
+
+/// Probabilities sum to 1, the cumulative ones agree with them, and each light comes up as often as it should.
+TYPED_TEST(LightSampling, Probabilities) {
+  using Real = TypeParam;
+  const CompiledScene<Real> scene =
+      compiled_scene_of<Real>("Integrator \"path\" \"string lightsampler\" \"power\" " + several + R"(
+      LightSource "point" "rgb I" [1 2 3]
+      LightSource "spot" "rgb I" [3 2 1]
+      LightSource "distant" "rgb L" [1 1 1]
+      AreaLightSource "diffuse" "rgb L" [0 0 0]
+      Shape "sphere"
+  )");
+  const SceneView<Real>& view = scene.view;
+  ASSERT_EQ(view.lights_count, 6u);
+  double sum = 0;
+  std::vector<double> expected, observed(view.lights_count);
+  constexpr int samples = 100'000;
+  for (uint32_t i = 0; i < view.lights_count; ++i) {
+    EXPECT_GT(view.lights[i].pmf, Real(0));
+    EXPECT_NEAR(static_cast<double>(view.light_cdf[i]), sum, 1e-6);
+    sum += static_cast<double>(view.lights[i].pmf);
+    expected.push_back(static_cast<double>(view.lights[i].pmf) * samples);
+  }
+  EXPECT_NEAR(sum, 1, by_precision<Real>(1e-6, 1e-14));
+  EXPECT_EQ(view.light_cdf[view.lights_count], Real(1));
+  Random random(3);
+  for (int i = 0; i < samples; ++i) ++observed[sample_cdf(view.light_cdf, view.lights_count, random.uniform<Real>())];
+  EXPECT_GT(chi_squared_test(observed, expected).p_value, 0.001);
+}
+
+}  // namespace
+}  // namespace alhazen::test

@@ -1,0 +1,240 @@
+// A ray that leaves a surface does not meet it at once, over many magnitudes of size and distance. The hit point comes
+// from a ray, as it does in a render.
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "core/integrators/stages.h"
+#include "support/effort.h"
+#include "support/linear_intersector.h"
+#include "support/random.h"
+#include "support/reals.h"
+
+namespace alhazen::test {
+namespace {
+
+/// One primitive, on the stack.
+template <class Real>
+struct OnePrimitive {
+  Vec3<Real> positions[3];
+  TriangleRecord triangle{{0, 1, 2}, 0};
+  SphereRecord<Real> sphere{{}, 0, 0, no_sphere_frame};
+  SurfaceRecord surface{0, no_light, no_offset, no_offset, 0, no_offset};
+  PrimitiveId primitive;
+
+  SceneView<Real> view() const {
+    SceneView<Real> view;
+    view.positions = positions;
+    view.triangles = &triangle;
+    view.spheres = &sphere;
+    view.surfaces = &surface;
+    view.primitives = &primitive;
+    view.primitives_count = 1;
+    return view;
+  }
+};
+
+/// A direction on the given side of the surface, one in four grazing.
+template <class Real>
+Vec3<Real> leaving_direction(const Vec3<Real>& normal, double side, Random& random) {
+  const Vec3d n = convert<double>(normal) * side;
+  Vec3d w = random.on_hemisphere(n);
+  if (random.below(4) == 0) {
+    const Vec3d along = normalize(w - n * dot(w, n));
+    w = normalize(along + n * random.magnitude_between(1e-7, 1e-2));
+  }
+  Vec3<Real> direction = normalize(convert<Real>(w));
+  // Rounding may have turned it to the other side.
+  return dot(direction, normal) * static_cast<Real>(side) < 0 ? -direction : direction;
+}
+
+/// Where a ray from `distance` away at about `target` meets the primitive, if it does.
+template <class Real>
+std::optional<SurfaceInteraction<Real>> meet(const SceneView<Real>& scene, const Vec3d& target, double distance,
+                                             Random& random) {
+  const Vec3d origin = target + random.on_sphere() * distance;
+  const Vec3<Real> o = convert<Real>(origin);
+  const Ray<Real> ray{o, normalize(convert<Real>(target) - o)};
+  Hit<Real> hit;
+  if (!is_finite(ray.direction) || !LinearIntersector<Real>(scene).closest_hit(ray, infinity<Real>, hit))
+    return std::nullopt;
+  return surface_interaction(scene, ray, hit);
+}
+
+/// Below this size a shape at `position` is mostly rounding of coordinates.
+template <class Real>
+double least_resolved_size(const Vec3d& position) {
+  return 100 * length(position) * static_cast<double>(std::numeric_limits<Real>::epsilon());
+}
+
+template <class Real>
+class SelfIntersectionOf : public ::testing::Test {};
+TYPED_TEST_SUITE(SelfIntersectionOf, Reals);
+
+TYPED_TEST(SelfIntersectionOf, Triangles) {
+  using Real = TypeParam;
+  Random random(1);
+  size_t left = 0, met_again = 0;
+  OnePrimitive<Real> scene;
+  scene.primitive = PrimitiveId(PrimitiveKind::triangle, 0);
+  while (left < effort(1'000'000)) {
+    const Vec3d p = random.on_sphere() * random.magnitude_between(1e-3, 1e5);
+    const double size = random.magnitude_between(1e-4, 1e4);
+    const Vec3d corners[3] = {p, p + random.on_sphere() * size, p + random.on_sphere() * size};
+    for (int i = 0; i < 3; ++i) scene.positions[i] = convert<Real>(corners[i]);
+    const SceneView<Real> view = scene.view();
+    if (!(length(triangle_cross(view, scene.triangle)) > 0)) continue;  // compiling leaves these out
+    for (int i = 0; i < 16; ++i) {
+      const Vec2d b = sample_triangle(random.uniform_2d<double>());
+      const Vec3d target = corners[0] * b.x + corners[1] * b.y + corners[2] * (1 - b.x - b.y);
+      const auto si = meet<Real>(view, target, size * random.magnitude_between(0.1, 100), random);
+      if (!si) continue;
+      for (const double side : {1.0, -1.0}) {
+        const Ray<Real> ray = spawn_ray(*si, leaving_direction(si->normal, side, random));
+        ++left;
+        met_again += LinearIntersector<Real>(view).occluded(ray, infinity<Real>);
+      }
+    }
+  }
+  EXPECT_EQ(met_again, 0u) << "of " << left;
+}
+
+TYPED_TEST(SelfIntersectionOf, SpheresFromOutside) {
+  using Real = TypeParam;
+  Random random(2);
+  size_t left = 0, met_again = 0;
+  OnePrimitive<Real> scene;
+  scene.primitive = PrimitiveId(PrimitiveKind::sphere, 0);
+  while (left < effort(1'000'000)) {
+    const Vec3d center = random.on_sphere() * random.magnitude_between(1e-3, 1e5);
+    const double radius = random.magnitude_between(1e-3, 1e4);
+    scene.sphere.center = convert<Real>(center);
+    scene.sphere.radius = static_cast<Real>(radius);
+    const SceneView<Real> view = scene.view();
+    for (int i = 0; i < 16; ++i) {
+      const Vec3d target = center + random.on_sphere() * radius;
+      const auto si = meet<Real>(view, target, radius * random.magnitude_between(0.1, 100), random);
+      if (!si) continue;
+      const Ray<Real> ray = spawn_ray(*si, leaving_direction(si->normal, 1, random));
+      ++left;
+      met_again += LinearIntersector<Real>(view).occluded(ray, infinity<Real>);
+    }
+  }
+  EXPECT_EQ(met_again, 0u) << "of " << left;
+}
+
+/// Inwards the ray meets the far side, after 2 r cos: not the near side again. Spheres must be larger than what
+/// positions resolve at their place, or there is no inside.
+TYPED_TEST(SelfIntersectionOf, SpheresFromInside) {
+  using Real = TypeParam;
+  Random random(3);
+  size_t left = 0, met_again = 0;
+  OnePrimitive<Real> scene;
+  scene.primitive = PrimitiveId(PrimitiveKind::sphere, 0);
+  while (left < effort(1'000'000)) {
+    const Vec3d center = random.on_sphere() * random.magnitude_between(1e-3, 1e5);
+    const double radius = random.magnitude_between(1e-3, 1e4);
+    if (radius < least_resolved_size<Real>(center)) continue;
+    scene.sphere.center = convert<Real>(center);
+    scene.sphere.radius = static_cast<Real>(radius);
+    const SceneView<Real> view = scene.view();
+    for (int i = 0; i < 16; ++i) {
+      const Vec3d target = center + random.on_sphere() * radius;
+      const auto si = meet<Real>(view, target, radius * random.magnitude_between(0.1, 100), random);
+      if (!si) continue;
+      const Ray<Real> ray = spawn_ray(*si, leaving_direction(si->normal, -1, random));
+      ++left;
+      const double chord = 2 * radius * static_cast<double>(abs_dot(ray.direction, si->normal));
+      met_again += LinearIntersector<Real>(view).occluded(ray, static_cast<Real>(chord / 2));
+    }
+  }
+  EXPECT_EQ(met_again, 0u) << "of " << left;
+}
+
+/// A sampled point of a light is seen from where nothing stands between: the light itself does not hide it.
+TYPED_TEST(SelfIntersectionOf, LightsAreSeen) {
+  using Real = TypeParam;
+  Random random(4);
+  size_t hidden = 0, tried = 0;
+  OnePrimitive<Real> scene;
+  while (tried < effort(1'000'000)) {
+    const bool round = random.below(2) == 0;
+    scene.primitive = PrimitiveId(round ? PrimitiveKind::sphere : PrimitiveKind::triangle, 0);
+    const Vec3d p = random.on_sphere() * random.magnitude_between(1e-3, 1e5);
+    const double size = random.magnitude_between(1e-2, 1e3);
+    if (size < least_resolved_size<Real>(p)) continue;
+    scene.sphere.center = convert<Real>(p);
+    scene.sphere.radius = static_cast<Real>(size);
+    for (Vec3<Real>& corner : scene.positions) corner = convert<Real>(p + random.on_sphere() * size);
+    SceneView<Real> view = scene.view();
+    if (!round && !(length(triangle_cross(view, scene.triangle)) > 0)) continue;
+    LightRecord<Real> light{};
+    light.kind = round ? LightKind::sphere : LightKind::triangle;
+    light.radiance = splat(Real(1));
+    light.two_sided = 1;
+    light.pmf = 1;
+    view.lights = &light;
+    view.lights_count = 1;
+    const ShiningTriangle<Real> shining = make_shining_triangle(view, light);
+    view.shining_triangles = &shining;
+    SurfaceInteraction<Real> from{};
+    const double distance = size * random.magnitude_between(1.1, 1000);
+    from.position = convert<Real>(p + random.on_sphere() * distance);
+    from.position_error = abs(from.position) * rounding_bound<Real>(7);
+    for (int i = 0; i < 16; ++i) {
+      const LightSample<Real> s =
+          sample_light(view, from.position, Vec3<Real>{}, Real(0), Real(0), random.uniform_2d<Real>());
+      if (!(s.pdf > 0)) continue;
+      from.normal = s.direction;
+      ++tried;
+      hidden += !is_free(LinearIntersector<Real>(view), shadow_ray(from, s));
+    }
+  }
+  EXPECT_EQ(hidden, 0u) << "of " << tried;
+}
+
+/// The third corner is so close to the first that the edges to the second are one after rounding.
+TYPED_TEST(SelfIntersectionOf, NeedlesHaveFinitePoints) {
+  using Real = TypeParam;
+  const Real tiny = std::is_same_v<Real, float> ? Real(1) : Real(1e-9);
+  const Vec3<Real> p[3] = {{0, 0, 0}, {100, 70, 30}, {Real(2e-6) * tiny, Real(1e-6) * tiny, 0}};
+  ASSERT_GT(length(cross(p[1] - p[0], p[2] - p[0])), Real(0));
+  const TriangleCorners<Real> corners{{p[0], p[1], p[2]}, {}, 0, 0};
+  for (const Real b1 : {Real(0), Real(0.3), Real(1)}) {
+    const SurfaceInteraction<Real> si = point_of_triangle(corners, b1, Real(0.5) * (1 - b1));
+    EXPECT_TRUE(is_finite(si.position)) << b1;
+    EXPECT_LT(length(si.position - p[1] * b1), Real(1e-3)) << b1;
+  }
+}
+
+/// Another triangle in the same plane along two axes, where the point that a ray leaves has no error along the normal:
+/// as with walls that overlap. Needles seen from the edge may be hit all the same.
+TYPED_TEST(SelfIntersectionOf, WhatLiesInThePlaneIsNotHit) {
+  using Real = TypeParam;
+  Random random(21);
+  size_t left = 0, hit = 0;
+  while (left < effort(200'000)) {
+    const double height = random.below(2) == 0 ? 0 : random.uniform<double>() * 100;
+    const double size = random.magnitude_between(1e-2, 1e2);
+    const uint32_t axis = random.below(3);
+    const auto corner = [&] {
+      const double a = size * (2 * random.uniform<double>() - 1), b = size * (2 * random.uniform<double>() - 1);
+      return convert<Real>(axis == 0 ? Vec3d{height, a, b} : axis == 1 ? Vec3d{a, height, b} : Vec3d{a, b, height});
+    };
+    const Vec3<Real> p[3] = {corner(), corner(), corner()};
+    const Vec3<Real> winding = cross(p[1] - p[0], p[2] - p[0]);
+    if (!(length(winding) > static_cast<Real>(0.1 * size * size))) continue;
+    const TriangleCorners<Real> corners{{p[0], p[1], p[2]}, {}, 0, 0};
+    const Vec2<Real> b = sample_triangle(random.uniform_2d<Real>());
+    const SurfaceInteraction<Real> si = point_of_triangle(corners, b.x, b.y);
+    const Ray<Real> ray = spawn_ray(si, leaving_direction(si.normal, random.below(2) == 0 ? 1.0 : -1.0, random));
+    Real t, b1, b2;
+    ++left;
+    hit += intersect_triangle(shear_ray(ray), p[0], p[1], p[2], infinity<Real>, t, b1, b2);
+  }
+  EXPECT_LT(hit, left / 1000) << "of " << left;
+}
+
+}  // namespace
+}  // namespace alhazen::test

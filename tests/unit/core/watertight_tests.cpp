@@ -1,0 +1,97 @@
+// No ray passes between the triangles of a closed mesh: not at edges, not at vertices, not far from the origin.
+
+#include <gtest/gtest.h>
+
+#include "support/closed_meshes.h"
+#include "support/effort.h"
+#include "support/primitive_scenes.h"
+#include "support/trees.h"
+
+namespace alhazen::test {
+namespace {
+
+enum class Aim { vertex, edge, face };
+
+/// A point of the mesh's surface.
+Vec3d target_on(const Mesh& mesh, Aim aim, Random& random) {
+  const size_t triangle = 3 * random.below(static_cast<uint32_t>(mesh.triangle_count()));
+  const auto corner = [&](size_t i) { return mesh.positions[mesh.indices[triangle + i]]; };
+  if (aim == Aim::vertex) return corner(0);
+  if (aim == Aim::edge) return lerp(corner(0), corner(1), random.uniform<double>());
+  const double u = random.uniform<double>(), v = random.uniform<double>() * (1 - u);
+  return corner(0) * (1 - u - v) + corner(1) * u + corner(2) * v;
+}
+
+template <class Real>
+struct Miss {
+  size_t from_inside = 0, from_outside = 0;
+};
+
+/// Rays at the mesh, which is star-shaped about `center` and about as large as `radius`: from points in the inner half
+/// of it, and from outside on a way that leads through the inner half.
+template <class Tree, class Real = typename Tree::Real>
+Miss<Real> shoot(const SceneView<Real>& scene, const Mesh& mesh, const Vec3d& center, double radius, Aim aim,
+                 size_t rays, Random& random) {
+  const typename Tree::Intersector bvh(scene);
+  Miss<Real> misses;
+  for (size_t i = 0; i < rays; ++i) {
+    // What is drawn in double is rounded first, so that the ray aims at what the scene holds.
+    const Vec3<Real> target = convert<Real>(target_on(mesh, aim, random));
+    const Vec3<Real> inside = convert<Real>(center + random.on_sphere() * (random.uniform<double>() * 0.5 * radius));
+    const Vec3<Real> outwards = normalize(target - inside);
+    Hit<Real> hit;
+    if (!bvh.closest_hit({inside, outwards}, infinity<Real>, hit)) ++misses.from_inside;
+    const Real distance = static_cast<Real>(radius * random.magnitude_between(1, 30));
+    const Vec3<Real> outside = target + outwards * distance;
+    const Vec3<Real> inwards = normalize(target - outside);
+    if (!bvh.closest_hit({outside, inwards}, infinity<Real>, hit)) ++misses.from_outside;
+  }
+  return misses;
+}
+
+template <class Tree>
+void check_watertight(double jitter, double radius, const Vec3d& center, uint64_t seed) {
+  using Real = typename Tree::Real;
+  Random random(seed);
+  Mesh mesh = icosphere(4);
+  jitter_radii(mesh, jitter, random);
+  for (Vec3d& p : mesh.positions) p = p * radius + center;
+  PrimitiveScene primitives;
+  primitives.add_mesh(mesh);
+  const CompiledScene<Real> scene = primitives.flat<Real>();
+  for (const Aim aim : {Aim::vertex, Aim::edge, Aim::face}) {
+    const Miss<Real> misses = shoot<Tree>(scene.view, mesh, center, radius, aim, effort(100'000), random);
+    EXPECT_EQ(misses.from_inside, 0u) << "aim " << static_cast<int>(aim);
+    EXPECT_EQ(misses.from_outside, 0u) << "aim " << static_cast<int>(aim);
+  }
+}
+
+const Vec3d far_away{1.5e5, -1.5e5, 1.5e5};
+
+template <class Tree>
+class WatertightOf : public ::testing::Test {};
+TYPED_TEST_SUITE(WatertightOf, Trees);
+
+TYPED_TEST(WatertightOf, Icosphere) { check_watertight<TypeParam>(0, 1, {}, 1); }
+TYPED_TEST(WatertightOf, IcosphereFarAway) { check_watertight<TypeParam>(0, 100, far_away, 2); }
+TYPED_TEST(WatertightOf, Jittered) { check_watertight<TypeParam>(0.02, 1, {}, 3); }
+TYPED_TEST(WatertightOf, JitteredFarAway) { check_watertight<TypeParam>(0.02, 100, far_away, 4); }
+
+/// From the very centre of a mesh about the origin the way to a vertex is exact: edge functions come out as 0.
+TYPED_TEST(WatertightOf, ExactlyThroughVertices) {
+  using Real = typename TypeParam::Real;
+  const Mesh mesh = icosphere(4);
+  PrimitiveScene primitives;
+  primitives.add_mesh(mesh);
+  const CompiledScene<Real> scene = primitives.flat<Real>();
+  const typename TypeParam::Intersector bvh(scene.view);
+  Hit<Real> hit;
+  for (const Vec3d& p : mesh.positions) {
+    // The direction need not be of unit length for this.
+    EXPECT_TRUE(bvh.closest_hit({{}, convert<Real>(p)}, infinity<Real>, hit));
+    EXPECT_TRUE(bvh.closest_hit({{}, normalize(convert<Real>(p))}, infinity<Real>, hit));
+  }
+}
+
+}  // namespace
+}  // namespace alhazen::test

@@ -1,0 +1,148 @@
+// Lights with pictures: what is read, which way they stand, what they send where, how bright they are and what is
+// refused.
+
+#include <cmath>
+#include <limits>
+
+#include "core/lights/light.h"
+#include "support/environments.h"
+#include "support/temporary_folder.h"
+#include "unit/io/pbrt_support.h"
+
+namespace alhazen::test {
+namespace {
+
+class PbrtLightPictures : public ::testing::Test {
+ protected:
+  PbrtLightPictures() {
+    // Bright to the right of the top row alone.
+    ImageTexels map = even_map(4, 2, 0);
+    for (size_t c = 0; c < 3; ++c) channel_of(map, 3, 0, c) = 1 + static_cast<float>(c);
+    write("corner", map);
+    // The inner diamond of a square map is the half of the sphere about its z.
+    map = even_map(16, 16, 0);
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x)
+        if (direction_of_octahedral(Vec2d{(x + 0.5) / 16, (y + 0.5) / 16}).z > 0)
+          channel_of(map, x, y, 0) = channel_of(map, x, y, 1) = 3;
+    write("upper", map);
+    write("dark", even_map(4, 4, 0));
+    write("even", even_map(4, 4, 2));
+    map = even_map(4, 4, 1);
+    channel_of(map, 2, 1, 0) = std::numeric_limits<float>::infinity();
+    write("endless", map);
+  }
+
+  void write(const std::string& name, const ImageTexels& map) const {
+    ExrOptions options;
+    options.pixel_type = ExrPixelType::single;
+    write_exr(folder_.file(name + ".exr"), source_of(image_of(map)), options);
+  }
+
+  Parsed world(const std::string& text) const { return parse_world(text, folder_.path()); }
+  std::string error(const std::string& text) const { return error_of("WorldBegin\n" + text, folder_.path()); }
+
+  /// Radiance that the only light sends to `point`.
+  Vec3d sent_to(const std::string& text, const Vec3d& point) const {
+    const CompiledScene<double> scene = compiled_scene<double>(world(text).scene);
+    EXPECT_EQ(scene.view.lights_count, 1u);
+    return sample_light(scene.view, point, Vec3d{}, 0.0, 0.0, Vec2d{0.5, 0.5}).radiance;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(PbrtLightPictures, AProjectionStandsUpright) {
+  const std::string light = R"(LightSource "projection" "string filename" "corner.exr" "float fov" 90 "float scale" 2)";
+  const Parsed p = world(light);
+  EXPECT_TRUE(p.diagnostics.warnings().empty());
+  EXPECT_EQ(p.scene.lights[0].type, LightType::projection);
+  // Twice as wide as high: at distance 1 from -2 to 2 and from -1 to 1. The texel's middle is (1.5, 0.5); x is to the
+  // right of one who looks along z with y up.
+  expect_near(sent_to(light, {1.5, 0.5, 1}), Vec3d{2, 4, 6} / splat(3.5), 1e-9);
+  for (const Vec3d& dark : {Vec3d{-1.5, 0.5, 1}, {1.5, -0.5, 1}, {2.1, 0.5, 1}, {1.5, 1.1, 1}, {-1.5, -0.5, -1}})
+    EXPECT_TRUE(is_zero(sent_to(light, dark))) << dark.x << " " << dark.y << " " << dark.z;
+  expect_near(sent_to("Translate 1 2 3 " + light, {2.5, 2.5, 4}), Vec3d{2, 4, 6} / splat(3.5), 1e-9);
+  expect_near(sent_to("Rotate 90 0 1 0 " + light, {1, 0.5, -1.5}), Vec3d{2, 4, 6} / splat(3.5), 1e-9);
+}
+
+TEST_F(PbrtLightPictures, AGoniometricLightStandsUpright) {
+  const std::string light = R"(LightSource "goniometric" "string filename" "upper.exr" "rgb I" [ 5 6 7 ])";
+  const Parsed p = world(light);
+  EXPECT_TRUE(p.diagnostics.warnings().empty());
+  EXPECT_EQ(p.scene.lights[0].type, LightType::goniometric);
+  // The picture's z is the light's y; red and green of 3 are 2 in the mean of the channels.
+  expect_near(sent_to(light, {0, 2, 0}), Vec3d{10, 12, 14} / splat(4.0), 1e-6);
+  EXPECT_TRUE(is_zero(sent_to(light, {0, -2, 0})));
+  EXPECT_TRUE(is_zero(sent_to("Rotate 180 1 0 0 " + light, {0, 2, 0})));
+  EXPECT_TRUE(world("LightSource \"goniometric\" \"rgb I\" [ 1 1 1 ]").warned("alike in all directions"));
+}
+
+/// Integral of what is sent to a sphere of radius 1 is the power.
+TEST_F(PbrtLightPictures, PowerIsAllThatIsSent) {
+  for (const std::string light :
+       {R"(LightSource "goniometric" "string filename" "upper.exr" "float power" 10)",
+        R"(LightSource "projection" "string filename" "corner.exr" "float power" 10 "float fov" 60)",
+        R"(LightSource "projection" "string filename" "even.exr" "float power" 10 "float fov" 20)"}) {
+    const CompiledScene<double> scene = compiled_scene<double>(world(light).scene);
+    const double sent = integral_over_sphere(600, [&](const Vec3d& d) {
+      return luminance(sample_light(scene.view, d, Vec3d{}, 0.0, 0.0, Vec2d{0.5, 0.5}).radiance);
+    });
+    // Of a picture of few texels, interpolation between them moves light to where it counts otherwise.
+    EXPECT_NEAR(sent, 10, light.find("even") != std::string::npos ? 0.1 : 0.6) << light;
+  }
+}
+
+TEST_F(PbrtLightPictures, OfAreaLights) {
+  const std::string quad =
+      R"( Shape "trianglemesh" "point3 P" [ 0 0 0  4 0 0  4 2 0  0 2 0 ] "integer indices" [ 0 1 2 0 2 3 ]
+          "point2 uv" [ 0 0  1 0  1 1  0 1 ])";
+  const std::string light = R"(AreaLightSource "diffuse" "string filename" "corner.exr" "float scale" 3)";
+  const Parsed p = world(light + quad);
+  EXPECT_TRUE(p.diagnostics.warnings().empty());
+  const CompiledScene<double> scene = compiled_scene<double>(p.scene);
+  const Hit<double> hit{1, 0, 0, PrimitiveId(PrimitiveKind::triangle, 0)};
+  // The middle of the last texel of the top row is at (3.5, 1.5); v goes up the picture.
+  SurfaceInteraction<double> si = surface_interaction(scene.view, Ray<double>{{0, 0, 1}, {0, 0, -1}, 0}, hit);
+  const LightRecord<double>& lamp = scene.view.lights[0];
+  si.uv = {3.5 / 4, 1.5 / 2};
+  expect_near(convert<double>(lamp.radiance * emission_factor(scene.view, lamp, point_of_emission(si, hit))), {3, 6, 9},
+              1e-6);
+  si.uv = {3.5 / 4, 0.5 / 2};
+  EXPECT_TRUE(is_zero(emission_factor(scene.view, lamp, point_of_emission(si, hit))));
+  // What is sampled is what is met.
+  for (const Vec2d& u : {Vec2d{0.1, 0.2}, {0.7, 0.9}, {0.95, 0.4}}) {
+    const LightSample<double> s = sample_light(scene.view, Vec3d{1, 1, 5}, Vec3d{}, 0.0, 0.9, u);
+    si.uv = {s.point.x / 4, s.point.y / 2};
+    expect_near(s.radiance, emission_factor(scene.view, lamp, point_of_emission(si, hit)) * 3, 1e-6);
+  }
+  // pi times the area times the mean luminance of the picture is the power.
+  const Parsed powered = world(R"(AreaLightSource "diffuse" "string filename" "even.exr" "float power" 10)" + quad);
+  EXPECT_NEAR(shapes(powered)[0].emission->radiance.x, 10 / (pi<double> * 8 * 2), 1e-9);
+}
+
+TEST_F(PbrtLightPictures, Errors) {
+  const std::string goniometric = "LightSource \"goniometric\" \"string filename\" ";
+  const std::string projection = "LightSource \"projection\" ";
+  struct Case {
+    std::string text, place, message;
+  };
+  for (const Case& c :
+       {Case{goniometric + "\"no.exr\"", "2:27", "there is no file"},
+        {goniometric + "\"corner.exr\"", "2:27", "square"},
+        {goniometric + "\"endless.exr\"", "2:27", "infinite"},
+        {goniometric + "\"dark.exr\" \"float power\" 3", "2:56", "black"},
+        {projection, "2:1", "filename"},
+        {projection + "\"string filename\" \"even.exr\" \"float fov\" 180", "2:55", "fov"},
+        {"AreaLightSource \"diffuse\" \"string filename\" \"no.exr\"", "2:27", "there is no file"},
+        {"AreaLightSource \"diffuse\" \"string filename\" \"dark.exr\" \"float power\" 1", "2:27", "black"}}) {
+    const std::string message = error(c.text);
+    EXPECT_NE(message.find("test.pbrt:" + c.place + ":"), std::string::npos) << message;
+    EXPECT_NE(message.find(c.message), std::string::npos) << message;
+  }
+  EXPECT_NE(error_of("Integrator \"path\" \"string lightsampler\" \"none\"").find("unknown light sampler"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace alhazen::test
