@@ -71,20 +71,6 @@ FilterRecord<Real> filter_record(const Filter& filter, std::vector<Real>& table)
   return record;
 }
 
-CameraKind kind_of(CameraType type) {
-  switch (type) {
-    case CameraType::perspective:
-      return CameraKind::perspective;
-    case CameraType::orthographic:
-      return CameraKind::orthographic;
-    case CameraType::equirectangular:
-      return CameraKind::equirectangular;
-    case CameraType::equal_area:
-      return CameraKind::equal_area;
-  }
-  return CameraKind::perspective;
-}
-
 /// Rays of a camera that is not finite would not be either.
 template <class Real>
 void check_camera(const Scene& scene, const CameraRecord<Real>& camera) {
@@ -131,9 +117,9 @@ void compile_camera(const Scene& scene, int64_t width, int64_t height, SceneArra
   if (camera.screen_window) window = *camera.screen_window;
   double scale = std::tan(camera.fov * std::numbers::pi / 360);
   CameraRecord<Real>& record = view.camera;
-  record.kind = kind_of(camera.type);
-  if (camera.type == CameraType::orthographic) scale = 1;
-  const bool sees_all = camera.type == CameraType::equirectangular || camera.type == CameraType::equal_area;
+  record.kind = camera.kind;
+  if (camera.kind == CameraKind::orthographic) scale = 1;
+  const bool sees_all = camera.kind == CameraKind::equirectangular || camera.kind == CameraKind::equal_area;
   if (sees_all) {
     scale = 1;
     window = {0, 1, 1, 0};
@@ -151,7 +137,7 @@ void compile_camera(const Scene& scene, int64_t width, int64_t height, SceneArra
   record.inverse_scale = static_cast<Real>(1 / axis);
   const double pixel = std::abs((window[1] - window[0]) * (window[3] - window[2])) * scale * scale /
                        (static_cast<double>(width) * static_cast<double>(height));
-  const double unit = sees_all ? 4 * std::numbers::pi : camera.type == CameraType::orthographic ? axis * axis : 1;
+  const double unit = sees_all ? 4 * std::numbers::pi : camera.kind == CameraKind::orthographic ? axis * axis : 1;
   record.footprint = static_cast<Real>(pixel * unit / 4);
   check_camera(scene, record);
   view.filter = filter_record(scene.filter, out.filter_cdf);

@@ -47,7 +47,7 @@ template <class Real>
 double add_light_picture(const Light& light, Scene& scene, SceneArrays<Real>& out) {
   if (light.picture >= scene.light_pictures.size()) throw InputError(light.where, "the light names no picture");
   ImageTexels& picture = scene.light_pictures[light.picture];
-  const bool is_sphere = light.type == LightType::goniometric;
+  const bool is_sphere = light.kind == LightKind::goniometric;
   if (picture.width < 1 || picture.height < 1 || (is_sphere && picture.width != picture.height) ||
       picture.floats.size() != 3 * static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height))
     throw InputError(light.where, "the picture of a light does not hold three values a texel, or is not square");
@@ -88,38 +88,33 @@ void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>&
     if (!is_finite(light.radiance) || !is_finite(light.position) || !is_finite(light.direction))
       throw InputError(light.where, "the light has a value that is not finite");
     LightRecord<Real> record{};
+    record.kind = light.kind;
     record.radiance = convert<Real>(light.radiance);
     record.position = convert<Real>(light.position);
     record.direction = convert<Real>(light.direction);
     if (!is_finite(record.radiance) || !is_finite(record.position))
       throw InputError(light.where, "the light is too bright or too far away for this precision");
-    switch (light.type) {
-      case LightType::constant_infinite:
+    switch (light.kind) {
+      case LightKind::constant_infinite:
         background += light.radiance;
         continue;
-      case LightType::environment:
+      case LightKind::environment:
         add_environment(light, scene, out);
         measures.resize(out.lights.size());
         continue;
-      case LightType::goniometric:
-      case LightType::projection:
+      case LightKind::goniometric:
+      case LightKind::projection:
         if (is_zero(light.radiance)) continue;
-        record.kind = light.type == LightType::goniometric ? LightKind::goniometric : LightKind::projection;
         record.primitive = static_cast<uint32_t>(out.light_pictures.size());
         record.direction = convert<Real>(light.axes.normal);
         measures.push_back(add_light_picture(light, scene, out));
         out.lights.push_back(record);
         continue;
-      case LightType::point:
-        record.kind = LightKind::point;
-        break;
-      case LightType::distant:
-        record.kind = LightKind::distant;
-        break;
-      case LightType::spot:
-        record.kind = LightKind::spot;
+      case LightKind::spot:
         record.cos_outer = static_cast<Real>(cos_degrees(light.cone_angle));
         record.cos_inner = static_cast<Real>(cos_degrees(std::min(light.falloff_start, light.cone_angle)));
+        break;
+      default:
         break;
     }
     if (!is_zero(light.radiance)) out.lights.push_back(record);

@@ -255,18 +255,18 @@ class LostLightSearch {
 };
 
 bool has_no_size(const Light& light) {
-  return light.type != LightType::constant_infinite && light.type != LightType::environment && !is_zero(light.radiance);
+  return light.kind != LightKind::constant_infinite && light.kind != LightKind::environment && !is_zero(light.radiance);
 }
 
-const char* name_of(LightType type) {
-  switch (type) {
-    case LightType::spot:
+const char* name_of(LightKind kind) {
+  switch (kind) {
+    case LightKind::spot:
       return "spot light";
-    case LightType::distant:
+    case LightKind::distant:
       return "distant light";
-    case LightType::goniometric:
+    case LightKind::goniometric:
       return "goniometric light";
-    case LightType::projection:
+    case LightKind::projection:
       return "projection light";
     default:
       return "point light";

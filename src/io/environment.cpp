@@ -71,10 +71,10 @@ void use_environment(Scene& scene, const InputPath& path) {
   const std::string fault = environment_fault(map);
   if (!fault.empty()) throw InputError({path.name}, fault);
   std::erase_if(scene.lights, [](const Light& light) {
-    return light.type == LightType::constant_infinite || light.type == LightType::environment;
+    return light.kind == LightKind::constant_infinite || light.kind == LightKind::environment;
   });
   Light light;
-  light.type = LightType::environment;
+  light.kind = LightKind::environment;
   light.radiance = {1, 1, 1};
   light.environment = 0;
   // The map's middle is its -x; what is left of it, its +y, is on the camera's left.

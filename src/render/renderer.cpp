@@ -309,7 +309,7 @@ Rendering render_scene(Scene&& scene, const RenderSettings& settings, double loa
                        Diagnostics& diagnostics) {
   if (settings.integrator != IntegratorKind::path)
     for (const Light& light : scene.lights)
-      if (light.type != LightType::constant_infinite && light.type != LightType::environment)
+      if (light.kind != LightKind::constant_infinite && light.kind != LightKind::environment)
         diagnostics.warn(light.where, "lights without size cannot be met by chance: the integrator '" +
                                           to_string(settings.integrator) + "' does not show them; 'path' does");
   Rendering rendering =

@@ -49,20 +49,6 @@ std::string name_of(const Named<Value> (&table)[count], Value value) {
   return {};
 }
 
-IntegratorKind kind_of(IntegratorType type) {
-  switch (type) {
-    case IntegratorType::branching:
-      return IntegratorKind::branching;
-    case IntegratorType::recursive:
-      return IntegratorKind::recursive;
-    case IntegratorType::iterative:
-      return IntegratorKind::iterative;
-    case IntegratorType::path:
-      return IntegratorKind::path;
-  }
-  return IntegratorKind::path;
-}
-
 int64_t in_range(int64_t value, int64_t low, int64_t high, const std::string& what) {
   if (value < low || value > high)
     throw InputError(what + " must be between " + std::to_string(low) + " and " + std::to_string(high) + ", not " +
@@ -183,8 +169,7 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   RenderSettings s;
   resolve_picture(asked, scene, s);
   s.precision = by_name(precisions, asked.precision, "precision");
-  s.integrator =
-      asked.integrator.empty() ? kind_of(scene.integrator) : by_name(integrators, asked.integrator, "integrator");
+  s.integrator = asked.integrator.empty() ? scene.integrator : by_name(integrators, asked.integrator, "integrator");
   s.sampler = asked.sampler.empty() ? scene.sampler : by_name(samplers, asked.sampler, "sampler");
   s.samples_per_pixel =
       static_cast<uint32_t>(in_range(asked.samples_per_pixel ? asked.samples_per_pixel : scene.samples_per_pixel, 1,

@@ -11,6 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "core/cameras/camera_kind.h"
+#include "core/integrators/integrator_kind.h"
+#include "core/lights/light_kind.h"
 #include "core/math/frame.h"
 #include "core/math/vec.h"
 #include "core/sampling/any_sampler.h"
@@ -206,18 +209,11 @@ struct Instance {
   SourceLocation where;
 };
 
-enum class LightType {
-  constant_infinite,  ///< `radiance` from every direction
-  environment,        ///< `radiance` is a factor on the map `environment`, from every direction
-  point,              ///< `radiance` is intensity, W / sr, at `position`
-  distant,            ///< `radiance` is irradiance at normal incidence, W / m^2, travelling along `direction`
-  spot,               ///< as point, about `direction`, falling off from `cone_falloff_start` to `cone_angle`
-  goniometric,        ///< as point, times `picture`, a square equal-area octahedral one, whose axes are `axes`
-  projection,         ///< as point, times `picture`, thrown along z of `axes`; x is to the right of it, y up
-};
-
+/// A light that is no shape: of any kind but triangle, sphere and moving_sphere.
 struct Light {
-  LightType type = LightType::constant_infinite;
+  LightKind kind = LightKind::constant_infinite;
+  /// constant_infinite: radiance; environment: a factor on the map; distant: irradiance at normal incidence, W / m^2;
+  /// the others: intensity, W / sr.
   Vec3d radiance;
   Vec3d position;                                       ///< world space
   Vec3d direction{0, 0, 1};                             ///< world space, unit length, the way the light travels
@@ -237,13 +233,6 @@ enum class LightSampling {
   tree,       ///< by a light tree
 };
 
-enum class CameraType {
-  perspective,
-  orthographic,     ///< rays go along z; the screen window is in units of camera space
-  equirectangular,  ///< the whole sphere about the camera: as pbrt's spherical camera, y is up
-  equal_area        ///< the same by the octahedral mapping
-};
-
 struct Camera {
   /// Camera space as in pbrt: x right, y up, z into the scene.
   MovingTransform world_from_camera;
@@ -255,7 +244,7 @@ struct Camera {
   double lens_radius = 0;
   double focal_distance = 1e6;
   double shutter_open = 0, shutter_close = 1;
-  CameraType type = CameraType::perspective;
+  CameraKind kind = CameraKind::perspective;
 };
 
 struct FilmSettings {
@@ -278,8 +267,6 @@ struct Filter {
   double tau = 3;                         ///< sinc
 };
 
-enum class IntegratorType { branching, recursive, iterative, path };
-
 /// The whole description. A reader fills it; `compile` (compile/compile_scene.h) turns it into what integrators see.
 struct Scene {
   std::string name;  ///< the file it came from
@@ -289,7 +276,7 @@ struct Scene {
   SamplerType sampler = SamplerType::sobol;
   int64_t samples_per_pixel = 16;
   uint32_t seed = 0;
-  IntegratorType integrator = IntegratorType::path;
+  IntegratorKind integrator = IntegratorKind::path;
   /// What the file asks for where `path` stands in for an integrator that finds more; else empty.
   std::string replaced_integrator;
   int64_t max_depth = 5;  ///< bounces, as pbrt counts them

@@ -17,7 +17,7 @@ Scene cloud_of_spheres(uint64_t count, bool is_glass) {
   Scene scene;
   scene.name = std::to_string(count) + " spheres";
   scene.film.width = scene.film.height = 400;
-  scene.integrator = IntegratorType::iterative;
+  scene.integrator = IntegratorKind::iterative;
   scene.max_depth = 9;
   const Transform camera = Transform::look_at({0, 0, -5}, {0, 0, 0}, {0, 1, 0}).inverse();
   scene.camera.world_from_camera = {camera, camera};

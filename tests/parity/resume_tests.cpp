@@ -138,7 +138,7 @@ TEST_P(Resume, RefusesAnotherScene) {
   }));
   EXPECT_TRUE(refused([](Scene& s) {
     Light light;
-    light.type = LightType::point;
+    light.kind = LightKind::point;
     light.radiance = {1, 1, 1};
     light.position = {0, 1, 0};
     s.lights.push_back(light);
@@ -148,7 +148,7 @@ TEST_P(Resume, RefusesAnotherScene) {
 TEST_P(Resume, KnowsLightsByTheirPlaces) {
   Scene lit = scene();
   Light light;
-  light.type = LightType::point;
+  light.kind = LightKind::point;
   light.radiance = {1, 1, 1};
   light.position = {0, 1, 0};
   lit.lights.push_back(light);

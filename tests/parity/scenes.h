@@ -43,9 +43,9 @@ inline Scene read_lights() {
   Scene scene = test::with_emission_texture(scene_of(R"(Film "rgb" "integer xresolution" 20 "integer yresolution" 17
 )" + test::room_of_lights(40, true, 0.4) + R"(LightSource "infinite" "rgb L" [ 0.1 0.2 0.3 ]
 LightSource "distant" "point3 from" [ 1 2 3 ])"));
-  for (const LightType type : {LightType::goniometric, LightType::projection}) {
+  for (const LightKind kind : {LightKind::goniometric, LightKind::projection}) {
     Light light;
-    light.type = type;
+    light.kind = kind;
     light.radiance = splat(0.5);
     light.position = {0.5, 1, -2};
     light.axes = test::map_askew();

@@ -55,7 +55,7 @@ inline Frame<double> map_askew() {
 /// Adds a map to the lights of a scene.
 inline Scene lit_by(Scene scene, ImageTexels map, const Frame<double>& axes = map_as_world, double scale = 1) {
   Light light;
-  light.type = LightType::environment;
+  light.kind = LightKind::environment;
   light.radiance = splat(scale);
   light.axes = axes;
   light.environment = static_cast<uint32_t>(scene.environments.size());

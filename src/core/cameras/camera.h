@@ -2,14 +2,13 @@
 
 // Cameras: perspective and orthographic with a thin lens, and those that see the whole sphere.
 
+#include "core/cameras/camera_kind.h"
 #include "core/lights/sphere_mapping.h"
 #include "core/math/ray.h"
 #include "core/math/vec.h"
 #include "core/sampling/warp.h"
 
 namespace ALHAZEN_CORE {
-
-enum class CameraKind : uint32_t { perspective, orthographic, equirectangular, equal_area };
 
 template <class Real>
 struct CameraRecord {

@@ -5,13 +5,12 @@
 #include <type_traits>
 
 #include "core/integrators/branching.h"
+#include "core/integrators/integrator_kind.h"
 #include "core/integrators/iterative.h"
 #include "core/integrators/path.h"
 #include "core/integrators/recursive.h"
 
 namespace ALHAZEN_CORE {
-
-enum class IntegratorKind : uint32_t { branching, recursive, iterative, path };
 
 template <class Real>
 struct CameraSample {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "core/lights/light_kind.h"
 #include "core/lights/sphere_mapping.h"
 #include "core/math/frame.h"
 #include "core/math/vec.h"
@@ -11,19 +12,6 @@
 #include "core/textures/texture_record.h"
 
 namespace ALHAZEN_CORE {
-
-enum class LightKind : uint32_t {
-  triangle,
-  sphere,
-  moving_sphere,
-  point,
-  spot,
-  distant,
-  constant_infinite,
-  environment,
-  goniometric,  ///< a point light whose intensity is that of a picture of all directions
-  projection    ///< a point light that throws a picture
-};
 
 template <class Real>
 struct LightRecord {

@@ -52,7 +52,7 @@ void set_orthographic(const Document& document, const Json& description, Scene& 
   const double y = std::abs(document.number(description, "ymag", 0));
   if (!(x > 0 && y > 0 && x < 1e9 * y && y < 1e9 * x))
     document.fail(description, "\"xmag\" and \"ymag\" must be above 0");
-  scene.camera.type = CameraType::orthographic;
+  scene.camera.kind = CameraKind::orthographic;
   // By the scale of the camera and not by a window, so that pictures of another shape are not stretched.
   scene.camera.world_from_camera.start = Transform::scale(splat(std::min(x, y)));
   if (x / y < 1e4 && y / x < 1e4) set_film(x / y, scene.film);

@@ -105,7 +105,7 @@ void add_neutral_light(Scene& scene) {
       for (int c = 0; c < 3; ++c) map.floats.push_back(static_cast<float>(sky));
     }
   Light light;
-  light.type = LightType::environment;
+  light.kind = LightKind::environment;
   light.radiance = {1, 1, 1};
   light.environment = static_cast<uint32_t>(scene.environments.size());
   // x, y, z of the map in the world: a rotation that takes z to y.

@@ -27,15 +27,15 @@ Light read_light(const Document& document, const Json& description, const Matrix
   Light light;
   const std::string type = document.string(description, "type");
   if (type == "point")
-    light.type = LightType::point;
+    light.kind = LightKind::point;
   else if (type == "directional")
-    light.type = LightType::distant;
+    light.kind = LightKind::distant;
   else if (type == "spot")
-    light.type = LightType::spot;
+    light.kind = LightKind::spot;
   else
     document.fail(description,
                   "unknown \"type\" " + quoted(type) + " of a light: it may be point, directional or spot");
-  if (light.type == LightType::spot) set_cone(document, description, light);
+  if (light.kind == LightKind::spot) set_cone(document, description, light);
   const Vec3d colour = document.vec3(description, "color", {1, 1, 1});
   const double intensity = document.number(description, "intensity", 1);
   if (intensity < 0 || std::min({colour.x, colour.y, colour.z}) < 0)

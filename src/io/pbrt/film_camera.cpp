@@ -95,7 +95,7 @@ void read_perspective(Build&, ParameterList& list, Camera& camera) {
 }
 
 void read_orthographic(Build&, ParameterList& list, Camera& camera) {
-  camera.type = CameraType::orthographic;
+  camera.kind = CameraKind::orthographic;
   read_window(list, camera);
   read_lens(list, camera);
 }
@@ -104,7 +104,7 @@ void read_spherical(Build&, ParameterList& list, Camera& camera) {
   const std::string mapping = list.string("mapping", "equalarea");
   if (mapping != "equalarea" && mapping != "equirectangular")
     fail(list.place_of("mapping"), "unknown mapping of a camera \"" + mapping + "\"; use equalarea or equirectangular");
-  camera.type = mapping == "equalarea" ? CameraType::equal_area : CameraType::equirectangular;
+  camera.kind = mapping == "equalarea" ? CameraKind::equal_area : CameraKind::equirectangular;
   list.ignore({"frameaspectratio", "screenwindow", "lensradius", "focaldistance"});
 }
 

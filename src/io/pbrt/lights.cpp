@@ -39,7 +39,7 @@ Vec3d direction_of_light(const Build& build, ParameterList& list, const Vec3d& f
 
 Light read_point(Build& build, ParameterList& list) {
   Light light;
-  light.type = LightType::point;
+  light.kind = LightKind::point;
   light.radiance = emitted_colour(build, list, "I") * power_factor(list, 4 * pi);
   light.position = build.state.ctm_start.point(list.point("from", {}));
   return light;
@@ -47,7 +47,7 @@ Light read_point(Build& build, ParameterList& list) {
 
 Light read_distant(Build& build, ParameterList& list) {
   Light light;
-  light.type = LightType::distant;
+  light.kind = LightKind::distant;
   light.radiance = emitted_colour(build, list, "L");
   const double illuminance = list.number("illuminance", -1);
   if (illuminance > 0) light.radiance *= illuminance;
@@ -58,7 +58,7 @@ Light read_distant(Build& build, ParameterList& list) {
 
 Light read_spot(Build& build, ParameterList& list) {
   Light light;
-  light.type = LightType::spot;
+  light.kind = LightKind::spot;
   light.cone_angle = list.number("coneangle", 30);
   light.falloff_start = light.cone_angle - list.number("conedeltaangle", 5);
   if (!(light.cone_angle > 0 && light.cone_angle <= 180))
@@ -97,7 +97,7 @@ Light read_environment_light(Build& build, ParameterList& list, const std::strin
   const std::string fault = environment_fault(map);
   if (!fault.empty()) fail(list.place_of("filename"), "\"" + name + "\" cannot light the scene: " + fault);
   Light light;
-  light.type = LightType::environment;
+  light.kind = LightKind::environment;
   double scale = list.number("scale", 1);
   if (!(scale >= 0)) fail(list.place_of("scale"), "\"scale\" of a picture must not be below 0");
   const double illuminance = list.number("illuminance", -1);
@@ -175,7 +175,7 @@ Light read_goniometric(Build& build, ParameterList& list) {
          "\"" + name + "\" has " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
              " pixels; the picture of a goniometric light is square (equal-area octahedral)");
   Light light;
-  light.type = LightType::goniometric;
+  light.kind = LightKind::goniometric;
   const double texels = static_cast<double>(picture.width) * picture.height;
   const double mean = weighted_luminance(picture, [](int, int) { return 1; }) / texels;
   light.radiance = emitted_colour(build, list, "I") * picture_power_factor(list, 4 * pi * mean);
@@ -191,7 +191,7 @@ Light read_projection(Build& build, ParameterList& list) {
   const std::string name = list.string("filename", "");
   if (name.empty()) fail(list.place(), list.directive() + " needs a \"filename\": the picture that it throws");
   Light light;
-  light.type = LightType::projection;
+  light.kind = LightKind::projection;
   light.fov = list.number("fov", 90);
   if (!(light.fov > 0 && light.fov < 180)) fail(list.place_of("fov"), "\"fov\" must be over 0 and under 180 degrees");
   ImageTexels picture = read_light_picture(build, list, name, false);

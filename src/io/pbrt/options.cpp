@@ -23,7 +23,7 @@ const Value& known_kind(const std::map<std::string, Value>& kinds, const std::st
 
 /// What stands in for an integrator of pbrt-v4, and what to say where the picture is another one for it.
 struct IntegratorReplacement {
-  IntegratorType type = IntegratorType::path;
+  IntegratorKind type = IntegratorKind::path;
   const char* difference = nullptr;
   bool finds_more = false;  ///< follows paths from lights too, and so finds caustics of lights without size
 };
@@ -41,13 +41,13 @@ const std::map<std::string, IntegratorReplacement> integrators{
     {"mlt", from_lights_too},
     {"sppm", from_lights_too},
     {"lightpath", from_lights_too},
-    {"simplevolpath", {IntegratorType::path, "\"path\" is used instead, without the media"}},
-    {"ambientocclusion", {IntegratorType::path, other_quantity}},
-    {"ao", {IntegratorType::path, other_quantity}},
-    {"function", {IntegratorType::path, other_quantity}},
-    {"branching", {IntegratorType::branching}},
-    {"recursive", {IntegratorType::recursive}},
-    {"iterative", {IntegratorType::iterative}}};
+    {"simplevolpath", {IntegratorKind::path, "\"path\" is used instead, without the media"}},
+    {"ambientocclusion", {IntegratorKind::path, other_quantity}},
+    {"ao", {IntegratorKind::path, other_quantity}},
+    {"function", {IntegratorKind::path, other_quantity}},
+    {"branching", {IntegratorKind::branching}},
+    {"recursive", {IntegratorKind::recursive}},
+    {"iterative", {IntegratorKind::iterative}}};
 
 const std::map<std::string, SamplerType> samplers{
     {"independent", SamplerType::independent}, {"halton", SamplerType::sobol}, {"sobol", SamplerType::sobol},

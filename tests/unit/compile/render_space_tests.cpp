@@ -42,7 +42,7 @@ std::vector<Vec3d> places(const Scene& scene) {
   for (const Shape& shape : scene.groups[0].shapes) all.push_back(shape.world_from_object.start.point({}) - camera);
   for (const Instance& instance : scene.instances) all.push_back(instance.world_from_group.end.point({}) - camera);
   for (const Light& light : scene.lights)
-    if (light.type != LightType::distant) all.push_back(light.position - camera);
+    if (light.kind != LightKind::distant) all.push_back(light.position - camera);
   for (const Texture& texture : scene.textures)
     if (texture.kind == TextureKind::marble) all.push_back(texture.texture_from_world.point(camera));
   return all;

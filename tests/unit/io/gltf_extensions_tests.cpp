@@ -27,7 +27,7 @@ TEST(GltfVisibility, HidesNodesWithWhatIsBelowThem) {
   ASSERT_EQ(parsed.shapes().size(), 1u);
   expect_point(parsed.shapes()[0].world_from_object.start.point({0, 0, 0}), {5, 0, 0});
   ASSERT_EQ(parsed.scene.lights.size(), 1u);
-  EXPECT_EQ(parsed.scene.lights[0].type, LightType::environment);
+  EXPECT_EQ(parsed.scene.lights[0].kind, LightKind::environment);
   EXPECT_TRUE(parsed.diagnostics.warnings().empty());
 }
 

@@ -287,11 +287,11 @@ TEST(GltfLights, ReadPunctualLights) {
   const ParsedGltf parsed = file.parse();
   // The last is the neutral light, which whatever has no camera gets too.
   ASSERT_EQ(parsed.scene.lights.size(), 4u);
-  EXPECT_EQ(parsed.scene.lights[3].type, LightType::environment);
-  EXPECT_EQ(parsed.scene.lights[0].type, LightType::point);
+  EXPECT_EQ(parsed.scene.lights[3].kind, LightKind::environment);
+  EXPECT_EQ(parsed.scene.lights[0].kind, LightKind::point);
   expect_point(parsed.scene.lights[0].radiance, {10, 5, 0});
   expect_point(parsed.scene.lights[0].position, {1, 2, 3});
-  EXPECT_EQ(parsed.scene.lights[1].type, LightType::distant);
+  EXPECT_EQ(parsed.scene.lights[1].kind, LightKind::distant);
   // -z, turned by a quarter about y.
   expect_point(parsed.scene.lights[1].direction, {-1, 0, 0});
   EXPECT_NEAR(parsed.scene.lights[2].cone_angle, 0.2 * 180 / std::numbers::pi, 1e-9);
@@ -303,7 +303,7 @@ TEST(GltfLights, LightWhatHasNoLights) {
   file.add_node({{"mesh", file.add_mesh(file.triangle())}});
   const ParsedGltf parsed = file.parse();
   ASSERT_EQ(parsed.scene.lights.size(), 1u);
-  EXPECT_EQ(parsed.scene.lights[0].type, LightType::environment);
+  EXPECT_EQ(parsed.scene.lights[0].kind, LightKind::environment);
   EXPECT_EQ(parsed.scene.environments.size(), 1u);
 }
 
@@ -327,17 +327,17 @@ TEST(GltfCameras, ReadPerspectiveAndOrthographicOnes) {
   EXPECT_EQ(first.scene.film.height, 1280);
   // Over the width, which is the shorter side.
   EXPECT_NEAR(camera.fov, 2 * std::atan(0.5 * std::tan(0.25)) * 180 / std::numbers::pi, 1e-9);
-  EXPECT_EQ(camera.type, CameraType::perspective);
+  EXPECT_EQ(camera.kind, CameraKind::perspective);
   options.camera = "flat";
   const ParsedGltf second = file.parse(options);
-  EXPECT_EQ(second.scene.camera.type, CameraType::orthographic);
+  EXPECT_EQ(second.scene.camera.kind, CameraKind::orthographic);
   expect_point(second.scene.camera.world_from_camera.start.point({0, 0, 0}), {0, 7, 0});
   // A window of [-1, 1] over the height reaches ymag.
   expect_point(second.scene.camera.world_from_camera.start.direction({0, 1, 0}), {0, 2, 0});
   EXPECT_EQ(second.scene.film.width, 1280);
   EXPECT_EQ(second.scene.film.height, 640);
   options.camera = "1";
-  EXPECT_EQ(file.parse(options).scene.camera.type, CameraType::orthographic);
+  EXPECT_EQ(file.parse(options).scene.camera.kind, CameraKind::orthographic);
   options.camera = "7";
   EXPECT_NE(file.error(options).find("no camera '7'; it may be one of 0 'front', 1 'flat'"), std::string::npos);
   options.camera = "\x1b[31m\u00e9";

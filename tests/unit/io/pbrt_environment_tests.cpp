@@ -52,7 +52,7 @@ TEST_F(PbrtEnvironment, PicturesAreRead) {
   const Parsed p = infinite("\"string filename\" \"sun.exr\" \"float scale\" 3");
   EXPECT_TRUE(p.diagnostics.warnings().empty());
   const Light& light = p.scene.lights.at(0);
-  EXPECT_EQ(light.type, LightType::environment);
+  EXPECT_EQ(light.kind, LightKind::environment);
   EXPECT_EQ(light.radiance, splat(3.0));
   EXPECT_EQ(light.where.line, 2);
   const ImageTexels& map = p.scene.environments.at(light.environment);
@@ -124,7 +124,7 @@ TEST_F(PbrtEnvironment, APortalIsNotUsed) {
   const Parsed p = infinite("\"string filename\" \"wide.exr\" \"point3 portal\" [ 0 0 0 1 0 0 1 1 0 0 1 0 ]");
   ASSERT_EQ(p.diagnostics.warnings().size(), 1u);
   EXPECT_TRUE(p.warned("portal"));
-  EXPECT_EQ(p.scene.lights.at(0).type, LightType::environment);
+  EXPECT_EQ(p.scene.lights.at(0).kind, LightKind::environment);
 }
 
 TEST_F(PbrtEnvironment, SeveralInfiniteLightsStayThatMany) {

@@ -56,7 +56,7 @@ TEST_F(PbrtLightPictures, AProjectionStandsUpright) {
   const std::string light = R"(LightSource "projection" "string filename" "corner.exr" "float fov" 90 "float scale" 2)";
   const Parsed p = world(light);
   EXPECT_TRUE(p.diagnostics.warnings().empty());
-  EXPECT_EQ(p.scene.lights[0].type, LightType::projection);
+  EXPECT_EQ(p.scene.lights[0].kind, LightKind::projection);
   // Twice as wide as high: at distance 1 from -2 to 2 and from -1 to 1. The texel's middle is (1.5, 0.5); x is to the
   // right of one who looks along z with y up.
   expect_near(sent_to(light, {1.5, 0.5, 1}), Vec3d{2, 4, 6} / splat(3.5), 1e-9);
@@ -70,7 +70,7 @@ TEST_F(PbrtLightPictures, AGoniometricLightStandsUpright) {
   const std::string light = R"(LightSource "goniometric" "string filename" "upper.exr" "rgb I" [ 5 6 7 ])";
   const Parsed p = world(light);
   EXPECT_TRUE(p.diagnostics.warnings().empty());
-  EXPECT_EQ(p.scene.lights[0].type, LightType::goniometric);
+  EXPECT_EQ(p.scene.lights[0].kind, LightKind::goniometric);
   // The picture's z is the light's y; red and green of 3 are 2 in the mean of the channels.
   expect_near(sent_to(light, {0, 2, 0}), Vec3d{10, 12, 14} / splat(4.0), 1e-6);
   EXPECT_TRUE(is_zero(sent_to(light, {0, -2, 0})));

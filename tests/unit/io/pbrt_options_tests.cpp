@@ -23,7 +23,7 @@ TEST(PbrtOptions, DefaultsAreThoseOfPbrt) {
   EXPECT_EQ(p.scene.filter.type, FilterType::gaussian);
   EXPECT_EQ(p.scene.samples_per_pixel, 16);
   EXPECT_EQ(p.scene.max_depth, 5);
-  EXPECT_EQ(p.scene.integrator, IntegratorType::path);
+  EXPECT_EQ(p.scene.integrator, IntegratorKind::path);
   EXPECT_TRUE(p.diagnostics.warnings().empty());
 }
 
@@ -69,12 +69,12 @@ TEST(PbrtOptions, Camera) {
 
 TEST(PbrtOptions, OtherCameras) {
   const Parsed p = parse_options("Camera \"spherical\" \"string mapping\" \"equirectangular\"");
-  EXPECT_EQ(p.scene.camera.type, CameraType::equirectangular);
-  EXPECT_EQ(parse_options("Camera \"spherical\"").scene.camera.type, CameraType::equal_area);
+  EXPECT_EQ(p.scene.camera.kind, CameraKind::equirectangular);
+  EXPECT_EQ(parse_options("Camera \"spherical\"").scene.camera.kind, CameraKind::equal_area);
   const Parsed orthographic = parse_options(
       "Camera \"orthographic\" \"float screenwindow\" [ -1 2 -3 4 ] \"float lensradius\" 0.5 \"float focaldistance\" "
       "2");
-  EXPECT_EQ(orthographic.scene.camera.type, CameraType::orthographic);
+  EXPECT_EQ(orthographic.scene.camera.kind, CameraKind::orthographic);
   EXPECT_EQ(*orthographic.scene.camera.screen_window, (std::array<double, 4>{-1, 2, -3, 4}));
   EXPECT_EQ(orthographic.scene.camera.lens_radius, 0.5);
   EXPECT_EQ(orthographic.scene.camera.focal_distance, 2);
@@ -138,15 +138,15 @@ TEST(PbrtOptions, Samplers) {
 TEST(PbrtOptions, Integrators) {
   for (const std::string kind : {"path", "volpath", "bdpt", "mlt", "sppm", "simplepath", "randomwalk", "lightpath"}) {
     const Parsed p = parse_options("Integrator \"" + kind + "\" \"integer maxdepth\" 7");
-    EXPECT_EQ(p.scene.integrator, IntegratorType::path);
+    EXPECT_EQ(p.scene.integrator, IntegratorKind::path);
     EXPECT_EQ(p.scene.max_depth, 7);
     EXPECT_TRUE(p.diagnostics.warnings().empty()) << kind;
   }
   EXPECT_TRUE(parse_options("Integrator \"ambientocclusion\"").warned("ambientocclusion"));
   EXPECT_TRUE(parse_options("Integrator \"path\" \"bool regularize\" true").warned("regularize"));
-  EXPECT_EQ(parse_options("Integrator \"branching\"").scene.integrator, IntegratorType::branching);
-  EXPECT_EQ(parse_options("Integrator \"recursive\"").scene.integrator, IntegratorType::recursive);
-  EXPECT_EQ(parse_options("Integrator \"iterative\"").scene.integrator, IntegratorType::iterative);
+  EXPECT_EQ(parse_options("Integrator \"branching\"").scene.integrator, IntegratorKind::branching);
+  EXPECT_EQ(parse_options("Integrator \"recursive\"").scene.integrator, IntegratorKind::recursive);
+  EXPECT_EQ(parse_options("Integrator \"iterative\"").scene.integrator, IntegratorKind::iterative);
 }
 
 TEST(PbrtOptions, EmptyScenesAreWarnedOf) {

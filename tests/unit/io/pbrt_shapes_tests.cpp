@@ -253,7 +253,7 @@ TEST(PbrtLights, Point) {
       "Translate 1 0 0 LightSource \"point\" \"point3 from\" [ 0 2 0 ] \"rgb I\" [ 1 2 3 ] "
       "\"float scale\" 2 \"float power\" 10");
   const Light& light = p.scene.lights.at(0);
-  EXPECT_EQ(light.type, LightType::point);
+  EXPECT_EQ(light.kind, LightKind::point);
   expect_near(light.position, {1, 2, 0});
   expect_near(light.radiance, Vec3d{2, 4, 6} * (10 / (4 * pi)));
   EXPECT_EQ(light.where.line, 2);
@@ -274,7 +274,7 @@ TEST(PbrtLights, Spot) {
       "LightSource \"spot\" \"point3 from\" [ 0 0 5 ] \"point3 to\" [ 0 0 1 ] "
       "\"float coneangle\" 40 \"float conedeltaangle\" 10 \"float power\" 1");
   const Light& light = p.scene.lights.at(0);
-  EXPECT_EQ(light.type, LightType::spot);
+  EXPECT_EQ(light.kind, LightKind::spot);
   expect_near(light.direction, {0, 0, -1});
   EXPECT_EQ(light.cone_angle, 40);
   EXPECT_EQ(light.falloff_start, 30);
@@ -286,7 +286,7 @@ TEST(PbrtLights, Infinite) {
   const Parsed p = parse_world(
       "LightSource \"infinite\" \"rgb L\" [ 1 2 3 ] \"float scale\" 2\n"
       "LightSource \"infinite\" \"float illuminance\" 10");
-  EXPECT_EQ(p.scene.lights[0].type, LightType::constant_infinite);
+  EXPECT_EQ(p.scene.lights[0].kind, LightKind::constant_infinite);
   expect_near(p.scene.lights[0].radiance, {2, 4, 6});
   expect_near(p.scene.lights[1].radiance, splat(10 / pi));
 }
