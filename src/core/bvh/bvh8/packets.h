@@ -1,7 +1,7 @@
 #pragma once
 
 // Closest-hit queries of rays that go much the same way, such as camera rays of one pixel: as many at a time as a
-// register has floats, walking the BVH of simd_node.h together. A node's children are each tested against all rays;
+// register has floats, walking the BVH of bvh8/node.h together. A node's children are each tested against all rays;
 // where few rays are left, each of them against all children. What a ray meets does not depend on the others.
 
 #include <bit>

@@ -1,9 +1,9 @@
 #pragma once
 
-// Closest-hit and any-hit queries over the BVH of simd_node.h, for one ray or for many at a time. In a tree larger than
+// Closest-hit and any-hit queries over the BVH of bvh8/node.h, for one ray or for many at a time. In a tree larger than
 // the caches many are walked in turns, a step each, what the next step of a ray reads being fetched while the others
 // have theirs: so the waits for memory and for each other's results overlap. Rays that go much the same way walk in
-// packets (simd_packet.h), unless there are instances. What a ray meets does not depend on the others.
+// packets (bvh8/packets.h), unless there are instances. What a ray meets does not depend on the others.
 
 #include <bit>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// One ray on its way through the BVH of simd_node.h, a step at a time, and two ways to keep what it has yet to visit.
+// One ray on its way through the BVH of bvh8/node.h, a step at a time, and two ways to keep what it has yet to visit.
 
 #include <bit>
 #include <type_traits>
