@@ -3,9 +3,10 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../scenes"
 
-for scene in spheres weekend; do
-  diff -q "$scene.pbrt" <(python3 "generate_$scene.py") >/dev/null || {
-    echo "scenes/$scene.pbrt is not what scenes/generate_$scene.py writes: run it, or undo the change" >&2
+for file in spheres.pbrt weekend.pbrt studio.glb sky.hdr; do
+  script="generate_${file%.*}.py"
+  python3 "$script" | cmp -s - "$file" || {
+    echo "scenes/$file is not what scenes/$script writes: run it, or undo the change" >&2
     exit 1
   }
 done
