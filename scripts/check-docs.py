@@ -7,7 +7,7 @@ usage: scripts/check-docs.py [--alhazen build/release/bin/alhazen] [PAGE.md...]
 - A file that is named in `code` or in a command exists; so do variables ALHAZEN_... and presets of CMake.
 - A command `alhazen ...` has options that its --help lists, and reads files that the repository has or that an earlier
   command of the page writes. Names in capitals (SCENE, DIR/x.exr) stand for files of the reader.
-- Options of our scripts, and options that the text names, exist.
+- Options of our scripts, options that the text names, and names of the library in examples in C++ exist.
 """
 
 import argparse
@@ -24,7 +24,7 @@ SOURCE_SUFFIXES = {".h", ".cpp", ".cu", ".cuh", ".py", ".sh", ".cmake"}
 INPUT_SUFFIXES = {".pbrt", ".gltf", ".glb", ".ply", ".gz", ".hdr", ".exr", ".png", ".state", ".json"}
 OUTPUT_OPTIONS = {"-o", "--output", "--outfile", "--diff", "--checkpoint"}
 INPUT_OPTIONS = {"--environment", "--scene"}
-FOREIGN_OPTIONS = {"--fmad", "--preset", "--install", "--prefix"}  # of nvcc and CMake
+FOREIGN_OPTIONS = {"--fmad", "--preset", "--install", "--prefix", "--upgrade"}  # of nvcc, CMake and pbrt
 SUBCOMMANDS = {"render", "compare", "devices", "info", "study"}
 STUDY_SUBCOMMANDS = {"report", "tune", "compare"}
 OPTION = re.compile(r"--?[A-Za-z][\w-]*")
@@ -32,12 +32,18 @@ OPTION = re.compile(r"--?[A-Za-z][\w-]*")
 
 @functools.cache
 def repository_files():
-    listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-co", "--exclude-standard"], capture_output=True, text=True)
-    if listed.returncode == 0:
-        names = listed.stdout.split("\n")
-    else:  # not a clone: a source archive
+    """The files that a clone has, and sources and pages that are not added yet: not what examples have written."""
+    def listed(*options):
+        run = subprocess.run(["git", "-C", ROOT, "ls-files", *options], capture_output=True, text=True)
+        return run.stdout.splitlines() if run.returncode == 0 else None
+
+    names = listed("--cached")
+    if names is None:  # not a clone: a source archive
         names = [str(path.relative_to(ROOT)) for path in ROOT.rglob("*") if "build" not in path.relative_to(ROOT).parts]
-    return frozenset(name for name in names if name and (ROOT / name).is_file())
+    else:
+        names += [name for name in listed("--others", "--exclude-standard")
+                  if Path(name).suffix in SOURCE_SUFFIXES | {".md"}]
+    return frozenset(name for name in names if (ROOT / name).is_file())
 
 
 @functools.cache
@@ -121,13 +127,19 @@ class Page:
         self.faults.append(f"{self.path.relative_to(ROOT)}:{self.line}: {message}")
 
     def check(self):
-        command, block = "", None  # block: the language of the fenced block that the line is in
-        for self.line, line in enumerate(self.path.read_text(encoding="utf-8").splitlines(), 1):
+        lines = self.path.read_text(encoding="utf-8").splitlines()
+        command, paragraph, block = "", [], None  # block: the language of the fenced block that the line is in
+        for number, line in enumerate([*lines, ""], 1):
             if line.startswith("```"):
                 block = line[3:].strip() if block is None else None
-                continue
-            if block is None:
-                self.check_text(line)
+            elif block is None and line.strip():
+                paragraph.append(line)
+            if paragraph and (block is not None or not line.strip()):
+                self.check_text("\n".join(paragraph), number - len(paragraph))
+                paragraph = []
+            self.line = number
+            if block == "cpp":
+                self.check_names(line)
             if block in ("sh", "console") or block is None and line.startswith("    "):
                 command += line.strip().removeprefix("$ ")
                 if command.endswith("\\"):
@@ -137,23 +149,37 @@ class Page:
                 command = ""
         return self.faults
 
-    def check_text(self, line):
-        for target in re.findall(r"\]\(([^)\s]+)\)", line):
-            if not re.match(r"\w+:", target):
+    def check_text(self, text, first_line):
+        """A paragraph: its links, and its `code`, which may go on in the next line."""
+        for match in re.finditer(r"\]\(([^)\s]+)\)|`([^`]+)`", text):
+            self.line = first_line + text.count("\n", 0, match.start())
+            target, code = match.groups()
+            if target and not re.match(r"\w+:", target):
                 self.check_link(target)
-        for code in re.findall(r"`([^`]+)`", line):
-            if re.match(r"(\S*/)?alhazen ", code):
-                self.check_command(code)
-            elif OPTION.match(code) and code.startswith("--"):
-                self.check_option_anywhere(OPTION.match(code)[0])
-            for word in code.split():
-                self.check_word(word)
+            elif code:
+                self.check_code(" ".join(code.split()))
+
+    def check_names(self, line):
+        """Of an example in C++."""
+        for name in re.findall(r"alhazen::(\w+)", line):
+            if name != "alhazen" and not re.search(rf"\b{name}\b", text_of("include")):
+                self.fault(f"the library has no {name}")
+
+    def check_code(self, code):
+        if re.match(r"(\S*/)?(alhazen|cmake|ctest|bash|python3) |scripts/|scenes/", code):
+            self.check_command(code)
+            return
+        for word in code.split():
+            self.check_word(word)
+            if option := re.match(r"--[a-z][\w-]*", word):
+                self.check_option_anywhere(option[0])
 
     def check_link(self, target):
         name, _, anchor = target.partition("#")
         page = (self.path.parent / name).resolve() if name else self.path
-        if not page.exists():
-            self.fault(f"the link to {target} leads nowhere")
+        inside = str(page.relative_to(ROOT)) if page.is_relative_to(ROOT) else None
+        if inside not in repository_files() | repository_folders():
+            self.fault(f"the link to {target} leads to nothing in the repository")
         elif anchor and anchor not in anchors(page):
             self.fault(f"{page.name} has no heading for #{anchor}")
 
@@ -163,8 +189,8 @@ class Page:
 
     def check_word(self, word):
         """A word of code: a path, or a variable of CMake."""
-        for variable in re.findall(r"\bALHAZEN_[A-Z_]+\b", word):
-            if not re.search(rf"\b{variable}\b", text_of("CMakeLists.txt", "CMakePresets.json", "cmake", "src", "bench",
+        for variable in re.findall(r"ALHAZEN_[A-Z_]+\b", word):
+            if not re.search(rf"{variable}\b", text_of("CMakeLists.txt", "CMakePresets.json", "cmake", "src", "bench",
                                                          "tests")):
                 self.fault(f"nothing reads {variable}")
         word = word.strip("`'\"(),;:")
