@@ -14,8 +14,8 @@ import sys
 WIDTH, HEIGHT = 256, 128
 SUN_AZIMUTH, SUN_ELEVATION = math.radians(-62), math.radians(34)  # azimuth from the middle of the map to the right
 SUN_RADIUS = math.radians(1.4)  # about a texel, several times that of the real sun: shadows are softer
-SUN = (3900.0, 3200.0, 2300.0)
-ZENITH, HORIZON, GROUND = (0.05, 0.14, 0.4), (0.36, 0.43, 0.52), (0.09, 0.08, 0.06)
+SUN = (3000.0, 2450.0, 1750.0)
+ZENITH, HORIZON, GROUND = (0.04, 0.12, 0.36), (0.3, 0.37, 0.46), (0.08, 0.07, 0.055)
 GLOW = (0.5, 0.39, 0.25)
 SUBSAMPLES = 4  # in each direction of a texel
 
@@ -34,7 +34,7 @@ def radiance(d):
     angle = math.acos(max(-1, min(1, cosine)))
     haze = 1.1 * math.exp(-angle / 0.25)
     if d[1] < 0:  # the ground fades into the haze where it is far away
-        return mix(GROUND, HORIZON, 0.6 * math.exp(d[1] * 40))
+        return mix(GROUND, HORIZON, math.exp(d[1] * 12))
     colour = mix(HORIZON, ZENITH, 1 - math.exp(-3.2 * d[1]))
     return tuple(c + haze * g + (s if angle < SUN_RADIUS else 0) for c, g, s in zip(colour, GLOW, SUN))
 
