@@ -87,6 +87,7 @@ def expand_braces(text):
             for name in expand_braces(text[:match.start()] + part + text[match.end():])]
 
 
+@functools.cache
 def matches(name, folder_prefixes=("", "src/")):
     """Whether the repository has this file or folder, by its path from the root or from src; * is any text."""
     pattern = re.compile("|".join(re.escape(prefix + name.rstrip("/")).replace(r"\*", "[^/]*")
@@ -94,6 +95,7 @@ def matches(name, folder_prefixes=("", "src/")):
     return any(pattern.fullmatch(path) for path in repository_files() | repository_folders())
 
 
+@functools.cache
 def has_file_ending(name):
     """Whether some file's path ends in this, at a whole name."""
     pattern = re.compile("(?:.*/)?" + re.escape(name).replace(r"\*", "[^/]*"))
