@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -14,7 +13,7 @@
 #include "cli/listing.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "cli/range.h"
+#include "cli/setting_options.h"
 #include "cli/subcommands.h"
 #include "io/environment.h"
 #include "io/read_scene.h"
@@ -30,52 +29,13 @@ struct RenderOptions {
   std::string scene;
   Settings settings;
   OutputOptions output;
-  std::string size, crop, pixel_bounds, seed;
-  std::optional<std::string> checkpoint;
   std::string tone_map = "none", exr_type = "half";
   std::string progress = "auto", stats;
   bool quiet = false, verbose = false, list = false;
   std::optional<double> exposure;  ///< absent: the picture may choose it
 };
 
-/// Numbers parted by `separator`, exactly `values.size()` of them.
-template <class Number, size_t count>
-std::array<Number, count> parse_numbers(const std::string& text, char separator, const std::string& form) {
-  std::array<Number, count> values{};
-  const char* at = text.data();
-  const char* end = at + text.size();
-  for (size_t i = 0; i < count; ++i) {
-    const auto [next, error] = std::from_chars(at, end, values[i]);
-    const bool is_last = i + 1 == count;
-    if (error != std::errc() || (is_last ? next != end : next == end || *next != separator))
-      throw InputError("'" + text + "' is not of the form " + form);
-    at = is_last ? next : next + 1;
-  }
-  return values;
-}
-
-void parse_settings(RenderOptions& o) {
-  Settings& s = o.settings;
-  if (!o.size.empty()) {
-    const auto size = parse_numbers<int64_t, 2>(o.size, 'x', "--size WIDTHxHEIGHT, for example 800x600");
-    if (size[0] < 1 || size[1] < 1) throw InputError("--size " + o.size + ": both sides must be at least 1 pixel");
-    s.width = size[0];
-    s.height = size[1];
-  }
-  if (!o.crop.empty())
-    s.crop_window = parse_numbers<double, 4>(o.crop, ',', "--crop x0,x1,y0,y1, fractions of the picture from 0 to 1");
-  if (!o.pixel_bounds.empty())
-    s.pixel_bounds = parse_numbers<int64_t, 4>(o.pixel_bounds, ',', "--pixelbounds x0,x1,y0,y1, in pixels");
-  if (!o.seed.empty())
-    s.seed = parse_numbers<uint32_t, 1>(o.seed, ',', "--seed N, a whole number from 0 to 4294967295")[0];
-  if (o.checkpoint) {
-    const size_t comma = o.checkpoint->rfind(',');
-    s.checkpoint = o.checkpoint->substr(0, comma);
-    if (s.checkpoint.empty()) throw InputError("--checkpoint '" + *o.checkpoint + "' names no file");
-    if (comma != std::string::npos)
-      s.checkpoint_seconds =
-          parse_numbers<double, 1>(o.checkpoint->substr(comma + 1), ',', "--checkpoint FILE,SECONDS")[0];
-  }
+void parse_output_options(RenderOptions& o) {
   if (o.exposure) o.output.png.exposure = *o.exposure;
   if (!std::isfinite(o.output.png.exposure)) throw InputError("--exposure must be a finite number of stops");
   if (o.exr_type != "half" && o.exr_type != "float")
@@ -171,7 +131,7 @@ int run(RenderOptions& options) {
     print_listing(options.scene, options.settings.confine, false);
     return exit_done;
   }
-  parse_settings(options);
+  parse_output_options(options);
   const ProgressStyle style = parse_progress_style(options.progress);
   ProgressPrinter printer(options.quiet ? ProgressStyle::none : style);
   Diagnostics diagnostics;
@@ -211,105 +171,7 @@ int run(RenderOptions& options) {
   return finish(options, rendering, fits_exposure);
 }
 
-void add_picture_options(CLI::App& command, RenderOptions& o) {
-  const char* group = "Picture";
-  command.add_option("--spp", o.settings.samples_per_pixel, "Samples per pixel")
-      ->check(within(int64_t{1}, int64_t{1} << 24))
-      ->type_name("N")
-      ->group(group);
-  command.add_option("--max-depth,--maxdepth", o.settings.max_depth, "Bounces: a path has at most N + 1 segments")
-      ->check(within(int64_t{0}, int64_t{1'000'000}))
-      ->type_name("N")
-      ->group(group);
-  command.add_option("--size", o.size, "Pixels of the whole picture")->type_name("WxH")->group(group);
-  command.add_option("--crop,--cropwindow", o.crop, "Render this part only, fractions from 0 to 1")
-      ->type_name("X0,X1,Y0,Y1")
-      ->group(group);
-  command.add_option("--pixelbounds", o.pixel_bounds, "Render these pixels only")
-      ->type_name("X0,X1,Y0,Y1")
-      ->group(group);
-  command
-      .add_option("--integrator", o.settings.integrator,
-                  "path (next-event estimation), or emission by chance: iterative, recursive, branching")
-      ->type_name("NAME")
-      ->group(group);
-  command
-      .add_option("--environment", o.settings.environment,
-                  "Light the scene by this map (EXR, HDR, ...) instead of by its infinite lights: 2:1 "
-                  "(equirectangular) or square (octahedral), +y up, its middle towards -z")
-      ->type_name("FILE")
-      ->group(group);
-  command
-      .add_option("--coats", o.settings.coats,
-                  "pbrt: lossless coats (the default), or ones that lose as much light as in pbrt-v4: pbrt")
-      ->type_name("NAME")
-      ->group(group);
-  command.add_option("--camera", o.settings.camera, "glTF: the camera of this name or number; --list has them")
-      ->type_name("NAME")
-      ->group(group);
-  command.add_option("--time", o.settings.animation_time, "glTF: the scene at this time of its animation")
-      ->check(within(-1e9, 1e9))
-      ->type_name("SECONDS")
-      ->group(group);
-  command.add_option("--animation", o.settings.animation, "glTF: the animation of this name or number, for --time")
-      ->type_name("NAME")
-      ->group(group);
-  command
-      .add_option("--variant", o.settings.variant,
-                  "glTF: the materials of this variant, by name or number; without it each mesh's own")
-      ->type_name("NAME")
-      ->group(group);
-  command
-      .add_flag("--confine", o.settings.confine,
-                "Read nothing outside the folder of the scene, whatever the scene names: for scenes of strangers")
-      ->group(group);
-  command.add_flag("--list", o.list, "Print cameras, variants, animations and lights of the file, and render nothing")
-      ->group(group);
-  command.add_option("--sampler", o.settings.sampler, "sobol or independent")->type_name("NAME")->group(group);
-  command.add_option("--seed", o.seed, "Another number, other noise")->type_name("N")->group(group);
-}
-
-void add_engine_options(CLI::App& command, RenderOptions& o) {
-  const char* group = "Engine";
-  command
-      .add_option(
-          "--backend", o.settings.backend,
-          "auto (what 'alhazen study tune' stored, else the CPU), serial, openmp, embree, cuda or optix; 'alhazen "
-          "devices' lists them")
-      ->type_name("NAME")
-      ->group(group);
-  command
-      .add_option("--strategy", o.settings.strategy,
-                  "auto; openmp and embree: tiles, rows, collapse, rows+reduction or reduction; cuda: persistent, "
-                  "pixel, chunk or "
-                  "wavefront; optix: megakernel")
-      ->type_name("NAME")
-      ->group(group);
-  command
-      .add_option("--schedule", o.settings.schedule,
-                  "openmp, embree: static, dynamic or guided, and a chunk: dynamic,4")
-      ->type_name("KIND[,CHUNK]")
-      ->group(group);
-  command
-      .add_option("--device", o.settings.device,
-                  "cuda, optix: number of the GPU, or all; cuda: host, the kernels on the CPU")
-      ->type_name("N")
-      ->group(group);
-  command.add_option("--block", o.settings.block, "cuda, pixel and chunk: threads of a block (16x16)")
-      ->type_name("WxH")
-      ->group(group);
-  command.add_option("--chunk", o.settings.chunk, "cuda, chunk: chunks in each direction (4x4)")
-      ->type_name("WxH")
-      ->group(group);
-  command.add_option("-t,--threads,--nthreads", o.settings.threads, "Threads; 0 for all")
-      ->check(within(0, 4096))
-      ->type_name("N")
-      ->group(group);
-  command.add_option("--precision", o.settings.precision, "float or double")->type_name("NAME")->group(group);
-}
-
-void add_output_options(CLI::App& command, RenderOptions& o) {
-  const char* group = "Output";
+void add_output_options(CLI::App& command, RenderOptions& o, const char* group) {
   command
       .add_option("-o,--output,--outfile", o.output.paths,
                   "Picture to write, .exr or .png; may be given more than once. Default: as the scene says")
@@ -317,48 +179,18 @@ void add_output_options(CLI::App& command, RenderOptions& o) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("FILE")
       ->group(group);
-  command
-      .add_option("--aov", o.settings.aovs,
-                  "Layers to add to the EXR, with commas: albedo, normal, depth, bounces, samples, variance")
-      ->delimiter(',')
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("NAMES")
-      ->group(group);
-  command
-      .add_option("--denoise", o.settings.denoiser,
-                  "none, or optix: on a GPU, whatever rendered; adds the layers albedo and normal")
-      ->type_name("NAME")
-      ->group(group);
   command.add_option("--exr-type", o.exr_type, "half or float")->type_name("NAME")->group(group);
   command.add_option("--exposure", o.exposure, "PNG: brightness; a stop doubles it")->type_name("STOPS")->group(group);
   command.add_option("--tone-map", o.tone_map, "PNG: none, reinhard or filmic")->type_name("NAME")->group(group);
 }
 
-void add_running_options(CLI::App& command, RenderOptions& o) {
-  const char* group = "While it runs";
+void add_running_options(CLI::App& command, RenderOptions& o, const char* group) {
   command.add_option("--progress", o.progress, "auto (a bar on a terminal), plain, json or none")
       ->type_name("NAME")
       ->group(group);
   command.add_flag("-q,--quiet", o.quiet, "Say nothing but warnings and errors")->group(group);
   command.add_flag("-v,--verbose", o.verbose, "Say what is rendered and how")->group(group);
   command.add_flag("--stats{text}", o.stats, "Print what it cost to stdout; --stats=json as one object")->group(group);
-  command.add_option("--time-limit", o.settings.time_limit, "Stop after the last whole pass within them")
-      ->check(within(0.0, 1e9))
-      ->type_name("SECONDS")
-      ->group(group);
-  command
-      .add_option("--texture-budget", o.settings.texture_budget,
-                  "Halve the largest pictures of textures until all fit; 0: no limit (16384)")
-      ->check(within(0, 1 << 30))
-      ->type_name("MIB")
-      ->group(group);
-  command.add_option("--checkpoint", o.checkpoint, "Save the state every so many seconds (60)")
-      ->type_name("FILE[,SECONDS]")
-      ->group(group);
-  command.add_flag("--resume", o.settings.resume, "Go on from the checkpoint file")->group(group);
-  command.add_flag("--overwrite", o.settings.overwrite, "Replace the file that --checkpoint names, whatever is in it")
-      ->group(group);
 }
 
 }  // namespace
@@ -367,10 +199,15 @@ CLI::App* register_render(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("render", "Render a scene to pictures");
   auto options = std::make_shared<RenderOptions>();
   command->add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)")->required()->type_name("");
-  add_output_options(*command, *options);
-  add_picture_options(*command, *options);
-  add_engine_options(*command, *options);
-  add_running_options(*command, *options);
+  Settings& settings = options->settings;
+  add_output_options(*command, *options, "Output");
+  add_setting_options(*command, settings, SettingGroup::output, "Output");
+  add_setting_options(*command, settings, SettingGroup::image, "Image");
+  command->add_flag("--list", options->list, "Print cameras, variants, animations and lights, and render nothing")
+      ->group("Image");
+  add_setting_options(*command, settings, SettingGroup::engine, "Engine");
+  add_running_options(*command, *options, "While it runs");
+  add_setting_options(*command, settings, SettingGroup::running, "While it runs");
   command->callback([options, &exit_code] { exit_code = run(*options); });
   return command;
 }

@@ -8,6 +8,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/range.h"
+#include "cli/setting_options.h"
 #include "cli/subcommands.h"
 #include "io/read_scene.h"
 #include "render/settings.h"
@@ -102,12 +103,7 @@ void register_study_tune(CLI::App& study, int& exit_code) {
   command->add_option("--budget", o->budget, "Time to spend (60)")->check(within(1.0, 1e6))->type_name("SECONDS");
   command->add_flag("--store", o->store, "Keep the answer, for --backend auto and this scene");
   command->add_flag("--store-default", o->store_default, "Keep it for every scene that has no entry of its own");
-  command->add_option("--precision", o->settings.precision, "float or double")->type_name("NAME");
-  command->add_option("--integrator", o->settings.integrator, "path, iterative, recursive or branching")
-      ->type_name("NAME");
-  command->add_option("--max-depth", o->settings.max_depth, "Bounces: a path has at most N + 1 segments")
-      ->check(within(int64_t{0}, int64_t{1'000'000}))
-      ->type_name("N");
+  for (const char* name : {"precision", "integrator", "max-depth"}) add_setting_option(*command, o->settings, name);
   command->add_flag("-q,--quiet", o->quiet, "Say nothing but the answer, warnings and errors");
   command->callback([o, &exit_code] { exit_code = run(*o); });
 }

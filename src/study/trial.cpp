@@ -4,30 +4,23 @@
 
 #include <algorithm>
 
+#include "render/setting_table.h"
+
 namespace alhazen::study {
 
 int64_t segments_of(const Settings& settings) { return settings.max_depth < 0 ? 0 : settings.max_depth + 1; }
 
 std::string command_options(const Work& work) {
-  const Settings& s = work.settings;
   std::string options;
-  const auto add = [&](const char* name, const std::string& value) {
-    if (!value.empty()) options += fmt::format("{}{} {}", options.empty() ? "" : " ", name, value);
-  };
   if (work.objects > 0) options = fmt::format("[{} {}spheres]", work.objects, work.is_glass ? "glass " : "");
   if (work.queries == Queries::linear_scan) options += (options.empty() ? "" : " ") + std::string("[linear scan]");
   if (work.queries == Queries::binary_bvh) options += (options.empty() ? "" : " ") + std::string("[binary BVH]");
-  add("--backend", s.backend);
-  add("--strategy", s.strategy == "auto" ? "" : s.strategy);
-  add("--schedule", s.schedule);
-  add("--threads", s.threads > 0 ? std::to_string(s.threads) : "");
-  add("--block", s.block);
-  add("--chunk", s.chunk);
-  add("--precision", s.precision);
-  add("--integrator", s.integrator);
-  add("--max-depth", s.max_depth >= 0 ? std::to_string(s.max_depth) : "");
-  add("--size", s.width > 0 ? fmt::format("{}x{}", s.width, s.height) : "");
-  add("--spp", s.samples_per_pixel > 0 ? std::to_string(s.samples_per_pixel) : "");
+  for (const char* name : {"backend", "strategy", "schedule", "threads", "block", "chunk", "precision", "integrator",
+                           "max-depth", "size", "spp"}) {
+    const std::string value = setting_text(work.settings, name);
+    if (value.empty() || (std::string(name) == "strategy" && value == "auto")) continue;
+    options += fmt::format("{}--{} {}", options.empty() ? "" : " ", name, value);
+  }
   return options;
 }
 

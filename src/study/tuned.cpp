@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "files/input_file.h"
+#include "render/setting_table.h"
 #include "study/machine.h"
 #include "study/write.h"
 
@@ -17,16 +19,27 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* tuned_schema = "alhazen-tuned-1";
+constexpr const char* tuned_schema = "alhazen-tuned-2";
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
   return value ? value : "";
 }
 
+/// What a tuned engine sets.
+constexpr const char* engine_settings[] = {"backend", "strategy", "schedule", "threads", "block", "chunk"};
+
 Json engine_json(const Settings& s) {
-  return {{"backend", s.backend}, {"strategy", s.strategy}, {"schedule", s.schedule},
-          {"threads", s.threads}, {"block", s.block},       {"chunk", s.chunk}};
+  Json engine = Json::object();
+  for (const char* name : engine_settings)
+    if (const std::string text = setting_text(s, name); !text.empty()) engine[name] = text;
+  return engine;
+}
+
+Settings with_engine(Settings settings, const Settings& engine) {
+  for (const char* name : engine_settings)
+    if (const std::string text = setting_text(engine, name); !text.empty()) setting_entry(name).set(settings, text);
+  return settings;
 }
 
 Json entry_json(const TunedEntry& e) {
@@ -51,13 +64,9 @@ TunedEntry entry_of(const Json& j) {
   e.version = j.at("version");
   e.date = j.at("date");
   e.nanoseconds_per_sample = j.at("nanoseconds_per_sample");
-  const Json& engine = j.at("engine");
-  e.engine.backend = engine.at("backend");
-  e.engine.strategy = engine.at("strategy");
-  e.engine.schedule = engine.at("schedule");
-  e.engine.threads = engine.at("threads");
-  e.engine.block = engine.at("block");
-  e.engine.chunk = engine.at("chunk");
+  for (const auto& [name, text] : j.at("engine").items())
+    if (std::count(std::begin(engine_settings), std::end(engine_settings), name) > 0)
+      setting_entry(name).set(e.engine, text.get<std::string>());
   return e;
 }
 
@@ -67,8 +76,11 @@ bool is_for_the_same(const TunedEntry& a, const TunedEntry& b) {
 
 /// Whether the user left the whole choice of an engine open.
 bool is_open(const Settings& s) {
-  return s.backend == "auto" && (s.strategy.empty() || s.strategy == "auto") && s.schedule.empty() && s.threads == 0 &&
-         s.device.empty() && s.block.empty() && s.chunk.empty();
+  for (const SettingEntry& entry : setting_table()) {
+    if (entry.group != SettingGroup::engine || entry.name == std::string("precision")) continue;
+    if (const std::string text = entry.text(s); !text.empty() && text != "auto") return false;
+  }
+  return true;
 }
 
 std::optional<TunedEntry> find_tuned(const std::string& path, const Settings& asked, const std::string& integrator,
@@ -85,16 +97,6 @@ std::optional<TunedEntry> find_tuned(const std::string& path, const Settings& as
       if (is_for_the_same(entry, wanted)) return entry;
   }
   return std::nullopt;
-}
-
-Settings with_engine(Settings settings, const Settings& engine) {
-  settings.backend = engine.backend;
-  settings.strategy = engine.strategy;
-  settings.schedule = engine.schedule;
-  settings.threads = engine.threads;
-  settings.block = engine.block;
-  settings.chunk = engine.chunk;
-  return settings;
 }
 
 }  // namespace

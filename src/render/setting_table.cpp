@@ -1,0 +1,262 @@
+#include "render/setting_table.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include "util/diagnostics.h"
+
+namespace alhazen {
+
+namespace {
+
+using Text = std::function<std::string(const Settings&)>;
+using Set = std::function<void(Settings&, const std::string&)>;
+
+struct Codec {
+  Text text;
+  Set set;
+};
+
+std::string text_of(double value) {
+  std::array<char, 32> buffer;
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), end};
+}
+
+template <class Integer>
+std::string text_of(Integer value) {
+  return std::to_string(value);
+}
+
+/// Exactly `count` numbers parted by `separator`, or false.
+template <class Number, size_t count>
+bool parse_numbers(std::string_view text, char separator, std::array<Number, count>& values) {
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  if (at != end && *at == '+') ++at;
+  for (size_t i = 0; i < count; ++i) {
+    const auto [next, error] = std::from_chars(at, end, values[i]);
+    const bool is_last = i + 1 == count;
+    if (error != std::errc() || (is_last ? next != end : next == end || *next != separator)) return false;
+    at = is_last ? next : next + 1;
+  }
+  return true;
+}
+
+[[noreturn]] void refuse(const char* option, const std::string& text, const std::string& wanted) {
+  throw InputError("--" + std::string(option) + " must be " + wanted + ", not '" + text + "'");
+}
+
+Codec name(std::string Settings::*field) {
+  return {[=](const Settings& s) { return s.*field; }, [=](Settings& s, const std::string& text) { s.*field = text; }};
+}
+
+Codec flag(bool Settings::*field) {
+  return {[=](const Settings& s) { return s.*field ? "true" : ""; },
+          [=](Settings& s, const std::string&) { s.*field = true; }};
+}
+
+/// A number from `low` to `high`; `open` stands for none.
+template <class Number>
+Codec number(const char* option, Number Settings::*field, Number open, Number low, Number high) {
+  return {[=](const Settings& s) { return s.*field == open ? std::string() : text_of(s.*field); },
+          [=](Settings& s, const std::string& text) {
+            std::array<Number, 1> value;
+            if (!parse_numbers(text, ' ', value) || !(value[0] >= low && value[0] <= high))
+              refuse(option, text,
+                     (std::is_integral_v<Number> ? "a whole number from " : "a number from ") + text_of(low) + " to " +
+                         text_of(high));
+            s.*field = value[0];
+          }};
+}
+
+template <class Number>
+Codec optional_number(const char* option, std::optional<Number> Settings::*field, Number low, Number high) {
+  return {[=](const Settings& s) { return s.*field ? text_of(*(s.*field)) : std::string(); },
+          [=](Settings& s, const std::string& text) {
+            std::array<Number, 1> value;
+            if (!parse_numbers(text, ' ', value) || !(value[0] >= low && value[0] <= high))
+              refuse(option, text,
+                     (std::is_integral_v<Number> ? "a whole number from " : "a number from ") + text_of(low) + " to " +
+                         text_of(high));
+            s.*field = value[0];
+          }};
+}
+
+/// Four numbers with commas between them.
+template <class Number>
+Codec bounds(const char* option, std::optional<std::array<Number, 4>> Settings::*field, const char* wanted) {
+  return {[=](const Settings& s) {
+            std::string text;
+            if (s.*field)
+              for (const Number value : *(s.*field)) text += (text.empty() ? "" : ",") + text_of(value);
+            return text;
+          },
+          [=](Settings& s, const std::string& text) {
+            std::array<Number, 4> values;
+            if (!parse_numbers(text, ',', values)) refuse(option, text, wanted);
+            s.*field = values;
+          }};
+}
+
+Codec size() {
+  return {[](const Settings& s) {
+            return s.width > 0 ? std::to_string(s.width) + "x" + std::to_string(s.height) : std::string();
+          },
+          [](Settings& s, const std::string& text) {
+            std::array<int64_t, 2> sides;
+            if (!parse_numbers(text, 'x', sides) || sides[0] < 1 || sides[1] < 1)
+              refuse("size", text, "WIDTHxHEIGHT, each at least 1 pixel, for example 800x600");
+            s.width = sides[0];
+            s.height = sides[1];
+          }};
+}
+
+Codec checkpoint() {
+  return {[](const Settings& s) {
+            return s.checkpoint.empty() ? std::string() : s.checkpoint + "," + text_of(s.checkpoint_seconds);
+          },
+          [](Settings& s, const std::string& text) {
+            const size_t comma = text.rfind(',');
+            s.checkpoint = text.substr(0, comma);
+            std::array<double, 1> seconds{s.checkpoint_seconds};
+            const bool has_seconds = comma != std::string::npos;
+            if (s.checkpoint.empty() || (has_seconds && !parse_numbers(text.substr(comma + 1), ',', seconds)))
+              refuse("checkpoint", text, "FILE or FILE,SECONDS");
+            s.checkpoint_seconds = seconds[0];
+          }};
+}
+
+Codec layers() {
+  return {[](const Settings& s) {
+            std::string text;
+            for (const std::string& layer : s.aovs) text += (text.empty() ? "" : ",") + layer;
+            return text;
+          },
+          [](Settings& s, const std::string& text) {
+            for (size_t begin = 0; begin <= text.size();) {
+              const size_t end = std::min(text.find(',', begin), text.size());
+              s.aovs.push_back(text.substr(begin, end - begin));
+              begin = end + 1;
+            }
+          }};
+}
+
+SettingEntry entry(SettingGroup group, const char* name, const char* other_flags, const char* value_name,
+                   const char* help, Codec codec, bool is_list = false) {
+  return {group, name, other_flags, value_name, help, is_list, std::move(codec.text), std::move(codec.set)};
+}
+
+std::vector<SettingEntry> output_settings() {
+  constexpr SettingGroup group = SettingGroup::output;
+  return {
+      entry(group, "aov", "", "NAMES",
+            "Layers to add to the EXR, with commas: albedo, normal, depth, bounces, samples, variance", layers(), true),
+      entry(group, "denoise", "", "NAME",
+            "none, or optix: on a GPU, whatever rendered; adds the layers albedo and normal",
+            name(&Settings::denoiser)),
+  };
+}
+
+std::vector<SettingEntry> image_settings() {
+  constexpr SettingGroup group = SettingGroup::image;
+  return {
+      entry(group, "spp", "", "N", "Samples per pixel",
+            number<int64_t>("spp", &Settings::samples_per_pixel, 0, 1, 1 << 24)),
+      entry(group, "max-depth", "--maxdepth", "N", "Bounces: a path has at most N + 1 segments",
+            number<int64_t>("max-depth", &Settings::max_depth, -1, 0, 1'000'000)),
+      entry(group, "size", "", "WxH", "Pixels of the whole image", size()),
+      entry(group, "crop", "--cropwindow", "X0,X1,Y0,Y1", "Render this part only, fractions from 0 to 1",
+            bounds("crop", &Settings::crop_window, "x0,x1,y0,y1, fractions of the image from 0 to 1")),
+      entry(group, "pixelbounds", "", "X0,X1,Y0,Y1", "Render these pixels only",
+            bounds("pixelbounds", &Settings::pixel_bounds, "x0,x1,y0,y1, in pixels")),
+      entry(group, "integrator", "", "NAME",
+            "path (next-event estimation), or emission by chance: iterative, recursive, branching",
+            name(&Settings::integrator)),
+      entry(group, "environment", "", "FILE",
+            "Light the scene by this map (EXR, HDR, ...) instead of by its infinite lights: 2:1 (equirectangular) or "
+            "square (octahedral), +y up, its middle towards -z",
+            name(&Settings::environment)),
+      entry(group, "coats", "", "NAME",
+            "pbrt: lossless coats (the default), or ones that lose as much light as in pbrt-v4: pbrt",
+            name(&Settings::coats)),
+      entry(group, "camera", "", "NAME", "glTF: the camera of this name or number; --list has them",
+            name(&Settings::camera)),
+      entry(group, "time", "", "SECONDS", "glTF: the scene at this time of its animation",
+            optional_number("time", &Settings::animation_time, -1e9, 1e9)),
+      entry(group, "animation", "", "NAME", "glTF: the animation of this name or number, for --time",
+            name(&Settings::animation)),
+      entry(group, "variant", "", "NAME",
+            "glTF: the materials of this variant, by name or number; without it each mesh's own",
+            name(&Settings::variant)),
+      entry(group, "confine", "", "",
+            "Read nothing outside the folder of the scene, whatever the scene names: for scenes of strangers",
+            flag(&Settings::confine)),
+      entry(group, "sampler", "", "NAME", "sobol or independent", name(&Settings::sampler)),
+      entry(group, "seed", "", "N", "Another number, other noise",
+            optional_number("seed", &Settings::seed, uint32_t{0}, ~uint32_t{0})),
+  };
+}
+
+std::vector<SettingEntry> engine_settings() {
+  constexpr SettingGroup group = SettingGroup::engine;
+  return {
+      entry(group, "backend", "", "NAME",
+            "auto (what 'alhazen study tune' stored, else the CPU), serial, openmp, embree, cuda or optix; 'alhazen "
+            "devices' lists them",
+            name(&Settings::backend)),
+      entry(group, "strategy", "", "NAME",
+            "auto; openmp and embree: tiles, rows, collapse, rows+reduction or reduction; cuda: persistent, pixel, "
+            "chunk or wavefront; optix: megakernel",
+            name(&Settings::strategy)),
+      entry(group, "schedule", "", "KIND[,CHUNK]", "openmp, embree: static, dynamic or guided, and a chunk: dynamic,4",
+            name(&Settings::schedule)),
+      entry(group, "device", "", "N", "cuda, optix: number of the GPU, or all; cuda: host, the kernels on the CPU",
+            name(&Settings::device)),
+      entry(group, "block", "", "WxH", "cuda, pixel and chunk: threads of a block (16x16)", name(&Settings::block)),
+      entry(group, "chunk", "", "WxH", "cuda, chunk: chunks in each direction (4x4)", name(&Settings::chunk)),
+      entry(group, "threads", "-t,--nthreads", "N", "Threads; 0 for all",
+            number("threads", &Settings::threads, 0, 0, 4096)),
+      entry(group, "precision", "", "NAME", "float or double", name(&Settings::precision)),
+  };
+}
+
+std::vector<SettingEntry> running_settings() {
+  constexpr SettingGroup group = SettingGroup::running;
+  return {
+      entry(group, "time-limit", "", "SECONDS", "Stop after the last whole pass within them",
+            number("time-limit", &Settings::time_limit, 0.0, 0.0, 1e9)),
+      entry(group, "texture-budget", "", "MIB",
+            "Halve the largest images of textures until all fit; 0: no limit (16384)",
+            number<int64_t>("texture-budget", &Settings::texture_budget, -1, 0, 1 << 30)),
+      entry(group, "checkpoint", "", "FILE[,SECONDS]", "Save the state every so many seconds (60)", checkpoint()),
+      entry(group, "resume", "", "", "Go on from the checkpoint file", flag(&Settings::resume)),
+      entry(group, "overwrite", "", "", "Replace the file that --checkpoint names, whatever is in it",
+            flag(&Settings::overwrite)),
+  };
+}
+
+}  // namespace
+
+const std::vector<SettingEntry>& setting_table() {
+  static const std::vector<SettingEntry> table = [] {
+    std::vector<SettingEntry> all;
+    for (auto* part : {output_settings, image_settings, engine_settings, running_settings})
+      for (SettingEntry& each : part()) all.push_back(std::move(each));
+    return all;
+  }();
+  return table;
+}
+
+const SettingEntry& setting_entry(std::string_view name) {
+  for (const SettingEntry& each : setting_table())
+    if (each.name == name) return each;
+  throw std::logic_error("there is no setting '" + std::string(name) + "'");
+}
+
+}  // namespace alhazen

@@ -1,0 +1,40 @@
+#pragma once
+
+// The settings of a render in one table: each has its option's name, its help and its text form once. The command line,
+// commands that are printed, and the files of tuned engines come from it.
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "alhazen/alhazen.h"
+
+namespace alhazen {
+
+enum class SettingGroup { output, image, engine, running };
+
+struct SettingEntry {
+  SettingGroup group;
+  const char* name;         ///< of the option, without its dashes; the key in JSON
+  const char* other_flags;  ///< with dashes and commas, in front of the name; or empty
+  const char* value_name;   ///< what help calls the value; empty: a flag, which is off unless it is given
+  const char* help;
+  bool is_list = false;  ///< values parted by commas, and may be given more than once
+  /// The value as the option takes it; empty where the setting is left open.
+  std::function<std::string(const Settings&)> text;
+  /// Parses such a text. Throws InputError that names the option and what it may be.
+  std::function<void(Settings&, const std::string&)> set;
+};
+
+const std::vector<SettingEntry>& setting_table();
+
+/// `name` must be in the table.
+const SettingEntry& setting_entry(std::string_view name);
+
+/// The value of one setting as text.
+inline std::string setting_text(const Settings& settings, std::string_view name) {
+  return setting_entry(name).text(settings);
+}
+
+}  // namespace alhazen
