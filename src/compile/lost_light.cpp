@@ -292,7 +292,7 @@ void warn_of_lost_light(const LostLight& lost, const Scene& scene, const SourceL
   const auto light = std::find_if(scene.lights.begin(), scene.lights.end(),
                                   [&](const Light& l) { return has_no_size(l) && before-- == 0; });
   if (light == scene.lights.end()) return;
-  std::string message = std::string("light of this ") + name_of(light->type) + " is lost at the " +
+  std::string message = std::string("light of this ") + name_of(light->kind) + " is lost at the " +
                         (lost.is_mirror ? "mirror " : "glass ") + where.to_string() +
                         ": 'path' looks for lights without size along straight lines alone, not through glass or by "
                         "way of mirrors";
