@@ -88,7 +88,7 @@ class SceneCompiler {
     CompileOptions options = options_;
     if (has_one_sided_ || asks_for_lost_light) options.trees.binary = true;
     build_trees(options, out_, flat.statistics);
-    add_shining_triangles(out_);
+    add_triangle_emitters(out_);
     assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
     if (has_one_sided_ && open_seen_backs(whole_view(flat), static_cast<uint32_t>(width_),
                                           static_cast<uint32_t>(height_), options_.threads, out_))

@@ -112,7 +112,7 @@ Item item_of(const SceneArrays<Real>& arrays, const SceneView<Real>& view, uint3
       break;
     }
     case LightKind::projection: {
-      const LightPictureRecord<Real>& p = arrays.light_pictures[light.primitive];
+      const LightImageRecord<Real>& p = arrays.light_images[light.primitive];
       b.normals = {convert<double>(light.direction), 0};
       b.emission = std::min(
           pi_ / 2, std::atan(std::hypot(static_cast<double>(p.half_width), static_cast<double>(p.half_height))) + 1e-3);
@@ -218,7 +218,7 @@ class TreeBuilder {
  private:
   /// Whether so many lights fit below a node of that depth.
   static bool fits(size_t count, uint32_t depth) {
-    return static_cast<uint32_t>(std::bit_width(count - 1)) + depth <= most_light_tree_depth;
+    return static_cast<uint32_t>(std::bit_width(count - 1)) + depth <= max_light_tree_depth;
   }
 
   /// Puts the lights of the first child before the others and returns how many they are.

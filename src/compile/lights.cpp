@@ -45,13 +45,13 @@ double cos_degrees(double angle) { return std::cos(angle * std::numbers::pi / 18
 /// Appends the picture of a light. Returns its integral by luminance over all directions, steradians.
 template <class Real>
 double add_light_picture(const Light& light, Scene& scene, SceneArrays<Real>& out) {
-  if (light.picture >= scene.light_pictures.size()) throw InputError(light.where, "the light names no picture");
-  ImageTexels& picture = scene.light_pictures[light.picture];
+  if (light.picture >= scene.light_images.size()) throw InputError(light.where, "the light names no picture");
+  ImageTexels& picture = scene.light_images[light.picture];
   const bool is_sphere = light.kind == LightKind::goniometric;
   if (picture.width < 1 || picture.height < 1 || (is_sphere && picture.width != picture.height) ||
       picture.floats.size() != 3 * static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height))
     throw InputError(light.where, "the picture of a light does not hold three values a texel, or is not square");
-  LightPictureRecord<Real> record{};
+  LightImageRecord<Real> record{};
   record.first_texel = out.texel_floats.size();
   record.width = static_cast<uint32_t>(picture.width);
   record.height = static_cast<uint32_t>(picture.height);
@@ -75,7 +75,7 @@ double add_light_picture(const Light& light, Scene& scene, SceneArrays<Real>& ou
       integral += luminance(colour) * solid_angle;
     }
   out.texel_floats.insert(out.texel_floats.end(), picture.floats.begin(), picture.floats.end());
-  out.light_pictures.push_back(record);
+  out.light_images.push_back(record);
   return integral;
 }
 
@@ -105,7 +105,7 @@ void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>&
       case LightKind::goniometric:
       case LightKind::projection:
         if (is_zero(light.radiance)) continue;
-        record.primitive = static_cast<uint32_t>(out.light_pictures.size());
+        record.primitive = static_cast<uint32_t>(out.light_images.size());
         record.direction = convert<Real>(light.axes.normal);
         measures.push_back(add_light_picture(light, scene, out));
         out.lights.push_back(record);
@@ -162,7 +162,7 @@ void assign_light_probabilities(const std::vector<double>& measures, LightSampli
     out.lights[i].pmf = static_cast<Real>(share > 0 ? weights[i] / share * (both ? 0.5 : 1) : 0);
   }
   const bool has_tree = finite > 0 && sampling != LightSampling::power &&
-                        (sampling == LightSampling::tree || finite > most_lights_without_tree);
+                        (sampling == LightSampling::tree || finite > max_lights_without_tree);
   // With a tree the others are chosen among those at infinity, which stand before all shapes.
   size_t chosen = count;
   while (has_tree && chosen > 0 && !is_at_infinity(out.lights[chosen - 1].kind)) --chosen;
@@ -175,12 +175,12 @@ void assign_light_probabilities(const std::vector<double>& measures, LightSampli
     out.light_cdf.push_back(i + 1 == chosen ? Real(1) : static_cast<Real>(sum));
   }
   if (!has_tree) return;
-  view.light_tree_share = both ? Real(0.5) : Real(1);
+  view.light_tree_probability = both ? Real(0.5) : Real(1);
   build_light_tree(weights, out);
 }
 
 template <class Real>
-void add_shining_triangles(SceneArrays<Real>& out) {
+void add_triangle_emitters(SceneArrays<Real>& out) {
   SceneView<Real> view;
   view.triangles = out.triangles.data();
   view.positions = out.positions.data();
@@ -188,15 +188,15 @@ void add_shining_triangles(SceneArrays<Real>& out) {
   view.surfaces = out.surfaces.data();
   for (LightRecord<Real>& light : out.lights) {
     if (light.kind != LightKind::triangle) continue;
-    light.shining = static_cast<uint32_t>(out.shining_triangles.size());
-    out.shining_triangles.push_back(make_shining_triangle(view, light));
+    light.emitter = static_cast<uint32_t>(out.triangle_emitters.size());
+    out.triangle_emitters.push_back(make_triangle_emitter(view, light));
   }
 }
 
 template void add_described_lights(Scene&, SceneArrays<float>&, SceneView<float>&, std::vector<double>&);
 template void add_described_lights(Scene&, SceneArrays<double>&, SceneView<double>&, std::vector<double>&);
-template void add_shining_triangles(SceneArrays<float>&);
-template void add_shining_triangles(SceneArrays<double>&);
+template void add_triangle_emitters(SceneArrays<float>&);
+template void add_triangle_emitters(SceneArrays<double>&);
 template void assign_light_probabilities(const std::vector<double>&, LightSampling, SceneArrays<float>&,
                                          SceneView<float>&);
 template void assign_light_probabilities(const std::vector<double>&, LightSampling, SceneArrays<double>&,

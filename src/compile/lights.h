@@ -23,10 +23,10 @@ void assign_light_probabilities(const std::vector<double>& measures, LightSampli
 
 /// Lays down what sampling the triangles among the lights needs, where they are after the trees have been built.
 template <class Real>
-void add_shining_triangles(SceneArrays<Real>& out);
+void add_triangle_emitters(SceneArrays<Real>& out);
 
 /// A light tree is built for more lights of finite distance than that.
-inline constexpr size_t most_lights_without_tree = 2;
+inline constexpr size_t max_lights_without_tree = 2;
 
 /// Whether rays of paths find no light, so that how shadow rays fare alone says what is lit.
 template <class Real>

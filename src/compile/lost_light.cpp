@@ -150,7 +150,7 @@ class LostLightSearch {
   }
 
   bool is_cut_out(const Hit<Real>& hit, const SurfaceInteraction<Real>& si) const {
-    const MaterialRecord<Real>& material = material_met(view_, hit);
+    const MaterialRecord<Real>& material = material_of_hit(view_, hit);
     return (material.features & MaterialFeatures::cutout) &&
            opacity(view_, material, Ray<Real>{}, hit, si, RayKind::scattered) < Real(0.5);
   }
@@ -193,7 +193,7 @@ class LostLightSearch {
       const auto [sine_phi, cosine_phi] = sine_cosine_of_turn(2 * pi<Real> * u.y);
       direction = frame_about(light.direction).to_world({sine * cosine_phi, sine * sine_phi, cosine});
     } else if (light.kind == LightKind::projection) {
-      const LightPictureRecord<Real>& picture = view_.light_pictures[light.primitive];
+      const LightImageRecord<Real>& picture = view_.light_images[light.primitive];
       direction = normalize(
           picture.axes.to_world({picture.half_width * (2 * u.x - 1), picture.half_height * (2 * u.y - 1), Real(1)}));
     }

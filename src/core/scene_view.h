@@ -1,7 +1,7 @@
 #pragma once
 
-// The compiled scene: plain records in arrays, and the view of pointers and counts that is all an integrator sees.
-// Ids are indices, so the same bytes are right on every device.
+// The compiled scene: plain records in arrays, and the view of pointers and counts that integrators use. Ids are
+// indices, so the same bytes are valid on every device.
 
 #include <cstdint>
 
@@ -17,8 +17,8 @@
 
 namespace ALHAZEN_CORE {
 
-/// Every array of the scene, once: ARRAY(element type, name). Storage, device pointers, memory report and checksum
-/// expand from this list.
+/// Lists every array of the scene once: ARRAY(element type, name). Storage, device pointers, memory report and checksum
+/// are generated from this list.
 #define ALHAZEN_SCENE_ARRAYS(ARRAY)                    \
   ARRAY(BvhNode<Real>, nodes)                          \
   ARRAY(WideNode, wide_nodes)                          \
@@ -53,12 +53,12 @@ namespace ALHAZEN_CORE {
   ARRAY(Real, srgb_decode_table)                       \
   ARRAY(uint8_t, noise_permutation)                    \
   ARRAY(LightRecord<Real>, lights)                     \
-  ARRAY(ShiningTriangle<Real>, shining_triangles)      \
+  ARRAY(TriangleEmitter<Real>, triangle_emitters)      \
   ARRAY(EnvironmentRecord<Real>, environments)         \
   ARRAY(Real, environment_cdf)                         \
   ARRAY(Real, light_cdf)                               \
   ARRAY(LightTreeNode, light_tree)                     \
-  ARRAY(LightPictureRecord<Real>, light_pictures)      \
+  ARRAY(LightImageRecord<Real>, light_images)          \
   ARRAY(Real, filter_cdf)
 
 template <class Real>
@@ -73,11 +73,11 @@ struct SceneView {
   FilterRecord<Real> filter;
   Vec3<Real> background{};               ///< radiance of the constant infinite light
   uint32_t background_light = no_light;  ///< its index in `lights`
-  Real light_tree_share = 0;             ///< probability that a light is chosen by the tree instead of by light_cdf
+  Real light_tree_probability = 0;       ///< probability of choosing a light by the tree instead of by light_cdf
   Real exposure = 1;                     ///< factor on recorded radiance
-  uint32_t has_cutouts = 0;              ///< 1 where a material lets rays through, if only those of the camera
-  uint32_t lets_light_through = 0;       ///< 1 where a material lets shadow rays through
-  uint32_t has_lobes = 0;                ///< 1 where a material chooses among lobes at random
+  uint32_t has_cutouts = 0;              ///< 1 if a material lets rays through, be it only camera rays
+  uint32_t lets_light_through = 0;       ///< 1 if a material lets shadow rays through
+  uint32_t has_lobes = 0;                ///< 1 if a material chooses among lobes at random
 };
 
 }  // namespace ALHAZEN_CORE

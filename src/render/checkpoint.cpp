@@ -142,7 +142,7 @@ uint64_t scene_fingerprint(const CompiledScene<Real>& scene) {
   h.add_bytes(&v.filter, sizeof(v.filter));
   h.add_bytes(&v.background, sizeof(v.background));
   h.add_bytes(&v.exposure, sizeof(v.exposure));
-  h.add_bytes(&v.light_tree_share, sizeof(v.light_tree_share));
+  h.add_bytes(&v.light_tree_probability, sizeof(v.light_tree_probability));
   return h.value();
 }
 

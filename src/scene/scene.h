@@ -222,7 +222,7 @@ struct Light {
   uint32_t environment = no_index;                      ///< index into Scene::environments
   Frame<double> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< environment: x, y, z of the map in world space, orthonormal
   SourceLocation where;
-  uint32_t picture = no_index;  ///< index into Scene::light_pictures
+  uint32_t picture = no_index;  ///< index into Scene::light_images
   double fov = 90;              ///< projection: degrees over the shorter side of the picture
 };
 
@@ -294,7 +294,7 @@ struct Scene {
   /// wide as high equirectangular (core/lights/sphere_mapping.h). Each belongs to one light.
   std::vector<ImageTexels> environments;
   /// Pictures of goniometric and projection lights, of floats that are finite and not negative, three a texel.
-  std::vector<ImageTexels> light_pictures;
+  std::vector<ImageTexels> light_images;
   LightSampling light_sampling = LightSampling::automatic;
   CoatModel coats = CoatModel::lossless;
 };

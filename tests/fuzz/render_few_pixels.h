@@ -35,7 +35,7 @@ inline uint64_t count_primitives(const Scene& scene) {
 
 inline uint64_t count_texels(const Scene& scene) {
   uint64_t count = 0;
-  for (const std::vector<ImageTexels>* images : {&scene.images, &scene.environments, &scene.light_pictures})
+  for (const std::vector<ImageTexels>* images : {&scene.images, &scene.environments, &scene.light_images})
     for (const ImageTexels& image : *images)
       count += static_cast<uint64_t>(image.width) * static_cast<uint64_t>(image.height);
   return count;

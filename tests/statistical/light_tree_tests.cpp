@@ -56,7 +56,7 @@ TYPED_TEST(LightTree, ProbabilitiesSumToOne) {
     const CompiledScene<Real> scene = compiled_scene_of<Real>("WorldBegin " + sky + small_lights(count, 3, true));
     ASSERT_EQ(scene.view.light_tree_count, 2 * static_cast<uint32_t>(count));
     ASSERT_EQ(scene.view.lights_count, static_cast<uint32_t>(count) + 2);
-    ASSERT_EQ(scene.view.light_tree_share, Real(0.5));
+    ASSERT_EQ(scene.view.light_tree_probability, Real(0.5));
     for_points<Real>(20, [&](const Vec3<Real>& point, const Vec3<Real>& normal) {
       double sum = pmf_of_nothing(scene.view, scene.view.light_tree[0], point, normal);
       for (uint32_t i = 0; i < scene.view.lights_count; ++i) {

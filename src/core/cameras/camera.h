@@ -1,6 +1,6 @@
 #pragma once
 
-// Cameras: perspective and orthographic with a thin lens, and those that see the whole sphere.
+// Cameras: perspective and orthographic ones with a thin lens, and ones that see the whole sphere of directions.
 
 #include "core/cameras/camera_kind.h"
 #include "core/lights/sphere_mapping.h"
@@ -12,15 +12,15 @@ namespace ALHAZEN_CORE {
 
 template <class Real>
 struct CameraRecord {
-  /// From raster (pixels, y down) to the plane z = 1 of camera space: x = x_scale * px + x_offset, and y likewise.
-  /// orthographic: to the plane z = 0. Cameras of the whole sphere: to [0, 1], y down.
+  /// Maps raster space (pixels, y down) to the plane z = 1 of camera space: x = x_scale * px + x_offset, and y
+  /// likewise. The target is the plane z = 0 for orthographic cameras, and the unit square, y down, for cameras of the
+  /// whole sphere.
   Real x_scale, x_offset, y_scale, y_offset;
   Real lens_radius, focal_distance;
   Real world_from_camera[3][4];
-  /// What a quarter of a pixel sees: its solid angle in the middle of the picture; orthographic: its area in world
-  /// space.
+  /// Solid angle of a quarter of a pixel at the centre of the image; for orthographic cameras its area in world space.
   Real footprint;
-  Real inverse_scale;  ///< of the length that camera space's z axis has in world space
+  Real inverse_scale;  ///< 1 / the length in world space of camera space's z axis
   CameraKind kind;
 };
 
@@ -30,29 +30,28 @@ ALHAZEN_HD Vec3<Real> camera_axis(const CameraRecord<Real>& camera) {
   return Vec3<Real>{m[0][2], m[1][2], m[2][2]} * camera.inverse_scale;
 }
 
-/// The area, world space, that a quarter of a pixel covers of a surface at `position` with the unit normal `normal`, as
-/// the camera would see it with nothing in between. A quarter, since pixels are sampled more than once. Of surfaces
-/// that are seen from the edge it is bounded.
+/// World-space area that a quarter of a pixel covers on a surface at `position` with unit normal `normal`, as the
+/// camera sees it directly. It is a quarter because pixels are sampled more than once. It is bounded at grazing angles.
 template <class Real>
 ALHAZEN_HD Real pixel_footprint(const CameraRecord<Real>& camera, const Vec3<Real>& position,
                                 const Vec3<Real>& normal) {
-  constexpr Real least_cosine = Real(1.0 / 16);
+  constexpr Real min_cosine = Real(1.0 / 16);
   const Vec3<Real> axis = camera_axis(camera);
   if (camera.kind == CameraKind::orthographic)
-    return camera.footprint / larger(std::abs(dot(normal, axis)), least_cosine);
+    return camera.footprint / larger(std::abs(dot(normal, axis)), min_cosine);
   const auto& m = camera.world_from_camera;
-  const Vec3<Real> way = position - Vec3<Real>{m[0][3], m[1][3], m[2][3]};
-  const Real squared = length_squared(way), distance = std::sqrt(squared);
-  // The cosine times the distance.
-  const Real facing = larger(std::abs(dot(normal, way)), least_cosine * distance);
+  const Vec3<Real> from_camera = position - Vec3<Real>{m[0][3], m[1][3], m[2][3]};
+  const Real squared = length_squared(from_camera), distance = std::sqrt(squared);
+  // Cosine times distance.
+  const Real facing = larger(std::abs(dot(normal, from_camera)), min_cosine * distance);
   if (!(facing > 0)) return 0;
   if (camera.kind != CameraKind::perspective) return camera.footprint * squared * distance / facing;
-  // A pixel away from the middle has a smaller solid angle, by the cube of the cosine to the axis.
-  const Real depth = std::abs(dot(axis, way));
+  // The solid angle of a pixel falls with the cube of the cosine to the optical axis.
+  const Real depth = std::abs(dot(axis, from_camera));
   return camera.footprint * depth * depth * depth / facing;
 }
 
-/// The rays of cameras that are not perspective, in camera space. pbrt's spherical cameras have y up.
+/// Generates rays in camera space for cameras that are not perspective. pbrt's spherical cameras have y up.
 template <class Real>
 ALHAZEN_HD void other_camera_ray(const CameraRecord<Real>& camera, const Vec2<Real>& film, const Vec2<Real>& u_lens,
                                  Vec3<Real>& origin, Vec3<Real>& direction) {
@@ -71,7 +70,7 @@ ALHAZEN_HD void other_camera_ray(const CameraRecord<Real>& camera, const Vec2<Re
   const bool equal_area = camera.kind == CameraKind::equal_area;
   Vec2<Real> at{x, y};
   if (equal_area) {
-    // Filters reach past the edge, where the square goes on turned round.
+    // Filters reach past the edge, where the octahedral square continues rotated by half a turn.
     if (at.x < 0 || at.x > 1) at = {at.x < 0 ? -at.x : 2 - at.x, 1 - at.y};
     if (at.y < 0 || at.y > 1) at = {1 - at.x, at.y < 0 ? -at.y : 2 - at.y};
   }
@@ -79,7 +78,7 @@ ALHAZEN_HD void other_camera_ray(const CameraRecord<Real>& camera, const Vec2<Re
   direction = {d.x, d.z, d.y};
 }
 
-/// The ray through raster position `film` (pixels; the first pixel's centre is at 0.5, 0.5).
+/// The ray through raster position `film` (in pixels; the centre of the first pixel is at 0.5, 0.5).
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Ray<Real> camera_ray(const CameraRecord<Real>& camera, const Vec2<Real>& film,
                                             const Vec2<Real>& u_lens, Real time) {

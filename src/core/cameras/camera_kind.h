@@ -10,9 +10,9 @@ namespace ALHAZEN_CORE {
 
 enum class CameraKind : uint32_t {
   perspective,
-  orthographic,     ///< rays go along z; the screen window is in units of camera space
-  equirectangular,  ///< the whole sphere about the camera: as pbrt's spherical camera, y is up
-  equal_area        ///< the same by the octahedral mapping
+  orthographic,     ///< rays are parallel to z; the screen window is in units of camera space
+  equirectangular,  ///< the whole sphere of directions; y is up, as in pbrt's spherical camera
+  equal_area        ///< the whole sphere by the octahedral mapping
 };
 
 }  // namespace ALHAZEN_CORE

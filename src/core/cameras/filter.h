@@ -1,6 +1,6 @@
 #pragma once
 
-// Pixel filters by importance sampling: a sample is placed where the filter puts it and counts whole
+// Pixel filters by importance sampling: sample positions are distributed like the filter, and each sample has weight 1
 // (Ernst, Stamminger, Greiner 2006, "Filter Importance Sampling").
 
 #include <cstdint>
@@ -9,23 +9,23 @@
 
 namespace ALHAZEN_CORE {
 
-/// [0, 1) in so many parts for each cell of a filter's table: parts are where the search for the cell begins, which
-/// they mostly end too.
+/// Number of equal parts of [0, 1) per cell of a filter's table. Each part stores the cell at which the search begins;
+/// in most cases that is the cell looked for.
 inline constexpr uint32_t filter_parts_per_cell = 4;
 
-/// The box is sampled directly, other filters from one table for each axis: filter_cdf holds for x, then for y,
+/// The box filter is sampled directly, others by one table per axis. `filter_cdf` holds, for x and then for y,
 /// `cells` + 1 values of the cumulative distribution of |f|, `cells` signs of f, and for each of filter_parts_per_cell
-/// * `cells` equal parts of [0, 1) the cell that its lowest number falls in.
+/// * `cells` equal parts of [0, 1) the cell that contains its lower end.
 template <class Real>
 struct FilterRecord {
   Real x_radius = Real(0.5), y_radius = Real(0.5);  ///< pixels
-  uint32_t cells = 0;                               ///< 0: box
-  uint32_t has_negative = 0;                        ///< 1: weights may be -1
+  uint32_t cells = 0;                               ///< 0 for the box filter
+  uint32_t has_negative = 0;                        ///< 1 if weights may be -1
 };
 
 template <class Real>
 struct FilterSample {
-  Vec2<Real> offset;  ///< pixels from the pixel's centre
+  Vec2<Real> offset;  ///< from the pixel's centre, in pixels
   Real weight;        ///< 1, or -1 where the filter is negative
 };
 
@@ -36,21 +36,21 @@ struct FilterAxis {
   uint32_t cells;
   Real radius;
 
-  /// A cell that is not behind that of u in [0, 1).
+  /// Returns a cell at or before that of u in [0, 1), from which `find` searches.
   ALHAZEN_HD ALHAZEN_HOT uint32_t guess(Real u) const {
     const uint32_t part = static_cast<uint32_t>(u * (static_cast<Real>(cells) * filter_parts_per_cell));
     return static_cast<uint32_t>(table[2 * cells + 1 + part]);
   }
-  /// Whether u lies in a cell behind this one.
-  ALHAZEN_HD ALHAZEN_HOT bool lies_beyond(uint32_t cell, Real u) const { return table[cell + 1] <= u; }
-  /// The cell of u, from one that is not behind it.
+  /// Returns whether u is in a cell after `cell`.
+  ALHAZEN_HD ALHAZEN_HOT bool is_after(uint32_t cell, Real u) const { return table[cell + 1] <= u; }
+  /// Finds the cell of u, starting from a cell at or before it.
   ALHAZEN_HD ALHAZEN_HOT uint32_t find(uint32_t cell, Real u) const {
-    while (lies_beyond(cell, u)) ++cell;
+    while (is_after(cell, u)) ++cell;
     return cell;
   }
 
   ALHAZEN_HD ALHAZEN_HOT Real sign(uint32_t cell) const { return table[cells + 1 + cell]; }
-  /// Pixels from the pixel's centre, where `cell` is that of u.
+  /// Offset from the pixel's centre in pixels, where `cell` contains u.
   ALHAZEN_HD ALHAZEN_HOT Real offset(uint32_t cell, Real u) const {
     const Real begin = table[cell], width = table[cell + 1] - begin;
     const Real within = width > 0 ? (u - begin) / width : Real(0.5);
@@ -72,7 +72,7 @@ ALHAZEN_HD ALHAZEN_HOT FilterSample<Real> sample_box(const FilterRecord<Real>& f
   return {{filter.x_radius * (2 * u.x - 1), filter.y_radius * (2 * u.y - 1)}, 1};
 }
 
-/// The sample within the cells of u.
+/// The sample of u within its cells.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT FilterSample<Real> sample_cells(const FilterAxis<Real>& x, const FilterAxis<Real>& y,
                                                        uint32_t cell_x, uint32_t cell_y, const Vec2<Real>& u) {

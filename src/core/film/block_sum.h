@@ -1,13 +1,13 @@
 #pragma once
 
-// Sums over a few samples of one pixel: the unit in which every backend adds to the film.
+// Sums over a few samples of one pixel: the unit that every backend adds to the film.
 
 #include "core/integrators/sample_record.h"
 #include "core/math/scalar.h"
 
 namespace ALHAZEN_CORE {
 
-/// Samples are summed in blocks of this many, and blocks are added to the film in order.
+/// Samples are summed in blocks of this size, and blocks are added to the film in order.
 inline constexpr uint32_t samples_per_block = 4;
 
 template <class Real>
@@ -25,7 +25,7 @@ struct BlockSum {
     depth += first.depth;
   }
 
-  /// `filter_weight` is the sample's own; radiance that is infinite or not a number counts as black.
+  /// Adds one sample with its own `filter_weight`; infinite or NaN radiance counts as black.
   ALHAZEN_HD void add_path(const PathRecord<Real>& path, Real filter_weight) {
     segments += path.segments;
     shadow_rays += path.shadow_rays;

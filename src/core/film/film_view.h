@@ -1,13 +1,13 @@
 #pragma once
 
-// The planes of a film wherever they lie, and how a block is added to them.
+// The planes of a film on any device, and how a block of samples is added to them.
 
 #include "core/film/block_sum.h"
 
 namespace ALHAZEN_CORE {
 
-/// Every plane of the film, once: PLANE(element type, name). All but the first two are there only where they are asked
-/// for: `weights` where the filter has negative weights, the others for their layers.
+/// Lists every plane of the film once: PLANE(element type, name). All but the first two exist only on request:
+/// `weights` if the filter has negative weights, the others for their layers.
 #define ALHAZEN_FILM_PLANES(PLANE) \
   PLANE(Vec3<Real>, radiance)      \
   PLANE(uint32_t, samples)         \
@@ -30,17 +30,17 @@ ALHAZEN_HD void merge_moments(Real& mean, Real& m2, uint32_t count, Real other_m
   m2 += other_m2 + delta * delta * n * m / (n + m);
 }
 
-/// A null plane is one that nobody asked for. Elements are pixels of the window, row after row.
+/// Planes that were not requested are null. Elements are the pixels of the window, row by row.
 template <class Real>
 struct FilmView {
 #define ALHAZEN_PLANE(type, name) type* name = nullptr;
   ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
 #undef ALHAZEN_PLANE
 
-  /// Whether anything but radiance is kept of what camera rays meet first.
+  /// Returns whether anything about the first hit of camera rays is recorded besides radiance.
   ALHAZEN_HD bool wants_first_hit() const { return albedo || normal || depth; }
 
-  /// Adds a block to pixel `i`. Blocks of a pixel come in the order of their samples.
+  /// Adds a block to pixel `i`. The blocks of a pixel must be added in the order of their samples.
   ALHAZEN_HD void add(size_t i, const BlockSum<Real>& block) const {
     if (luminance_m2)
       merge_moments(luminance_mean[i], luminance_m2[i], samples[i], block.luminance_mean, block.luminance_m2,

@@ -1,13 +1,13 @@
 #pragma once
 
-// Many paths at a time on one core: the rays of all that are under way are traced together, so that the intersector can
-// walk them in turns, and so are the camera rays of those that begin, which go much the same way; random numbers are
-// drawn for all at once; then each path is shaded. A path that ends makes room for the next sample. What a path does is
-// what `integrate` does, in the same order, to the same bits.
+// Traces many paths at a time on one core. The rays of all active paths are traced together, so that the intersector
+// can interleave their traversals; camera rays, which are coherent, are traced as packets. Random numbers are
+// generated for all paths at once; then each path is shaded. A new sample takes the slot of a path that has ended.
+// Each path does what `integrate` does, in the same order and with the same bits.
 
 #include "core/integrators/camera_rays.h"
 #include "core/integrators/diffuse_surfaces.h"
-#include "core/integrators/met_surfaces.h"
+#include "core/integrators/hit_points.h"
 
 namespace ALHAZEN_CORE {
 
@@ -27,44 +27,44 @@ class PathBatch {
         end_(end) {}
 
   void run() {
-    for (uint32_t i = 0; i < most_paths; ++i) ended_[i] = i;
-    ended_count_ = most_paths;
+    for (uint32_t i = 0; i < max_paths; ++i) ended_[i] = i;
+    ended_count_ = max_paths;
     start();
     while (live_ > 0) {
       trace();
-      leave();
-      draw_numbers();
+      end_escaped();
+      generate_random_numbers();
       shade_all();
-      look_for_light();
+      trace_shadow_rays();
       finish();
       start();
     }
   }
 
-  /// How many paths are under way. Their state stays in the second level cache. No power of two: columns that lie one
-  /// apart are slow to write and read in turns, since processors compare the low bits of addresses first.
-  static constexpr uint32_t most_paths = 176;
+  /// Number of active paths, chosen so that their state fits the second-level cache. It is not a power of two: accesses
+  /// that alternate between columns a power of two apart are slow, since processors compare the low address bits first.
+  static constexpr uint32_t max_paths = 176;
 
  private:
-  /// A path under way, in cache lines of its own.
+  /// An active path. It has cache lines of its own.
   struct alignas(64) Lane {
     Sampler sampler;
     StateOf<kind, Real> path;
     SampleRecord<Real> record;
     Hit<Real> hit;
-    bool has_met;
-    uint32_t sample;  ///< which of the batch
+    bool has_hit;
+    uint32_t sample;  ///< index in the batch
     Real filter_weight;
   };
 
-  /// The way to a light that a path waits for.
-  struct WayToLight {
+  /// A shadow ray whose result a path waits for.
+  struct PendingShadowRay {
     ShadowRay<Real> shadow;
-    Vec3<Real> radiance;  ///< what the path gains where the shadow ray is free
+    Vec3<Real> radiance;  ///< added to the path if the light is visible
     uint32_t lane;
   };
 
-  /// Lets samples begin where paths have ended. Those that begin stand behind those that go on.
+  /// Starts new samples in the slots of ended paths. They follow the continuing paths in `active_`.
   void start() {
     going_on_ = live_;
     const uint32_t count = ended_count_ < count_ - next_ ? ended_count_ : count_ - next_;
@@ -91,7 +91,7 @@ class PathBatch {
     const auto answer = [&](uint32_t i, bool found, const Hit<Real>& hit) {
       Lane& lane = lanes_[active_[i]];
       lane.hit = hit;
-      lane.has_met = found;
+      lane.has_hit = found;
       if (found) prefetch_primitive(scene_, hit.primitive);
     };
     intersector_.template trace<false>(going_on_, ray, limit, answer);
@@ -101,55 +101,55 @@ class PathBatch {
         [&](uint32_t i, bool found, const Hit<Real>& hit) { answer(first + i, found, hit); });
   }
 
-  /// Ends the paths that have met nothing; the others stand together then, in their order.
-  void leave() {
-    uint32_t met = 0;
-    const auto leave_or_keep = [&](uint32_t i) {
+  /// Ends the paths that escaped and compacts the others in their order.
+  void end_escaped() {
+    uint32_t hits = 0;
+    const auto end_or_keep = [&](uint32_t i) {
       const uint32_t index = active_[i];
       Lane& lane = lanes_[index];
       ++lane.record.segments;
-      if (lane.has_met) {
-        numbers_.samplers[met] = lane.sampler;
-        numbers_.first_dimension[met] = VertexDimensions(lane.path.vertex).base;
-        active_[met++] = index;
+      if (lane.has_hit) {
+        numbers_.samplers[hits] = lane.sampler;
+        numbers_.first_dimension[hits] = VertexDimensions(lane.path.vertex).base;
+        active_[hits++] = index;
       } else {
         leave_scene(scene_, lane.path, lane.record);
         ended_[ended_count_++] = index;
       }
     };
-    for (uint32_t i = 0; i < going_on_; ++i) leave_or_keep(i);
-    const uint32_t still_going_on = met;
-    for (uint32_t i = going_on_; i < live_; ++i) leave_or_keep(i);
+    for (uint32_t i = 0; i < going_on_; ++i) end_or_keep(i);
+    const uint32_t still_going_on = hits;
+    for (uint32_t i = going_on_; i < live_; ++i) end_or_keep(i);
     going_on_ = still_going_on;
-    live_ = met;
+    live_ = hits;
   }
 
-  /// Draws what surfaces may ask for.
-  void draw_numbers() {
+  /// Generates the random numbers that shading may use.
+  void generate_random_numbers() {
     constexpr VertexDimensions d = VertexDimensions::from(0);
     numbers_.draw(live_, 1u << d.bsdf_direction() | (scene_.has_lobes ? 1u << d.bsdf_lobe() : 0));
     if (kind != IntegratorKind::path) return;
     if (scene_.lights_count > 0) numbers_.draw(live_, 1u << d.light_point());
     if (scene_.lights_count > 1) numbers_.draw(live_, 1u << d.light_choice());
-    numbers_.draw(going_on_, 1u << d.roulette());  // which no path meets at its first surface
+    numbers_.draw(going_on_, 1u << d.roulette());  // no path uses it at its first surface
   }
 
-  /// Works out where the paths have met triangles.
-  void meet_triangles() {
+  /// Computes the hit points of paths that hit triangles.
+  void compute_hit_points() {
     constexpr uint32_t ahead = 8;
     const auto prefetch = [&](uint32_t i) { prefetch_vertices(scene_, lanes_[active_[i]].hit.primitive); };
     for (uint32_t i = 0; i < ahead && i < live_; ++i) prefetch(i);
     for (uint32_t i = 0; i < live_; ++i) {
       if (i + ahead < live_) prefetch(i + ahead);
       const Lane& lane = lanes_[active_[i]];
-      if (met_.takes(lane.hit)) met_.meet(i, scene_, lane.path.ray, lane.hit);
+      if (hit_points_.accepts(lane.hit)) hit_points_.add_triangle(i, scene_, lane.path.ray, lane.hit);
     }
-    met_.work_out(live_);
+    hit_points_.compute(live_);
   }
 
   void shade_all() {
-    meet_triangles();
-    ways_count_ = 0;
+    compute_hit_points();
+    shadow_ray_count_ = 0;
     const uint32_t count = live_;
     live_ = 0;
     for (uint32_t i = 0; i < count; ++i) shade_one(numbers_.of(i), i, active_[i]);
@@ -163,48 +163,48 @@ class PathBatch {
       ended_[ended_count_++] = index;
   }
 
-  ALHAZEN_INLINE void ask_for_light(uint32_t index, const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
-    WayToLight& way = ways_[ways_count_++];
-    way.shadow = shadow;
-    way.radiance = radiance;
-    way.lane = index;
+  ALHAZEN_INLINE void add_shadow_ray(uint32_t index, const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
+    PendingShadowRay& pending = shadow_rays_[shadow_ray_count_++];
+    pending.shadow = shadow;
+    pending.radiance = radiance;
+    pending.lane = index;
   }
 
-  /// `place` is that in `active_`.
+  /// `place` is the index in `active_`.
   template <class Numbers>
   ALHAZEN_INLINE void shade_one(const Numbers& numbers, uint32_t place, uint32_t index) {
     Lane& lane = lanes_[index];
     if (scene_.has_cutouts && passes(scene_, lane.hit, ray_kind(lane.path.vertex), lane.path.ray, lane.path.travelled))
-      return go_on_or_end(lane.record.segments < most_passages, index);
-    const bool is_met = met_.takes(lane.hit);
-    const ShadingPoint<Real> point = is_met ? met_.shading_point(place, scene_, lane.path.ray, lane.hit)
-                                            : shading_point(scene_, lane.path.ray, lane.hit);
+      return go_on_or_end(lane.record.segments < max_transparent_hits, index);
+    const bool is_computed = hit_points_.accepts(lane.hit);
+    const ShadingPoint<Real> point = is_computed ? hit_points_.shading_point(place, scene_, lane.path.ray, lane.hit)
+                                                 : shading_point(scene_, lane.path.ray, lane.hit);
     if constexpr (kind != IntegratorKind::path) {
       go_on_or_end(shade_at(scene_, numbers, max_segments_, lane.hit, point, lane.path, lane.record), index);
     } else if (!arrive(scene_, max_segments_, lane.hit, point, lane.path, lane.record)) {
       go_on_or_end(false, index);
     } else if (point.bsdf.kind == MaterialKind::diffuse) {
-      if (!is_met || point.material->features & MaterialFeatures::tangents) met_.set(place, point);
+      if (!is_computed || point.material->features & MaterialFeatures::tangents) hit_points_.set(place, point);
       diffuse_.add(place, scene_, point, numbers, lane.path);
       diffuse_lanes_[place] = index;
     } else {
       const auto light = [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
-        ask_for_light(index, shadow, radiance);
+        add_shadow_ray(index, shadow, radiance);
       };
       go_on_or_end(light_and_scatter(scene_, numbers, point, lane.path, lane.record, light), index);
     }
   }
 
-  /// The diffuse surfaces that have been put aside, among the first `end` places.
+  /// Shades the diffuse hits that were set aside among the first `end` entries.
   void shade_diffuse(uint32_t end) {
     if (diffuse_.count() == 0) return;
-    diffuse_.shade(met_, numbers_, end);
+    diffuse_.shade(hit_points_, numbers_, end);
     for (uint32_t i = 0; i < diffuse_.count(); ++i) {
       const uint32_t place = diffuse_.place(i), index = diffuse_lanes_[place];
       Lane& lane = lanes_[index];
       if (diffuse_.is_lit(place)) {
         ++lane.record.shadow_rays;
-        ask_for_light(index, diffuse_.shadow(place, lane.hit, lane.path.ray.time), diffuse_.lit(place));
+        add_shadow_ray(index, diffuse_.shadow(place, lane.hit, lane.path.ray.time), diffuse_.lit(place));
       }
       diffuse_.take_over(place, lane.hit, lane.path);
       go_on_or_end(diffuse_.goes_on(place), index);
@@ -212,19 +212,19 @@ class PathBatch {
     diffuse_.clear();
   }
 
-  void look_for_light() {
+  void trace_shadow_rays() {
     if (scene_.lets_light_through) {
-      for (const WayToLight* way = ways_; way != ways_ + ways_count_; ++way) {
-        const Real share = free_share(scene_, intersector_, way->shadow);
-        if (share > 0) lanes_[way->lane].record.radiance += way->radiance * share;
+      for (const PendingShadowRay* pending = shadow_rays_; pending != shadow_rays_ + shadow_ray_count_; ++pending) {
+        const Real visibility = free_share(scene_, intersector_, pending->shadow);
+        if (visibility > 0) lanes_[pending->lane].record.radiance += pending->radiance * visibility;
       }
       return;
     }
     intersector_.template trace<true>(
-        ways_count_, [&](uint32_t i) -> const Ray<Real>& { return ways_[i].shadow.ray; },
-        [&](uint32_t i) { return ways_[i].shadow.t_max; },
+        shadow_ray_count_, [&](uint32_t i) -> const Ray<Real>& { return shadow_rays_[i].shadow.ray; },
+        [&](uint32_t i) { return shadow_rays_[i].shadow.t_max; },
         [&](uint32_t i, bool found, const Hit<Real>&) {
-          if (!found) lanes_[ways_[i].lane].record.radiance += ways_[i].radiance;
+          if (!found) lanes_[shadow_rays_[i].lane].record.radiance += shadow_rays_[i].radiance;
         });
   }
 
@@ -242,20 +242,21 @@ class PathBatch {
   uint32_t count_, next_ = 0;
   const Pixel& pixel_;
   const End& end_;
-  Lane lanes_[most_paths];
-  CameraRays<Real, Sampler, most_paths> camera_;                       ///< of those that begin
-  DrawnNumbers<Real, Sampler, most_paths, VertexDimensions> numbers_;  ///< of all, as `active_` has them
-  uint32_t active_[most_paths], live_ = 0, going_on_ = 0;  ///< lanes; the first `going_on_` of them are no camera rays
-  WayToLight ways_[most_paths];
-  uint32_t ways_count_ = 0;
-  uint32_t ended_[most_paths], ended_count_ = 0;
-  MetSurfaces<Real, most_paths> met_;
-  DiffuseSurfaces<Real, most_paths> diffuse_;
-  uint32_t diffuse_lanes_[most_paths];
+  Lane lanes_[max_paths];
+  CameraRays<Real, Sampler, max_paths> camera_;                      ///< of the samples that start
+  SampleBatch<Real, Sampler, max_paths, VertexDimensions> numbers_;  ///< in the order of `active_`
+  uint32_t active_[max_paths], live_ = 0, going_on_ = 0;  ///< lanes; those from `going_on_` on trace camera rays
+  PendingShadowRay shadow_rays_[max_paths];
+  uint32_t shadow_ray_count_ = 0;
+  uint32_t ended_[max_paths], ended_count_ = 0;
+  HitPoints<Real, max_paths> hit_points_;
+  DiffuseSurfaces<Real, max_paths> diffuse_;
+  uint32_t diffuse_lanes_[max_paths];
 };
 
-/// Takes `count` samples: `pixel(i)` says which sample i is, `end(i, record, filter_weight)` is called once for each,
-/// in any order, before the scene's exposure. Records keep the first hit where that is wanted.
+/// Takes `count` samples. `pixel(i)` returns the pixel and sample number of sample i. `end(i, record, filter_weight)`
+/// is called once for each, in any order, before the scene's exposure is applied. Records keep the first hit if
+/// requested.
 template <IntegratorKind kind, class Sampler, class Real, class Intersector, class Pixel, class End>
 void integrate_batch(const SceneView<Real>& scene, const Intersector& intersector, uint32_t seed, uint32_t max_segments,
                      bool wants_first_hit, uint32_t count, const Pixel& pixel, const End& end) {

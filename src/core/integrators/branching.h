@@ -1,12 +1,13 @@
 #pragma once
 
-// The report's Algorithm 2: recursion that follows both ways at a dielectric. The cost grows as 2^D through glass.
+// The report's Algorithm 2: recursion that follows both reflection and refraction at a dielectric. The cost grows as
+// 2^D through glass.
 
 #include "core/integrators/stages.h"
 
 namespace ALHAZEN_CORE {
 
-/// Radiance that arrives along `ray`, from at most `segments_left` segments; `segment` counts those before it.
+/// Radiance that arrives along `ray` over at most `segments_left` segments; `segment` counts those before it.
 template <class Real, class Intersector, class Sampler>
 ALHAZEN_HD Vec3<Real> cast_ray_branching(const SceneView<Real>& scene, const Intersector& intersector,
                                          const Sampler& sampler, Ray<Real> ray, uint32_t segments_left,
@@ -19,13 +20,13 @@ ALHAZEN_HD Vec3<Real> cast_ray_branching(const SceneView<Real>& scene, const Int
     return background_radiance(scene, ray.direction);
   const ShadingPoint<Real> point = shading_point(scene, ray, hit);
   if (segment == 0) record_first_hit(point, travelled + hit.t, record);
-  const Vec3<Real> share = arriving_share(point, travelled + hit.t);
-  Vec3<Real> radiance = share * surface_emission(scene, hit, point);
+  const Vec3<Real> transmittance = arriving_share(point, travelled + hit.t);
+  Vec3<Real> radiance = transmittance * surface_emission(scene, hit, point);
   const VertexDimensions dimensions(segment);
 
   const auto follow = [&](const BsdfSample<Real>& s, const Sampler& numbers, Real rate) {
     if (!(s.pdf > 0 && rate > 0) || is_zero(s.weight) || !is_on_one_side(point, s.direction)) return;
-    radiance += share * s.weight * rate *
+    radiance += transmittance * s.weight * rate *
                 cast_ray_branching(scene, intersector, numbers, spawn_ray(point.si, s.direction), segments_left - 1,
                                    segment + 1, record);
   };

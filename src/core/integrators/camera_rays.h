@@ -1,10 +1,10 @@
 #pragma once
 
-// The camera rays of many samples, column by column and side by side: what `sample_camera` does for one, to the same
-// bits.
+// Generates the camera rays of many samples in structure-of-arrays form, with the same bits as `sample_camera` does for
+// one.
 
 #include "core/integrators/camera_sample.h"
-#include "core/sampling/drawn_numbers.h"
+#include "core/sampling/sample_batch.h"
 #include "core/simd/columns.h"
 
 namespace ALHAZEN_CORE {
@@ -14,11 +14,11 @@ struct PixelSample {
   uint32_t x, y, sample;
 };
 
-/// Of up to `most` samples.
-template <class Real, class Sampler, uint32_t most>
+/// Camera rays of up to `max_count` samples.
+template <class Real, class Sampler, uint32_t max_count>
 class CameraRays {
  public:
-  /// `pixel(i)` says which sample i of `count` is.
+  /// Generates `count` rays; `pixel(i)` returns the pixel and sample number of sample i.
   template <class Pixel>
   void make(const SceneView<Real>& scene, uint32_t seed, uint32_t count, const Pixel& pixel) {
     for (uint32_t i = 0; i < count; ++i) {
@@ -31,7 +31,7 @@ class CameraRays {
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) numbers_.samplers[i] = Sampler(seed, x_[i], y_[i], sample_[i]);
     numbers_.draw(count, wanted_numbers(scene));
-    place_on_film(scene, end);
+    set_film_positions(scene, end);
     make_rays(scene.camera, end);
   }
 
@@ -49,7 +49,7 @@ class CameraRays {
            (scene_moves(scene) ? 1u << CameraDimensions::time : 0);
   }
 
-  void place_on_film(const SceneView<Real>& scene, uint32_t end) {
+  void set_film_positions(const SceneView<Real>& scene, uint32_t end) {
     const auto place = [&](uint32_t i, const FilterSample<Real>& filter) {
       const FilmSample<Real> film = film_sample(x_[i], y_[i], filter);
       film_x_[i] = film.position.x;
@@ -65,14 +65,14 @@ class CameraRays {
     }
     const FilterAxis<Real> x = filter_x(filter, scene.filter_cdf), y = filter_y(filter, scene.filter_cdf);
     const auto next = [](const FilterAxis<Real>& axis, uint32_t cell, Real at) {
-      return cell + (axis.lies_beyond(cell, at) ? 1 : 0);
+      return cell + (axis.is_after(cell, at) ? 1 : 0);
     };
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
       cell_x_[i] = next(x, x.guess(u(i).x), u(i).x);
       cell_y_[i] = next(y, y.guess(u(i).y), u(i).y);
     }
-    // Mostly that was it.
+    // In most cases the guess is the cell.
     for (uint32_t i = 0; i < end; ++i) {
       cell_x_[i] = x.find(cell_x_[i], u(i).x);
       cell_y_[i] = y.find(cell_y_[i], u(i).y);
@@ -81,7 +81,7 @@ class CameraRays {
     for (uint32_t i = 0; i < end; ++i) place(i, sample_cells(x, y, cell_x_[i], cell_y_[i], u(i)));
   }
 
-  /// What `camera_ray` makes of the film positions; side by side where the camera is a perspective one.
+  /// Does what `camera_ray` does with the film positions, in SIMD loops if the camera is a perspective one.
   void make_rays(CameraRecord<Real> camera, uint32_t end) {
     const auto make = [&](const Vec2<Real>& lens, uint32_t i) {
       const Ray<Real> ray = camera_ray(camera, Vec2<Real>{film_x_[i], film_y_[i]}, lens, Real(0));
@@ -94,7 +94,7 @@ class CameraRays {
       for (uint32_t i = 0; i < end; ++i) make(has_lens ? lens(i) : Vec2<Real>{}, i);
       return;
     }
-    // The assignments tell the compiler what the branches ask.
+    // The assignments tell the compiler the results of the branches.
     camera.kind = CameraKind::perspective;
     if (has_lens) {
       ALHAZEN_SIDE_BY_SIDE
@@ -106,11 +106,11 @@ class CameraRays {
     }
   }
 
-  uint32_t x_[most]{}, y_[most]{}, sample_[most]{};
-  DrawnNumbers<Real, Sampler, most, CameraDimensions> numbers_;
-  uint32_t cell_x_[most], cell_y_[most];
-  Real film_x_[most], film_y_[most], filter_weight_[most];
-  VectorColumns<Real, most> origin_, direction_;
+  uint32_t x_[max_count]{}, y_[max_count]{}, sample_[max_count]{};
+  SampleBatch<Real, Sampler, max_count, CameraDimensions> numbers_;
+  uint32_t cell_x_[max_count], cell_y_[max_count];
+  Real film_x_[max_count], film_y_[max_count], filter_weight_[max_count];
+  VectorColumns<Real, max_count> origin_, direction_;
 };
 
 }  // namespace ALHAZEN_CORE

@@ -1,6 +1,6 @@
 #pragma once
 
-// One sample of one pixel: camera ray, then the integrator that was asked for.
+// Takes one sample of one pixel: generates a camera ray and runs the selected integrator.
 
 #include <type_traits>
 
@@ -23,7 +23,7 @@ ALHAZEN_HD bool scene_moves(const SceneView<Real>& scene) {
   return scene.moving_spheres_count > 0 || scene.instance_motions_count > 0;
 }
 
-/// Where on the film the sample of pixel (x, y) lies, in pixels, and its weight by the filter.
+/// Film position of a sample of pixel (x, y), in pixels, and its filter weight.
 template <class Real>
 struct FilmSample {
   Vec2<Real> position;
@@ -47,11 +47,12 @@ ALHAZEN_HD ALHAZEN_HOT CameraSample<Real> sample_camera(const SceneView<Real>& s
   return {camera_ray(scene.camera, film.position, lens, time), film.filter_weight};
 }
 
-/// The state between two segments of an integrator that goes by segments.
+/// The state of an iterative integrator between two segments.
 template <IntegratorKind kind, class Real>
 using StateOf = std::conditional_t<kind == IntegratorKind::path, PathState<Real>, IterativeState<Real>>;
 
-/// One segment of a path: trace, gather, light, scatter. False when the path has ended.
+/// Traces one segment of a path: intersects, adds emission and direct light, scatters. Returns false when the path has
+/// ended.
 template <class Real, class Intersector, class Sampler, class State, class Record>
 ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& intersector, const Sampler& sampler,
                              uint32_t max_segments, State& path, Record& record) {
@@ -63,12 +64,12 @@ ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& in
   }
   return shade(scene, sampler, max_segments, hit, path, record,
                [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
-                 const Real share = free_share(scene, intersector, shadow);
-                 if (share > 0) record.radiance += radiance * share;
+                 const Real visibility = free_share(scene, intersector, shadow);
+                 if (visibility > 0) record.radiance += radiance * visibility;
                });
 }
 
-/// Radiance along `ray` by the integrator `kind`, from at most `max_segments` >= 1 segments.
+/// Radiance along `ray` by the integrator `kind`, over at most `max_segments` >= 1 segments.
 template <IntegratorKind kind, class Real, class Intersector, class Sampler>
 ALHAZEN_HD SampleRecord<Real> integrate(const SceneView<Real>& scene, const Intersector& intersector,
                                         const Sampler& sampler, const Ray<Real>& ray, uint32_t max_segments) {

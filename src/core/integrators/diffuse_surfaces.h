@@ -1,26 +1,26 @@
 #pragma once
 
-// Diffuse surfaces that many paths have met, lit and scattered at side by side: what the path tracer does there has no
-// branches that matter, so that compilers turn the loop into SIMD instructions. The functions are those that shade one
-// path alone, and so are the bits.
+// Lights and scatters many paths at diffuse surfaces at once. The path tracer has no important branches there, so
+// compilers turn the loop into SIMD instructions. It uses the functions that shade a single path, so the bits are the
+// same.
 
-#include "core/integrators/met_surfaces.h"
+#include "core/integrators/hit_points.h"
 #include "core/integrators/path.h"
-#include "core/sampling/drawn_numbers.h"
+#include "core/sampling/sample_batch.h"
 
 namespace ALHAZEN_CORE {
 
-/// Those among `most` surfaces that rays have met; each has the place of its ray.
-template <class Real, uint32_t most>
+/// The diffuse hits among up to `max_count` rays; each has the index of its ray.
+template <class Real, uint32_t max_count>
 class DiffuseSurfaces {
  public:
-  using Met = MetSurfaces<Real, most>;
+  using Points = HitPoints<Real, max_count>;
 
-  /// Takes over the path that is to be lit and to scatter at `point`, which is what `met` has at this place.
+  /// Adds the path that is to be lit and scattered at `point`, which `points` holds at the same index.
   template <class Sampler>
   ALHAZEN_INLINE void add(uint32_t place, const SceneView<Real>& scene, const ShadingPoint<Real>& point,
                           const Sampler& sampler, PathState<Real>& path) {
-    places_[count_++] = place;
+    indices_[count_++] = place;
     add_light(place, scene, point, sampler, VertexDimensions(path.vertex));
     if (scene.light_tree_count > 0) path.light_side = side_of_light(point);
     reflectance_.set(place, point.bsdf.a);
@@ -30,18 +30,18 @@ class DiffuseSurfaces {
   }
 
   uint32_t count() const { return count_; }
-  uint32_t place(uint32_t i) const { return places_[i]; }
+  uint32_t place(uint32_t i) const { return indices_[i]; }
   void clear() { count_ = triangles_ = skies_ = 0; }
 
-  /// Lights and scatters at all of them, which are among the first `count` places. `numbers` has what is drawn there.
+  /// Lights and scatters all of them; their indices are below `count`. `numbers` holds the random numbers.
   template <class Numbers>
-  void shade(const Met& met, const Numbers& numbers, uint32_t count) {
+  void shade(const Points& points, const Numbers& numbers, uint32_t count) {
     const uint32_t end = whole_rows(count);
-    if (triangles_ > 0) sample_triangles(met, numbers, end);
+    if (triangles_ > 0) sample_triangles(points, numbers, end);
     if (skies_ > 0) sample_sky(numbers, end);
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
-      const DirectLight<Real> direct = direct_light(point_at(met, i), light_at(i));
+      const DirectLight<Real> direct = direct_light(point_at(points, i), light_at(i));
       is_lit_[i] = direct.is_lit;
       lit_.set(i, throughput_[i] * direct.radiance);
       shadow_origin_.set(i, direct.shadow.ray.origin);
@@ -54,8 +54,8 @@ class DiffuseSurfaces {
       path.throughput = throughput_[i];
       path.eta_scale = eta_scale_[i];
       path.vertex = vertex_[i];
-      const Drawn drawn{numbers.pair(dimensions.bsdf_direction(), i), numbers.first(dimensions.roulette(), i)};
-      goes_on_[i] = continue_path(drawn, point_at(met, i), path);
+      const StoredSample sample{numbers.pair(dimensions.bsdf_direction(), i), numbers.first(dimensions.roulette(), i)};
+      goes_on_[i] = continue_path(sample, point_at(points, i), path);
       throughput_.set(i, path.throughput);
       bsdf_pdf_[i] = path.bsdf_pdf;
       origin_.set(i, path.ray.origin);
@@ -65,7 +65,7 @@ class DiffuseSurfaces {
 
   bool is_lit(uint32_t i) const { return is_lit_[i]; }
   Vec3<Real> lit(uint32_t i) const { return lit_[i]; }
-  /// `hit` is where the surface was met.
+  /// `hit` is the hit of the path at index i.
   ALHAZEN_INLINE ShadowRay<Real> shadow(uint32_t i, const Hit<Real>& hit, Real time) const {
     return {{shadow_origin_[i], shadow_direction_[i], time, hit.primitive, hit.instance}, shadow_t_max_[i]};
   }
@@ -83,13 +83,13 @@ class DiffuseSurfaces {
   }
 
  private:
-  /// How a surface comes by its light: it has been sampled, or it is still to be.
-  struct LightWay {
+  /// How a surface gets its light sample: it has one, or `sample_lights` takes one.
+  struct LightSource {
     static constexpr uint32_t sampled = 0, triangle = 1, sky = 2;
   };
 
-  /// Stands for the sampler of one path, by the numbers that a diffuse surface asks for.
-  struct Drawn {
+  /// Acts as the sampler of one path, with the random numbers that a diffuse surface uses.
+  struct StoredSample {
     Vec2<Real> direction;
     Real roulette;
 
@@ -103,57 +103,57 @@ class DiffuseSurfaces {
     }
   };
 
-  /// As DrawnNumbers counts them.
+  /// Counted as SampleBatch counts them.
   static constexpr VertexDimensions dimensions = VertexDimensions::from(0);
 
-  /// Samples a light for surface i, or sees to it that `sample_lights` does.
+  /// Samples a light for surface i, or defers that to `sample_lights`.
   template <class Sampler>
   ALHAZEN_INLINE void add_light(uint32_t i, const SceneView<Real>& scene, const ShadingPoint<Real>& point,
-                                const Sampler& sampler, const VertexDimensions& drawn) {
-    light_way_[i] = LightWay::sampled;
+                                const Sampler& sampler, const VertexDimensions& path_dimensions) {
+    light_source_[i] = LightSource::sampled;
     light_pdf_[i] = 0;
     light_is_delta_[i] = light_is_finite_[i] = 0;
     if (scene.lights_count == 0) return;
-    const LightChoiceInput<Real> by = light_choice_input(scene, sampler, drawn, point);
+    const LightChoiceInput<Real> by = light_choice_input(scene, sampler, path_dimensions, point);
     const LightChoice<Real> choice = choose_light(scene, point.si.position, by.normal, by.u);
     if (!(choice.pmf > 0)) return;
     const LightRecord<Real>& light = scene.lights[choice.light];
     light_pmf_[i] = choice.pmf;
     if (light.kind == LightKind::triangle && light.texture.count == 0) {
-      const ShiningTriangle<Real>& triangle = scene.shining_triangles[light.shining];
+      const TriangleEmitter<Real>& triangle = scene.triangle_emitters[light.emitter];
       for (int k = 0; k < 3; ++k) corner_[k].set(i, triangle.corner[k]);
       outward_.set(i, triangle.outward);
       flip_normal_[i] = triangle.flip_normal;
       two_sided_[i] = triangle.two_sided;
       light_radiance_.set(i, triangle.radiance);
-      light_way_[i] = LightWay::triangle;
+      light_source_[i] = LightSource::triangle;
       ++triangles_;
     } else if (light.kind == LightKind::constant_infinite) {
       light_radiance_.set(i, light.radiance);
       light_pdf_[i] = pdf_uniform_sphere<Real> * choice.pmf;
-      light_way_[i] = LightWay::sky;
+      light_source_[i] = LightSource::sky;
       ++skies_;
     } else {
       set_light(i, sample_chosen_light(scene, light, point.si.position, choice.light == point.light, point.si.time,
-                                       sampler.template get_2d<Real>(drawn.light_point())));
+                                       sampler.template get_2d<Real>(path_dimensions.light_point())));
       light_pdf_[i] *= choice.pmf;
     }
   }
 
-  /// What `sample_chosen_light` does for the lights that were left to this.
+  /// Does what `sample_chosen_light` does for the deferred lights.
   template <class Numbers>
-  void sample_triangles(const Met& met, const Numbers& numbers, uint32_t end) {
+  void sample_triangles(const Points& points, const Numbers& numbers, uint32_t end) {
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
-      const ShiningTriangle<Real> triangle{{corner_[0][i], corner_[1][i], corner_[2][i]},
+      const TriangleEmitter<Real> triangle{{corner_[0][i], corner_[1][i], corner_[2][i]},
                                            outward_[i],
                                            flip_normal_[i],
                                            two_sided_[i],
                                            light_radiance_[i]};
       const LightSample<Real> before = light_at(i);
       const LightSample<Real> s =
-          sample_shining_triangle(triangle, met.position(i), numbers.pair(dimensions.light_point(), i));
-      const bool takes = light_way_[i] == LightWay::triangle;
+          sample_triangle_emitter(triangle, points.position(i), numbers.pair(dimensions.light_point(), i));
+      const bool takes = light_source_[i] == LightSource::triangle;
       const Real pdf = s.pdf * light_pmf_[i];
       light_direction_.set(i, select(takes, s.direction, before.direction));
       light_radiance_.set(i, select(takes, s.radiance, before.radiance));
@@ -168,14 +168,14 @@ class DiffuseSurfaces {
   void sample_sky(const Numbers& numbers, uint32_t end) {
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
-      const bool takes = light_way_[i] == LightWay::sky;
+      const bool takes = light_source_[i] == LightSource::sky;
       const Vec3<Real> before = light_direction_[i];
       light_direction_.set(i, select(takes, sample_uniform_sphere(numbers.pair(dimensions.light_point(), i)), before));
     }
   }
 
-  ALHAZEN_INLINE ShadingPoint<Real> point_at(const Met& met, uint32_t i) const {
-    ShadingPoint<Real> point = met.bare_point(i);
+  ALHAZEN_INLINE ShadingPoint<Real> point_at(const Points& points, uint32_t i) const {
+    ShadingPoint<Real> point = points.bare_point(i);
     point.bsdf.kind = MaterialKind::diffuse;
     point.bsdf.a = reflectance_[i];
     return point;
@@ -203,20 +203,20 @@ class DiffuseSurfaces {
     return light;
   }
 
-  using Vectors = VectorColumns<Real, most>;
+  using Vectors = VectorColumns<Real, max_count>;
   uint32_t count_ = 0, triangles_ = 0, skies_ = 0;
-  uint32_t places_[most]{};
+  uint32_t indices_[max_count]{};
   Vectors reflectance_;
   Vectors light_direction_, light_radiance_, light_point_, light_point_error_, light_normal_;
   Vectors corner_[3], outward_;
-  Real light_pdf_[most]{}, light_pmf_[most]{};
-  uint32_t light_way_[most]{}, flip_normal_[most]{}, two_sided_[most]{};
-  uint32_t light_is_delta_[most]{}, light_is_finite_[most]{};
+  Real light_pdf_[max_count]{}, light_pmf_[max_count]{};
+  uint32_t light_source_[max_count]{}, flip_normal_[max_count]{}, two_sided_[max_count]{};
+  uint32_t light_is_delta_[max_count]{}, light_is_finite_[max_count]{};
   Vectors throughput_;
-  Real eta_scale_[most]{}, bsdf_pdf_[most]{};
-  uint32_t vertex_[most]{}, is_lit_[most]{}, goes_on_[most]{};
+  Real eta_scale_[max_count]{}, bsdf_pdf_[max_count]{};
+  uint32_t vertex_[max_count]{}, is_lit_[max_count]{}, goes_on_[max_count]{};
   Vectors lit_, shadow_origin_, shadow_direction_, origin_, direction_;
-  Real shadow_t_max_[most]{};
+  Real shadow_t_max_[max_count]{};
 };
 
 }  // namespace ALHAZEN_CORE

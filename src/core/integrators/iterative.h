@@ -1,19 +1,19 @@
 #pragma once
 
-// The report's Algorithm 5: one branch at a time in a loop, emission found by chance. Unlike the report's listing, a
-// ray that leaves the scene keeps the emission gathered before it.
+// The report's Algorithm 5: a loop that follows one branch, with emission found by BSDF sampling alone. Unlike in the
+// report's listing, a ray that escapes keeps the emission gathered before it.
 
 #include "core/integrators/stages.h"
 
 namespace ALHAZEN_CORE {
 
-/// A path under way, between two segments.
+/// The state of a path between two segments.
 template <class Real>
 struct IterativeState {
   Ray<Real> ray;
   Vec3<Real> throughput = splat(Real(1));
-  uint32_t vertex = 0;  ///< how many surfaces it met so far
-  Real travelled = 0;   ///< how far it came before the ray's origin, through surfaces that let it pass
+  uint32_t vertex = 0;  ///< number of surfaces hit so far
+  Real travelled = 0;   ///< distance before the ray's origin, through surfaces that the ray passed through
 };
 
 template <class Real, class Record>
@@ -22,7 +22,7 @@ ALHAZEN_HD ALHAZEN_HOT void leave_scene(const SceneView<Real>& scene, const Iter
   record.radiance += path.throughput * background_radiance(scene, path.ray.direction);
 }
 
-/// Gathers and scatters where the path met a surface. False when it ends there.
+/// Adds emission and scatters at a hit. Returns false when the path ends.
 template <class Real, class Sampler, class Record>
 ALHAZEN_HD ALHAZEN_HOT bool shade_at(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
                                      const Hit<Real>& hit, const ShadingPoint<Real>& point, IterativeState<Real>& path,
@@ -40,12 +40,12 @@ ALHAZEN_HD ALHAZEN_HOT bool shade_at(const SceneView<Real>& scene, const Sampler
   return true;
 }
 
-/// The same from the hit on. `light` is not asked for any.
+/// The same with the shading point given. `light` is not used.
 template <class Real, class Sampler, class Record, class Light>
 ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
                                      const Hit<Real>& hit, IterativeState<Real>& path, Record& record, const Light&) {
   if (scene.has_cutouts && passes(scene, hit, ray_kind(path.vertex), path.ray, path.travelled))
-    return record.segments < most_passages;
+    return record.segments < max_transparent_hits;
   return shade_at(scene, sampler, max_segments, hit, shading_point(scene, path.ray, hit), path, record);
 }
 

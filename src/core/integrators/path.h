@@ -7,34 +7,36 @@
 
 namespace ALHAZEN_CORE {
 
-/// A path under way, between two segments.
+/// The state of a path between two segments.
 template <class Real>
 struct PathState {
   Ray<Real> ray;
   Vec3<Real> throughput = splat(Real(1));
   Real bsdf_pdf = 0;        ///< of the ray's direction
   Real eta_scale = 1;       ///< product of eta^2 over refractions, undone for roulette
-  uint32_t vertex = 0;      ///< how many surfaces it met so far
-  bool is_specular = true;  ///< lights could not have been sampled for this ray
-  Vec3<Real> light_side{};  ///< what `side_of_light` says of the last surface, where there is a light tree
-  Real travelled = 0;       ///< how far it came before its origin, through surfaces that let it pass
+  uint32_t vertex = 0;      ///< number of surfaces hit so far
+  bool is_specular = true;  ///< light sampling could not have found this direction
+  Vec3<Real> light_side{};  ///< `side_of_light` of the last surface, if there is a light tree
+  Real travelled = 0;       ///< distance before the ray's origin, through surfaces that the ray passed through
 };
 
-/// Weight of light that the ray found by chance, against sampling it with density `light_pdf`.
+/// MIS weight of light found by BSDF sampling, where light sampling has density `light_pdf`.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT Real chance_weight(const PathState<Real>& path, Real light_pdf) {
+ALHAZEN_HD ALHAZEN_HOT Real bsdf_mis_weight(const PathState<Real>& path, Real light_pdf) {
   return path.is_specular ? Real(1) : power_heuristic(path.bsdf_pdf, light_pdf);
 }
 
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void leave_scene(const SceneView<Real>& scene, const PathState<Real>& path, Record& record) {
   if (!is_zero(scene.background))
-    record.radiance += path.throughput * scene.background * chance_weight(path, pdf_background(scene));
+    record.radiance += path.throughput * scene.background * bsdf_mis_weight(path, pdf_background(scene));
   for (uint32_t i = 0; i < scene.environments_count; ++i) {
     const EnvironmentRecord<Real>& map = scene.environments[i];
-    const EnvironmentSample<Real> met = meet_environment(scene, map, path.ray.direction, !path.is_specular);
-    if (is_zero(met.radiance)) continue;
-    record.radiance += path.throughput * met.radiance * chance_weight(path, scene.lights[map.light].pmf * met.pdf);
+    const EnvironmentSample<Real> map_value =
+        evaluate_environment_and_pdf(scene, map, path.ray.direction, !path.is_specular);
+    if (is_zero(map_value.radiance)) continue;
+    record.radiance +=
+        path.throughput * map_value.radiance * bsdf_mis_weight(path, scene.lights[map.light].pmf * map_value.pdf);
   }
 }
 
@@ -46,7 +48,7 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
   Real light_pdf = 0;
   if (!path.is_specular) {
     if (path.travelled > 0) {
-      // Seen from where the light would have been sampled.
+      // The ray as it left the point at which the light would have been sampled.
       const Ray<Real> whole{path.ray.origin - path.ray.direction * path.travelled, path.ray.direction, path.ray.time};
       const Hit<Real> end{hit.t + path.travelled, hit.b1, hit.b2, hit.primitive, hit.instance};
       light_pdf = pdf_light(scene, scene.lights[point.light], whole, end, point.si, path.light_side);
@@ -54,10 +56,10 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
       light_pdf = pdf_light(scene, scene.lights[point.light], path.ray, hit, point.si, path.light_side);
     }
   }
-  record.radiance += path.throughput * emission * chance_weight(path, light_pdf);
+  record.radiance += path.throughput * emission * bsdf_mis_weight(path, light_pdf);
 }
 
-/// Picks the next ray. False: the path ends here.
+/// Samples the next ray. Returns false if the path ends here.
 template <class Real, class Sampler>
 ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingPoint<Real>& point,
                                           PathState<Real>& path) {
@@ -78,7 +80,7 @@ ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingP
   return true;
 }
 
-/// What is done where the path met a surface before light is looked for. False when it ends there.
+/// Handles a hit up to direct light: records it and adds emission. Returns false if the path ends there.
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT bool arrive(const SceneView<Real>& scene, uint32_t max_segments, const Hit<Real>& hit,
                                    const ShadingPoint<Real>& point, PathState<Real>& path, Record& record) {
@@ -89,8 +91,8 @@ ALHAZEN_HD ALHAZEN_HOT bool arrive(const SceneView<Real>& scene, uint32_t max_se
   return path.vertex + 1 < max_segments;
 }
 
-/// Looks for light and scatters. False when the path ends here. `light` is handed the way to a sampled light and what
-/// the path gains if it is free, and may look at once or later.
+/// Adds direct light and scatters. Returns false if the path ends here. `light` receives the shadow ray to a sampled
+/// light and the radiance to add if it is unoccluded; it may trace the ray at once or later.
 template <class Real, class Sampler, class Record, class Light>
 ALHAZEN_HD ALHAZEN_HOT bool light_and_scatter(const SceneView<Real>& scene, const Sampler& sampler,
                                               const ShadingPoint<Real>& point, PathState<Real>& path, Record& record,
@@ -105,12 +107,12 @@ ALHAZEN_HD ALHAZEN_HOT bool light_and_scatter(const SceneView<Real>& scene, cons
   return continue_path(sampler, point, path);
 }
 
-/// Gathers, lights and scatters where the path met a surface. False when it ends there. `light` as above.
+/// Adds emission and direct light and scatters at a hit. Returns false if the path ends there. `light` is as above.
 template <class Real, class Sampler, class Record, class Light>
 ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
                                      const Hit<Real>& hit, PathState<Real>& path, Record& record, const Light& light) {
   if (scene.has_cutouts && passes(scene, hit, ray_kind(path.vertex), path.ray, path.travelled))
-    return record.segments < most_passages;
+    return record.segments < max_transparent_hits;
   const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
   return arrive(scene, max_segments, hit, point, path, record) &&
          light_and_scatter(scene, sampler, point, path, record, light);

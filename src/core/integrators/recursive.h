@@ -1,12 +1,12 @@
 #pragma once
 
-// The report's Algorithm 3: recursion with one branch, chosen at random at a dielectric.
+// The report's Algorithm 3: recursion that follows one branch, chosen at random at a dielectric.
 
 #include "core/integrators/stages.h"
 
 namespace ALHAZEN_CORE {
 
-/// Radiance that arrives along `ray`, from at most `segments_left` segments; `segment` counts those before it.
+/// Radiance that arrives along `ray` over at most `segments_left` segments; `segment` counts those before it.
 template <class Real, class Intersector, class Sampler>
 ALHAZEN_HD Vec3<Real> cast_ray_recursive(const SceneView<Real>& scene, const Intersector& intersector,
                                          const Sampler& sampler, Ray<Real> ray, uint32_t segments_left,
@@ -19,11 +19,11 @@ ALHAZEN_HD Vec3<Real> cast_ray_recursive(const SceneView<Real>& scene, const Int
     return background_radiance(scene, ray.direction);
   const ShadingPoint<Real> point = shading_point(scene, ray, hit);
   if (segment == 0) record_first_hit(point, travelled + hit.t, record);
-  const Vec3<Real> share = arriving_share(point, travelled + hit.t);
-  const Vec3<Real> emission = share * surface_emission(scene, hit, point);
+  const Vec3<Real> transmittance = arriving_share(point, travelled + hit.t);
+  const Vec3<Real> emission = transmittance * surface_emission(scene, hit, point);
   const BsdfSample<Real> s = scatter(point, sampler, VertexDimensions(segment));
   if (!(s.pdf > 0) || is_zero(s.weight)) return emission;
-  return emission + share * s.weight *
+  return emission + transmittance * s.weight *
                         cast_ray_recursive(scene, intersector, sampler, spawn_ray(point.si, s.direction),
                                            segments_left - 1, segment + 1, record);
 }

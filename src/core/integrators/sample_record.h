@@ -1,6 +1,6 @@
 #pragma once
 
-// What a camera sample brings back.
+// What a camera sample returns.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace ALHAZEN_CORE {
 
-/// What a path gathers and costs.
+/// Radiance that a path gathers and the rays that it costs.
 template <class Real>
 struct PathRecord {
   Vec3<Real> radiance{};
@@ -17,20 +17,21 @@ struct PathRecord {
   uint32_t shadow_rays = 0;
 };
 
-/// The first surface that the camera ray met.
+/// The first surface that the camera ray hits.
 template <class Real>
 struct FirstHit {
   Vec3<Real> albedo{}, normal{};  ///< the normal is the shading normal, in world space
-  Real depth = 0;                 ///< distance to it from the lens, scene units
+  Real depth = 0;                 ///< distance from the lens, in scene units
 };
 
 template <class Real>
 struct SampleRecord : PathRecord<Real> {
-  FirstHit<Real> first;  ///< where `has_hit`
-  uint32_t has_hit = 0;  ///< 1 where there was one
+  FirstHit<Real> first;  ///< valid if `has_hit`
+  uint32_t has_hit = 0;  ///< 1 if the camera ray hit a surface
   bool keeps_first_hit = true;
 
-  /// For another sample. Member by member: a whole one is written elsewhere first and waited for.
+  /// Resets the record for another sample. It assigns member by member: assigning a whole record goes through a
+  /// temporary, whose stores the loads then wait for.
   ALHAZEN_HD void begin(bool wants_first_hit) {
     this->radiance = {};
     this->segments = this->shadow_rays = 0;
@@ -38,7 +39,7 @@ struct SampleRecord : PathRecord<Real> {
     keeps_first_hit = wants_first_hit;
   }
 
-  /// What an integrator calls at the first surface.
+  /// Called by integrators at the first surface.
   ALHAZEN_HD void keep_first_hit(const FirstHit<Real>& hit) {
     first = hit;
     has_hit = 1;

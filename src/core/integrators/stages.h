@@ -1,7 +1,7 @@
 #pragma once
 
-// The stages that every integrator is made of: meet the surface, gather emission, light it directly, scatter.
-// A megakernel runs them in a row, queues one kernel each. A `Record` is a PathRecord that is told of the first hit.
+// The stages of every integrator: compute the shading point, add emission, add direct light, scatter. A megakernel runs
+// them in sequence; the wavefront runs one kernel each. A `Record` is a PathRecord that also takes the first hit.
 
 #include "core/integrators/sample_record.h"
 #include "core/integrators/transparency.h"
@@ -19,17 +19,17 @@ struct ShadingPoint {
   SurfaceInteraction<Real> si;
   Bsdf<Real> bsdf;
   Vec3<Real> wo;   ///< unit, back along the ray
-  uint32_t light;  ///< the light that this surface is, or no_light
+  uint32_t light;  ///< index of the light if the surface is emissive, else no_light
   const MaterialRecord<Real>* material;
 };
 
-/// Of a mix, which of its materials the ray meets.
+/// Selects one material of a mix for this hit.
 template <class Real>
 ALHAZEN_HD ALHAZEN_COLD const MaterialRecord<Real>& mixed_material(const SceneView<Real>& scene,
                                                                    const MaterialRecord<Real>& mix,
                                                                    const TexturePoint<Real>& at, uint32_t hash) {
   const MaterialRecord<Real>* material = &mix;
-  // The compiler sees to it that mixes end; each level draws anew.
+  // The scene compiler ensures that mixes are not cyclic; each level uses a new random number.
   for (uint32_t level = 0; material->kind == MaterialKind::mix; ++level) {
     const Real amount = evaluate_texture(scene, material->amount, at).x;
     const bool second = random_of_hit<Real>(combine32(hash, level), HitChoice::mix) < amount;
@@ -38,7 +38,7 @@ ALHAZEN_HD ALHAZEN_COLD const MaterialRecord<Real>& mixed_material(const SceneVi
   return *material;
 }
 
-/// The scattering function of a layered material, whose frame is set.
+/// Builds the scattering function of a layered material, whose frame is set.
 template <class Real>
 ALHAZEN_HD ALHAZEN_COLD void add_layers(const SceneView<Real>& scene, const TexturePoint<Real>& at, uint32_t hash,
                                         const Vec3<Real>& coat_normal, ShadingPoint<Real>& point) {
@@ -47,8 +47,7 @@ ALHAZEN_HD ALHAZEN_COLD void add_layers(const SceneView<Real>& scene, const Text
                frame.to_local(coat_normal), point.bsdf.layered);
 }
 
-/// Sets what belongs to the material, where the surface has been met at `point.si`; `frame` is that about its
-/// consistent_shading_normal.
+/// Sets what depends on the material at the hit `point.si`; `frame` is that about its consistent_shading_normal.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT void set_material(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>& hit,
                                          const Frame<Real>& frame, ShadingPoint<Real>& point) {
@@ -76,7 +75,7 @@ ALHAZEN_HD ALHAZEN_HOT ShadingPoint<Real> shading_point(const SceneView<Real>& s
   return point;
 }
 
-/// Radiance that the surface itself sends back along the ray.
+/// Radiance that the surface emits back along the ray.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> surface_emission(const SceneView<Real>& scene, const Hit<Real>& hit,
                                                    const ShadingPoint<Real>& point) {
@@ -87,8 +86,8 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> surface_emission(const SceneView<Real>& scene,
   return radiance * emission_factor(scene, light, point_of_emission(point.si, hit));
 }
 
-/// The side of the surface that light must come from to be scattered back along the ray: its normal; zero where the
-/// surface may let light through.
+/// The side of the surface from which light must arrive to be reflected back along the ray, as its normal; zero if the
+/// surface may transmit light.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> side_of_light(const ShadingPoint<Real>& point) {
   const MaterialKind kind = point.bsdf.kind;
@@ -97,8 +96,8 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> side_of_light(const ShadingPoint<Real>& point)
   return face_forward(point.si.normal, point.wo);
 }
 
-/// Whether `wi` lies on the same side of the shading normal as of the surface: interpolated normals alone would let
-/// light through closed surfaces.
+/// Returns whether `wi` is on the same side of the shading normal as of the geometric normal: interpolated normals
+/// alone would let light leak through closed surfaces.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT bool is_on_one_side(const ShadingPoint<Real>& point, const Vec3<Real>& wi) {
   return dot(wi, point.si.normal) * dot(wi, point.bsdf.frame.normal) *
@@ -107,7 +106,7 @@ ALHAZEN_HD ALHAZEN_HOT bool is_on_one_side(const ShadingPoint<Real>& point, cons
          0;
 }
 
-/// Share of light that is left where the ray came `distance` through what the surface bounds (Beer and Lambert).
+/// Beer-Lambert transmittance over `distance` through the medium that the surface bounds.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> arriving_share(const ShadingPoint<Real>& point, Real distance) {
   if (!(point.material->features & MaterialFeatures::absorbs) || dot(point.wo, point.si.normal) > 0)
@@ -116,24 +115,25 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> arriving_share(const ShadingPoint<Real>& point
   return {std::exp(-sigma.x * distance), std::exp(-sigma.y * distance), std::exp(-sigma.z * distance)};
 }
 
-/// A ray that is asked whether anything stands before `t_max`.
+/// A ray that tests for occlusion before `t_max`.
 template <class Real>
 struct ShadowRay {
   Ray<Real> ray;
-  Real t_max;  ///< not above 0: nothing can stand in between
+  Real t_max;  ///< if not above 0, nothing can occlude
 };
 
-/// The way from the surface to a sampled light.
+/// The shadow ray from the surface to a sampled light.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT ShadowRay<Real> shadow_ray(const SurfaceInteraction<Real>& si, const LightSample<Real>& light) {
   ShadowRay<Real> shadow{spawn_ray(si, light.direction), infinity<Real>};
   if (!light.is_finite) return shadow;
-  // The rounded direction misses its aim by so much, which on a light seen from the edge is a way behind the surface.
+  // Rounding of the direction displaces the end point by this much; on a light seen edge-on that may be behind its
+  // surface.
   const Vec3<Real> drift = splat(length(light.point - shadow.ray.origin) * rounding_bound<Real>(3));
   const Vec3<Real> target = offset_origin(light.point, light.point_error + drift, light.normal, -light.direction);
-  const Vec3<Real> way = target - shadow.ray.origin;
-  const Real distance = length(way);
-  if (distance > 0) shadow.ray.direction = way * (1 / distance);
+  const Vec3<Real> to_light = target - shadow.ray.origin;
+  const Real distance = length(to_light);
+  if (distance > 0) shadow.ray.direction = to_light * (1 / distance);
   shadow.t_max = distance > 0 ? distance * (1 - 4 * rounding_bound<Real>(3)) : Real(0);
   return shadow;
 }
@@ -143,7 +143,7 @@ ALHAZEN_HD bool is_free(const Intersector& intersector, const ShadowRay<Real>& s
   return !(shadow.t_max > 0) || !intersector.occluded(shadow.ray, shadow.t_max);
 }
 
-/// Share of light that arrives: 0 or 1 where no material lets rays through.
+/// Visibility of a light: 0 or 1 unless some material lets shadow rays through.
 template <class Real, class Intersector>
 ALHAZEN_HD Real free_share(const SceneView<Real>& scene, const Intersector& intersector,
                            const ShadowRay<Real>& shadow) {
@@ -151,8 +151,8 @@ ALHAZEN_HD Real free_share(const SceneView<Real>& scene, const Intersector& inte
   return is_free(intersector, shadow) ? Real(1) : Real(0);
 }
 
-/// Light that arrives from one sampled light and leaves along `wo`, unless something stands in between, weighted
-/// against finding it by chance.
+/// Light that arrives from one sampled light and is scattered along `wo` if unoccluded, with its MIS weight against
+/// BSDF sampling.
 template <class Real>
 struct DirectLight {
   Vec3<Real> radiance{};
@@ -160,7 +160,7 @@ struct DirectLight {
   bool is_lit = false;
 };
 
-/// By what one of the scene's lights is chosen for a surface.
+/// The input by which a light is chosen for a surface.
 template <class Real>
 struct LightChoiceInput {
   Vec3<Real> normal;  ///< as for `choose_light`
@@ -175,7 +175,7 @@ ALHAZEN_HD ALHAZEN_HOT LightChoiceInput<Real> light_choice_input(const SceneView
           scene.lights_count > 1 ? sampler.template get_1d<Real>(dimensions.light_choice()) : Real(0)};
 }
 
-/// One light, and a point of it as seen from a surface. pdf 0: there is none.
+/// Samples one light and a point on it for a surface. pdf is 0 if there is none.
 template <class Real, class Sampler>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light_for(const SceneView<Real>& scene, const Sampler& sampler,
                                                           const VertexDimensions& dimensions,
@@ -202,7 +202,7 @@ ALHAZEN_HD ALHAZEN_HOT DirectLight<Real> direct_light(const ShadingPoint<Real>& 
 template <class Real, class Sampler>
 ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> scatter(const ShadingPoint<Real>& point, const Sampler& sampler,
                                                 const VertexDimensions& dimensions) {
-  // What no one reads is not drawn.
+  // Random numbers that are not used are not generated.
   const Real u_lobe = has_lobes(point.bsdf.kind) ? sampler.template get_1d<Real>(dimensions.bsdf_lobe()) : Real(0);
   const Vec2<Real> u =
       point.bsdf.is_specular() ? Vec2<Real>{} : sampler.template get_2d<Real>(dimensions.bsdf_direction());

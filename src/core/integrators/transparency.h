@@ -1,10 +1,10 @@
 #pragma once
 
-// Surfaces that let rays through: by their alpha, at random, or because they have one side. Backs let rays of the
-// camera through. Other rays they stop, but for three cases, which compile/open_backs.h finds: a triangle whose back
-// the camera sees is absent; one of two that lie in one place, back to back, has its front alone; and where all lights
-// are without size, shadow rays leave a room that the camera looks into from outside through all of its walls. Nothing
-// here is run in scenes without such surfaces.
+// Surfaces that let rays through: by their alpha, at random (alpha test), or because they are one-sided. Camera rays
+// pass through back faces. Other rays are stopped by them, with three exceptions, which compile/open_backs.h finds: a
+// triangle whose back the camera sees is absent; of two coincident triangles, back to back, each has its front alone;
+// and if all lights are delta lights, shadow rays leave a room that the camera looks into from outside through all of
+// its walls. Scenes without such surfaces run none of this code.
 
 #include "core/materials/bsdf.h"
 #include "core/math/ray.h"
@@ -19,7 +19,7 @@ ALHAZEN_HD inline uint32_t bits_of(double x) {
   return static_cast<uint32_t>(bits ^ (bits >> 32));
 }
 
-/// Random bits that belong to this ray and what it met: for choices that take no dimension of the sampler.
+/// Random bits derived from a ray and its hit, for choices that use no dimension of the sampler.
 template <class Real>
 ALHAZEN_HD uint32_t hash_of_hit(const Ray<Real>& ray, const Hit<Real>& hit) {
   uint32_t h = combine32(hit.primitive.bits ^ mix32(hit.instance), bits_of(hit.t));
@@ -29,11 +29,11 @@ ALHAZEN_HD uint32_t hash_of_hit(const Ray<Real>& ray, const Hit<Real>& hit) {
   return combine32(h, bits_of(ray.origin.x));
 }
 
-/// No ray goes through more surfaces than these: should one not get away from where it is, it ends.
-inline constexpr uint32_t most_passages = 1u << 16;
+/// Maximum number of surfaces that a ray passes through; then it ends, in case it makes no progress.
+inline constexpr uint32_t max_transparent_hits = 1u << 16;
 
-/// Which choice a hash is for.
-enum class HitChoice : uint32_t { passage = 1, mix = 2, channel = 3 };
+/// The purpose of a hash.
+enum class HitChoice : uint32_t { alpha = 1, mix = 2, channel = 3 };
 
 template <class Real>
 ALHAZEN_HD Real random_of_hit(uint32_t hash, HitChoice choice) {
@@ -46,11 +46,11 @@ ALHAZEN_HD ALHAZEN_HOT Ray<Real> spawn_ray(const SurfaceInteraction<Real>& si, c
           si.instance};
 }
 
-/// Who asks whether a surface lets a ray through: the camera's ray, before anything has scattered it, one that a
-/// surface has scattered, or a shadow ray, which goes against the light.
+/// The kind of ray for which a surface may be transparent: a camera ray before any scattering, a scattered ray, or a
+/// shadow ray, which travels against the light.
 enum class RayKind : uint32_t { camera, scattered, shadow };
 
-/// Whether any such ray may go through the surface.
+/// Returns whether a ray of this kind may pass through the surface.
 template <class Real>
 ALHAZEN_HD bool may_pass(const MaterialRecord<Real>& material, RayKind kind) {
   if (!(material.features & MaterialFeatures::cutout)) return false;
@@ -59,30 +59,30 @@ ALHAZEN_HD bool may_pass(const MaterialRecord<Real>& material, RayKind kind) {
   return kind == RayKind::camera || (kind == RayKind::shadow && (material.features & MaterialFeatures::lit_through));
 }
 
-/// Share of such rays that the surface stops.
+/// Fraction of rays of this kind that the surface stops.
 template <class Real>
 ALHAZEN_HD Real opacity(const SceneView<Real>& scene, const MaterialRecord<Real>& material, const Ray<Real>& ray,
                         const Hit<Real>& hit, const SurfaceInteraction<Real>& si, RayKind kind) {
   if (material.features & MaterialFeatures::absent) return 0;
   if (material.features & MaterialFeatures::one_sided) {
-    const bool meets_back = dot(ray.direction, si.normal) > 0;
-    if (meets_back && (kind == RayKind::camera || (material.features & MaterialFeatures::half))) return 0;
-    if (!meets_back && kind == RayKind::shadow && (material.features & MaterialFeatures::lit_through)) return 0;
+    const bool hits_back = dot(ray.direction, si.normal) > 0;
+    if (hits_back && (kind == RayKind::camera || (material.features & MaterialFeatures::half))) return 0;
+    if (!hits_back && kind == RayKind::shadow && (material.features & MaterialFeatures::lit_through)) return 0;
   }
   if (material.opacity.count == 0) return 1;
   return clamp(evaluate_texture(scene, material.opacity, texture_point(si, hit)).x, Real(0), Real(1));
 }
 
-/// Of a path that has met so many surfaces.
+/// The kind of the rays of a path that has hit `vertex` surfaces.
 ALHAZEN_HD inline RayKind ray_kind(uint32_t vertex) { return vertex == 0 ? RayKind::camera : RayKind::scattered; }
 
 template <class Real>
-ALHAZEN_HD const MaterialRecord<Real>& material_met(const SceneView<Real>& scene, const Hit<Real>& hit) {
+ALHAZEN_HD const MaterialRecord<Real>& material_of_hit(const SceneView<Real>& scene, const Hit<Real>& hit) {
   return scene.materials[scene.surfaces[surface_of(scene, hit.primitive)].material];
 }
 
-/// The ray that goes on where a surface lets it through. It begins just before a triangle, which is not hit again
-/// (`Ray::left`): what else lies in that plane is met next. Where it had begun as close before, it begins behind.
+/// Continues a ray beyond a surface that it passes through. It starts just before a triangle, which it cannot hit again
+/// (`Ray::left`), so that coplanar surfaces are hit next. If it had started that close already, it starts behind.
 template <class Real>
 ALHAZEN_HD Ray<Real> ray_beyond(const Ray<Real>& ray, const Hit<Real>& hit, const SurfaceInteraction<Real>& si) {
   const Real clearance = 8 * dot(abs(si.normal), si.position_error);
@@ -93,44 +93,45 @@ ALHAZEN_HD Ray<Real> ray_beyond(const Ray<Real>& ray, const Hit<Real>& hit, cons
   return beyond;
 }
 
-/// Whether the ray goes on as if nothing had been met; then it is one that begins anew (ray_beyond), and `travelled`
-/// has grown by what lies before.
+/// Returns whether the ray passes through the hit surface. If so, `ray` is continued (ray_beyond) and `travelled` grows
+/// by the distance to the hit.
 template <class Real>
 ALHAZEN_HD ALHAZEN_COLD bool passes(const SceneView<Real>& scene, const Hit<Real>& hit, RayKind kind, Ray<Real>& ray,
                                     Real& travelled) {
-  const MaterialRecord<Real>& material = material_met(scene, hit);
+  const MaterialRecord<Real>& material = material_of_hit(scene, hit);
   if (!may_pass(material, kind)) return false;
   const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
-  const Real share = opacity(scene, material, ray, hit, si, kind);
-  if (share >= 1) return false;
-  if (share > 0 && random_of_hit<Real>(hash_of_hit(ray, hit), HitChoice::passage) < share) return false;
+  const Real surface_opacity = opacity(scene, material, ray, hit, si, kind);
+  if (surface_opacity >= 1) return false;
+  if (surface_opacity > 0 && random_of_hit<Real>(hash_of_hit(ray, hit), HitChoice::alpha) < surface_opacity)
+    return false;
   travelled += hit.t;
   ray = ray_beyond(ray, hit, si);
   return true;
 }
 
-/// Share of light that arrives over a way of length `t_max`.
+/// Fraction of light that arrives along the ray over the distance `t_max`.
 template <class Real, class Intersector>
 ALHAZEN_HD Real transmittance(const SceneView<Real>& scene, const Intersector& intersector, Ray<Real> ray, Real t_max) {
-  Real share = 1;
+  Real transmitted = 1;
   Hit<Real> hit;
-  for (uint32_t i = 0; share > 0 && t_max > 0 && intersector.closest_hit(ray, t_max, hit); ++i) {
-    if (i == most_passages) return 0;
-    const MaterialRecord<Real>& material = material_met(scene, hit);
+  for (uint32_t i = 0; transmitted > 0 && t_max > 0 && intersector.closest_hit(ray, t_max, hit); ++i) {
+    if (i == max_transparent_hits) return 0;
+    const MaterialRecord<Real>& material = material_of_hit(scene, hit);
     if (!may_pass(material, RayKind::shadow)) return 0;
     const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
-    share *= 1 - opacity(scene, material, ray, hit, si, RayKind::shadow);
+    transmitted *= 1 - opacity(scene, material, ray, hit, si, RayKind::shadow);
     t_max -= hit.t;
     ray = ray_beyond(ray, hit, si);
   }
-  return share;
+  return transmitted;
 }
 
-/// closest_hit of what stops the ray, which may begin behind surfaces afterwards.
+/// Finds the closest hit that stops the ray; the ray may then start behind surfaces that it passed through.
 template <class Real, class Intersector>
 ALHAZEN_HD bool closest_stop(const SceneView<Real>& scene, const Intersector& intersector, RayKind kind, Ray<Real>& ray,
                              Hit<Real>& hit, Real& travelled) {
-  for (uint32_t i = 0; i < most_passages && intersector.closest_hit(ray, infinity<Real>, hit); ++i)
+  for (uint32_t i = 0; i < max_transparent_hits && intersector.closest_hit(ray, infinity<Real>, hit); ++i)
     if (!scene.has_cutouts || !passes(scene, hit, kind, ray, travelled)) return true;
   return false;
 }

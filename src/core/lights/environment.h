@@ -1,8 +1,8 @@
 #pragma once
 
-// An environment map: radiance from infinitely far away by a picture of the whole sphere, bilinear between texels. It
-// is sampled by a distribution that is constant over each texel, first of rows, then within the row (Pharr, Jakob,
-// Humphreys 2016, 14.2.4). Densities are over solid angle.
+// An environment map: radiance from infinitely far away, given by an image of the whole sphere with bilinear
+// interpolation. It is sampled by a distribution that is constant over each texel: first a row, then a texel in the row
+// (Pharr, Jakob, Humphreys 2016, 14.2.4). Densities are over solid angle.
 
 #include "core/lights/sphere_mapping.h"
 #include "core/sampling/discrete.h"
@@ -12,9 +12,9 @@ namespace ALHAZEN_CORE {
 
 template <class Real>
 struct EnvironmentSample {
-  Vec3<Real> direction{};  ///< unit, in the world
+  Vec3<Real> direction{};  ///< unit, in world space
   Vec3<Real> radiance{};
-  Real pdf = 0;  ///< 0: nothing was sampled
+  Real pdf = 0;  ///< 0 if nothing was sampled
 };
 
 template <class Real>
@@ -26,11 +26,11 @@ ALHAZEN_HD Vec3<Real> environment_texel(const SceneView<Real>& scene, const Envi
   return {static_cast<Real>(t[0]), static_cast<Real>(t[1]), static_cast<Real>(t[2])};
 }
 
-/// Radiance at a point of the picture, texel centres at half integers.
+/// Radiance at a point of the image; texel centres are at half integers.
 template <class Real>
 ALHAZEN_HD Vec3<Real> lookup_environment(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
                                          const Vec2<Real>& uv) {
-  if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return {};  // of a direction that is not a number
+  if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return {};  // the direction is NaN
   const Real x = uv.x * static_cast<Real>(map.width) - Real(0.5), y = uv.y * static_cast<Real>(map.height) - Real(0.5);
   const Real fx = std::floor(x), fy = std::floor(y);
   const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
@@ -40,7 +40,7 @@ ALHAZEN_HD Vec3<Real> lookup_environment(const SceneView<Real>& scene, const Env
   return lerp(top, bottom, y - fy) * map.scale;
 }
 
-/// Radiance that arrives against unit `direction`, which leads out of the scene.
+/// Radiance that arrives from unit `direction`, which points out of the scene.
 template <class Real>
 ALHAZEN_HD Vec3<Real> evaluate_environment(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
                                            const Vec3<Real>& direction) {
@@ -57,9 +57,9 @@ ALHAZEN_HD Real environment_square_pdf(const SceneView<Real>& scene, const Envir
          ((columns[1] - columns[0]) * static_cast<Real>(map.width));
 }
 
-/// Where in [0, 1) `u` lies within item `i` of a cumulative distribution.
+/// Position in [0, 1) of `u` within item `i` of a cumulative distribution.
 template <class Real>
-ALHAZEN_HD Real place_within(const Real* cdf, uint32_t i, Real u) {
+ALHAZEN_HD Real position_within(const Real* cdf, uint32_t i, Real u) {
   return clamp((u - cdf[i]) / (cdf[i + 1] - cdf[i]), Real(0), one_minus_epsilon<Real>);
 }
 
@@ -71,8 +71,9 @@ ALHAZEN_HD EnvironmentSample<Real> sample_environment(const SceneView<Real>& sce
   const uint32_t row = sample_cdf(rows, map.height, u.y);
   const Real* columns = rows + (map.height + 1) + static_cast<uint64_t>(row) * (map.width + 1);
   const uint32_t column = sample_cdf(columns, map.width, u.x);
-  const Vec2<Real> uv{(static_cast<Real>(column) + place_within(columns, column, u.x)) / static_cast<Real>(map.width),
-                      (static_cast<Real>(row) + place_within(rows, row, u.y)) / static_cast<Real>(map.height)};
+  const Vec2<Real> uv{
+      (static_cast<Real>(column) + position_within(columns, column, u.x)) / static_cast<Real>(map.width),
+      (static_cast<Real>(row) + position_within(rows, row, u.y)) / static_cast<Real>(map.height)};
   const Vec3<Real> direction = direction_of_square(map.mapping, uv);
   const Real solid_angle = solid_angle_of_square(map.mapping, direction);
   if (!(solid_angle > 0)) return s;
@@ -82,7 +83,7 @@ ALHAZEN_HD EnvironmentSample<Real> sample_environment(const SceneView<Real>& sce
   return s;
 }
 
-/// Density with which `sample_environment` returns the direction that is `local` to the map and lies at `uv`.
+/// Density with which `sample_environment` returns the direction that is `local` to the map and has coordinates `uv`.
 template <class Real>
 ALHAZEN_HD Real pdf_environment_at(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
                                    const Vec3<Real>& local, const Vec2<Real>& uv) {
@@ -104,11 +105,12 @@ ALHAZEN_HD Real pdf_environment(const SceneView<Real>& scene, const EnvironmentR
   return pdf_environment_at(scene, map, local, square_of_direction(map.mapping, local));
 }
 
-/// What a ray along unit `direction` meets where it leaves the scene: the map's radiance and, where `wants_pdf` says
-/// so, its density. Both look at the same place of the map, which is found once.
+/// The map's radiance for a ray that escapes along unit `direction`, and its density if `wants_pdf`. Both use the same
+/// lookup, which is done once.
 template <class Real>
-ALHAZEN_HD EnvironmentSample<Real> meet_environment(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
-                                                    const Vec3<Real>& direction, bool wants_pdf) {
+ALHAZEN_HD EnvironmentSample<Real> evaluate_environment_and_pdf(const SceneView<Real>& scene,
+                                                                const EnvironmentRecord<Real>& map,
+                                                                const Vec3<Real>& direction, bool wants_pdf) {
   const Vec3<Real> local = map.axes.to_local(direction);
   const Vec2<Real> uv = square_of_direction(map.mapping, local);
   EnvironmentSample<Real> s{direction, lookup_environment(scene, map, uv), 0};

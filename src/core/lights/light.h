@@ -1,12 +1,12 @@
 #pragma once
 
-// Lights: choosing one, by power or by the light tree, sampling a direction towards it, and the density of that for a
-// ray that found a light by itself. All densities are over solid angle at the reference point, the probability of the
-// choice included.
+// Lights: choosing one by power or by the light tree, sampling a direction towards it, and the density of that sample
+// for a ray that hit a light by BSDF sampling. All densities are over solid angle at the reference point and include
+// the probability of the choice.
 
 #include "core/lights/environment.h"
+#include "core/lights/image_light.h"
 #include "core/lights/light_tree.h"
-#include "core/lights/picture_light.h"
 #include "core/sampling/discrete.h"
 #include "core/sampling/warp.h"
 #include "core/shapes/interaction.h"
@@ -17,10 +17,10 @@ namespace ALHAZEN_CORE {
 template <class Real>
 struct LightSample {
   Vec3<Real> direction{};  ///< unit, from the reference point
-  Vec3<Real> radiance{};   ///< arriving along it, where nothing stands between
-  Real pdf = 0;            ///< 0: nothing was sampled
-  bool is_delta = false;   ///< the light cannot be met by chance; pdf is then the probability of the choice
-  /// Where the shadow ray ends: a point with its error and normal, or nowhere (infinite, distant).
+  Vec3<Real> radiance{};   ///< arriving along it if unoccluded
+  Real pdf = 0;            ///< 0 if nothing was sampled
+  bool is_delta = false;   ///< BSDF sampling cannot find the light; pdf is then the probability of the choice
+  /// Whether the shadow ray ends at a point, with its error and normal; not so for infinite and distant lights.
   bool is_finite = false;
   Vec3<Real> point{}, point_error{}, normal{};
 };
@@ -31,8 +31,8 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> emitted_radiance(const Vec3<Real>& radiance, u
   return select(two_sided || dot(front_normal, towards) > 0, radiance, Vec3<Real>{});
 }
 
-/// Where on a surface that shines its texture is looked up: in full detail, whoever asks, so that what is sampled is
-/// what is met.
+/// The texture lookup point of an emissive surface. It is in full detail for every ray, so that light sampling and BSDF
+/// sampling see the same emission.
 template <class Real>
 ALHAZEN_HD TexturePoint<Real> point_of_emission(const SurfaceInteraction<Real>& si, const Hit<Real>& hit) {
   return {si.position, si.uv, {}, hit};
@@ -45,7 +45,7 @@ ALHAZEN_HD Vec3<Real> emission_factor(const SceneView<Real>& scene, const LightR
   return max(evaluate_texture(scene, light.texture, at), Vec3<Real>{});
 }
 
-/// The same at a point of a triangle, by the weights of its second and third vertex.
+/// The same at a point of a triangle, given the barycentric weights of its second and third vertex.
 template <class Real>
 ALHAZEN_HD Vec3<Real> triangle_emission_factor(const SceneView<Real>& scene, const LightRecord<Real>& light, Real b1,
                                                Real b2) {
@@ -66,13 +66,13 @@ ALHAZEN_HD Vec3<Real> sphere_emission_factor(const SceneView<Real>& scene, const
   return emission_factor(scene, light, at);
 }
 
-/// For SceneView::shining_triangles.
+/// Makes a record of SceneView::triangle_emitters.
 template <class Real>
-ALHAZEN_HD ShiningTriangle<Real> make_shining_triangle(const SceneView<Real>& scene, const LightRecord<Real>& light) {
+ALHAZEN_HD TriangleEmitter<Real> make_triangle_emitter(const SceneView<Real>& scene, const LightRecord<Real>& light) {
   const TriangleRecord& triangle = scene.triangles[light.primitive];
   const SurfaceRecord& surface = scene.surfaces[triangle.surface];
   const uint32_t* v = triangle.vertex;
-  ShiningTriangle<Real> t;
+  TriangleEmitter<Real> t;
   for (int i = 0; i < 3; ++i) t.corner[i] = scene.positions[v[i]];
   t.outward = mesh_outward(scene, surface, v);
   t.flip_normal = surface.flip_normal;
@@ -82,7 +82,7 @@ ALHAZEN_HD ShiningTriangle<Real> make_shining_triangle(const SceneView<Real>& sc
 }
 
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_shining_triangle(const ShiningTriangle<Real>& t,
+ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_triangle_emitter(const TriangleEmitter<Real>& t,
                                                                  const Vec3<Real>& reference, const Vec2<Real>& u) {
   LightSample<Real> s;
   const Vec2<Real> b = sample_triangle(u);
@@ -109,7 +109,7 @@ template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_triangle_light(const SceneView<Real>& scene,
                                                                const LightRecord<Real>& light,
                                                                const Vec3<Real>& reference, const Vec2<Real>& u) {
-  LightSample<Real> s = sample_shining_triangle(scene.shining_triangles[light.shining], reference, u);
+  LightSample<Real> s = sample_triangle_emitter(scene.triangle_emitters[light.emitter], reference, u);
   if (light.texture.count > 0) {
     const Vec2<Real> b = sample_triangle(u);
     s.radiance = s.radiance * triangle_emission_factor(scene, light, b.y, 1 - b.x - b.y);
@@ -135,7 +135,7 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_sphere_light(const SceneView<Rea
   return s;
 }
 
-/// Smooth fall from 1 at cos_inner to 0 at cos_outer.
+/// Smooth falloff from 1 at cos_inner to 0 at cos_outer.
 template <class Real>
 ALHAZEN_HD Real spot_falloff(const LightRecord<Real>& light, Real cos_angle) {
   if (cos_angle <= light.cos_outer) return 0;
@@ -156,8 +156,8 @@ ALHAZEN_HD LightSample<Real> sample_point_light(const SceneView<Real>& scene, co
       light.kind == LightKind::spot ? spot_falloff(light, -dot(s.direction, light.direction)) : Real(1);
   s.radiance = light.radiance * (falloff / distance_squared);
   if (light.kind == LightKind::goniometric || light.kind == LightKind::projection)
-    s.radiance = s.radiance * light_picture_factor(scene, scene.light_pictures[light.primitive],
-                                                   light.kind == LightKind::goniometric, -s.direction);
+    s.radiance = s.radiance * light_image_factor(scene, scene.light_images[light.primitive],
+                                                 light.kind == LightKind::goniometric, -s.direction);
   s.pdf = 1;
   s.is_delta = true;
   s.is_finite = true;
@@ -165,19 +165,19 @@ ALHAZEN_HD LightSample<Real> sample_point_light(const SceneView<Real>& scene, co
   return s;
 }
 
-/// One of the lights by a number. `normal` is that of the side of the surface which light must come from, zero: any.
+/// Chooses one of the lights. `normal` is that of the side of the surface from which light must arrive; zero means any.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightChoice<Real> choose_light(const SceneView<Real>& scene, const Vec3<Real>& reference,
                                                       const Vec3<Real>& normal, Real u) {
   if (scene.light_tree_count > 0) {
-    const Real share = scene.light_tree_share;
-    if (u < share) {
+    const Real probability = scene.light_tree_probability;
+    if (u < probability) {
       LightChoice<Real> choice =
-          sample_light_tree(scene, reference, normal, smaller(u / share, one_minus_epsilon<Real>));
-      choice.pmf *= share;
+          sample_light_tree(scene, reference, normal, smaller(u / probability, one_minus_epsilon<Real>));
+      choice.pmf *= probability;
       return choice;
     }
-    u = smaller((u - share) / (1 - share), one_minus_epsilon<Real>);
+    u = smaller((u - probability) / (1 - probability), one_minus_epsilon<Real>);
   }
   const uint32_t i = scene.lights_count == 1 ? 0 : sample_cdf(scene.light_cdf, scene.light_cdf_count - 1, u);
   return {i, scene.lights[i].pmf};
@@ -188,11 +188,11 @@ template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Real pmf_of_shape(const SceneView<Real>& scene, const LightRecord<Real>& light,
                                          const Vec3<Real>& reference, const Vec3<Real>& normal) {
   if (scene.light_tree_count == 0 || light.pmf == 0) return light.pmf;
-  return scene.light_tree_share * pmf_of_light_tree(scene, light.trail, reference, normal);
+  return scene.light_tree_probability * pmf_of_light_tree(scene, light.trail, reference, normal);
 }
 
-/// Towards a point of this light; the density leaves out that it was chosen. `is_on_light`: `reference` is a point of
-/// the light itself.
+/// Samples a point of this light. The density excludes the probability of choosing the light. `is_on_light`:
+/// `reference` is a point of the light itself.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_chosen_light(const SceneView<Real>& scene,
                                                              const LightRecord<Real>& light,
@@ -243,8 +243,8 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_chosen_light(const SceneView<Rea
   return s;
 }
 
-/// One light, chosen by `u_choice`, towards a point of it. `normal` as for `choose_light`; `own_light` is the light
-/// that `reference` is a point of.
+/// Chooses a light by `u_choice` and samples a point of it. `normal` is as for `choose_light`; `own_light` is the light
+/// that contains `reference`.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light(const SceneView<Real>& scene, const Vec3<Real>& reference,
                                                       const Vec3<Real>& normal, Real time, Real u_choice,
@@ -258,8 +258,8 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light(const SceneView<Real>& sce
   return s;
 }
 
-/// Density with which `sample_light` at the origin of `ray`, and with `normal`, returns its direction by way of the
-/// emissive surface that the ray met.
+/// Density with which `sample_light`, at the origin of `ray` and with `normal`, samples its direction by the emissive
+/// surface that the ray hit.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Real pdf_light(const SceneView<Real>& scene, const LightRecord<Real>& light,
                                       const Ray<Real>& ray, const Hit<Real>& hit, const SurfaceInteraction<Real>& si,
@@ -288,21 +288,21 @@ ALHAZEN_HD ALHAZEN_HOT Real pdf_light(const SceneView<Real>& scene, const LightR
   }
 }
 
-/// The same for a ray that left the scene, by way of the constant infinite light.
+/// The same for a ray that escaped, by the constant infinite light.
 template <class Real>
 ALHAZEN_HD Real pdf_background(const SceneView<Real>& scene) {
   return scene.background_light == no_light ? Real(0)
                                             : scene.lights[scene.background_light].pmf * pdf_uniform_sphere<Real>;
 }
 
-/// The same by way of an environment map, for a ray along `direction`.
+/// The same for a ray along `direction`, by an environment map.
 template <class Real>
 ALHAZEN_HD Real pdf_environment_light(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
                                       const Vec3<Real>& direction) {
   return scene.lights[map.light].pmf * pdf_environment(scene, map, direction);
 }
 
-/// Radiance of all lights at infinity that a ray along `direction` meets where it leaves the scene.
+/// Radiance of all infinite lights for a ray that escapes along `direction`.
 template <class Real>
 ALHAZEN_HD Vec3<Real> background_radiance(const SceneView<Real>& scene, const Vec3<Real>& direction) {
   Vec3<Real> radiance = scene.background;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The kinds of lights, described and compiled. Those with an area come from shapes that emit.
+// The kinds of lights, in descriptions and in compiled scenes. Area lights are emissive shapes.
 
 #include <cstdint>
 
@@ -13,12 +13,12 @@ enum class LightKind : uint32_t {
   sphere,
   moving_sphere,
   point,
-  spot,               ///< a point light about a direction, with a falloff
-  distant,            ///< of one direction
+  spot,               ///< a point light with a falloff about a direction
+  distant,            ///< light from a single direction
   constant_infinite,  ///< the same radiance from every direction
-  environment,        ///< radiance from every direction by a map
-  goniometric,        ///< a point light times an image of all directions, square and equal-area octahedral
-  projection          ///< a point light that projects an image along z of its axes; x is to the right of it, y up
+  environment,        ///< radiance from every direction, given by a map
+  goniometric,        ///< a point light scaled by an equal-area octahedral image of all directions
+  projection          ///< a point light that projects an image along its z axis; x points right in the image, y up
 };
 
 }  // namespace ALHAZEN_CORE

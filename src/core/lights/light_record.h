@@ -1,6 +1,6 @@
 #pragma once
 
-// How lights lie in memory.
+// The records of lights.
 
 #include <cstdint>
 
@@ -16,23 +16,23 @@ namespace ALHAZEN_CORE {
 template <class Real>
 struct LightRecord {
   LightKind kind;
-  uint32_t primitive;   ///< shapes, environment, pictures: index into the array of that kind
+  uint32_t primitive;   ///< shapes, environments, images: index into the array of that kind
   Vec3<Real> radiance;  ///< radiance; point and spot: intensity; distant: irradiance at normal incidence;
                         ///< environment: mean over all directions
-  uint32_t two_sided;   ///< shapes: emits on both sides
-  uint32_t trail;       ///< where it stands in the light tree: bit i says which child is its way at depth i
-  Real pmf;             ///< probability that this light is chosen, by power where there is a light tree; 0: met by
-                        ///< chance alone
+  uint32_t two_sided;   ///< shapes: 1 if both sides emit
+  uint32_t trail;       ///< position in the light tree: bit i selects the child at depth i
+  Real pmf;             ///< probability that the light is chosen, by power if there is a light tree; 0 if only BSDF
+  ///< sampling finds it
   Vec3<Real> position;
-  Vec3<Real> direction;       ///< the way the light travels, unit length
-  Real cos_outer, cos_inner;  ///< spot: cosines where the light ends and where the falloff begins
+  Vec3<Real> direction;       ///< direction of propagation, unit length
+  Real cos_outer, cos_inner;  ///< spot: cosines of the cone's edge and of the start of the falloff
   TextureRange texture;       ///< shapes: factor on the radiance
-  uint32_t shining;           ///< triangles: index into SceneView::shining_triangles
+  uint32_t emitter;           ///< triangles: index into SceneView::triangle_emitters
 };
 
-/// A triangle that shines, without its texture: what sampling it needs, side by side.
+/// An emissive triangle without its texture: what sampling it needs, stored together.
 template <class Real>
-struct ShiningTriangle {
+struct TriangleEmitter {
   Vec3<Real> corner[3];
   Vec3<Real> outward;  ///< mesh_outward
   uint32_t flip_normal;
@@ -40,14 +40,14 @@ struct ShiningTriangle {
   Vec3<Real> radiance;
 };
 
-/// A group of lights, or one of them, as seen from afar: a sphere that holds them, a cone that holds their normals,
-/// what they emit (Estevez, Kulla 2018). Children lie side by side. In float whatever the precision of the scene.
+/// A group of lights, or one of them: a sphere that bounds them, a cone that bounds their normals, and their power
+/// (Estevez, Kulla 2018). Siblings are adjacent. The members are float in scenes of any precision.
 struct LightTreeNode {
   Vec3<float> centre;
   float radius;
   Vec3<float> axis;
-  float sin_normals, cos_normals;  ///< of the angle about the axis that holds the normals
-  float cos_emission;              ///< of the angle about a normal that holds what is emitted, at most a right one
+  float sin_normals, cos_normals;  ///< of the angle about the axis that bounds the normals
+  float cos_emission;              ///< of the angle about a normal that bounds the emission, at most 90 degrees
   float power;
   uint32_t bits;  ///< index of the first child or of the light, times 4; and the two flags
 
@@ -56,27 +56,27 @@ struct LightTreeNode {
   ALHAZEN_HD bool is_two_sided() const { return bits & two_sided; }
   ALHAZEN_HD uint32_t index() const { return bits >> 2; }
 };
-inline constexpr uint32_t most_light_tree_depth = 32;
+inline constexpr uint32_t max_light_tree_depth = 32;
 
-/// The picture of a light without size. Texels lie as an image's in texel_floats, linear.
+/// The image of a delta light. Its texels are stored like an image's in texel_floats, linear.
 template <class Real>
-struct LightPictureRecord {
+struct LightImageRecord {
   uint64_t first_texel;
   uint32_t width, height;
-  Frame<Real> axes;  ///< goniometric: of the octahedral mapping; projection: right, up and the way it is thrown
-  Real half_width, half_height;  ///< projection: of the picture at distance 1
-  Real unused;                   ///< so that no byte of the record is left undefined
+  Frame<Real> axes;  ///< goniometric: of the octahedral mapping; projection: right, up and direction of projection
+  Real half_width, half_height;  ///< projection: of the image at distance 1
+  Real unused;                   ///< padding, so that every byte of the record is defined
 };
 
-/// A map's texels lie as an image's in texel_floats, linear. Its distribution lies in environment_cdf: height + 1
-/// values over the rows, then width + 1 for each row.
+/// The texels of the map are stored like an image's in texel_floats, linear; its distribution is in environment_cdf:
+/// height + 1 values over the rows, then width + 1 for each row.
 template <class Real>
 struct EnvironmentRecord {
   uint64_t first_texel, first_cdf;
   uint32_t width, height;
   SphereMapping mapping;
   uint32_t light;    ///< its index in `lights`
-  Frame<Real> axes;  ///< x, y and z of the map in the world: orthonormal, of either handedness
+  Frame<Real> axes;  ///< x, y and z of the map in world space: orthonormal, of either handedness
   Vec3<Real> scale;  ///< factor on the texels
 };
 

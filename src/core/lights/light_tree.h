@@ -1,6 +1,6 @@
 #pragma once
 
-// Choosing one of many lights by what they may send to a point: a walk down a tree of lights, at each node by the
+// Chooses one of many lights by its estimated contribution to a point: descends a tree of lights, at each node by the
 // importance of its two children (Estevez, Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree
 // Splitting"; PBR 4th ed., 12.6.3).
 
@@ -19,36 +19,36 @@ ALHAZEN_HD ALHAZEN_HOT AngleOfCone<Real> angle_of_cosine(Real cosine) {
   return {safe_sqrt(1 - cosine * cosine), cosine};
 }
 
-/// Of an angle up to a right one.
+/// Sine and cosine of an angle up to 90 degrees.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT AngleOfCone<Real> angle_of_sine(Real sine) {
   return {sine, safe_sqrt(1 - sine * sine)};
 }
 
-/// a - b, but not below 0.
+/// a - b, clamped to 0.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT AngleOfCone<Real> clamped_difference(const AngleOfCone<Real>& a, const AngleOfCone<Real>& b) {
   if (a.cosine > b.cosine) return {0, 1};
   return {a.sine * b.cosine - a.cosine * b.sine, a.cosine * b.cosine + a.sine * b.sine};
 }
 
-/// Bound, up to a factor that all nodes share, on what the node sends to `point`: over the whole of its sphere, for
-/// whichever of the normals in its cone. `normal` is that of the side which light must come from; zero: any side. 0
-/// only where nothing can arrive, up to rounding.
+/// A bound, up to a factor common to all nodes, on the light that the node sends to `point` from anywhere in its sphere
+/// and for any normal in its cone. `normal` is that of the side from which light must arrive; zero means any side. The
+/// bound is 0 only if no light can arrive, up to rounding.
 template <class Real>
 ALHAZEN_HD Real light_importance(const LightTreeNode& node, const Vec3<Real>& point, const Vec3<Real>& normal) {
-  const Vec3<Real> way = point - convert<Real>(node.centre);
-  const Real distance_squared = length_squared(way);
+  const Vec3<Real> to_point = point - convert<Real>(node.centre);
+  const Real distance_squared = length_squared(to_point);
   const Real radius = static_cast<Real>(node.radius);
   const Real power = static_cast<Real>(node.power);
-  // From within the sphere light may come from anywhere, and from the sphere itself, with what a ray is moved by as it
-  // leaves a surface: where a shining sphere is its node's, the sampler has a point of it rounded to one side, and who
-  // asks for the density to the other.
+  // Inside the sphere light may arrive from anywhere. A point on the sphere counts as inside, within the distance by
+  // which a ray's origin is offset from a surface: if the node is one emissive sphere, sampling has its point rounded
+  // to one side, and the density query to the other.
   const Real slack = (max_component(abs(point)) + radius) * rounding_bound<Real>(32);
   if (distance_squared <= (radius > 0 ? sqr(radius + slack) : Real(0)))
     return radius > 0 ? power / sqr(radius) : Real(0);
   const Real per_distance = 1 / std::sqrt(distance_squared);
-  const Vec3<Real> outgoing = way * per_distance;
+  const Vec3<Real> outgoing = to_point * per_distance;
   const AngleOfCone<Real> sphere = angle_of_sine(radius * per_distance);
   Real importance = power * sqr(per_distance);
   if (node.cos_normals > -1) {
@@ -66,7 +66,7 @@ ALHAZEN_HD Real light_importance(const LightTreeNode& node, const Vec3<Real>& po
   return importance > 0 ? importance : Real(0);
 }
 
-/// The probability that of the children at `first` the first is chosen; below 0 where neither can matter.
+/// The probability of choosing the first of the two children at `first`; negative if neither can contribute.
 template <class Real>
 ALHAZEN_HD Real first_child_probability(const SceneView<Real>& scene, uint32_t first, const Vec3<Real>& point,
                                         const Vec3<Real>& normal) {
@@ -81,7 +81,7 @@ struct LightChoice {
   Real pmf = 0;
 };
 
-/// One light of the tree for `point`. No light: none of them can matter.
+/// Chooses one light of the tree for `point`; no light if none can contribute.
 template <class Real>
 ALHAZEN_HD LightChoice<Real> sample_light_tree(const SceneView<Real>& scene, const Vec3<Real>& point,
                                                const Vec3<Real>& normal, Real u) {
@@ -91,7 +91,7 @@ ALHAZEN_HD LightChoice<Real> sample_light_tree(const SceneView<Real>& scene, con
     const Real p = first_child_probability(scene, node->index(), point, normal);
     if (p < 0) return {};
     const bool second = u >= p;
-    // What is left of the number is used again further down.
+    // The random number is rescaled for reuse at the next level.
     u = second ? (u - p) / (1 - p) : u / p;
     u = u < one_minus_epsilon<Real> ? u : one_minus_epsilon<Real>;
     pmf *= second ? 1 - p : p;
@@ -100,7 +100,7 @@ ALHAZEN_HD LightChoice<Real> sample_light_tree(const SceneView<Real>& scene, con
   return {node->index(), pmf};
 }
 
-/// The probability that `sample_light_tree` chooses the light that stands at `trail`.
+/// The probability that `sample_light_tree` chooses the light at `trail`.
 template <class Real>
 ALHAZEN_HD Real pmf_of_light_tree(const SceneView<Real>& scene, uint32_t trail, const Vec3<Real>& point,
                                   const Vec3<Real>& normal) {
@@ -109,9 +109,9 @@ ALHAZEN_HD Real pmf_of_light_tree(const SceneView<Real>& scene, uint32_t trail, 
   for (; !node->is_leaf(); trail >>= 1) {
     const Real p = first_child_probability(scene, node->index(), point, normal);
     const bool second = trail & 1;
-    const Real share = second ? 1 - p : p;
-    if (p < 0 || !(share > 0)) return 0;
-    pmf *= share;
+    const Real probability = second ? 1 - p : p;
+    if (p < 0 || !(probability > 0)) return 0;
+    pmf *= probability;
     node = scene.light_tree + node->index() + (second ? 1 : 0);
   }
   return pmf;

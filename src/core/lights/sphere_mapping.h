@@ -1,7 +1,7 @@
 #pragma once
 
-// Pictures of the whole sphere: between directions and points of the unit square, u to the right and v down the
-// picture. The picture's middle row is the horizon of the first mapping, z is up in both.
+// Images of the whole sphere: mappings between directions and points of the unit square, u to the right and v down the
+// image. The middle row of an equirectangular image is the horizon; z is up in both mappings.
 
 #include <cstdint>
 
@@ -28,7 +28,7 @@ ALHAZEN_HD Vec2<Real> equirectangular_of_direction(const Vec3<Real>& d) {
   return {u < 0 ? u + 1 : u, std::atan2(std::sqrt(d.x * d.x + d.y * d.y), d.z) * inv_pi<Real>};
 }
 
-/// The square's inner diamond is the upper hemisphere, its four corners are folded together at -z.
+/// The square's inner diamond is the upper hemisphere; its four corners are folded together at -z.
 template <class Real>
 ALHAZEN_HD Vec3<Real> direction_of_octahedral(const Vec2<Real>& uv) {
   const Real x = 2 * uv.x - 1, y = 2 * uv.y - 1;
@@ -61,7 +61,7 @@ ALHAZEN_HD Vec2<Real> square_of_direction(SphereMapping mapping, const Vec3<Real
   return mapping == SphereMapping::octahedral ? octahedral_of_direction(d) : equirectangular_of_direction(d);
 }
 
-/// Solid angle, steradians, for an area of the square about the point of direction `d`.
+/// Solid angle in steradians per area of the square about the point of direction `d`.
 template <class Real>
 ALHAZEN_HD Real solid_angle_of_square(SphereMapping mapping, const Vec3<Real>& d) {
   return mapping == SphereMapping::octahedral ? 4 * pi<Real>
@@ -72,8 +72,8 @@ struct Texel {
   int x, y;
 };
 
-/// The texel that lies at (x, y), which may be one beyond the edges: an octahedral picture goes on there with the edge
-/// itself, turned round; the other goes on at its other side, and its rows end at the poles.
+/// The texel at (x, y), which may be one beyond the edges: an octahedral image continues there with the same edge
+/// reversed; an equirectangular one wraps around horizontally, and its rows end at the poles.
 ALHAZEN_HD inline Texel texel_of_sphere(SphereMapping mapping, int x, int y, int width, int height) {
   if (mapping == SphereMapping::octahedral) {
     if (x < 0 || x >= width) {

@@ -1,10 +1,10 @@
 #pragma once
 
-// What a translation unit needs to know about where it is compiled: the host alone, or host and device; and for which
-// instruction set, where it is compiled for several.
+// What a translation unit must know about its target: the host alone, or host and device; and the instruction set, if
+// it is compiled for several.
 
-// Code that is compiled once an instruction set lies in a namespace of its own each time, or the linker would take one
-// copy of an inline function for all of them (render/kernels).
+// Code that is compiled once per instruction set is in a namespace of its own each time. Otherwise the linker would use
+// one copy of an inline function for all of them (render/kernels).
 #if defined(ALHAZEN_ISA)
 #define ALHAZEN_CORE alhazen::inline ALHAZEN_ISA
 #else
@@ -25,21 +25,21 @@
 #define ALHAZEN_INLINE inline
 #endif
 
-// Rare parts of hot loops, which would only be in the way there.
+// Rare parts of hot loops, which are better not inlined.
 #if defined(__GNUC__) && !defined(__CUDACC__)
 #define ALHAZEN_NOINLINE __attribute__((noinline))
 #else
 #define ALHAZEN_NOINLINE
 #endif
 
-// Small functions of the inner loops, which GCC does not inline by itself where much else is; nvcc does.
+// Small functions of the inner loops, which GCC does not inline by itself in large functions; nvcc does.
 #if defined(__GNUC__) && !defined(__CUDACC__)
 #define ALHAZEN_HOT inline __attribute__((always_inline))
 #else
 #define ALHAZEN_HOT inline
 #endif
 
-// Large functions that few scenes need: kept out of the loops that call them, whose registers they would take on GPUs.
+// Large functions that few scenes need. They are not inlined into loops, whose registers they would take on GPUs.
 #if defined(__CUDACC__)
 #define ALHAZEN_COLD inline __noinline__
 #elif defined(__GNUC__)
@@ -48,7 +48,7 @@
 #define ALHAZEN_COLD inline
 #endif
 
-// Code that hardly ever runs, which compilers then keep out of the way of what does.
+// Code that hardly ever runs; compilers move it away from the hot code.
 #if defined(__GNUC__) && !defined(__CUDACC__)
 #define ALHAZEN_RARE __attribute__((noinline, cold))
 #define ALHAZEN_UNLIKELY(condition) __builtin_expect(condition, 0)
@@ -60,7 +60,7 @@
 #define ALHAZEN_UNLIKELY(condition) (condition)
 #endif
 
-// Before a loop whose turns do not depend on each other, for the compiler to turn into SIMD instructions.
+// Precedes a loop of independent iterations, so that the compiler vectorizes it.
 #if defined(__clang__)
 #define ALHAZEN_SIDE_BY_SIDE _Pragma("clang loop vectorize(assume_safety)")
 #elif defined(__GNUC__) && !defined(__CUDACC__)

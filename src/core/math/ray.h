@@ -1,6 +1,6 @@
 #pragma once
 
-// Rays, and where a ray may start so that it does not meet the surface that it leaves.
+// Rays, and where to start a ray so that it does not hit the surface that it leaves.
 
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
@@ -13,8 +13,8 @@ struct Ray {
   Vec3<Real> origin;
   Vec3<Real> direction;  ///< unit length
   Real time{};           ///< 0 at shutter open, 1 at shutter close
-  /// The primitive that the ray starts from, and its instance. A triangle is flat, so a ray that leaves it cannot hit
-  /// it again: the intersectors skip it, where rounding would hide on which side of it the origin is.
+  /// The primitive that the ray leaves, and its instance. A triangle is flat, so the ray cannot hit it again: the
+  /// intersectors skip it, since rounding may place the origin on either side of it.
   PrimitiveId left{};
   uint32_t left_instance = no_instance;
 };

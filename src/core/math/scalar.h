@@ -1,6 +1,6 @@
 #pragma once
 
-// Constants, rounding bounds and the few scalar functions that the rest of the core is built on.
+// Constants, rounding bounds and scalar functions.
 
 #include <cmath>
 #include <cstdint>
@@ -37,7 +37,7 @@ ALHAZEN_HD constexpr Real clamp(Real x, Real low, Real high) {
   return x < low ? low : x > high ? high : x;
 }
 
-/// Square root of a number that is negative only by rounding.
+/// Square root of a number that may be negative by rounding only.
 template <class Real>
 ALHAZEN_HD inline Real safe_sqrt(Real x) {
   return std::sqrt(x > 0 ? x : Real(0));
@@ -58,10 +58,10 @@ struct SineCosine {
   Real sine, cosine;
 };
 
-/// In float, to 1e-7, by operations that round alike everywhere, for angles up to 8192: reduced to an eighth of
-/// a turn by pi / 2 in three parts (Cody and Waite 1980), then the polynomials of Moshier's Cephes library.
+/// Sine and cosine in float, to 1e-7, by operations that round alike everywhere, for angles up to 8192: range reduction
+/// by pi / 2 in three parts (Cody and Waite 1980), then the polynomials of Moshier's Cephes library.
 ALHAZEN_HD ALHAZEN_HOT SineCosine<float> sine_cosine_by_polynomials(float angle) {
-  // To the nearest whole number: beyond 2^23 a float has no other.
+  // Rounds to the nearest integer: floats beyond 2^23 are integers.
   const float q = (angle * 0.636619772f + 12582912.0f) - 12582912.0f;
   const int quarter = static_cast<int>(q);
   const float x = ((angle - q * 1.5703125f) - q * 4.8375129e-4f) - q * 7.5497899e-8f;
@@ -99,8 +99,8 @@ ALHAZEN_HD ALHAZEN_HOT SineCosine<double> sine_cosine_by_polynomials(double angl
   return {quarter & 2 ? -s : s, (quarter + 1) & 2 ? -c : c};
 }
 
-/// Of an angle in radians, a few turns at most. In float a GPU takes them of angle / pi, which needs neither tables
-/// nor double for its range.
+/// Sine and cosine of an angle in radians, a few turns at most. In float a GPU computes them of angle / pi, which needs
+/// neither tables nor double for range reduction.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT SineCosine<Real> sine_cosine_of_turn(Real angle) {
 #if defined(__CUDA_ARCH__)
@@ -113,7 +113,7 @@ ALHAZEN_HD ALHAZEN_HOT SineCosine<Real> sine_cosine_of_turn(Real angle) {
   return sine_cosine_by_polynomials(angle);
 }
 
-/// Of any angle in radians.
+/// Sine and cosine of any angle in radians.
 template <class Real>
 ALHAZEN_HD inline SineCosine<Real> sine_cosine(Real angle) {
 #if defined(__CUDA_ARCH__)
@@ -123,7 +123,7 @@ ALHAZEN_HD inline SineCosine<Real> sine_cosine(Real angle) {
   return {std::sin(angle), std::cos(angle)};
 }
 
-/// a * b + c, with one rounding on GPUs, with two on CPUs, where the same bits are to come of every instruction set.
+/// a * b + c, rounded once on GPUs and twice on CPUs, where all instruction sets must give the same bits.
 template <class Real>
 ALHAZEN_HD inline Real multiply_add(Real a, Real b, Real c) {
 #if defined(__CUDA_ARCH__)
@@ -134,8 +134,7 @@ ALHAZEN_HD inline Real multiply_add(Real a, Real b, Real c) {
 }
 
 /// a * b - c * d. With fused operations the error is below 1.5 ulp and the sign is always right (Kahan; Jeannerod,
-/// Louvet and Muller 2013). Without them, on CPUs, it is still exactly antisymmetric under exchange of the two
-/// products.
+/// Louvet and Muller 2013). Without them, on CPUs, it is still exactly antisymmetric when the products are exchanged.
 template <class Real>
 ALHAZEN_HD inline Real difference_of_products(Real a, Real b, Real c, Real d) {
 #if defined(__CUDA_ARCH__)
@@ -146,7 +145,7 @@ ALHAZEN_HD inline Real difference_of_products(Real a, Real b, Real c, Real d) {
 #endif
 }
 
-/// The neighbouring number away from `x` in the direction of the sign of `towards`.
+/// The next representable number after `x` in the direction of the sign of `towards`.
 template <class Real>
 ALHAZEN_HD inline Real next_towards(Real x, Real towards) {
   const Real step = std::abs(x) * std::numeric_limits<Real>::epsilon() + std::numeric_limits<Real>::min();

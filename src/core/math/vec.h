@@ -44,7 +44,7 @@ ALHAZEN_HD constexpr Vec3<Real> splat(Real value) {
   return {value, value, value};
 }
 
-/// Each component converted to another precision, rounding to nearest.
+/// Converts each component to another precision, rounding to nearest.
 template <class To, class From>
 ALHAZEN_HD constexpr Vec3<To> convert(const Vec3<From>& v) {
   return {static_cast<To>(v.x), static_cast<To>(v.y), static_cast<To>(v.z)};
@@ -135,8 +135,8 @@ ALHAZEN_HD constexpr Vec3<Real> face_forward(const Vec3<Real>& v, const Vec3<Rea
   return v * (dot(v, reference) < 0 ? Real(-1) : Real(1));
 }
 
-/// Both by value: compilers turn a choice between references into one between addresses, which SIMD has no
-/// instruction for.
+/// Arguments are passed by value: compilers turn a choice between references into one between addresses, for which SIMD
+/// has no instruction.
 template <class Real>
 ALHAZEN_HD constexpr Vec3<Real> select(bool first, Vec3<Real> a, Vec3<Real> b) {
   return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};

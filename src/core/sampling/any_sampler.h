@@ -1,6 +1,6 @@
 #pragma once
 
-// A sampler whose kind is known only when it runs: for kernels that are not compiled once a sampler.
+// A sampler whose kind is known only at run time, for kernels that are not compiled once per sampler.
 
 #include "core/sampling/independent.h"
 #include "core/sampling/sobol.h"
@@ -9,7 +9,7 @@ namespace ALHAZEN_CORE {
 
 enum class SamplerType : uint32_t { sobol, independent };
 
-/// Draws the same numbers as the sampler that it stands for.
+/// Returns the same numbers as the sampler of its kind.
 class AnySampler {
  public:
   ALHAZEN_HD AnySampler(SamplerType type, uint32_t seed, uint32_t x, uint32_t y, uint32_t sample)

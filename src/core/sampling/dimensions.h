@@ -1,6 +1,6 @@
 #pragma once
 
-// Which random number is used for what. A dimension is one draw, of one number or of a pair.
+// Assigns random numbers to their uses. A dimension is one number or one pair.
 
 #include <cstdint>
 
@@ -16,7 +16,7 @@ struct CameraDimensions {
   static constexpr uint32_t pairs = 0b011;  ///< bit d: dimension d is a pair
 };
 
-/// The draws at one vertex of a path; `vertex` 0 is the first surface that the camera ray meets.
+/// The dimensions of one vertex of a path; `vertex` 0 is the first surface that the camera ray hits.
 struct VertexDimensions {
   static constexpr uint32_t count = 5;
   static constexpr uint32_t pairs = 0b01010;  ///< bit d: dimension base + d is a pair

@@ -1,6 +1,6 @@
 #pragma once
 
-// Choice among weighted items by their cumulative distribution.
+// Sampling of discrete distributions by their cumulative distribution.
 
 #include <cstdint>
 
@@ -8,11 +8,11 @@
 
 namespace ALHAZEN_CORE {
 
-/// The i with cdf[i] <= u < cdf[i + 1]; `cdf` holds count + 1 ascending values from 0 to 1. Items of no weight are
+/// The i with cdf[i] <= u < cdf[i + 1]; `cdf` holds count + 1 ascending values from 0 to 1. Items of zero weight are
 /// never chosen.
 template <class Real>
 ALHAZEN_HD uint32_t sample_cdf(const Real* cdf, uint32_t count, Real u) {
-  // Halves by a choice of numbers, not by a branch that nobody can foresee.
+  // Selects a half by a conditional move, since a branch would be unpredictable.
   uint32_t low = 0;
   for (uint32_t left = count; left > 1;) {
     const uint32_t half = left / 2;

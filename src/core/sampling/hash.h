@@ -1,6 +1,6 @@
 #pragma once
 
-// Integer hashes: the source of every random number, pure functions of their arguments.
+// Integer hashes: pure functions from which every random number comes.
 
 #include <cstdint>
 
@@ -19,7 +19,7 @@ ALHAZEN_HD constexpr uint64_t mix64(uint64_t x) {
   return x;
 }
 
-/// A bijection of 32 bits of low bias (Wellons 2018, "Prospecting for Hash Functions": lowbias32).
+/// A bijection of 32 bits with low bias (Wellons 2018, "Prospecting for Hash Functions": lowbias32).
 ALHAZEN_HD constexpr uint32_t mix32(uint32_t x) {
   x ^= x >> 16;
   x *= 0x7feb352du;
@@ -44,7 +44,7 @@ ALHAZEN_HD constexpr uint32_t reverse_bits(uint32_t x) {
 #endif
 }
 
-/// 32 random bits as a number in [0, 1). Float keeps the 24 high ones.
+/// 32 random bits as a number in [0, 1). Float keeps the 24 high bits.
 template <class Real>
 ALHAZEN_HD constexpr Real unit_interval(uint32_t bits) {
   if constexpr (sizeof(Real) == sizeof(float))

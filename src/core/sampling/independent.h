@@ -1,6 +1,6 @@
 #pragma once
 
-// Independent uniform numbers from a counter hash.
+// Independent uniform random numbers from a counter hash.
 
 #include "core/math/vec.h"
 #include "core/sampling/hash.h"
@@ -11,7 +11,7 @@ class IndependentSampler {
  public:
   IndependentSampler() = default;
   ALHAZEN_HD IndependentSampler(uint32_t seed, uint32_t x, uint32_t y, uint32_t sample)
-      // Complemented, or pixel (a, seed) at sample b would draw the numbers of pixel (b, seed) at sample a.
+      // Complemented; otherwise pixel (a, seed) at sample b would get the numbers of pixel (b, seed) at sample a.
       : key_(mix64(mix64((static_cast<uint64_t>(y) << 32) | x) +
                    mix64(~((static_cast<uint64_t>(seed) << 32) | sample)))) {}
 
@@ -26,7 +26,7 @@ class IndependentSampler {
     return {unit_interval<Real>(static_cast<uint32_t>(b >> 32)), unit_interval<Real>(static_cast<uint32_t>(b))};
   }
 
-  /// Numbers of their own for branch `branch` of a path that forks.
+  /// A sampler with other numbers for branch `branch` of a path that forks.
   ALHAZEN_HD IndependentSampler fork(uint32_t branch) const {
     IndependentSampler child = *this;
     child.key_ = mix64(key_ + 0x9e3779b97f4a7c15u * (branch + 1));

@@ -1,6 +1,6 @@
 #pragma once
 
-// Owen-scrambled Sobol' points, shuffled and padded from dimension to dimension
+// Owen-scrambled Sobol' points, shuffled and padded across dimensions
 // (Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4)).
 
 #include "core/math/vec.h"
@@ -8,8 +8,8 @@
 
 namespace ALHAZEN_CORE {
 
-/// Scrambles the bits of a number that is given with its bits reversed, each bit by the bits below it (Laine and Karras
-/// 2011, with the constants of Vegdahl 2021).
+/// Scrambles the bits of a number given in reversed bit order, each bit by the bits below it (Laine and Karras 2011,
+/// with the constants of Vegdahl 2021).
 ALHAZEN_HD constexpr uint32_t laine_karras(uint32_t x, uint32_t seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
@@ -52,7 +52,7 @@ class SobolSampler {
             unit_interval<Real>(reverse_bits(laine_karras(sobol_second_reversed(index), mix32(seed ^ 0x63d83595u))))};
   }
 
-  /// Numbers of their own for branch `branch` of a path that forks.
+  /// A sampler with other numbers for branch `branch` of a path that forks.
   ALHAZEN_HD SobolSampler fork(uint32_t branch) const {
     SobolSampler child = *this;
     child.pixel_seed_ = combine32(pixel_seed_ ^ 0x68bc21ebu, branch);
@@ -60,7 +60,7 @@ class SobolSampler {
   }
 
  private:
-  /// The sample's index in an order of its own for each dimension, so that dimensions do not correlate.
+  /// The sample's index, shuffled differently for each dimension so that dimensions do not correlate.
   ALHAZEN_HD uint32_t shuffled_index(uint32_t seed) const { return reverse_bits(laine_karras(reversed_sample_, seed)); }
 
   uint32_t pixel_seed_ = 0;

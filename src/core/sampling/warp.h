@@ -1,6 +1,6 @@
 #pragma once
 
-// From the unit square to the shapes that are sampled. Each with its density.
+// Maps the unit square to the domains that are sampled, with the density of each mapping.
 
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
@@ -15,7 +15,7 @@ ALHAZEN_HD ALHAZEN_HOT Vec2<Real> sample_disk_polar(const Vec2<Real>& u) {
   return {r * cosine, r * sine};
 }
 
-/// Uniform over the unit disk, keeping neighbours together (Shirley and Chiu 1997).
+/// Uniform over the unit disk; neighbouring points stay neighbours (Shirley and Chiu 1997).
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec2<Real> sample_disk(const Vec2<Real>& u) {
   const Real x = 2 * u.x - 1, y = 2 * u.y - 1;
@@ -50,8 +50,8 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_uniform_sphere(const Vec2<Real>& u) {
 template <class Real>
 inline constexpr Real pdf_uniform_sphere = inv_pi<Real> / 4;
 
-/// Weight of a strategy with density `a` beside one with density `b` (power heuristic, exponent 2; Veach 1997, 9.2.4).
-/// By the ratio, so that neither square can overflow.
+/// MIS weight of a strategy with density `a` against one with density `b` (power heuristic, exponent 2; Veach 1997,
+/// 9.2.4). It is computed from the ratio, so that neither square can overflow.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Real power_heuristic(Real a, Real b) {
   if (!(a > 0)) return 0;

@@ -1,8 +1,8 @@
 #pragma once
 
-// The one SIMD type: some numbers side by side, made of as many registers as the instruction set needs for them. The
-// arithmetic is GCC's vector extensions, whose operators round as those of single numbers do; intrinsics are kept for
-// what they lack. Compiled once an instruction set (render/kernels/); not for GPUs.
+// The one SIMD type: a fixed number of lanes in as many registers as the instruction set needs. Arithmetic uses GCC's
+// vector extensions, whose operators round as scalar ones do; intrinsics supply what they lack. It is compiled once per
+// instruction set (render/kernels/), and not for GPUs.
 
 #include <cmath>
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace ALHAZEN_CORE {
 
-/// Bytes of a register that a processor with these instructions adds and multiplies at once.
+/// Register size in bytes for which these instructions run at full speed.
 #if defined(__AVX512F__)
 inline constexpr int most_register_bytes = 64;
 #elif defined(__AVX__)
@@ -70,7 +70,7 @@ struct Lanes {
     return map([&](int i) { return a.r[i] / b.r[i]; });
   }
 
-  /// Of each pair of lanes the smaller; b's where one is not a number.
+  /// The smaller of each pair of lanes; b's if one is NaN.
   ALHAZEN_INLINE friend Lanes smaller(const Lanes& a, const Lanes& b) {
     return map([&](int i) { return a.r[i] < b.r[i] ? a.r[i] : b.r[i]; });
   }
@@ -90,7 +90,7 @@ struct Lanes {
     return map([&](int i) { return chosen(lanes >> (i * per_register), a.r[i], b.r[i]); });
   }
 
-  /// a * b + c, with one rounding where the processor can: for bounds, which need not be the same everywhere.
+  /// a * b + c, rounded once if the processor can: for bounds, which need not be the same everywhere.
   ALHAZEN_INLINE friend Lanes fused_multiply_add(const Lanes& a, const Lanes& b, const Lanes& c) {
     return map([&](int i) { return fused(a.r[i], b.r[i], c.r[i]); });
   }
@@ -123,7 +123,7 @@ struct Lanes {
  private:
   static constexpr bool is_float = sizeof(T) == sizeof(float);
 
-  // What compilers do not make of the operators by themselves: here `if constexpr` picks one instruction.
+  // Operators that compilers do not translate well by themselves; `if constexpr` selects one instruction here.
 
   ALHAZEN_INLINE static Register fused(const Register& a, const Register& b, const Register& c) {
 #if defined(__AVX512F__)
@@ -142,7 +142,7 @@ struct Lanes {
   }
 
   ALHAZEN_INLINE static Register root(const Register& a) {
-#if defined(__AVX512F__)  // masked, since GCC 12 takes the plain ones for uses of a variable without a value
+#if defined(__AVX512F__)  // masked, since GCC 12 warns of an uninitialized variable in the plain ones
     if constexpr (register_bytes == 64 && is_float) return (Register)_mm512_maskz_sqrt_ps(0xffff, (__m512)a);
     if constexpr (register_bytes == 64 && !is_float) return (Register)_mm512_maskz_sqrt_pd(0xff, (__m512d)a);
 #endif

@@ -1,7 +1,6 @@
 #pragma once
 
-// Eight lanes put in another order, and those of them that are wanted put side by side, without a branch that depends
-// on which they are.
+// Permutes eight lanes, and compacts the selected ones, without data-dependent branches.
 
 #include <bit>
 
@@ -24,7 +23,7 @@ ALHAZEN_INLINE Lanes<float, 8> permuted(const Lanes<float, 8>& a, const uint32_t
 #endif
 }
 
-/// The same of eight numbers in memory.
+/// The same for eight numbers in memory.
 ALHAZEN_INLINE void permute(const uint32_t (&lanes)[8], const uint32_t (&from)[8], uint32_t (&to)[8]) {
 #if defined(__AVX2__)
   const __m256i order = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
@@ -36,7 +35,7 @@ ALHAZEN_INLINE void permute(const uint32_t (&lanes)[8], const uint32_t (&from)[8
 }
 
 #if defined(__AVX2__) && !defined(__AVX512VL__)
-/// For each set of lanes their numbers, one behind the other, in 4 bits each.
+/// The lane numbers of each set of lanes, in order, in 4 bits each.
 struct SetLaneNumbers {
   uint32_t of[256];
 };
@@ -55,7 +54,7 @@ ALHAZEN_INLINE __m256i set_lanes(uint32_t set) {
 }
 #endif
 
-/// Stores the lanes that are set side by side, in their order. All 8 places from `to` on may be written.
+/// Stores the selected lanes contiguously, in order. All 8 elements from `to` on may be written.
 template <class T>
 ALHAZEN_INLINE void store_set_lanes(const T (&lanes)[8], uint32_t set, T* to) {
   static_assert(sizeof(T) == 4);

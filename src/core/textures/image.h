@@ -1,13 +1,12 @@
 #pragma once
 
-// Pictures: texels, bilinear interpolation, and pyramids of smaller versions for where they are seen from afar
-// (Williams 1983, "Pyramidal Parametrics").
+// Images: texels, bilinear interpolation, and image pyramids for minification (Williams 1983, "Pyramidal Parametrics").
 
 #include "core/textures/mapping.h"
 
 namespace ALHAZEN_CORE {
 
-/// The texel of a row or column of `size` that stands for `i`, or -1 where there is none.
+/// The texel of a row or column of `size` texels for index `i`, or -1 if there is none.
 ALHAZEN_HD inline int wrapped_texel(int i, int size, uint32_t wrap) {
   if (i >= 0 && i < size) return i;
   switch (static_cast<WrapMode>(wrap)) {
@@ -46,7 +45,7 @@ ALHAZEN_HD Vec3<Real> fetch_texel(const SceneView<Real>& scene, const ImageRecor
   return {table[t[0]], table[t[1]], table[t[2]]};
 }
 
-/// The picture at (s, t), t upwards, texel centres at half integers.
+/// The image at (s, t), t upwards; texel centres are at half integers.
 template <class Real>
 ALHAZEN_HD Vec3<Real> lookup_image(const SceneView<Real>& scene, const ImageRecord& image, const Vec2<Real>& st) {
   if (!(std::abs(st.x) < Real(1e6) && std::abs(st.y) < Real(1e6))) return {};
@@ -61,15 +60,15 @@ ALHAZEN_HD Vec3<Real> lookup_image(const SceneView<Real>& scene, const ImageReco
   return lerp(top, bottom, wy);
 }
 
-/// Logarithm to base 2 of x >= 1, linear between powers of two: continuous, the same bits everywhere, and too low by at
-/// most 0.09.
+/// Base-2 logarithm of x >= 1, linear between powers of two: continuous, with the same bits everywhere, and too low by
+/// at most 0.09.
 ALHAZEN_HD inline float coarse_log2(float x) {
   const uint32_t bits = __builtin_bit_cast(uint32_t, x);
   return static_cast<float>(bits >> 23) - 127 + (__builtin_bit_cast(float, (bits & 0x7fffffu) | 0x3f800000u) - 1);
 }
 
-/// Where in the pyramid a texel is as large as what a quarter of a pixel sees, by area, so that of surfaces seen from
-/// the edge the detail along the other direction is kept. Not above 0: nothing is minified.
+/// Pyramid level at which a texel has the area that a quarter of a pixel sees. Using the area keeps detail along the
+/// other direction at grazing angles. It is not above 0 if nothing is minified.
 template <class Real>
 ALHAZEN_HD float pyramid_level(const SceneView<Real>& scene, const ImageRecord& image, const TextureMapping<Real>& m,
                                const TexturePoint<Real>& at) {
@@ -82,8 +81,8 @@ ALHAZEN_HD float pyramid_level(const SceneView<Real>& scene, const ImageRecord& 
   return 0.5f * coarse_log2(static_cast<float>(smaller(texels, Real(1e30))));
 }
 
-/// The picture as a pixel sees it from the camera: bilinear where it is magnified, else interpolated between two levels
-/// of its pyramid. What is seen by way of other surfaces is filtered as if it were seen directly.
+/// The image filtered for the camera: bilinear where magnified, else interpolated between two levels of its pyramid.
+/// Surfaces seen by reflection or refraction are filtered as if seen directly.
 template <class Real>
 ALHAZEN_HD Vec3<Real> lookup_filtered(const SceneView<Real>& scene, uint32_t index, const TextureMapping<Real>& m,
                                       const TexturePoint<Real>& at) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// From the point on a surface to the (s, t) of a texture, and how large an area of (s, t) a pixel sees.
+// Maps points on surfaces to the (s, t) of a texture, and a pixel's footprint to an area of (s, t).
 
 #include "core/math/frame.h"
 #include "core/shapes/attributes.h"
@@ -23,7 +23,7 @@ ALHAZEN_HD Vec3<Real> map_solid(const TextureMapping<Real>& m, const Vec3<Real>&
   return {row(0), row(1), row(2)};
 }
 
-/// The mappings that look at the position alone, as pbrt-v4 has them.
+/// The mappings that depend on the position alone, as defined by pbrt-v4.
 template <class Real>
 ALHAZEN_HD Vec2<Real> map_position(const TextureMapping<Real>& m, const Vec3<Real>& position) {
   const Vec3<Real> p = map_solid(m, position);
@@ -46,7 +46,7 @@ ALHAZEN_HD Vec2<Real> map_texture(const SceneView<Real>& scene, const TextureMap
   return map_uv(m, m.uv_set == 0 ? at.uv : second_uv(scene, at.hit, at.uv));
 }
 
-/// Area of (s, t) for an area of the surface. 0: unknown.
+/// Area of (s, t) per area of the surface; 0 if unknown.
 template <class Real>
 ALHAZEN_HD Real density_of_uv(const SceneView<Real>& scene, const TextureMapping<Real>& m,
                               const TexturePoint<Real>& at) {
@@ -54,7 +54,7 @@ ALHAZEN_HD Real density_of_uv(const SceneView<Real>& scene, const TextureMapping
   return determinant * uv_density(scene, at.hit, at.time, at.normal, m.uv_set);
 }
 
-/// The same of the other mappings, by differences over a square of the area `footprint`.
+/// The same for the other mappings, by differences over a square of area `footprint`.
 template <class Real>
 ALHAZEN_HD Real density_of_position(const TextureMapping<Real>& m, const TexturePoint<Real>& at, Real footprint) {
   const Frame<Real> frame = frame_about(at.normal);
@@ -63,7 +63,7 @@ ALHAZEN_HD Real density_of_position(const TextureMapping<Real>& m, const Texture
   const auto step = [&](const Vec3<Real>& along) {
     Vec2<Real> d = map_position(m, at.position + along * side);
     d = {d.x - st.x, d.y - st.y};
-    // Across the seam of an angle.
+    // The difference is taken across the seam of the angle.
     if (m.kind == TextureMappingKind::cylindrical) d.x -= d.x > Real(0.5) ? 1 : d.x < Real(-0.5) ? -1 : 0;
     if (m.kind == TextureMappingKind::spherical) d.y -= d.y > Real(0.5) ? 1 : d.y < Real(-0.5) ? -1 : 0;
     return d;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where a texture is looked up.
+// The point at which a texture is evaluated.
 
 #include "core/shapes/interaction.h"
 
@@ -10,11 +10,11 @@ template <class Real>
 struct TexturePoint {
   Vec3<Real> position;  ///< world space
   Vec2<Real> uv;
-  /// Geometric, unit length, on either side. Zero: unknown; pictures are looked up in full detail then.
+  /// Geometric, unit length, on either side. Zero if unknown; images are then evaluated in full detail.
   Vec3<Real> normal{};
-  /// For what the mesh has at its vertices beside uv. Without a primitive: nothing.
+  /// Gives access to vertex attributes other than uv; no primitive if there are none.
   Hit<Real> hit{Real(0), Real(0), Real(0), {}};
-  Real time = 0;  ///< of the ray, for instances that move
+  Real time = 0;  ///< of the ray, for moving instances
 };
 
 template <class Real>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Evaluation of textures: one switch over the kinds, a stack for nodes over nodes.
+// Evaluates textures: one switch over the kinds, and a stack for nested nodes.
 
 #include "core/scene_view.h"
 #include "core/textures/image.h"
@@ -23,14 +23,14 @@ ALHAZEN_HD bool is_even_check(const SceneView<Real>& scene, const TextureRecord<
   return cells - 2 * std::floor(cells * Real(0.5)) == 0;
 }
 
-/// pbrt's marble: a uniform cubic Bezier spline through nine colours, run through by veins that noise displaces
-/// (PBR 4th ed., 10.5; the colours are figures of pbrt-v4's format).
+/// pbrt's marble: a uniform cubic Bezier spline through nine colours, indexed by veins that noise displaces
+/// (PBR 4th ed., 10.5; the colours are constants of pbrt-v4).
 template <class Real>
 ALHAZEN_HD Vec3<Real> marble(const uint8_t* permutation, const TextureRecord<Real>& node, Vec3<Real> p) {
   p *= node.parameters.y;
   const Real noise = octave_noise(permutation, p, node.parameters.x, node.octaves, false);
   const Real wave = sine_cosine(p.y + node.parameters.z * noise).sine;
-  const Real t = wave > -2 ? Real(0.5) + Real(0.5) * wave : Real(0.5);  // NaN where the point is infinite
+  const Real t = wave > -2 ? Real(0.5) + Real(0.5) * wave : Real(0.5);  // wave is NaN if the point is infinite
   const auto colour = [](int i) -> Vec3<Real> {
     switch (i) {
       case 3:
@@ -52,7 +52,7 @@ ALHAZEN_HD Vec3<Real> marble(const uint8_t* permutation, const TextureRecord<Rea
   return lerp(lerp(a, b, s), lerp(b, c, s), s) * Real(1.5);
 }
 
-/// The value of one node; `inputs` are the values of the textures that it takes.
+/// The value of one node; `inputs` are the values of its input textures.
 template <class Real>
 ALHAZEN_HD Vec3<Real> evaluate_texture_node(const SceneView<Real>& scene, const TextureRecord<Real>& node,
                                             const TexturePoint<Real>& at, const Vec3<Real>* inputs) {
@@ -122,8 +122,8 @@ ALHAZEN_HD constexpr uint32_t texture_input_count(TextureKind kind) {
   }
 }
 
-/// What is not a constant. One copy serves all callers, of which there are many: compilers for GPUs would inline it
-/// into each of them.
+/// Evaluates textures that are not constant. It is not inlined: GPU compilers would copy it into each of its many
+/// callers.
 template <class Real>
 ALHAZEN_HD ALHAZEN_COLD Vec3<Real> evaluate_texture_nodes(const SceneView<Real>& scene, TextureRange range,
                                                           const TexturePoint<Real>& at) {

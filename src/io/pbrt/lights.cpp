@@ -140,8 +140,8 @@ ImageTexels read_light_picture(Build& build, ParameterList& list, const std::str
 }
 
 void add_light_picture(Build& build, Light& light, ImageTexels picture) {
-  light.picture = static_cast<uint32_t>(build.scene.light_pictures.size());
-  build.scene.light_pictures.push_back(std::move(picture));
+  light.picture = static_cast<uint32_t>(build.scene.light_images.size());
+  build.scene.light_images.push_back(std::move(picture));
 }
 
 /// The sum of `weight(x, y)` times the luminance over all texels.

@@ -176,8 +176,8 @@ TYPED_TEST(SelfIntersectionOf, LightsAreSeen) {
     light.pmf = 1;
     view.lights = &light;
     view.lights_count = 1;
-    const ShiningTriangle<Real> shining = make_shining_triangle(view, light);
-    view.shining_triangles = &shining;
+    const TriangleEmitter<Real> emitter = make_triangle_emitter(view, light);
+    view.triangle_emitters = &emitter;
     SurfaceInteraction<Real> from{};
     const double distance = size * random.magnitude_between(1.1, 1000);
     from.position = convert<Real>(p + random.on_sphere() * distance);

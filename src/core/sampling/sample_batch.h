@@ -1,22 +1,22 @@
 #pragma once
 
-// Random numbers of many paths, drawn side by side: the loops are plain enough for compilers to turn into SIMD
-// instructions, which hashes like very much.
+// Random numbers of many paths, generated together in loops that compilers turn into SIMD instructions, which suit
+// integer hashes well.
 
 #include "core/math/vec.h"
 #include "core/simd/columns.h"
 
 namespace ALHAZEN_CORE {
 
-/// Draws for each of up to `most` paths, `Dimensions::count` of them; bit d of `Dimensions::pairs` says that draw d is
-/// one of a pair. They are those that the path's own sampler would return.
-template <class Real, class Sampler, uint32_t most, class Dimensions>
-struct DrawnNumbers {
-  Sampler samplers[most];
-  uint32_t first_dimension[most]{};
-  Real x[Dimensions::count][most], y[Dimensions::count][most];
+/// `Dimensions::count` dimensions for each of up to `max_count` paths; bit d of `Dimensions::pairs` is set if dimension
+/// d is a pair. The values are those that the path's own sampler would return.
+template <class Real, class Sampler, uint32_t max_count, class Dimensions>
+struct SampleBatch {
+  Sampler samplers[max_count];
+  uint32_t first_dimension[max_count]{};
+  Real x[Dimensions::count][max_count], y[Dimensions::count][max_count];
 
-  /// Draws for paths 0 to count - 1, where bit d of `wanted` says whether draw d is.
+  /// Generates the dimensions whose bit is set in `wanted`, for paths 0 to count - 1.
   void draw(uint32_t count, uint32_t wanted) {
     const uint32_t end = whole_rows(count);
     for (uint32_t d = 0; d < Dimensions::count; ++d) {
@@ -33,13 +33,13 @@ struct DrawnNumbers {
     }
   }
 
-  /// Draw d of a path, which is a pair, or one number.
+  /// Dimension d of a path, as a pair or as one number.
   ALHAZEN_INLINE Vec2<Real> pair(uint32_t d, uint32_t path) const { return {x[d][path], y[d][path]}; }
   ALHAZEN_INLINE Real first(uint32_t d, uint32_t path) const { return x[d][path]; }
 
-  /// Stands for the sampler of one path, of which only these dimensions may be asked.
+  /// Acts as the sampler of one path, for these dimensions only.
   struct One {
-    const DrawnNumbers& all;
+    const SampleBatch& all;
     uint32_t path;
 
     template <class>

@@ -1,23 +1,24 @@
 #pragma once
 
-// What many rays have met, column by column, with points on triangles worked out side by side: that loop has no
-// branches that matter, so that compilers turn it into SIMD instructions.
+// The hit points of many rays in structure-of-arrays form. Points on triangles are computed together in a loop without
+// important branches, which compilers turn into SIMD instructions.
 
 #include "core/integrators/stages.h"
 #include "core/simd/columns.h"
 
 namespace ALHAZEN_CORE {
 
-/// By up to `most` rays, each with a place of its own, which may stay empty.
-template <class Real, uint32_t most>
-class MetSurfaces {
+/// Hit points of up to `max_count` rays, indexed by ray; entries may be unused.
+template <class Real, uint32_t max_count>
+class HitPoints {
  public:
-  /// Whether the hit is for `meet`: a triangle of the world.
-  static bool takes(const Hit<Real>& hit) {
+  /// Returns whether `add_triangle` accepts the hit: a triangle that is not part of an instance.
+  static bool accepts(const Hit<Real>& hit) {
     return hit.primitive.kind() == PrimitiveKind::triangle && hit.instance == no_instance;
   }
 
-  ALHAZEN_INLINE void meet(uint32_t i, const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>& hit) {
+  ALHAZEN_INLINE void add_triangle(uint32_t i, const SceneView<Real>& scene, const Ray<Real>& ray,
+                                   const Hit<Real>& hit) {
     const TriangleCorners<Real> corners = triangle_corners(scene, scene.triangles[hit.primitive.index()]);
     for (int k = 0; k < 3; ++k) corner_[k].set(i, corners.position[k]);
     has_normals_[i] = corners.has_normals;
@@ -32,13 +33,13 @@ class MetSurfaces {
     any_ = true;
   }
 
-  /// Works out the triangles among the first `count` places.
-  void work_out(uint32_t count) {
-    if (any_) any_normals_ ? work_out<true>(whole_rows(count)) : work_out<false>(whole_rows(count));
+  /// Computes the points of the triangles among the first `count` entries.
+  void compute(uint32_t count) {
+    if (any_) any_normals_ ? compute<true>(whole_rows(count)) : compute<false>(whole_rows(count));
     any_ = any_normals_ = false;
   }
 
-  /// Of a triangle that has been worked out.
+  /// The shading point of a triangle that has been computed.
   ALHAZEN_INLINE ShadingPoint<Real> shading_point(uint32_t i, const SceneView<Real>& scene, const Ray<Real>& ray,
                                                   const Hit<Real>& hit) const {
     const TriangleRecord& triangle = scene.triangles[hit.primitive.index()];
@@ -50,7 +51,7 @@ class MetSurfaces {
     return point;
   }
 
-  /// What `meet` and `work_out` would have left here, but of any surface.
+  /// Stores a surface of any kind in the form that `add_triangle` and `compute` produce.
   ALHAZEN_INLINE void set(uint32_t i, const ShadingPoint<Real>& point) {
     position_.set(i, point.si.position);
     position_error_.set(i, point.si.position_error);
@@ -74,7 +75,7 @@ class MetSurfaces {
 
  private:
   template <bool with_normals>
-  void work_out(uint32_t end) {
+  void compute(uint32_t end) {
     uint32_t any_near_edge = 0;
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
@@ -97,7 +98,7 @@ class MetSurfaces {
       if (is_near_edge_[i]) clear_edges(i);
   }
 
-  /// What point_of_triangle does beyond point_in_plane.
+  /// Does what point_of_triangle does beyond point_in_plane.
   ALHAZEN_NOINLINE void clear_edges(uint32_t i) {
     const Vec3<Real> corners[3] = {corner_[0][i], corner_[1][i], corner_[2][i]};
     position_.set(i, position_[i] + away_from_edges(corners, b1_[i], b2_[i], position_error_[i]));
@@ -110,10 +111,10 @@ class MetSurfaces {
   }
   ALHAZEN_INLINE Frame<Real> frame(uint32_t i) const { return {tangent_[i], bitangent_[i], frame_normal_[i]}; }
 
-  using Vectors = VectorColumns<Real, most>;
+  using Vectors = VectorColumns<Real, max_count>;
   Vectors corner_[3], corner_normal_[3], wo_;
-  Real b1_[most]{}, b2_[most]{};
-  uint32_t has_normals_[most]{}, flip_normal_[most]{}, is_near_edge_[most]{};
+  Real b1_[max_count]{}, b2_[max_count]{};
+  uint32_t has_normals_[max_count]{}, flip_normal_[max_count]{}, is_near_edge_[max_count]{};
   Vectors position_, position_error_, normal_, shading_normal_, tangent_, bitangent_, frame_normal_;
   bool any_ = false, any_normals_ = false;
 };
