@@ -13,9 +13,9 @@ the command that shows it again, and makes the exit code 1.
 
 --mutations N renders, of every scene up to 1 MB, N copies in which a number was replaced by an odd one, bytes were
 changed, or the end is missing; by one way each. --keep DIR keeps the copies that were findings. --nan counts the warning
-that samples were infinite or not a number as a finding too, which with odd numbers it need not be. --memcheck runs a
-release build (--binary build/release/bin/alhazen) under valgrind instead: values that nobody set, which no sanitizer of
-gcc finds, are findings where a kernel makes a decision by them.
+that samples were infinite or NaN as a finding too, which with odd numbers it need not be. --memcheck runs a release
+build (--binary build/release/bin/alhazen) under valgrind instead: branches of a kernel on uninitialised values, which
+the sanitizers of GCC do not find, are findings.
 """
 
 import argparse
@@ -113,7 +113,7 @@ class Runner:
         self.refused += code == 2
         problem = ("a sanitizer's report" if reports else f"no end within {self.options.timeout} s" if code is None else
                    f"exit code {code}" if code not in (0, 2) else "no message" if code == 2 and not output.strip() else
-                   "samples that are no number" if self.options.nan and "or not a number" in output else "")
+                   "samples that are NaN" if self.options.nan and "infinite or NaN" in output else "")
         if not problem:
             return True
         self.findings += 1

@@ -17,9 +17,9 @@
 
 namespace alhazen {
 
-/// How to render. What is left empty, zero or negative is taken from the scene file, or chosen.
+/// How to render. Values left empty, zero or negative come from the scene file or are chosen automatically.
 struct Settings {
-  std::string backend = "auto";  ///< auto, serial, openmp, embree (in float), cuda, optix (in float)
+  std::string backend = "auto";  ///< auto, serial, openmp, embree (float only), cuda, optix (float only)
   /// openmp, embree: rows, collapse, rows+reduction, reduction, tiles; cuda: pixel, chunk, persistent, wavefront;
   /// optix: megakernel
   std::string strategy = "auto";
@@ -27,40 +27,40 @@ struct Settings {
   std::string precision = "float";  ///< float, double
   std::string integrator;           ///< path, iterative, recursive, branching
   std::string sampler;              ///< sobol, independent
-  int threads = 0;                  ///< 0: all
-  std::string device;               ///< cuda, optix: number of the GPU, or all; cuda: host, the same kernels on the CPU
-  std::string block;                ///< cuda, pixel and chunk: threads of a block, WxH
+  int threads = 0;                  ///< 0: all processors
+  std::string device;               ///< cuda, optix: number of the GPU, or all; cuda: host runs the kernels on the CPU
+  std::string block;                ///< cuda, pixel and chunk: threads per block, WxH
   std::string chunk;                ///< cuda, chunk: chunks in each direction, WxH
-  /// Map of the whole sphere that replaces the infinite lights of the scene: twice as wide as high (equirectangular) or
-  /// square (equal-area octahedral). Its top is towards +y, its middle towards -z.
+  /// Environment map that replaces the infinite lights of the scene: twice as wide as high (equirectangular) or square
+  /// (equal-area octahedral). The top of the image is towards +y, its centre towards -z.
   std::string environment;
-  /// Read nothing outside of the folder of the scene file, whatever the scene names: for scenes of strangers. What is
-  /// linked or mounted into the folder is in it, hard links included.
+  /// Read no files outside the folder of the scene file; for untrusted scenes. Files that are linked or mounted into
+  /// the folder count as inside, hard links included.
   bool confine = false;
-  std::string coats;      ///< pbrt: lossless, or pbrt: they lose as much light as in pbrt-v4; empty: lossless
+  std::string coats;      ///< pbrt: lossless, or pbrt to lose as much light as pbrt-v4 does; empty: lossless
   std::string camera;     ///< glTF: a name, or a number from 0; empty: the first
-  std::string variant;    ///< glTF: a name or a number of KHR_materials_variants; empty: none of them
-  std::string animation;  ///< glTF: a name or a number; empty: the first, where `animation_time` is given
-  std::optional<double> animation_time;  ///< glTF: seconds; absent: nothing is animated
+  std::string variant;    ///< glTF: a name or a number of KHR_materials_variants; empty: none
+  std::string animation;  ///< glTF: a name or a number; empty: the first if `animation_time` is given
+  std::optional<double> animation_time;  ///< glTF: seconds; absent: no animation is applied
   int64_t samples_per_pixel = 0;
   int64_t max_depth = -1;         ///< bounces: a path has at most max_depth + 1 segments
   int64_t width = 0, height = 0;  ///< pixels
   std::optional<uint32_t> seed;
-  /// Part of the picture to render: x0, x1, y0, y1 in [0, 1], or in pixels (half open). At most one of the two.
+  /// Part of the image to render: x0, x1, y0, y1 in [0, 1], or in pixels (half open). Give at most one of the two.
   std::optional<std::array<double, 4>> crop_window;
   std::optional<std::array<int64_t, 4>> pixel_bounds;
-  /// Further layers: albedo, normal, depth, bounces, samples, variance.
+  /// Additional layers: albedo, normal, depth, bounces, samples, variance.
   std::vector<std::string> aovs;
-  std::string denoiser;   ///< none, or optix: on a GPU, whatever rendered; adds the layers albedo and normal
-  double time_limit = 0;  ///< seconds of rendering; stops after the last whole pass within it; 0: none
-  /// File to save the state in, and to go on from with `resume`. A save that fails is a warning, and the render goes
-  /// on.
+  std::string denoiser;   ///< none or optix (runs on a GPU, with any backend; adds the layers albedo and normal)
+  double time_limit = 0;  ///< seconds of rendering; stops after the last complete pass within it; 0: none
+  /// File in which to save the state, and from which `resume` continues. A failed save is a warning, and rendering
+  /// continues.
   std::string checkpoint;
   double checkpoint_seconds = 60;
   bool resume = false;
-  /// Without `resume`, a file that is there already is refused, whatever is in it, unless this is set.
+  /// An existing file is refused unless `resume` or this is set, whatever it contains.
   bool overwrite = false;
-  /// MiB that the pictures of textures may take; larger ones are halved until they fit. 0: no limit.
+  /// MiB that texture images may take; larger ones are halved until they fit. 0: no limit.
   int64_t texture_budget = 16384;
 };
 
@@ -70,27 +70,27 @@ struct Progress {
   uint64_t samples_done = 0, samples_total = 0;
 };
 
-/// Called about ten times a second from another thread, and once at the end. False stops the render; the picture so far
-/// is returned. An exception, of any type, stops the render too: the state is saved where `checkpoint` names a file,
-/// the function is not called again, and `render` throws the same exception to its caller.
+/// Called about ten times a second from another thread, and once at the end. Returning false stops the render; the
+/// image so far is returned. An exception of any type stops the render too: the state is saved if `checkpoint` names a
+/// file, the function is not called again, and `render` rethrows the exception to its caller.
 using ProgressFunction = std::function<bool(const Progress&)>;
 
-/// Planes of linear values, rows from the top down: R, G, B (radiance, linear sRGB) and the layers that were asked for
-/// (albedo.R, .G, .B; normal.X, .Y, .Z; depth.Z; bounces.Y; samples.Y; variance.Y).
+/// Planes of linear values, rows from the top down: R, G, B (radiance, linear sRGB) and the requested layers (albedo.R,
+/// .G, .B; normal.X, .Y, .Z; depth.Z; bounces.Y; samples.Y; variance.Y).
 struct Picture {
   int width = 0, height = 0;
   std::vector<std::string> channels;
   std::vector<std::vector<float>> planes;
-  bool complete = true;               ///< false: stopped before all samples were taken
-  std::vector<std::string> warnings;  ///< what the reader or the renderer had to say
+  bool complete = true;               ///< false if stopped before all samples were taken
+  std::vector<std::string> warnings;  ///< of the scene reader and the renderer
 
-  /// width * height values of a channel, or null.
+  /// The width * height values of a channel, or null.
   const float* plane(const std::string& channel) const;
 };
 
 /// Renders a pbrt-v4 or glTF 2.0 scene. Throws std::runtime_error, whose what() is one message (for bad input
-/// `file:line:column: what is wrong and what to do`), std::bad_alloc, and what `progress` throws. Until it returns,
-/// threads that the process starts have by default a stack of 8 MiB at least.
+/// `file:line:column: what is wrong and what to do`), std::bad_alloc, and anything that `progress` throws. Until it
+/// returns, threads that the process starts have a default stack of at least 8 MiB.
 Picture render(const std::string& scene_file, const Settings& settings = {}, const ProgressFunction& progress = {});
 
 const char* version();

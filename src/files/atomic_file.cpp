@@ -28,10 +28,10 @@ std::atomic<bool (*)()> pipe_wait_is_over{nullptr};
 constexpr auto pipe_poll_interval = std::chrono::milliseconds(50);
 constexpr auto pipe_patience = std::chrono::seconds(1);
 
-/// Names that are tried for a temporary file. Processes look for abandoned ones once, so few of ours are removed.
+/// Number of names to try for a temporary file. A process searches for abandoned files only once, so few are removed.
 constexpr int max_temporaries = 16;
 
-/// Whether one has waited for `since` long enough, after being asked to end.
+/// Returns whether a wait that began at `since` has lasted long enough after a request to end.
 bool is_enough(Clock::time_point since) {
   bool (*const is_over)() = pipe_wait_is_over.load();
   return is_over && is_over() && Clock::now() - since >= pipe_patience;
@@ -65,8 +65,8 @@ const char* remedy(int error) {
   }
 }
 
-/// The new name lasts through a power cut only once its folder is on the disk. A filesystem that cannot sync folders is
-/// no reason to fail.
+/// The new name survives a power failure only after its folder is synced. It is not an error if the filesystem cannot
+/// sync folders.
 void sync_folder(const std::string& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -110,8 +110,8 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   if (exists) keep_owner_and_permissions(existing);
 }
 
-/// A new file has the permissions of the umask instead. A filesystem that cannot keep them, or a user who may not give
-/// files away, is no reason to fail.
+/// Otherwise a new file would get the permissions of the umask. It is not an error if the filesystem cannot store them
+/// or the user may not change owners.
 void AtomicFile::keep_owner_and_permissions(const struct stat& existing) {
   const int owned = ::fchown(descriptor_, existing.st_uid, existing.st_gid);
   const int permitted = ::fchmod(descriptor_, existing.st_mode & 0777);
@@ -122,7 +122,7 @@ void AtomicFile::create_temporary() {
   const std::string folder = folder_of_path(target_);
   remove_abandoned_temporaries(folder);
   descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-  // Without /proc there is no way to give it a name.
+  // Without /proc the file could not be given a name.
   if (descriptor_ >= 0 && ::access(path_of_descriptor(descriptor_).c_str(), F_OK) == 0) {
     lock_temporary(descriptor_);
     return;
@@ -142,9 +142,9 @@ void AtomicFile::create_named_temporary() {
       if (error == EEXIST) continue;
       break;
     }
-    // Between open and lock another process may have taken the file for an abandoned one, and removed it. No name is
-    // used twice: while there is a file of this one, it is ours. Inodes do not tell, since some filesystems of networks
-    // and of users number one file by one number now and by another then.
+    // Between open and lock another process may have considered the file abandoned and removed it. Names are never
+    // reused, so while a file of this name exists, it is ours. Inode numbers would not tell, since some network and
+    // user-space filesystems change them.
     if (lock_temporary(descriptor_) && ::access(temporary_.c_str(), F_OK) == 0) return;
     error = errno;
     ::close(descriptor_);
@@ -186,10 +186,10 @@ void AtomicFile::seek(uint64_t position) {
 void AtomicFile::commit() {
   if (failed()) throw WriteError(path_, failure_);
   if (is_pipe_) write_pipe();
-  // Devices and some network filesystems cannot sync and say so; what they have taken is as safe as they make it.
+  // Devices and some network filesystems cannot sync and report it; what they accepted is as safe as they make it.
   if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS && errno != ENOTSUP) fail(errno);
   if (!replaces_) return close_or_fail();
-  // Network filesystems tell some failures when a file is closed. The descriptor stays open for its lock.
+  // Network filesystems report some errors only on close. The descriptor itself stays open for its lock.
   if (const int copy = ::dup(descriptor_); copy >= 0 && ::close(copy) != 0 && errno != EINTR) fail(errno);
   if (temporary_.empty()) give_name();
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
@@ -212,7 +212,7 @@ void AtomicFile::give_name() {
   fail(errno);
 }
 
-/// A pipe is opened and written without blocking, so that one without a reader can be given up.
+/// A pipe is opened and written without blocking, so that the write can be abandoned if there is no reader.
 void AtomicFile::write_pipe() {
   Clock::time_point since = Clock::now();
   while ((descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK)) < 0) {

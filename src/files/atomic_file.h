@@ -1,6 +1,6 @@
 #pragma once
 
-// A file that appears whole or not at all.
+// Writes a file completely or not at all.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,11 +13,11 @@ struct stat;
 
 namespace alhazen {
 
-/// `cannot write PATH: ` the cause and what to do.
+/// The message is `cannot write PATH: `, the cause and what to do.
 class WriteError : public RenderError {
  public:
   WriteError(const std::string& path, int error);
-  int error() const { return error_; }  ///< as errno has it
+  int error() const { return error_; }  ///< an errno value
   /// The cause and what to do, without the path.
   static std::string reason(int error);
 
@@ -25,12 +25,12 @@ class WriteError : public RenderError {
   int error_;
 };
 
-/// Writes go to a file without a name in the folder of the target (O_TMPFILE), which a process that is killed leaves
-/// nothing of; `commit` gives it a name and renames it onto the target. Where the filesystem has no files without
-/// names, a temporary file takes its place, and those that killed processes left are removed. Without a commit the
-/// target stays as it was. Symbolic links are followed. A device is written directly; what is for a pipe is kept in
-/// memory until `commit`, since formats seek.
-/// Every failure is a WriteError. The first is remembered and told again by `commit`, so that a library that swallows
+/// Writes go to a nameless file in the folder of the target (O_TMPFILE), of which nothing remains if the process is
+/// killed; `commit` gives it a name and renames it to the target. If the filesystem does not support nameless files, a
+/// temporary file is used instead, and temporaries of killed processes are removed. Without a commit the target remains
+/// unchanged. Symbolic links are followed. Devices are written directly; data for a pipe are kept in memory until
+/// `commit`, since image formats seek.
+/// Every failure is a WriteError. The first is remembered and thrown again by `commit`, so that a library that swallows
 /// an exception of `write` cannot turn it into a success.
 class AtomicFile {
  public:
@@ -55,22 +55,22 @@ class AtomicFile {
   [[noreturn]] void fail(int error);
 
   std::string path_;       ///< as the caller gave it, for messages
-  std::string target_;     ///< what is replaced: `path_` with symbolic links followed
-  std::string temporary_;  ///< empty where there is no file of that name
-  bool replaces_ = false;  ///< whether `commit` renames: neither a device nor a pipe
+  std::string target_;     ///< the file to replace: `path_` with symbolic links followed
+  std::string temporary_;  ///< empty if there is no temporary file with a name
+  bool replaces_ = false;  ///< whether `commit` renames; false for devices and pipes
   bool is_pipe_ = false;
   std::vector<char> for_pipe_;
   int descriptor_ = -1;
   uint64_t position_ = 0;
-  int failure_ = 0;  ///< errno of the first
+  int failure_ = 0;  ///< errno of the first failure
 };
 
-/// Throws InputError where `path` cannot be written now; leaves everything as it is. A full disk is no reason, since
-/// space may be freed while the machine renders.
+/// Throws InputError if `path` cannot be written now; changes nothing. A full disk is not an error here, since space
+/// may be freed while the program renders.
 void check_target(const std::string& path);
 
-/// A pipe may have no reader, or one that reads nothing. `is_over` is asked several times a second while that lasts;
-/// once it returns true, the write fails after one second in which nothing moved. By default it lasts for ever.
+/// A pipe may have no reader, or one that reads nothing. While a write waits, `is_over` is called several times a
+/// second; once it returns true, the write fails after one second without progress. By default it waits for ever.
 void set_pipe_wait_is_over(bool (*is_over)());
 
 }  // namespace alhazen

@@ -18,7 +18,7 @@ size_t MemorySource::read(char* into, size_t capacity) {
   return count;
 }
 
-/// zlib puts what it takes for the path before its messages, "<fd:5>: "; ours have the name already.
+/// zlib prefixes its messages with a path of its own, "<fd:5>: "; our messages already have the name.
 static std::string without_path(const std::string& message) {
   const size_t end = message.starts_with("<fd:") ? message.find(">: ") : std::string::npos;
   return end == std::string::npos ? message : message.substr(end + 3);
@@ -29,7 +29,7 @@ struct FileSource::Handle {
 };
 
 FileSource::FileSource(const InputFile& file) : path_(file.name()), size_(file.size()) {
-  // zlib closes what it is given.
+  // gzclose closes the descriptor that zlib is given.
   const int descriptor = ::fcntl(file.descriptor(), F_DUPFD_CLOEXEC, 0);
   if (descriptor < 0) throw InputError({path_}, std::string("cannot be opened: ") + std::strerror(errno));
   const gzFile stream = gzdopen(descriptor, "rb");
@@ -50,14 +50,14 @@ size_t FileSource::read(char* into, size_t capacity) {
   int status = Z_OK;
   const char* const message = gzerror(handle_->file, &status);
   if (status == Z_ERRNO) throw InputError({path_}, std::string("cannot be read: ") + std::strerror(errno));
-  // A compressed stream that is cut off reads like the end of the file, with this status.
-  if (status == Z_BUF_ERROR) throw InputError({path_}, "the compressed data end early; the file is cut off");
+  // zlib reports a truncated compressed stream as the end of the file, with this status.
+  if (status == Z_BUF_ERROR) throw InputError({path_}, "the compressed data end early; the file is truncated");
   if (count < 0) throw InputError({path_}, "the compressed data are damaged: " + without_path(message));
   return 0;
 }
 
 uint64_t FileSource::plausible_size() const {
-  // Meshes are seldom compressed further than this; beyond it the mesh grows as it is read.
+  // Meshes are seldom compressed further than this; larger meshes grow as they are read.
   constexpr uint64_t compression = 20;
   return gzdirect(handle_->file) ? size_ : size_ * compression;
 }

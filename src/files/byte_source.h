@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the bytes of a text scene or a PLY mesh come from: a file, compressed by gzip or not, or memory.
+// Sources of the bytes of a text scene or a PLY mesh: a file, optionally compressed by gzip, or memory.
 
 #include <cstdint>
 #include <memory>
@@ -15,11 +15,11 @@ class ByteSource {
  public:
   virtual ~ByteSource() = default;
 
-  /// Fills `into` with up to `capacity` bytes and returns how many; 0 at the end. Throws InputError.
+  /// Reads up to `capacity` bytes into `into` and returns the number read; 0 at the end. Throws InputError.
   virtual size_t read(char* into, size_t capacity) = 0;
 
-  /// How many bytes one may reckon with: memory is reserved for no more than these could describe, whatever a header
-  /// promises. Exact for a file that is not compressed.
+  /// An estimate of the number of bytes: no more memory is reserved than these could describe, whatever a header
+  /// claims. It is exact for uncompressed files.
   virtual uint64_t plausible_size() const = 0;
 };
 
@@ -34,7 +34,7 @@ class MemorySource final : public ByteSource {
   uint64_t size_;
 };
 
-/// A file, through zlib, which hands on what is not compressed.
+/// A file read by zlib, which passes on uncompressed data unchanged.
 class FileSource final : public ByteSource {
  public:
   explicit FileSource(const InputPath& path) : FileSource(InputFile(path)) {}

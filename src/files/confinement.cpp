@@ -16,14 +16,14 @@ namespace alhazen {
 
 namespace {
 
-/// Where an open file lies; empty where the system does not tell.
-std::string place_of(int descriptor) {
+/// The path of an open file; empty if the system does not tell.
+std::string path_of(int descriptor) {
   std::error_code error;
   const auto place = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(descriptor), error);
   return error ? std::string() : place.string();
 }
 
-/// What of `path` comes below `folder`; nothing where it does not begin with it. Nothing of the path is resolved here.
+/// The part of `path` below `folder`; nothing if it does not begin with it. The path is not resolved here.
 std::optional<std::string> below(const std::string& folder, const std::string& path) {
   if (folder.empty()) return path.starts_with('/') ? std::nullopt : std::optional(path);
   const std::string prefix = folder.ends_with('/') ? folder : folder + "/";
@@ -32,7 +32,7 @@ std::optional<std::string> below(const std::string& folder, const std::string& p
   return begin == std::string::npos ? std::string(".") : path.substr(begin);
 }
 
-/// Whether a path that counts from a folder names something above it, whatever the links in it are.
+/// Returns whether a relative path leads above its folder, without regard to links.
 bool climbs_out(const std::string& relative) {
   int depth = 0;
   for (const std::filesystem::path& part : std::filesystem::path(relative)) {
@@ -75,7 +75,7 @@ int Confinement::open(const std::string& path, int flags) const {
     open_how how{};
     how.flags = static_cast<uint64_t>(flags);
     how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
-    // EAGAIN: something on the path was renamed meanwhile, and the kernel cannot tell whether it led out.
+    // EAGAIN: something on the path was renamed meanwhile, and the kernel cannot tell whether it led outside.
     for (int tries = 0; tries < 100; ++tries) {
       const long descriptor = ::syscall(SYS_openat2, descriptor_, relative->c_str(), &how, sizeof how);
       if (descriptor >= 0) return static_cast<int>(descriptor);
@@ -86,13 +86,13 @@ int Confinement::open(const std::string& path, int flags) const {
   return open_found(*relative, flags);
 }
 
-/// Finds the file without reading or waking anything, and asks where it lies; what is opened then is that file.
+/// Finds the file without opening it for reading and checks where it is; the file opened then is the same one.
 int Confinement::open_found(const std::string& relative, int flags) const {
-  // What lies above the folder is not even looked for.
+  // Nothing above the folder is looked up at all.
   if (climbs_out(relative)) return refuse();
   const int found = ::openat(descriptor_, relative.c_str(), O_PATH | O_CLOEXEC);
   if (found < 0) return -1;
-  const std::string folder = place_of(descriptor_), file = place_of(found);
+  const std::string folder = path_of(descriptor_), file = path_of(found);
   int result = -1;
   if (folder.empty() || file.empty() || !below(folder, file))
     refuse();

@@ -14,10 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As many links in a row as Linux follows.
+/// Maximum number of consecutive links, as in Linux.
 constexpr int max_links = 40;
 
-/// A file that exists is its device and inode; one that does not is those of its folder, and a name.
+/// Identified by device and inode if the file exists, else by those of its folder and its name.
 struct FileIdentity {
   dev_t device = 0;
   ino_t inode = 0;
@@ -48,7 +48,7 @@ std::string folder_of_path(const std::string& path) {
 std::string follow_links(const std::string& path, int& error) {
   error = 0;
   struct stat file = {};
-  // Links of /proc to pipes and devices, as /dev/stdout is one, have no target that could be named.
+  // Links in /proc to pipes and devices, such as /dev/stdout, have no target with a name.
   if (::stat(path.c_str(), &file) == 0 && !S_ISREG(file.st_mode) && !S_ISDIR(file.st_mode)) return path;
   fs::path at = path;
   for (int links = 0; links <= max_links; ++links) {

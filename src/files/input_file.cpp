@@ -24,12 +24,12 @@ int open_path(const InputPath& path, int flags) {
 
 std::string opening_problem(int error) {
   if (error == EXDEV)
-    return "lies outside the scene's folder, or an absolute symbolic link leads to it, and reading is confined to that "
+    return "is outside the scene's folder, or an absolute symbolic link leads to it, and reading is confined to that "
            "folder (--confine): put the file into it, make the link relative, or read without the confinement";
   return std::string("cannot be opened: ") + std::strerror(error);
 }
 
-/// Why something of that kind is not read; empty for regular files.
+/// Why a file of that kind is not read; empty for regular files.
 std::string kind_problem(mode_t mode) {
   if (S_ISREG(mode)) return {};
   if (S_ISDIR(mode)) return "is a folder; give the name of a file";
@@ -37,14 +37,14 @@ std::string kind_problem(mode_t mode) {
   return std::string("is ") + kind + ", not a regular file; copy its bytes into a file and give that";
 }
 
-/// The descriptor, or -1 with `problem`.
+/// Returns the descriptor, or -1 with `problem` set.
 int open_regular(const InputPath& path, struct stat& status, InputProblem& result) {
   std::string& problem = result.message;
   if (path.name.empty() || path.name.find('\0') != std::string::npos) {
     problem = path.name.empty() ? "no file is named" : "the name of the file holds a zero byte";
     return -1;
   }
-  // First only the name is looked up: to open a device or a pipe would already act upon it.
+  // The name is only looked up first: opening a device or a pipe would already have an effect.
   const int found = open_path(path, O_PATH);
   if (found < 0) {
     result.is_missing = errno == ENOENT || errno == ENOTDIR;
@@ -53,15 +53,15 @@ int open_regular(const InputPath& path, struct stat& status, InputProblem& resul
   }
   const bool is_known = ::fstat(found, &status) == 0;
   ::close(found);
-  problem = is_known ? kind_problem(status.st_mode) : "cannot be asked what it is";
+  problem = is_known ? kind_problem(status.st_mode) : "has a kind that cannot be determined";
   if (!problem.empty()) return -1;
-  // Something else may have taken the name since then; it is opened so that it cannot make us wait, and asked again.
+  // Something else may have the name by now; it is opened without blocking and checked again.
   const int descriptor = open_path(path, O_RDONLY | O_NONBLOCK | O_NOCTTY);
   if (descriptor < 0) {
     problem = opening_problem(errno);
     return -1;
   }
-  problem = ::fstat(descriptor, &status) == 0 ? kind_problem(status.st_mode) : "cannot be asked what it is";
+  problem = ::fstat(descriptor, &status) == 0 ? kind_problem(status.st_mode) : "has a kind that cannot be determined";
   if (problem.empty()) return descriptor;
   ::close(descriptor);
   return -1;
@@ -103,7 +103,7 @@ std::vector<uint8_t> InputFile::read_all() {
     size_t filled = 0;
     while (filled < bytes.size()) {
       const size_t count = read(bytes.data() + filled, bytes.size() - filled);
-      if (count == 0) throw InputError({name_}, "cannot be read to its end; it became shorter meanwhile");
+      if (count == 0) throw InputError({name_}, "cannot be read to its end; it was truncated meanwhile");
       filled += count;
     }
     return bytes;

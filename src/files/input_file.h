@@ -1,6 +1,6 @@
 #pragma once
 
-// The one place where input is opened: scenes, meshes, pictures, spectra, lenses, buffers, studies.
+// The one module that opens input: scenes, meshes, images, spectra, lenses, buffers, studies.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,28 +14,28 @@
 
 namespace alhazen {
 
-/// What holds for all the files that one scene names.
+/// Restrictions and records common to all the files that one scene names.
 struct InputScope {
-  std::shared_ptr<const Confinement> confinement;  ///< the folder that they must not lie outside of; null: any
-  std::shared_ptr<InputRecord> record;             ///< where those that were opened are noted; null: nowhere
+  std::shared_ptr<const Confinement> confinement;  ///< the folder outside which no file is read; null: any
+  std::shared_ptr<InputRecord> record;             ///< records the files that are opened; null: none
 };
 
-/// The path of a file to be read, and what holds for it. A plain string is bound by nothing. There is no way back to a
-/// string but by `name`, so that no reader drops the bound without being seen to.
+/// The path of a file to be read, and its scope. A plain string has no restrictions. Converting back to a string is
+/// possible only by `name`, so that no reader drops the scope by accident.
 struct InputPath {
   InputPath(std::string name_) : name(std::move(name_)) {}  // NOLINT(google-explicit-constructor)
   InputPath(const char* name_) : name(name_) {}             // NOLINT(google-explicit-constructor)
   InputPath(std::string name_, InputScope scope_) : name(std::move(name_)), scope(std::move(scope_)) {}
 
-  std::string name;  ///< also as messages have it
+  std::string name;  ///< also used in messages
   InputScope scope;
 };
 
-/// An open regular file. Folders, devices, pipes and sockets are refused before they are opened, so that nothing waits
-/// for a writer, reads without end or changes the state of a device.
+/// An open regular file. Folders, devices, pipes and sockets are refused before they are opened, so that reading cannot
+/// block, run without end or change the state of a device.
 class InputFile {
  public:
-  /// Throws InputError that names the file.
+  /// Throws InputError with the name of the file.
   explicit InputFile(const InputPath& path);
   ~InputFile();
   InputFile(InputFile&& other) noexcept;
@@ -46,12 +46,12 @@ class InputFile {
   const std::string& name() const { return name_; }
   uint64_t size() const { return size_; }
   int descriptor() const { return descriptor_; }
-  /// What tells it from every other file: its device and its number there.
+  /// Identifies the file: its device and inode.
   FileNumber identity() const { return identity_; }
 
-  /// Up to `capacity` bytes from where the last reading ended; 0 at the end. Throws InputError.
+  /// Reads up to `capacity` bytes from the current position; returns 0 at the end. Throws InputError.
   size_t read(void* into, size_t capacity);
-  /// All of it, from where the last reading ended. Throws InputError, also where memory does not hold it.
+  /// Reads the rest of the file. Throws InputError, also if memory does not suffice.
   std::vector<uint8_t> read_all();
 
  private:
@@ -61,13 +61,13 @@ class InputFile {
   FileNumber identity_;
 };
 
-/// The bytes of a file of a few numbers, a spectrum or a lens; over 1 MiB it is none. Throws InputError.
+/// Reads a file of a few numbers, such as a spectrum or a lens. Throws InputError, also if it has over 1 MiB.
 std::vector<uint8_t> read_short_text(const InputPath& path);
 
-/// Why a file cannot be opened, as InputFile would say it; without a message where it can.
+/// Why a file cannot be opened, in the words of InputFile; the message is empty if it can.
 struct InputProblem {
   std::string message;
-  bool is_missing = false;  ///< there is nothing of that name
+  bool is_missing = false;  ///< no file has that name
 };
 InputProblem input_problem(const InputPath& path);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Which files were read for a scene, so that none of them is written over.
+// Records which files were read for a scene, so that none of them is overwritten.
 
 #include <cstdint>
 #include <map>
@@ -10,16 +10,16 @@
 
 namespace alhazen {
 
-/// What tells a file from every other one, whatever it is called: its device and its number there.
+/// Identifies a file, whatever its name: device and inode.
 using FileNumber = std::pair<uint64_t, uint64_t>;
 
-/// The files that were opened, each by the name it was first opened by. May be used by several threads at once.
+/// The files that were opened, each with the name by which it was first opened. It is thread-safe.
 class InputRecord {
  public:
   void add(const FileNumber& file, const std::string& name);
 
-  /// Throws InputError where `path`, which the user knows as `role` ("the output"), is one of the files, by whatever
-  /// name. An empty path is none.
+  /// Throws InputError if `path`, which messages call `role` ("the output"), is one of the files, by any name. An empty
+  /// path is ignored.
   void refuse(const std::string& path, const std::string& role) const;
 
  private:

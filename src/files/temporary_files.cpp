@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char *prefix = ".alhazen.", *suffix = ".tmp";
 
-/// The first look at a folder.
+/// Returns whether this is the first search of a folder.
 bool is_first_look(const std::string& folder) {
   static std::mutex mutex;
   static std::set<std::string> seen;
@@ -48,7 +48,7 @@ std::string temporary_path(const std::string& folder) {
 }
 
 bool lock_temporary(int descriptor) {
-  // A filesystem without locks has none that could be taken from us either.
+  // On a filesystem without locks nobody can take the file from us either.
   return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 

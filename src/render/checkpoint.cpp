@@ -23,7 +23,7 @@ constexpr char file_magic[8] = {'a', 'h', 'z', 'e', 'n', 'k', 't', '2'};
 
 struct Header {
   char magic[8];
-  char program_version[24];  ///< of the program that wrote the file, filled up with zeros
+  char program_version[24];  ///< of the program that wrote the file, padded with zeros
   uint64_t fingerprint;
   uint64_t samples_done;
   uint64_t bytes;     ///< of the planes
@@ -34,7 +34,7 @@ static_assert(sizeof(Header) == 64);
 
 /// CRC-32 finds every flipped bit and every run of up to 32 damaged ones.
 uint32_t crc(uint32_t before, const void* data, size_t size) {
-  // zlib takes a null pointer, as a plane that nobody asked for has, for the wish to start anew.
+  // zlib takes the null pointer of an absent plane as a request for a new checksum.
   return size == 0 ? before : static_cast<uint32_t>(crc32_z(before, static_cast<const Bytef*>(data), size));
 }
 
@@ -103,7 +103,7 @@ uint64_t join_settings(const RenderSettings& s, uint64_t scene) {
   return h.value();
 }
 
-/// Records without padding, which all but those below are.
+/// All records have no padding except those below.
 template <class Record>
 void add_records(Hasher& h, const Record* records, uint32_t count) {
   h.add_bytes(records, count * sizeof(Record));
@@ -156,7 +156,8 @@ void check_checkpoint(const RenderSettings& settings) {
   struct stat file = {};
   const bool exists = ::stat(path.c_str(), &file) == 0;
   if (exists && !S_ISDIR(file.st_mode) && !S_ISREG(file.st_mode))
-    throw InputError({path}, "a checkpoint is read again later: name a file, not a device or a pipe");
+    throw InputError({path},
+                     "a checkpoint must be a file, since it is read again later: name a file, not a device or a pipe");
   check_target(path);
   if (!exists || file.st_size == 0 || settings.resume || settings.overwrite) return;
   std::ifstream in(path, std::ios::binary);
@@ -166,7 +167,7 @@ void check_checkpoint(const RenderSettings& settings) {
                      "this file is not a checkpoint of this version of Alhazen, and would be overwritten: give "
                      "--checkpoint another name, or --overwrite to replace it");
   throw InputError({path}, "this file holds a render of " + std::to_string(header->samples_done) +
-                               " samples per pixel already: give --resume to go on with it, --overwrite to replace it, "
+                               " samples per pixel already: give --resume to continue it, --overwrite to replace it, "
                                "or --checkpoint another name");
 }
 
@@ -208,7 +209,7 @@ uint32_t CheckpointFile::load(Film<Real>& film) const {
   });
   in.read(reinterpret_cast<char*>(&expected), sizeof(expected));
   if (!in || in.peek() != std::ifstream::traits_type::eof() || checksum != expected) throw damaged;
-  const uint32_t held = film.most_samples();
+  const uint32_t held = film.max_samples();
   if (header->samples_done > held || header->samples_done % samples_per_block != 0) throw damaged;
   if (held > samples_per_pixel_)
     throw InputError({path_}, "the checkpoint holds " + std::to_string(held) +

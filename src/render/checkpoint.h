@@ -1,6 +1,6 @@
 #pragma once
 
-// The state of a render on disk, so that it can go on later and end in the same bits.
+// The state of a render on disk, so that it can be continued later and give the same bits.
 
 #include <cstdint>
 #include <string>
@@ -11,27 +11,27 @@
 
 namespace alhazen {
 
-/// A hash over everything that decides the picture; scenes that differ differ in it.
+/// A hash over everything that determines the image.
 template <class Real>
 uint64_t scene_fingerprint(const CompiledScene<Real>& scene);
 
-/// Refuses a checkpoint that could not be saved, or whose saving would destroy what is in the file: a render that is to
-/// be resumed, or a file that is none. Leaves everything as it is. Throws InputError.
+/// Refuses a checkpoint that could not be saved, or that would overwrite a render that could be resumed or a file that
+/// is no checkpoint. Changes nothing. Throws InputError.
 void check_checkpoint(const RenderSettings& settings);
 
-/// The file is a header, the planes of the film, and a CRC-32 of both. The header has a CRC-32 of its own, so that a
-/// damaged file is told from one of another render.
+/// The file consists of a header, the planes of the film and a CRC-32 of both. The header has a CRC-32 of its own, so
+/// that a damaged file is distinguished from a checkpoint of another render.
 class CheckpointFile {
  public:
   CheckpointFile(const RenderSettings& settings, uint64_t scene_fingerprint);
 
-  /// Writes the film whole or not at all. Every pixel of it holds whole blocks of samples, and samples_done of them or
-  /// more: more where a pass was stopped. Throws WriteError.
+  /// Writes the film completely or not at all. Every pixel holds complete blocks of samples, at least `samples_done`;
+  /// more if a pass was stopped. Throws WriteError.
   template <class Real>
   void save(Film<Real>& film, uint32_t samples_done) const;
 
-  /// Reads the film and returns how many samples every pixel of it holds. Throws InputError where the file is missing,
-  /// damaged, of another render, or holds more samples than the settings ask for.
+  /// Reads the film and returns the number of samples that every pixel holds. Throws InputError if the file is missing,
+  /// damaged, of another render, or holds more samples than the settings request.
   template <class Real>
   uint32_t load(Film<Real>& film) const;
 

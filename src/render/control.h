@@ -1,6 +1,6 @@
 #pragma once
 
-// What runs beside the rendering: how far it is, whether to stop, what each thread did.
+// State shared with a running render: its progress, the request to stop, and statistics of each thread.
 
 #include <atomic>
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 namespace alhazen {
 
-/// What one thread did. Each on cache lines of its own.
+/// Statistics of one thread, on cache lines of their own.
 struct alignas(128) ThreadStatistics {
   uint64_t samples = 0;
   uint64_t rays = 0;  ///< closest-hit rays
   uint64_t shadow_rays = 0;
-  uint64_t nonfinite_samples = 0;  ///< samples that came out NaN or infinite and were counted as black
+  uint64_t nonfinite_samples = 0;  ///< samples that were NaN or infinite and counted as black
   double busy_seconds = 0;
 };
 
@@ -27,7 +27,7 @@ class RenderControl {
   void add_samples(uint64_t count) { samples_done_.fetch_add(count, std::memory_order_relaxed); }
   uint64_t samples_done() const { return samples_done_.load(std::memory_order_relaxed); }
 
-  /// Asks the backend to come back soon; pixels that it has not begun stay as they are.
+  /// Asks the backend to return soon; pixels that it has not begun remain as they are.
   void stop() { stopped_.store(true, std::memory_order_relaxed); }
   bool is_stopped() const { return stopped_.load(std::memory_order_relaxed); }
 

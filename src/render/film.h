@@ -1,6 +1,6 @@
 #pragma once
 
-// The film: running sums of every pixel, in planes, and what comes out of them.
+// The film: running sums of every pixel, in planes, and the image computed from them.
 
 #include <algorithm>
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace alhazen {
 
-/// Bytes that a film of these pixels and layers takes.
+/// Bytes that a film with these pixels and layers takes.
 template <class Real>
 uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted);
 
@@ -25,21 +25,22 @@ class Film {
   Film(const Film&) = delete;
   Film& operator=(const Film&) = delete;
 
-  /// Adds a block to pixel (x, y) of the whole picture. Blocks of a pixel come in the order of their samples.
+  /// Adds a block to pixel (x, y) of the whole image. The blocks of a pixel must be added in the order of their
+  /// samples.
   void add(int x, int y, const BlockSum<Real>& block) { view_.add(index_of(x, y), block); }
 
   const PixelWindow& window() const { return window_; }
-  /// How many samples pixel (x, y) of the whole picture holds.
+  /// Number of samples that pixel (x, y) of the whole image holds.
   uint32_t samples_at(int x, int y) const { return samples_[index_of(x, y)]; }
-  /// The most that a pixel holds.
-  uint32_t most_samples() const { return *std::max_element(samples_.begin(), samples_.end()); }
+  /// The largest number of samples in any pixel.
+  uint32_t max_samples() const { return *std::max_element(samples_.begin(), samples_.end()); }
   std::vector<std::string> channels() const;
-  /// Row y (0 is the window's first) of all channels, one after the other: means over the samples taken so far.
+  /// Computes row y (0 is the window's first) of all channels, one after the other: means over the samples so far.
   void resolve_row(int y, std::span<float> row) const;
-  /// The planes where they lie, for a backend that keeps copies of them elsewhere.
+  /// The planes in place, for a backend that keeps copies of them elsewhere.
   FilmView<Real> view() const { return view_; }
-  /// The planes as bytes, for checkpoints and copies: each of them once, always in the same order, those that nobody
-  /// asked for with no bytes.
+  /// Visits the bytes of every plane, for checkpoints and copies, each once and always in the same order; absent planes
+  /// have no bytes.
   template <class Visit>
   void visit_planes(const Visit& visit) {
 #define ALHAZEN_PLANE(type, name) visit(name##_.data(), name##_.size() * sizeof(type));

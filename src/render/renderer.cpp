@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Tells the progress from a thread of its own, and stops the render where the listener says so or throws.
+/// Reports progress from its own thread, and stops the render if the callback returns false or throws.
 class ProgressReporter {
  public:
   ProgressReporter(const ProgressFunction& listener, RenderControl& control, uint64_t total)
@@ -35,7 +35,7 @@ class ProgressReporter {
 
   ~ProgressReporter() { finish(); }
 
-  /// Tells the progress for the last time; what the listener has thrown, or null.
+  /// Reports progress for the last time. Returns the exception that the callback threw, or null.
   std::exception_ptr finish() {
     if (!thread_.joinable()) return problem_;
     {
@@ -48,7 +48,7 @@ class ProgressReporter {
   }
 
  private:
-  /// An exception that left a thread would end the process: it is kept for the thread that renders.
+  /// An exception that leaves a thread ends the process, so it is kept for the rendering thread.
   void run() noexcept try {
     std::unique_lock lock(mutex_);
     while (!wake_.wait_for(lock, std::chrono::milliseconds(100), [this] { return done_; })) tell();
@@ -78,17 +78,17 @@ class ProgressReporter {
   std::thread thread_;
 };
 
-/// How many samples the next pass takes: whole blocks, large enough for its end not to matter, and small enough for
-/// the picture to grow evenly and for a time limit to be met; at last the rest that is no whole block.
-uint32_t pass_size(const RenderSettings& settings, uint32_t most, uint32_t samples_done, double elapsed) {
+/// The number of samples of the next pass: whole blocks, enough to make the cost of a pass's end negligible, few enough
+/// for the image to grow evenly and for a time limit to be kept; at the end the remainder that is no whole block.
+uint32_t pass_size(const RenderSettings& settings, uint32_t max_size, uint32_t samples_done, double elapsed) {
   const uint32_t left = settings.samples_per_pixel - samples_done;
-  uint32_t size = std::clamp(settings.samples_per_pixel / 16, most / 4, most);
+  uint32_t size = std::clamp(settings.samples_per_pixel / 16, max_size / 4, max_size);
   if (settings.time_limit > 0) {
     size = samples_per_block;
     if (samples_done > 0) {
       const double per_sample = elapsed / samples_done;
-      size = static_cast<uint32_t>(
-          std::clamp((settings.time_limit - elapsed) / 8 / std::max(per_sample, 1e-9), 1.0, static_cast<double>(most)));
+      size = static_cast<uint32_t>(std::clamp((settings.time_limit - elapsed) / 8 / std::max(per_sample, 1e-9), 1.0,
+                                              static_cast<double>(max_size)));
     }
   }
   if (left < samples_per_block) return left;
@@ -161,8 +161,8 @@ class PassLoop {
     }
   }
 
-  /// Not once there is a part of a block in the film: the sums of a longer render would be rounded elsewhere. A state
-  /// that cannot be saved is no reason to lose the picture.
+  /// Nothing is saved once the film contains a partial block: the sums of a longer render would be rounded differently.
+  /// The image is kept even if its state cannot be saved.
   void save_checkpoint() {
     if (!checkpoint_ || !in_whole_blocks_) return;
     try {
@@ -183,18 +183,17 @@ class PassLoop {
   Diagnostics& diagnostics_;
   RenderControl control_;
   std::optional<CheckpointFile> checkpoint_;
-  uint32_t samples_done_ = 0;  ///< of every pixel
+  uint32_t samples_done_ = 0;  ///< in every pixel
   bool in_whole_blocks_ = true;
   double elapsed_ = 0;
 };
 
-/// A film that the machine cannot hold is refused before it is begun.
+/// Refuses a film that exceeds the machine's memory before rendering.
 void check_memory(uint64_t bytes) {
   const uint64_t memory = static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
   if (bytes > memory / 10 * 9)
-    throw InputError("the picture with its layers takes " + std::to_string(bytes >> 30) +
-                     " GiB, and this machine has " + std::to_string(memory >> 30) +
-                     ": render parts of it with --crop, or with fewer layers");
+    throw InputError("the image with its layers takes " + std::to_string(bytes >> 30) + " GiB, and this machine has " +
+                     std::to_string(memory >> 30) + ": render parts of it with --crop, or with fewer layers");
 }
 
 template <class Real>
@@ -204,8 +203,8 @@ std::unique_ptr<Film<Real>> make_film(const RenderSettings& settings, bool weigh
   try {
     return std::make_unique<Film<Real>>(settings.window, settings.aovs, weighted);
   } catch (const std::bad_alloc&) {
-    throw InputError("the picture with its layers takes " + std::to_string(bytes >> 20) +
-                     " MiB, which are not left beside the scene: render parts of it with --crop, or with fewer layers");
+    throw InputError("the image with its layers takes " + std::to_string(bytes >> 20) +
+                     " MiB, more than is left beside the scene: render parts of it with --crop, or with fewer layers");
   }
 }
 
@@ -239,7 +238,7 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   statistics.peak_rss_bytes = peak_rss_bytes();
   if (statistics.nonfinite_samples > 0)
     diagnostics.warn({statistics.scene}, std::to_string(statistics.nonfinite_samples) +
-                                             " samples came out infinite or not a number and were counted as black");
+                                             " samples were infinite or NaN and were counted as black");
   rendering.film = std::move(film);
   return rendering;
 }
@@ -247,7 +246,7 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
 }  // namespace
 
 bool Rendering::has_samples() const {
-  return std::visit([](const auto& any_film) { return any_film->most_samples() > 0; }, film);
+  return std::visit([](const auto& any_film) { return any_film->max_samples() > 0; }, film);
 }
 
 ImageSource Rendering::source() const {
@@ -268,37 +267,36 @@ ImageSource Rendering::source() const {
   return source;
 }
 
-NoisyPicture noisy_picture(const ImageSource& source) {
+NoisyPicture noisy_image(const ImageSource& source) {
   const size_t width = static_cast<size_t>(source.width), height = static_cast<size_t>(source.height);
-  NoisyPicture picture{source.width, source.height, {}, {}, {}};
+  NoisyPicture image{source.width, source.height, {}, {}, {}};
   std::vector<float> row(width * source.channels.size());
-  // Where the channels of three planes begin in a row of the source, and where they go.
+  // The offsets of three channels in a row of the source, and their destinations.
   const auto channel = [&](const std::string& name) {
     return static_cast<size_t>(std::find(source.channels.begin(), source.channels.end(), name) -
                                source.channels.begin());
   };
-  const std::pair<size_t, std::vector<float>*> planes[] = {{channel("R"), &picture.radiance},
-                                                           {channel("albedo.R"), &picture.albedo},
-                                                           {channel("normal.X"), &picture.normal}};
+  const std::pair<size_t, std::vector<float>*> planes[] = {
+      {channel("R"), &image.radiance}, {channel("albedo.R"), &image.albedo}, {channel("normal.X"), &image.normal}};
   for (const auto& [first, plane] : planes) plane->reserve(3 * width * height);
   for (int y = 0; y < source.height; ++y) {
     source.fill_row(y, row);
     for (const auto& [first, plane] : planes)
       for (size_t i = 0; i < 3 * width; ++i) plane->push_back(row[(first + i % 3) * width + i / 3]);
   }
-  return picture;
+  return image;
 }
 
 namespace {
 
-/// A picture that cannot be denoised is kept as it is: it may have taken long.
+/// The noisy image is kept if denoising fails, since it may have taken long to render.
 void denoise(Rendering& rendering, Diagnostics& diagnostics) {
   const Clock::time_point start = Clock::now();
   try {
-    const NoisyPicture picture = noisy_picture(rendering.source());
-    rendering.denoised = denoise_by_optix(picture, std::max(0, rendering.statistics.settings.device));
+    const NoisyPicture image = noisy_image(rendering.source());
+    rendering.denoised = denoise_by_optix(image, std::max(0, rendering.statistics.settings.device));
   } catch (const std::exception& error) {
-    diagnostics.warn({rendering.statistics.scene}, std::string("the picture was not denoised: ") + error.what());
+    diagnostics.warn({rendering.statistics.scene}, std::string("the image was not denoised: ") + error.what());
   }
   rendering.statistics.denoise_seconds = seconds_since(start);
 }
@@ -310,7 +308,7 @@ Rendering render_scene(Scene&& scene, const RenderSettings& settings, double loa
   if (settings.integrator != IntegratorKind::path)
     for (const Light& light : scene.lights)
       if (light.kind != LightKind::constant_infinite && light.kind != LightKind::environment)
-        diagnostics.warn(light.where, "lights without size cannot be met by chance: the integrator '" +
+        diagnostics.warn(light.where, "rays cannot hit lights without area: the integrator '" +
                                           to_string(settings.integrator) + "' does not show them; 'path' does");
   Rendering rendering =
       settings.precision == Precision::single

@@ -1,7 +1,7 @@
 #pragma once
 
-// From a described scene and settings to a film: compile, then pass after pass until all samples are taken, the time is
-// up or somebody stops it.
+// Renders a scene description with given settings to a film: compiles the scene, then runs passes until all samples are
+// taken, the time is up or the render is stopped.
 
 #include <functional>
 #include <memory>
@@ -16,12 +16,12 @@
 namespace alhazen {
 
 struct RenderEvents {
-  /// Called about ten times a second, and once at the end, from a thread of its own. False stops the render. So does an
-  /// exception, which render_scene throws again on the thread that called it.
+  /// Called about ten times a second, and once at the end, from its own thread. Returning false stops the render. So
+  /// does an exception, which render_scene rethrows on the thread that called it.
   ProgressFunction progress;
-  /// Called before the first sample, when the scene is ready.
+  /// Called before the first sample, when the scene is compiled.
   std::function<void(const RenderStatistics&)> started;
-  /// Called between passes, on the thread that called render_scene, where `diagnostics` has got another warning.
+  /// Called between passes, on the thread that called render_scene, if `diagnostics` has a new warning.
   std::function<void()> warned;
 };
 
@@ -30,20 +30,20 @@ class Rendering {
   using AnyFilm = std::variant<std::unique_ptr<Film<float>>, std::unique_ptr<Film<double>>>;
 
   AnyFilm film;
-  std::vector<float> denoised;  ///< three floats a pixel, in the place of the film's radiance; empty: not denoised
+  std::vector<float> denoised;  ///< three floats per pixel, which replace the film's radiance; empty: not denoised
   RenderStatistics statistics;
 
-  /// False where it was stopped before the first sample: there is nothing to show.
+  /// False if stopped before the first sample: there is nothing to show.
   bool has_samples() const;
-  /// Rows of the picture as means so far. Refers to this object.
+  /// Rows of the image as means so far. It refers to this object.
   ImageSource source() const;
 };
 
-/// What a denoiser takes of a picture with the layers albedo and normal.
-NoisyPicture noisy_picture(const ImageSource& source);
+/// Makes the denoiser's input from an image with the layers albedo and normal.
+NoisyPicture noisy_image(const ImageSource& source);
 
-/// `load_seconds` is what reading the scene took, for the statistics. Throws InputError, RenderError, std::bad_alloc,
-/// and what `events` throws.
+/// `load_seconds` is the time taken to read the scene, for the statistics. Throws InputError, RenderError,
+/// std::bad_alloc, and anything that `events` throws.
 Rendering render_scene(Scene&& scene, const RenderSettings& settings, double load_seconds, const RenderEvents& events,
                        Diagnostics& diagnostics);
 

@@ -71,7 +71,7 @@ PixelWindow window_from(const std::array<int64_t, 4>& bounds, int width, int hei
   return {edge(bounds[0], width), edge(bounds[1], width), edge(bounds[2], height), edge(bounds[3], height)};
 }
 
-/// The scene's own bounds are in pixels of the scene's own size; another size scales them.
+/// The scene's bounds are in pixels of the scene's resolution; they scale with another one.
 PixelWindow scene_window(const FilmSettings& film, int width, int height) {
   if (!film.pixel_bounds) return {0, width, 0, height};
   const auto& b = *film.pixel_bounds;
@@ -84,11 +84,11 @@ PixelWindow scene_window(const FilmSettings& film, int width, int height) {
                      width, height);
 }
 
-void resolve_picture(const Settings& asked, const Scene& scene, RenderSettings& s) {
-  constexpr int64_t longest = 100'000, most_pixels = 1'000'000'000;
-  s.width = static_cast<int>(in_range(asked.width ? asked.width : scene.film.width, 1, longest, "the picture's width"));
+void resolve_image(const Settings& asked, const Scene& scene, RenderSettings& s) {
+  constexpr int64_t longest = 100'000, max_pixels = 1'000'000'000;
+  s.width = static_cast<int>(in_range(asked.width ? asked.width : scene.film.width, 1, longest, "the image's width"));
   s.height =
-      static_cast<int>(in_range(asked.height ? asked.height : scene.film.height, 1, longest, "the picture's height"));
+      static_cast<int>(in_range(asked.height ? asked.height : scene.film.height, 1, longest, "the image's height"));
   if (asked.crop_window && asked.pixel_bounds) throw InputError("give a crop window or pixel bounds, not both");
   if (asked.crop_window)
     for (const double edge : *asked.crop_window)
@@ -97,34 +97,34 @@ void resolve_picture(const Settings& asked, const Scene& scene, RenderSettings& 
              : asked.pixel_bounds ? window_from(*asked.pixel_bounds, s.width, s.height)
                                   : scene_window(scene.film, s.width, s.height);
   if (s.window.width() < 1 || s.window.height() < 1)
-    throw InputError("the part of the picture to render holds no pixel: widen the crop window or pixel bounds");
-  if (s.window.pixels() >= most_pixels)
-    throw InputError("a picture of 10^9 pixels or more cannot be rendered at once: render parts of it with --crop");
+    throw InputError("the part of the image to render holds no pixel: widen the crop window or pixel bounds");
+  if (s.window.pixels() >= max_pixels)
+    throw InputError("an image of 10^9 pixels or more cannot be rendered at once: render parts of it with --crop");
 }
 
-BlockSize parse_size(const std::string& text, const std::string& what, uint32_t most) {
+BlockSize parse_size(const std::string& text, const std::string& what, uint32_t max) {
   BlockSize size;
   const char* const end = text.data() + text.size();
   const auto [after_x, x_error] = std::from_chars(text.data(), end, size.x);
   if (x_error == std::errc() && after_x != end && *after_x == 'x') {
     const auto [after_y, y_error] = std::from_chars(after_x + 1, end, size.y);
-    if (y_error == std::errc() && after_y == end && size.x >= 1 && size.y >= 1 && size.x <= most && size.y <= most)
+    if (y_error == std::errc() && after_y == end && size.x >= 1 && size.y >= 1 && size.x <= max && size.y <= max)
       return size;
   }
-  throw InputError(what + " must be WIDTHxHEIGHT, each between 1 and " + std::to_string(most) +
+  throw InputError(what + " must be WIDTHxHEIGHT, each between 1 and " + std::to_string(max) +
                    ", for example 16x16, not '" + text + "'");
 }
 
 BlockSize parse_block(const std::string& text) {
-  constexpr uint32_t most_threads = 1024;
-  const BlockSize block = parse_size(text, "the block", most_threads);
-  if (block.x * block.y > most_threads)
+  constexpr uint32_t max_block_threads = 1024;
+  const BlockSize block = parse_size(text, "the block", max_block_threads);
+  if (block.x * block.y > max_block_threads)
     throw InputError("a block of " + text + " is " + std::to_string(block.x * block.y) +
                      " threads; a GPU runs at most 1024 in one: give fewer, for example 16x16");
   return block;
 }
 
-/// Threads that the system does not give are refused where they were asked for, else fewer are used.
+/// If the system does not provide the requested threads, that is an error; without a request fewer are used.
 void check_threads(int asked, RenderSettings& s) {
   if (s.runs_on_device) return;
   const int available = threads_available(s.threads);
@@ -136,7 +136,7 @@ void check_threads(int asked, RenderSettings& s) {
   s.threads = available;
 }
 
-/// The denoiser is refused before the render where it is not there.
+/// Refuses an unavailable denoiser before the render.
 void resolve_denoiser(const std::string& name, RenderSettings& s) {
   if (name.empty() || name == "none") return;
   if (name != "optix") throw InputError("unknown denoiser '" + name + "': it may be none, optix");
@@ -167,7 +167,7 @@ Schedule parse_schedule(const std::string& text) {
 
 RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   RenderSettings s;
-  resolve_picture(asked, scene, s);
+  resolve_image(asked, scene, s);
   s.precision = by_name(precisions, asked.precision, "precision");
   s.integrator = asked.integrator.empty() ? scene.integrator : by_name(integrators, asked.integrator, "integrator");
   s.sampler = asked.sampler.empty() ? scene.sampler : by_name(samplers, asked.sampler, "sampler");
@@ -195,7 +195,8 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
       static_cast<uint64_t>(in_range(asked.texture_budget, 0, int64_t{1} << 30, "the budget of textures")) << 20;
   s.resume = asked.resume;
   s.overwrite = asked.overwrite;
-  if (s.resume && s.checkpoint.empty()) throw InputError("to resume, name the file to go on from: --checkpoint FILE");
+  if (s.resume && s.checkpoint.empty())
+    throw InputError("to resume, name the file to continue from: --checkpoint FILE");
   if (s.overwrite && s.checkpoint.empty())
     throw InputError("--overwrite is for checkpoints: name the file with --checkpoint FILE");
   if (s.resume && s.overwrite) throw InputError("give --resume or --overwrite, not both");

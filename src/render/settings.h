@@ -1,6 +1,6 @@
 #pragma once
 
-// Settings after they were checked and joined with what the scene says.
+// Settings, validated and merged with those of the scene.
 
 #include <cstdint>
 #include <string>
@@ -21,12 +21,12 @@ struct Schedule {
   int chunk = 0;  ///< 0: OpenMP's default
 };
 
-/// Layers beside the picture itself.
+/// The layers other than radiance.
 struct AovSet {
   bool albedo = false, normal = false, depth = false, bounces = false, samples = false, variance = false;
 };
 
-/// Pixels x0 <= x < x1, y0 <= y < y1 of the whole picture.
+/// Pixels x0 <= x < x1, y0 <= y < y1 of the whole image.
 struct PixelWindow {
   int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
   int width() const { return x1 - x0; }
@@ -38,15 +38,15 @@ struct BlockSize {
   uint32_t x = 1, y = 1;
 };
 
-/// RenderSettings::device beside the numbers of GPUs.
+/// Values of RenderSettings::device that are not GPU numbers.
 inline constexpr int all_devices = -1, host_device = -2;
 
 struct RenderSettings {
   std::string backend;
   std::string strategy;
   bool runs_on_device = false;  ///< cuda, optix
-  int device = 0;               ///< then: a GPU's number, all_devices or host_device
-  BlockSize block = {16, 16};   ///< cuda, pixel and chunk: threads of a block
+  int device = 0;               ///< if so: a GPU's number, all_devices or host_device
+  BlockSize block = {16, 16};   ///< cuda, pixel and chunk: threads per block
   BlockSize chunk = {4, 4};     ///< cuda, chunk: chunks in each direction
   Schedule schedule;
   Precision precision = Precision::single;
@@ -67,7 +67,7 @@ struct RenderSettings {
   uint64_t texture_budget = 0;  ///< bytes; 0: no limit
 };
 
-/// Joins `asked` with `scene`. Throws InputError that names the setting and what it may be.
+/// Merges `asked` with `scene`. Throws InputError that names the setting and its valid values.
 RenderSettings resolve_settings(const Settings& asked, const Scene& scene);
 
 std::string to_string(Precision precision);

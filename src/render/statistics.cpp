@@ -75,7 +75,7 @@ std::string RenderStatistics::to_json() const {
   j["thread_statistics"] = nlohmann::ordered_json::array();
   for (const ThreadStatistics& t : threads)
     j["thread_statistics"].push_back({{"busy_seconds", t.busy_seconds}, {"samples", t.samples}});
-  // The scene's path is bytes of any kind; JSON's escapes keep them from the terminal.
+  // The scene's path may be any bytes; JSON escapes keep them from the terminal.
   return j.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 

@@ -16,14 +16,14 @@ struct RenderStatistics {
   RenderSettings settings;
   std::string scene;
   SceneStatistics scene_sizes;
-  double load_seconds = 0;         ///< reading, compiling and starting a GPU, without the BVH
-  double build_seconds = 0;        ///< the BVH
-  double denoise_seconds = 0;      ///< 0 where nobody asked for it
-  double render_seconds = 0;       ///< taking samples, nothing else
-  uint32_t samples_per_pixel = 0;  ///< whole passes that were done
+  double load_seconds = 0;         ///< reading, compiling and starting a GPU, without the BVH build
+  double build_seconds = 0;        ///< BVH build
+  double denoise_seconds = 0;      ///< 0 if no denoiser ran
+  double render_seconds = 0;       ///< taking samples only
+  uint32_t samples_per_pixel = 0;  ///< in complete passes
   bool complete = false;
   uint64_t camera_samples = 0, rays = 0, shadow_rays = 0, nonfinite_samples = 0;
-  uint64_t peak_rss_bytes = 0;  ///< of the process, at its highest
+  uint64_t peak_rss_bytes = 0;  ///< peak of the process
   std::vector<ThreadStatistics> threads;
 
   double mean_segments() const;

@@ -14,7 +14,7 @@ std::vector<uint32_t> order_of_mixes(const std::vector<Material>& materials, uin
     while (!path.empty()) {
       const uint32_t index = path.back();
       const bool is_mix = materials[index].type == MaterialType::mix;
-      // A mix is met twice: before what it mixes, and when that is done.
+      // A mix is visited twice: before its materials, and when they are done.
       if (states[index] != State::unknown || !is_mix) {
         if (states[index] == State::open) order.push_back(index);
         states[index] = State::done;
@@ -37,7 +37,7 @@ void check_mixes(const Scene& scene) {
   uint32_t of_itself = no_index;
   order_of_mixes(scene.materials, of_itself);
   if (of_itself != no_index)
-    throw InputError({scene.name}, "the mix '" + scene.materials[of_itself].name + "' is made of itself");
+    throw InputError({scene.name}, "the mix '" + scene.materials[of_itself].name + "' contains itself");
 }
 
 }  // namespace alhazen

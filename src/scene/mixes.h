@@ -1,6 +1,6 @@
 #pragma once
 
-// Mixes of materials, which may be made of further mixes.
+// Mixes of materials, which may contain further mixes.
 
 #include <cstdint>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace alhazen {
 
-/// The mixes among materials, each behind the mixes that it is made of. `of_itself` receives one that is made of
-/// itself, where there is one (the order is cut short then), else no_index.
+/// The mixes among the materials, each after the mixes that it contains. `of_itself` receives one that contains itself,
+/// if any (the order is incomplete then), else no_index.
 std::vector<uint32_t> order_of_mixes(const std::vector<Material>& materials, uint32_t& of_itself);
 
-/// Throws where mixes are made of themselves.
+/// Throws if a mix contains itself.
 void check_mixes(const Scene& scene);
 
 }  // namespace alhazen

@@ -27,7 +27,7 @@ Matrix4 transpose(const Matrix4& m) {
   return t;
 }
 
-/// `v` over its length, also where the square of that is out of the range of double.
+/// `v` divided by its length, also if the squared length is out of the range of double.
 Vec3d unit(const Vec3d& v) {
   const double square = length_squared(v);
   if (square > 1e-280 && square < 1e280) return normalize(v);
@@ -99,7 +99,7 @@ Transform Transform::look_at(const Vec3d& eye, const Vec3d& target, const Vec3d&
   if (is_zero(view)) throw std::domain_error("eye and target are the same point");
   const Vec3d forward = unit(view);
   const Vec3d side = is_zero(up) ? up : cross(unit(up), forward);
-  if (length(side) < 1e-12) throw std::domain_error("the up vector lies along the direction of view");
+  if (length(side) < 1e-12) throw std::domain_error("the up vector is parallel to the viewing direction");
   const Vec3d right = normalize(side);
   const Vec3d true_up = cross(forward, right);
   const Matrix4 world_from_camera{{{right.x, true_up.x, forward.x, eye.x},

@@ -14,7 +14,7 @@ using Matrix4 = std::array<std::array<double, 4>, 4>;
 class Transform {
  public:
   Transform();  ///< the identity
-  /// Throws std::domain_error where `matrix` cannot be inverted.
+  /// Throws std::domain_error if `matrix` is singular.
   explicit Transform(const Matrix4& matrix);
   Transform(const Matrix4& matrix, const Matrix4& inverse) : m_(matrix), inv_(inverse) {}
 
@@ -22,7 +22,7 @@ class Transform {
   static Transform scale(const Vec3d& factors);
   static Transform rotate(double degrees, const Vec3d& axis);
   /// Camera-from-world, left-handed as in pbrt: x right, y up, z into the scene.
-  /// Throws std::domain_error where eye and target coincide or `up` is along the view.
+  /// Throws std::domain_error if eye and target coincide or `up` is parallel to the viewing direction.
   static Transform look_at(const Vec3d& eye, const Vec3d& target, const Vec3d& up);
 
   const Matrix4& matrix() const { return m_; }
@@ -33,9 +33,9 @@ class Transform {
   Vec3d direction(const Vec3d& v) const;  ///< no translation
   Vec3d normal(const Vec3d& n) const;     ///< by the inverse transpose; not normalised
 
-  /// True where the upper 3x3 has a negative determinant, so that it turns right-handed into left-handed.
+  /// True if the upper 3x3 has a negative determinant, so that it swaps handedness.
   bool swaps_handedness() const;
-  /// True where it is a rotation or reflection times one scale for all axes; `scale` receives that scale.
+  /// True if it is a rotation or reflection times a uniform scale, which `scale` receives.
   bool is_similarity(double& scale) const;
   bool is_identity() const;
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// Arrays that the builders of trees fill themselves, and need for a moment: their memory is not cleared, and lies on
-// large pages where the system has them, since making small ones costs as much as a pass over the data.
+// Temporary arrays of the tree builders, which initialize them themselves. Their memory is not cleared, and is on large
+// pages if the system has them, since creating small pages costs as much as a pass over the data.
 
 #include <cstddef>
 #include <cstdlib>
@@ -20,14 +20,14 @@ class LargeArray {
 
  public:
   LargeArray() = default;
-  /// Elements have no value yet. Throws std::bad_alloc.
+  /// The elements are uninitialized. Throws std::bad_alloc.
   explicit LargeArray(size_t count) : size_(count) {
     constexpr size_t small = 64, large = size_t{1} << 21;
     const size_t bytes = count * sizeof(T), page = bytes >= 2 * large ? large : small;
     data_ = static_cast<T*>(std::aligned_alloc(page, (bytes + page - 1) / page * page));
     if (!data_ && bytes > 0) throw std::bad_alloc();
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
-    if (page == large) madvise(data_, bytes, MADV_HUGEPAGE);  // where that is refused, nothing is lost
+    if (page == large) madvise(data_, bytes, MADV_HUGEPAGE);  // it is only an optimization, so failure is ignored
 #endif
   }
   ~LargeArray() { std::free(data_); }

@@ -16,14 +16,14 @@ namespace {
 
 constexpr uint64_t no_limit = std::numeric_limits<uint64_t>::max();
 
-/// A hierarchy of control groups that limits memory, and where its files are.
+/// A control group hierarchy that limits memory, and the location of its files.
 struct Hierarchy {
   bool is_version_2 = false;
   std::string root;   ///< the group that is mounted
-  std::string mount;  ///< the folder that it is mounted on
+  std::string mount;  ///< the mount point
 };
 
-/// Whether `name` is in a list with commas between.
+/// Returns whether `name` is in a comma-separated list.
 bool lists(std::string_view list, std::string_view name) {
   while (!list.empty()) {
     const size_t end = std::min(list.find(','), list.size());
@@ -33,7 +33,7 @@ bool lists(std::string_view list, std::string_view name) {
   return false;
 }
 
-/// Paths in mountinfo have blanks and backslashes as \ and three octal digits.
+/// Paths in mountinfo have blanks and backslashes as octal escapes.
 std::string without_escapes(const std::string& text) {
   const auto is_digit = [&](size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '7'; };
   std::string plain;
@@ -48,7 +48,7 @@ std::string without_escapes(const std::string& text) {
   return plain;
 }
 
-/// Of lines such as `34 30 0:31 / /sys/fs/cgroup/memory rw - cgroup cgroup rw,memory`, proc(5).
+/// Parses lines such as `34 30 0:31 / /sys/fs/cgroup/memory rw - cgroup cgroup rw,memory`, proc(5).
 std::vector<Hierarchy> hierarchies(const std::string& mountinfo) {
   std::vector<Hierarchy> all;
   std::ifstream file(mountinfo);
@@ -65,7 +65,7 @@ std::vector<Hierarchy> hierarchies(const std::string& mountinfo) {
   return all;
 }
 
-/// The group of the process, from lines such as `4:memory:/a/b`, of version 2 `0::/a/b`. Empty: none.
+/// The group of the process, from lines such as `4:memory:/a/b`, in version 2 `0::/a/b`; empty if there is none.
 std::string group_in(const std::string& groups, bool version_2) {
   std::ifstream file(groups);
   for (std::string line; std::getline(file, line);) {
@@ -77,7 +77,7 @@ std::string group_in(const std::string& groups, bool version_2) {
   return {};
 }
 
-/// A file that holds one number; version 2 writes `max` for none.
+/// Reads a file of one number; version 2 writes `max` for no limit.
 uint64_t limit_in(const std::string& path) {
   std::ifstream file(path);
   std::string text;
@@ -87,9 +87,9 @@ uint64_t limit_in(const std::string& path) {
   return error == std::errc() && end == text.data() + text.size() && limit > 0 ? limit : no_limit;
 }
 
-/// The way from what is mounted down to the group. A group that lies elsewhere, as it may seem from within a container,
-/// is taken for the one that is mounted.
-std::string way_to(const std::string& group, const std::string& root) {
+/// The path from the mounted group down to `group`. A group that appears to be elsewhere, as it may from within a
+/// container, is taken for the mounted one.
+std::string path_to(const std::string& group, const std::string& root) {
   const std::string above = root == "/" ? "" : root;
   const bool is_below = group.starts_with(above) && (group.size() == above.size() || group[above.size()] == '/');
   if (!is_below || group.find("/..") != std::string::npos) return {};
@@ -104,9 +104,9 @@ uint64_t control_group_memory(const std::string& process) {
     const std::string group = group_in(process + "/cgroup", h.is_version_2);
     if (group.empty()) continue;
     const char* const name = h.is_version_2 ? "/memory.max" : "/memory.limit_in_bytes";
-    for (std::string way = way_to(group, h.root);; way.resize(way.rfind('/'))) {
-      least = std::min(least, limit_in(h.mount + way + name));
-      if (way.empty()) break;
+    for (std::string path = path_to(group, h.root);; path.resize(path.rfind('/'))) {
+      least = std::min(least, limit_in(h.mount + path + name));
+      if (path.empty()) break;
     }
   }
   return least;

@@ -1,18 +1,18 @@
 #pragma once
 
-// How much memory there is. Systems promise more than they have and end the program when it is used, so that much is
-// not asked for.
+// How much memory is available. Systems promise more than they have and kill the program when it is used, so programs
+// should not allocate that much.
 
 #include <cstdint>
 #include <string>
 
 namespace alhazen {
 
-/// Bytes of this machine, or of what the control groups of this process leave it, as those of a container do.
+/// Bytes of memory of this machine, or less if control groups limit the process, as in containers.
 uint64_t physical_memory();
 
-/// The least limit of the control groups that a process is in and of those about them, version 2 or 1; the largest
-/// number where there is none or it cannot be read. `process`: the folder of the process in /proc.
+/// The smallest limit of the control groups of a process and their ancestors, version 2 or 1; the largest number if
+/// there is none or it cannot be read. `process`: the folder of the process in /proc.
 uint64_t control_group_memory(const std::string& process);
 
 }  // namespace alhazen

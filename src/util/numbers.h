@@ -1,6 +1,6 @@
 #pragma once
 
-// Numbers in text files: the same whatever the locale, and nothing left over behind them.
+// Parses numbers in text files, independently of the locale; the whole text must be a number.
 
 #include <charconv>
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace alhazen {
 
-/// A leading plus sign is usual in text files; std::from_chars does not take it.
+/// A leading plus sign is common in text files, but std::from_chars does not accept it.
 inline std::string_view without_plus(std::string_view text) {
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+';
   return plus ? text.substr(1) : text;
 }
 
-/// The whole of `text` as a number; nothing where it is none. `nan` and `inf` are numbers, and so is what is too large
-/// for a double: infinity. What is too small is zero.
+/// Parses the whole of `text` as a number; nothing if it is not one. `nan` and `inf` are numbers. Numbers too large for
+/// a double become infinity, numbers too small become zero.
 inline std::optional<double> parse_real(std::string_view text) {
   text = without_plus(text);
   double value = 0;
@@ -32,7 +32,7 @@ inline std::optional<double> parse_real(std::string_view text) {
   return value;
 }
 
-/// The whole of `text` as an integer; nothing where it is none or does not fit.
+/// Parses the whole of `text` as an integer; nothing if it is not one or does not fit.
 inline std::optional<int64_t> parse_integer(std::string_view text) {
   text = without_plus(text);
   int64_t value = 0;

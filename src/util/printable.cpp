@@ -9,14 +9,14 @@ namespace alhazen {
 
 namespace {
 
-/// A character of UTF-8 text; `size` is 1 and `valid` false where a byte belongs to none.
+/// A character of UTF-8 text; for an invalid byte `size` is 1 and `valid` false.
 struct Character {
   uint32_t code = 0;
   size_t size = 1;
   bool valid = false;
 };
 
-/// The shortest code that a sequence of so many bytes may have; longer spellings of a code are invalid (RFC 3629).
+/// The smallest code point for a sequence of each length; overlong encodings are invalid (RFC 3629).
 constexpr std::array<uint32_t, 5> smallest_code{0, 0, 0x80, 0x800, 0x10000};
 
 Character decode(std::string_view text) {
@@ -34,8 +34,8 @@ Character decode(std::string_view text) {
   return {code, size, true};
 }
 
-/// Characters of Unicode's categories Cc, Zl, Zp and of Cf those that reorder or hide text. U+200C and U+200D, which
-/// some scripts need within words, are left.
+/// Characters of Unicode's categories Cc, Zl, Zp, and those of Cf that reorder or hide text. U+200C and U+200D are
+/// excepted, since some scripts need them within words.
 bool acts_on_terminal(uint32_t code) {
   constexpr std::array<std::pair<uint32_t, uint32_t>, 12> ranges{{{0x00, 0x1f},
                                                                   {0x7f, 0x9f},
@@ -67,7 +67,7 @@ std::string escape_of(const Character& c) {
   return text.data();
 }
 
-/// Hands `replace` each character that is not to be shown, and appends what it gives.
+/// Passes each character that must not be shown to `replace`, and appends the result.
 template <class Replace>
 std::string replaced(std::string_view text, size_t& count, Replace replace) {
   std::string result;

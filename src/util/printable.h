@@ -1,22 +1,22 @@
 #pragma once
 
-// Text from files and command lines as a terminal may show it.
+// Makes text from files and command lines safe to print on a terminal.
 
 #include <string>
 #include <string_view>
 
 namespace alhazen {
 
-/// `text` on one line, without anything that a terminal acts upon: control characters (C0, DEL, C1), line breaks,
-/// characters that turn the direction of writing or cannot be seen, and bytes that are not UTF-8 become visible
-/// escapes such as \x1b and \u202e. Letters of every script stay. Applied twice it changes nothing more.
+/// Returns `text` on one line without anything that acts on a terminal: control characters (C0, DEL, C1), line breaks,
+/// invisible characters and those that change the writing direction, and invalid UTF-8 bytes become visible escapes
+/// such as \x1b and \u202e. Letters of every script are kept. The function is idempotent.
 std::string printable(std::string_view text);
 
-/// The same of several lines: line feeds stay.
+/// The same for several lines: line feeds are kept.
 std::string printable_lines(std::string_view text);
 
-/// The same with each such character replaced by one '?' (a tab by a blank), so that columns stay countable.
-/// `columns` receives how many characters the result has.
+/// The same with each such character replaced by one '?' (a tab by a blank), so that columns can be counted.
+/// `columns` receives the number of characters of the result.
 std::string printable_columns(std::string_view text, size_t& columns);
 
 }  // namespace alhazen

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pieces of input as they appear in messages.
+// Quotes parts of the input in messages.
 
 #include <algorithm>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace alhazen {
 
-/// `text` in single quotes, cut after 40 bytes, between characters; what a terminal might take for commands is escaped.
+/// `text` in single quotes, cut after 40 bytes at a character boundary; characters that act on a terminal are escaped.
 inline std::string quoted(std::string_view text) {
   constexpr size_t longest = 40;
   size_t size = std::min(longest, text.size());

@@ -14,14 +14,13 @@ namespace alhazen {
 
 namespace {
 
-/// A reporter of progress and one that waits for signals.
+/// The progress reporter and the thread that waits for signals.
 constexpr int threads_beside = 2;
 
-/// Address space that must be left when all threads run: allocators of theirs reserve some each, and a scene has to
-/// fit in.
+/// Address space that must be left when all threads run: their allocators reserve some each, and the scene must fit.
 constexpr size_t spare_bytes = size_t{64} << 20;
 
-/// Holds threads until all that can be started are.
+/// Blocks threads until all that can be started are.
 class Gate {
  public:
   void wait() {
@@ -45,11 +44,11 @@ void* wait_at(void* gate) {
   return nullptr;
 }
 
-/// The default of threads as it was, while any ThreadDefaults lives.
+/// The original default stack size, kept while any ThreadDefaults exists.
 struct DefaultStack {
   std::mutex mutex;
   int users = 0;
-  size_t before = 0;  ///< bytes; 0: it was enough
+  size_t before = 0;  ///< bytes; 0: it was large enough
 };
 
 DefaultStack& default_stack() {
@@ -57,7 +56,7 @@ DefaultStack& default_stack() {
   return stack;
 }
 
-/// Sets the default to what `choose` makes of it; 0: leaves it. Returns what it was, or 0 where it was left.
+/// Sets the default to the result of `choose`; 0 leaves it unchanged. Returns the previous value, or 0 if unchanged.
 template <class Choose>
 size_t change_default_stack(const Choose& choose) {
   pthread_attr_t attributes;
@@ -71,7 +70,7 @@ size_t change_default_stack(const Choose& choose) {
   return is_set ? size : 0;
 }
 
-/// How many of `count` threads can be started beside each other.
+/// Tries to start `count` threads at once and returns how many were started.
 int start_and_end(int count) {
   void* const spare = ::mmap(nullptr, spare_bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   Gate gate;
@@ -92,7 +91,7 @@ ThreadDefaults::ThreadDefaults() : team_(omp_get_max_threads()) {
   DefaultStack& stack = default_stack();
   const std::lock_guard lock(stack.mutex);
   if (stack.users++ > 0) return;
-  // OpenMP's threads too are started with the default.
+  // OpenMP's threads use this default too.
   stack.before = change_default_stack([](size_t size) { return size < thread_stack_bytes ? thread_stack_bytes : 0; });
 }
 
@@ -101,7 +100,7 @@ ThreadDefaults::~ThreadDefaults() {
   DefaultStack& stack = default_stack();
   const std::lock_guard lock(stack.mutex);
   if (--stack.users > 0 || stack.before == 0) return;
-  // What somebody else has set since then stays.
+  // A value that someone else has set since then stays.
   change_default_stack([&](size_t size) { return size == thread_stack_bytes ? stack.before : 0; });
 }
 

@@ -1,18 +1,18 @@
 #pragma once
 
-// How many threads the system lets this process have. OpenMP ends the program where it cannot start a thread, so what
-// it is asked for is tried before.
+// How many threads the system grants this process. OpenMP ends the program if it cannot start a thread, so its team
+// size is tested before.
 
 #include <cstddef>
 
 namespace alhazen {
 
-/// What the stack of a thread may grow to: integrators that call themselves, 1000 deep at most, need the most of it.
+/// Maximum stack size of a thread: recursive integrators, at most 1000 deep, need the most.
 inline constexpr size_t thread_stack_bytes = size_t{8} << 20;
 
-/// While one lives, threads that are started have a stack of `thread_stack_bytes` at least, whatever `ulimit -s` says.
-/// At its end the default for the process's threads is as it was, and so is what OpenMP is told on the calling thread,
-/// which must be the one that made it.
+/// While one exists, threads are started with a stack of at least `thread_stack_bytes`, whatever `ulimit -s` says. Its
+/// destructor restores the process's default, and OpenMP's setting on the calling thread, which must be the one that
+/// constructed it.
 class ThreadDefaults {
  public:
   ThreadDefaults();
@@ -24,13 +24,13 @@ class ThreadDefaults {
   int team_;  ///< threads
 };
 
-/// The number of threads, the calling one included and at most `wanted`, that can run at the same time here: limits of
-/// processes, of a container or of memory may allow fewer than there are processors. So many are started and ended
-/// again, with two more for what runs beside a render; an answer that was `wanted` or more is remembered.
+/// The number of threads, including the calling one and at most `wanted`, that can run at the same time: limits on
+/// processes, containers or memory may allow fewer than there are processors. It starts and ends that many, plus two
+/// for those that run beside a render. A result that was `wanted` or more is remembered.
 int threads_available(int wanted);
 
-/// Keeps the teams that OpenMP starts without being told a number, on the calling thread, to what is available; a
-/// ThreadDefaults takes that back.
+/// Limits the teams that OpenMP starts without a given size, on the calling thread, to the available threads; a
+/// ThreadDefaults reverts that.
 void limit_default_team();
 
 }  // namespace alhazen

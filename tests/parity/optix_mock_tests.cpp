@@ -422,7 +422,7 @@ TEST(OptixMock, DenoiserTakesAndGivesWholePictures) {
   {
     MockExecutor executor;
     const Context context(table);
-    rendering.denoised = Denoiser(table, context, executor).denoise(noisy_picture(rendering.source()));
+    rendering.denoised = Denoiser(table, context, executor).denoise(noisy_image(rendering.source()));
   }
   EXPECT_EQ(calls.made, calls.destroyed);
   const Outcome outcome = outcome_of(rendering);

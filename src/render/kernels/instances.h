@@ -1,6 +1,6 @@
 #pragma once
 
-// The body of the sample kernels, for the files that instantiate it.
+// The definition of the sample kernels, for the files that instantiate it.
 
 #include "core/bvh/bvh8/traversal.h"
 #include "core/film/block_sum.h"
@@ -10,7 +10,7 @@
 
 namespace ALHAZEN_CORE {
 
-/// One sample after the other, for integrators that call themselves.
+/// Takes one sample after the other, for recursive integrators.
 template <IntegratorKind kind, class Sampler, class Intersector, class Real>
 void take_blocks_singly(const KernelRequest& request, const SceneView<Real>& scene, const Intersector& intersector,
                         BlockSum<Real>* sums) {
@@ -27,42 +27,42 @@ void take_blocks_singly(const KernelRequest& request, const SceneView<Real>& sce
 template <IntegratorKind kind, class Sampler, class Intersector, class Real>
 void take_blocks_together(const KernelRequest& request, const SceneView<Real>& scene, const Intersector& intersector,
                           BlockSum<Real>* sums) {
-  // A block has its place for samples_per_block of them, whether or not it takes as many.
+  // Every block has space for samples_per_block records, whether or not it uses them all.
   SampleRecord<Real> records[most_blocks_per_request * samples_per_block];
   Real weights[most_blocks_per_request * samples_per_block];
-  uint16_t places[most_blocks_per_request * samples_per_block];
+  uint16_t slots[most_blocks_per_request * samples_per_block];
   uint32_t count = 0;
   for (uint32_t b = 0; b < request.block_count; ++b)
     for (uint32_t i = 0; i < request.blocks[b].count; ++i)
-      places[count++] = static_cast<uint16_t>(b * samples_per_block + i);
+      slots[count++] = static_cast<uint16_t>(b * samples_per_block + i);
   integrate_batch<kind, Sampler>(
       scene, intersector, request.seed, request.max_segments, request.wants_first_hit, count,
       [&](uint32_t sample) -> PixelSample {
-        const uint32_t place = places[sample];
-        const BlockRequest& block = request.blocks[place / samples_per_block];
-        return {block.x, block.y, block.first + place % samples_per_block};
+        const uint32_t slot = slots[sample];
+        const BlockRequest& block = request.blocks[slot / samples_per_block];
+        return {block.x, block.y, block.first + slot % samples_per_block};
       },
       [&](uint32_t sample, const SampleRecord<Real>& record, Real filter_weight) {
-        // Not as a whole: what a path has just added to would be waited for.
-        SampleRecord<Real>& kept = records[places[sample]];
+        // Member by member: reading the whole record would wait for the path's last stores.
+        SampleRecord<Real>& kept = records[slots[sample]];
         kept.radiance = record.radiance * scene.exposure;
         kept.segments = record.segments;
         kept.shadow_rays = record.shadow_rays;
         kept.has_hit = record.has_hit;
         if (record.has_hit) kept.first = record.first;
-        weights[places[sample]] = filter_weight;
+        weights[slots[sample]] = filter_weight;
       });
-  // Some blocks in turns: the next sample of one waits for the one before it.
-  constexpr uint32_t in_turns = 16;
-  for (uint32_t first = 0; first < request.block_count; first += in_turns)
+  // Interleaves some blocks: the next sample of a block depends on the one before it.
+  constexpr uint32_t interleaved = 16;
+  for (uint32_t first = 0; first < request.block_count; first += interleaved)
     for (uint32_t i = 0; i < samples_per_block; ++i)
-      for (uint32_t b = first; b < first + in_turns && b < request.block_count; ++b) {
-        const uint32_t place = b * samples_per_block + i;
-        if (i < request.blocks[b].count) sums[b].add(records[place], weights[place]);
+      for (uint32_t b = first; b < first + interleaved && b < request.block_count; ++b) {
+        const uint32_t slot = b * samples_per_block + i;
+        if (i < request.blocks[b].count) sums[b].add(records[slot], weights[slot]);
       }
 }
 
-/// `Intersector` is made from the scene and the tracer and answers the ray queries.
+/// `Intersector` is constructed from the scene and the tracer and answers the ray queries.
 template <IntegratorKind kind, class Sampler, class Intersector, class Real>
 void take_blocks(const KernelRequest& request) {
   const SceneView<Real>& scene = *static_cast<const SceneView<Real>*>(request.scene);

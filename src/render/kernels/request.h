@@ -1,23 +1,23 @@
 #pragma once
 
-// What a sample kernel is handed. Nothing here depends on the instruction set that the kernel was compiled for.
+// The arguments of a sample kernel. Nothing here depends on the instruction set for which the kernel is compiled.
 
 #include <cstdint>
 
 namespace alhazen {
 
-/// Samples [first, first + count), count <= samples_per_block, of pixel (x, y) of the whole picture.
+/// Samples [first, first + count), count <= samples_per_block, of pixel (x, y) of the whole image.
 struct BlockRequest {
   uint32_t x, y, first, count;
 };
 
-/// Blocks are taken this many at a time at most.
+/// Maximum number of blocks per request.
 inline constexpr uint32_t most_blocks_per_request = 256;
 
 struct KernelRequest {
   const void* scene;   ///< SceneView<Real>
-  const void* tracer;  ///< what the intersector wants besides it
-  void* sums;          ///< BlockSum<Real>, one a block
+  const void* tracer;  ///< further arguments of the intersector
+  void* sums;          ///< BlockSum<Real>, one per block
   const BlockRequest* blocks;
   uint32_t block_count;
   uint32_t seed;

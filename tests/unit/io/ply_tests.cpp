@@ -296,7 +296,7 @@ TEST(Ply, FilesThatCannotBeRead) {
   for (int i = 0; i < 3000; ++i) rows += std::to_string(i * 7919 % 3001) + " 0 1\n";
   file.write_compressed(header_of("ascii", "element vertex 3000\n" + xyz) + rows);
   std::filesystem::resize_file(file.path(), std::filesystem::file_size(file.path()) / 2);
-  EXPECT_EQ(read_error(file.path()), file.path() + ": the compressed data end early; the file is cut off");
+  EXPECT_EQ(read_error(file.path()), file.path() + ": the compressed data end early; the file is truncated");
 
   file.write(std::string("\x1f\x8b\x08\0\0\0\0\0\0\3", 10) + std::string(100, '\xff'));
   EXPECT_TRUE(read_error(file.path()).starts_with(file.path() + ": the compressed data are damaged: "));
