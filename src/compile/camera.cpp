@@ -22,7 +22,7 @@ double mitchell(double x, double b, double c) {
 
 double gaussian(double x, double sigma) { return std::exp(-x * x / (2 * sigma * sigma)); }
 
-/// Appends the table of one axis that core/cameras/filter.h describes.
+/// Appends the table of one axis, in the layout of core/cameras/filter.h.
 template <class Real>
 bool add_filter_axis(const Filter& filter, double radius, std::vector<Real>& table) {
   std::vector<double> cells(filter_cells);
@@ -71,7 +71,7 @@ FilterRecord<Real> filter_record(const Filter& filter, std::vector<Real>& table)
   return record;
 }
 
-/// Rays of a camera that is not finite would not be either.
+/// If the camera were not finite, its rays would not be either.
 template <class Real>
 void check_camera(const Scene& scene, const CameraRecord<Real>& camera) {
   bool finite = true;
@@ -110,7 +110,7 @@ void compile_camera(const Scene& scene, int64_t width, int64_t height, SceneArra
   const Camera& camera = scene.camera;
   if (!(camera.fov > 0 && camera.fov < 180)) throw InputError("the camera's field of view must be between 0 and 180");
   if (camera.world_from_camera.is_moving())
-    diagnostics.warn({scene.name}, "the camera moves; it stands still here, where it is when the shutter opens");
+    diagnostics.warn({scene.name}, "the camera moves; it is rendered at rest, where it is when the shutter opens");
   const double aspect = camera.frame_aspect_ratio.value_or(static_cast<double>(width) / static_cast<double>(height));
   std::array<double, 4> window = aspect > 1 ? std::array<double, 4>{-aspect, aspect, -1, 1}
                                             : std::array<double, 4>{-1, 1, -1 / aspect, 1 / aspect};

@@ -1,18 +1,18 @@
 #pragma once
 
-// The part of compiling that makes camera and pixel filter.
+// The part of scene compilation that makes the camera and the pixel filter.
 
 #include "compile/scene_arrays.h"
 #include "scene/scene.h"
 
 namespace alhazen {
 
-/// Camera for a picture of width x height pixels, and the table of the filter.
+/// The camera for an image of width x height pixels, and the table of the filter.
 template <class Real>
 void compile_camera(const Scene& scene, int64_t width, int64_t height, SceneArrays<Real>& out, SceneView<Real>& view,
                     Diagnostics& diagnostics);
 
-/// The filter's value `x` pixels from its centre along one axis (all filters are products of two such).
+/// The filter's value `x` pixels from its centre along one axis (every filter is a product over the two axes).
 double filter_value(const Filter& filter, double x, double radius);
 
 }  // namespace alhazen

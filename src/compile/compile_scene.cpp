@@ -26,7 +26,7 @@ namespace alhazen {
 
 namespace {
 
-/// Where a shape stands in the end: its own transform, or that of an instance over it.
+/// The final placement of a shape: its own transform, or an instance's applied to it.
 struct Placement {
   const Shape* shape;
   MovingTransform world_from_object;
@@ -39,7 +39,7 @@ class SceneCompiler {
   SceneCompiler(Scene& scene, const CompileOptions& options, Diagnostics& diagnostics)
       : scene_(scene), options_(options), diagnostics_(diagnostics) {}
 
-  /// Why memory did not hold the scene.
+  /// The message for a scene that does not fit into memory.
   std::string too_large() const {
     uint64_t texels = 0;
     for (const ImageTexels& image : scene_.images)
@@ -48,8 +48,8 @@ class SceneCompiler {
            "container's): it "
            "places " +
            std::to_string(placed_shapes_) + " shapes, meshes of " + std::to_string(placed_triangles_) +
-           " triangles among them, and has pictures of " + std::to_string(texels >> 20) +
-           " million texels; give it fewer instances, less geometry or smaller pictures (--texture-budget)";
+           " triangles among them, and has images of " + std::to_string(texels >> 20) +
+           " million texels; give it fewer instances, less geometry or smaller images (--texture-budget)";
   }
 
   CompiledScene<Real> run() {
@@ -71,7 +71,7 @@ class SceneCompiler {
     place_shapes();
     weigh_emission_textures(out_, light_measures_);
     warn_of_dropped_triangles();
-    build_trees_and_ask(flat);
+    build_trees_and_query(flat);
     flat.statistics.triangles = out_.triangles.size();
     flat.statistics.spheres = out_.spheres.size() + out_.moving_spheres.size();
     flat.statistics.lights = out_.lights.size();
@@ -81,19 +81,19 @@ class SceneCompiler {
   }
 
  private:
-  /// Builds the trees, and asks with rays what only they tell. The binary tree serves for that.
-  void build_trees_and_ask(CompiledScene<Real>& flat) {
+  /// Builds the trees, then runs the queries that need rays. They use the binary tree.
+  void build_trees_and_query(CompiledScene<Real>& flat) {
     if (has_one_sided_) split_coincident_sides(out_);
-    const bool asks_for_lost_light = options_.path_segments > 0 && may_lose_light(out_.view());
+    const bool checks_lost_light = options_.path_segments > 0 && may_lose_light(out_.view());
     CompileOptions options = options_;
-    if (has_one_sided_ || asks_for_lost_light) options.trees.binary = true;
+    if (has_one_sided_ || checks_lost_light) options.trees.binary = true;
     build_trees(options, out_, flat.statistics);
     add_triangle_emitters(out_);
     assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
     if (has_one_sided_ && open_seen_backs(whole_view(flat), static_cast<uint32_t>(width_),
                                           static_cast<uint32_t>(height_), options_.threads, out_))
       flat.view.lets_light_through = 1;
-    if (asks_for_lost_light)
+    if (checks_lost_light)
       if (const auto lost = find_lost_light(whole_view(flat), options_.path_segments))
         warn_of_lost_light(*lost, scene_, surface_shapes_[lost->surface]->where, diagnostics_);
     if (options_.trees.binary || out_.nodes.empty()) return;
@@ -102,7 +102,7 @@ class SceneCompiler {
     std::vector<BvhNode<Real>>().swap(out_.nodes);
   }
 
-  /// The settings of `flat` over the arrays as they stand.
+  /// The settings of `flat` over the arrays as they are.
   SceneView<Real> whole_view(const CompiledScene<Real>& flat) const {
     SceneView<Real> view = out_.view();
     view.camera = flat.view.camera;
@@ -115,12 +115,12 @@ class SceneCompiler {
     width_ = options_.width > 0 ? options_.width : scene_.film.width;
     height_ = options_.height > 0 ? options_.height : scene_.film.height;
     if (width_ < 1 || height_ < 1 || width_ > 100'000 || height_ > 100'000)
-      throw InputError({scene_.name}, "a picture of " + std::to_string(width_) + " x " + std::to_string(height_) +
+      throw InputError({scene_.name}, "an image of " + std::to_string(width_) + " x " + std::to_string(height_) +
                                           " pixels cannot be rendered: give sides between 1 and 100000");
   }
 
-  /// Meshes that move become groups of their own: with one instance where they stand in the world, and with one for
-  /// each instance of the object that they are part of.
+  /// Turns moving meshes into groups of their own, with one instance for those in the world, and one for each instance
+  /// of the object that contains them.
   void group_moving_meshes() {
     const size_t group_count = scene_.groups.size();
     std::vector<std::vector<Instance>> instances(group_count);
@@ -130,7 +130,7 @@ class SceneCompiler {
     for (size_t g = 0; g < group_count; ++g) {
       std::vector<Shape> still;
       for (Shape& shape : std::exchange(scene_.groups[g].shapes, {}))
-        if (shape.world_from_object.is_moving() && lies_in_object(shape))
+        if (shape.world_from_object.is_moving() && is_in_object(shape))
           move_by_instances(std::move(shape), instances[g]);
         else
           still.push_back(std::move(shape));
@@ -138,7 +138,7 @@ class SceneCompiler {
     }
   }
 
-  /// Where the instance moves too, start and end are right, and every point goes along a line between them.
+  /// If the instance moves too, the positions at start and end are exact, and points move linearly in between.
   void move_by_instances(Shape shape, const std::vector<Instance>& of_object) {
     const MovingTransform inner = std::exchange(shape.world_from_object, {});
     for (Instance instance : of_object) {
@@ -151,8 +151,8 @@ class SceneCompiler {
     scene_.groups.push_back({{}, {std::move(shape)}});
   }
 
-  /// Which groups become objects: those that move, and those that stand in several places, unless all their copies are
-  /// few triangles.
+  /// Selects the groups that become objects: those that move, and those with several instances, unless all copies
+  /// together have few triangles.
   std::vector<bool> find_objects() const {
     std::vector<uint64_t> uses(scene_.groups.size()), triangles(scene_.groups.size());
     std::vector<bool> moves(scene_.groups.size());
@@ -164,17 +164,17 @@ class SceneCompiler {
     uint64_t copied = 0;
     for (size_t g = 0; g < scene_.groups.size(); ++g) {
       for (const Shape& shape : scene_.groups[g].shapes)
-        if (lies_in_object(shape)) triangles[g] += mesh_of(shape).triangle_count();
+        if (is_in_object(shape)) triangles[g] += mesh_of(shape).triangle_count();
       if (uses[g] > 1) copied += uses[g] * triangles[g];
     }
     std::vector<bool> is_object(scene_.groups.size());
     for (size_t g = 0; g < is_object.size(); ++g)
-      is_object[g] = triangles[g] > 0 && (moves[g] || (copied > options_.most_copied_triangles && uses[g] > 1));
+      is_object[g] = triangles[g] > 0 && (moves[g] || (copied > options_.max_copied_triangles && uses[g] > 1));
     return is_object;
   }
 
-  /// What of a group an object holds: lights and spheres are placed in the world, copy by copy.
-  static bool lies_in_object(const Shape& shape) { return shape.type == ShapeType::mesh && !emits(shape); }
+  /// Returns whether an object contains this shape of its group: lights and spheres are copied to the world instead.
+  static bool is_in_object(const Shape& shape) { return shape.type == ShapeType::mesh && !emits(shape); }
 
   const Mesh& mesh_of(const Shape& shape) const {
     if (shape.mesh >= scene_.meshes.size()) throw InputError(shape.where, "the shape names no mesh");
@@ -188,7 +188,7 @@ class SceneCompiler {
     for (const Instance& instance : scene_.instances) {
       const MovingTransform& outer = instance.world_from_group;
       for (const Shape& shape : scene_.groups[instance.group].shapes)
-        if (!is_object_[instance.group] || !lies_in_object(shape))
+        if (!is_object_[instance.group] || !is_in_object(shape))
           all.push_back({&shape,
                          {outer.start * shape.world_from_object.start, outer.end * shape.world_from_object.end},
                          shape.reverse_orientation != instance.reverse_orientation});
@@ -199,7 +199,7 @@ class SceneCompiler {
   std::vector<Placement> object_placements(const ShapeGroup& group) const {
     std::vector<Placement> all;
     for (const Shape& shape : group.shapes)
-      if (lies_in_object(shape)) all.push_back({&shape, shape.world_from_object, shape.reverse_orientation});
+      if (is_in_object(shape)) all.push_back({&shape, shape.world_from_object, shape.reverse_orientation});
     return all;
   }
 
@@ -227,7 +227,7 @@ class SceneCompiler {
       if (object_of[instance.group] != no_index) add_instance(instance, object_of[instance.group]);
   }
 
-  /// Counts what is to be placed, and how often each mesh is.
+  /// Counts the shapes to be placed and the uses of each mesh.
   void reserve(const std::vector<Placement>& world, const std::vector<std::vector<Placement>>& objects) {
     uses_.assign(scene_.meshes.size(), 0);
     size_t triangles = 0, vertices = 0, normals = 0, uvs = 0;
@@ -258,7 +258,7 @@ class SceneCompiler {
     out_.uvs.reserve(uvs);
   }
 
-  /// Spheres and lights of objects are placed copy by copy.
+  /// Checks memory for the copies of spheres and lights of objects.
   void check_placements() {
     placed_shapes_ = scene_.groups.at(0).shapes.size();
     for (const Instance& instance : scene_.instances)
@@ -307,7 +307,7 @@ class SceneCompiler {
   /// Matrices are interpolated linearly.
   Transform transform_at(const Instance& instance, double time) const {
     const MovingTransform& transform = instance.world_from_group;
-    const double s = share_of_motion(transform, time);
+    const double s = fraction_of_motion(transform, time);
     if (s == 0) return transform.start;
     Matrix4 matrix;
     for (size_t i = 0; i < 4; ++i)
@@ -316,12 +316,12 @@ class SceneCompiler {
     try {
       return Transform(matrix);
     } catch (const std::domain_error&) {
-      throw InputError(instance.where, "the transform makes the object flat on its way");
+      throw InputError(instance.where, "the transform makes the object flat while it moves");
     }
   }
 
-  /// How much of its way something has gone at `time`.
-  double share_of_motion(const MovingTransform& transform, double time) const {
+  /// The fraction of its motion that a transform has completed at `time`.
+  double fraction_of_motion(const MovingTransform& transform, double time) const {
     const double span = scene_.transform_end_time - scene_.transform_start_time;
     if (!transform.is_moving() || !(span > 0)) return 0;
     return clamp((time - scene_.transform_start_time) / span, 0.0, 1.0);
@@ -340,7 +340,7 @@ class SceneCompiler {
     return static_cast<uint32_t>(out_.surfaces.size() - 1);
   }
 
-  /// Lights that let rays through are found by chance alone: their samples would not know what they let through.
+  /// Transparent emitters are found by BSDF sampling alone: light samples do not account for their transparency.
   uint32_t add_light(const Shape& shape, LightKind kind, size_t primitive, double area) {
     const Emission& emission = *shape.emission;
     static const Material opaque;
@@ -350,7 +350,7 @@ class SceneCompiler {
     light.primitive = static_cast<uint32_t>(primitive);
     light.radiance = convert<Real>(emission.radiance);
     if (!is_finite(light.radiance))
-      throw InputError(shape.where, "the radiance of the light is not finite in this precision: make it less");
+      throw InputError(shape.where, "the radiance of the light is not finite in this precision: reduce it");
     light.two_sided = emission.two_sided && material.double_sided ? 1 : 0;
     if (emission.texture != no_index) light.texture = emission_textures_.at(emission.texture);
     out_.lights.push_back(light);
@@ -366,7 +366,8 @@ class SceneCompiler {
       throw InputError(shape.where, "the radius of a sphere must be above 0, not " + std::to_string(shape.radius));
     double scale = 1;
     if (!p.world_from_object.start.is_similarity(scale))
-      diagnostics_.warn(shape.where, "a sphere is stretched by an instance; it stays round here, of the same volume");
+      diagnostics_.warn(shape.where,
+                        "a sphere is stretched by an instance; it is rendered as a sphere of the same volume");
     const double radius = shape.radius * scale;
     const auto [center, motion] = motion_of(p.world_from_object);
     check_sphere_range(shape, abs(center) + abs(motion), radius);
@@ -389,10 +390,10 @@ class SceneCompiler {
   /// `farthest` bounds the coordinates of the centre.
   static void check_sphere_range(const Shape& shape, const Vec3d& farthest, double radius) {
     if (!(max_component(farthest) + radius <= max_coordinate))
-      throw too_large(shape, "the sphere is too large or lies too far away");
+      throw too_large(shape, "the sphere is too large or too far away");
   }
 
-  /// Whether intersection tests of this precision see nothing of it; they divide by the square of the radius.
+  /// Returns whether intersection tests miss it in this precision; they divide by the square of the radius.
   bool is_too_small(const Shape& shape, double radius) {
     const Real squared = sqr(static_cast<Real>(radius));
     if (squared > 0 && std::isfinite(1 / squared)) return false;
@@ -400,17 +401,17 @@ class SceneCompiler {
     return true;
   }
 
-  /// Centre when the shutter opens, and the way it goes until the shutter closes.
+  /// The centre when the shutter opens, and its displacement until the shutter closes.
   std::pair<Vec3d, Vec3d> motion_of(const MovingTransform& transform) const {
     const Vec3d start = transform.start.point({}), end = transform.end.point({});
-    const auto at = [&](double time) { return lerp(start, end, share_of_motion(transform, time)); };
+    const auto at = [&](double time) { return lerp(start, end, fraction_of_motion(transform, time)); };
     const Vec3d open = at(scene_.camera.shutter_open);
     return {open, at(scene_.camera.shutter_close) - open};
   }
 
   uint32_t sphere_frame(const Shape& shape, const Transform& world_from_object) {
-    const bool shines_by_texture = shape.emission && shape.emission->texture != no_index;
-    if (!shines_by_texture && (shape.material == no_index || !needs_uv_[shape.material])) return no_sphere_frame;
+    const bool has_emission_texture = shape.emission && shape.emission->texture != no_index;
+    if (!has_emission_texture && (shape.material == no_index || !needs_uv_[shape.material])) return no_sphere_frame;
     const auto axis = [&](const Vec3d& a) { return convert<Real>(normalize(world_from_object.direction(a))); };
     out_.sphere_frames.push_back({axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})});
     return static_cast<uint32_t>(out_.sphere_frames.size() - 1);
@@ -427,23 +428,25 @@ class SceneCompiler {
 
   void check_mesh(const Shape& shape, const Mesh& mesh) const {
     const size_t vertices = mesh.positions.size();
-    if (mesh.indices.size() % 3 != 0) throw InputError(shape.where, "the mesh's indices do not come in threes");
+    if (mesh.indices.size() % 3 != 0)
+      throw InputError(shape.where, "the number of the mesh's indices is not a multiple of 3");
     for (const uint32_t index : mesh.indices)
       if (index >= vertices)
         throw InputError(shape.where, "vertex index " + std::to_string(index) + " is out of range: the mesh has " +
                                           std::to_string(vertices) + " vertices");
     const auto fits = [&](const auto& values) { return values.empty() || values.size() == vertices; };
     if (!fits(mesh.normals) || !fits(mesh.uvs))
-      throw InputError(shape.where, "the mesh has another number of normals or uvs than of vertices");
+      throw InputError(shape.where, "the mesh has a different number of normals or uvs than of vertices");
     if (!fits(mesh.second_uvs) || !fits(mesh.colours) || !fits(mesh.tangents))
-      throw InputError(shape.where, "the mesh has another number of second uvs, colours or tangents than of vertices");
+      throw InputError(shape.where,
+                       "the mesh has a different number of second uvs, colours or tangents than of vertices");
   }
 
   void place_mesh(const Placement& p, const Mesh& mesh) {
     const Shape& shape = *p.shape;
     check_mesh(shape, mesh);
     if (p.world_from_object.is_moving())
-      diagnostics_.warn(shape.where, "a mesh moves that shines; it stands still here, where it is at the start");
+      diagnostics_.warn(shape.where, "an emissive mesh moves; it is rendered at rest, where it is at the start");
     const Transform& transform = p.world_from_object.start;
     const uint32_t base = static_cast<uint32_t>(out_.positions.size());
     const auto offset_to = [&](size_t count) { return static_cast<uint32_t>(count) - base; };
@@ -451,7 +454,7 @@ class SceneCompiler {
       const Vec3<Real> moved = convert<Real>(transform.point(position));
       if (!is_finite(moved)) throw InputError(shape.where, "a vertex of the mesh is not finite");
       if (static_cast<double>(max_component(abs(moved))) > max_coordinate)
-        throw too_large(shape, "a vertex of the mesh lies too far away");
+        throw too_large(shape, "a vertex of the mesh is too far away");
       out_.positions.push_back(moved);
     }
     const uint32_t normal_offset = mesh.normals.empty() ? no_offset : offset_to(out_.normals.size());
@@ -461,16 +464,16 @@ class SceneCompiler {
     }
     const uint32_t uv_offset = mesh.uvs.empty() ? no_offset : offset_to(out_.uvs.size());
     for (const Vec2f& uv : mesh.uvs) out_.uvs.push_back({static_cast<Real>(uv.x), static_cast<Real>(uv.y)});
-    // With shading normals the front is theirs; without, that of the winding in object space.
+    // Shading normals define the front if there are any; otherwise the winding in object space does.
     const bool flip =
         mesh.normals.empty() ? p.reverse_orientation != transform.swaps_handedness() : p.reverse_orientation;
     add_triangles(shape, mesh, base, normal_offset, uv_offset, flip, add_attributes(p, mesh, base));
   }
 
-  /// What the mesh has at its vertices beside normals and uvs.
+  /// Adds the vertex attributes other than normals and uvs.
   uint32_t add_attributes(const Placement& p, const Mesh& mesh, uint32_t base) {
     const Transform& transform = p.world_from_object.start;
-    // A normal that is turned round makes what was right-handed left-handed, as a mirror does.
+    // Flipping a normal changes the handedness, as a mirror transform does.
     const bool swaps_handedness = transform.swaps_handedness() != p.reverse_orientation;
     if (mesh.second_uvs.empty() && mesh.colours.empty() && mesh.tangents.empty()) return no_offset;
     const auto offset_to = [&](const auto& values, size_t count) {
@@ -536,7 +539,7 @@ class SceneCompiler {
   bool has_one_sided_ = false;
   std::vector<const Shape*> surface_shapes_;     ///< by surface
   std::vector<bool> is_object_;                  ///< by group
-  std::vector<uint32_t> uses_;                   ///< by mesh: placements to come
+  std::vector<uint32_t> uses_;                   ///< by mesh: placements still to come
   std::vector<TextureRange> emission_textures_;  ///< by texture
   std::vector<double> light_measures_;           ///< by light, see assign_light_probabilities
   uint64_t placed_shapes_ = 0, placed_triangles_ = 0;

@@ -1,37 +1,36 @@
 #pragma once
 
-// From the described scene to the flat one: validation, transforms applied, instances placed, BVHs built.
+// Compiles the scene description: validates it, applies transforms, places instances and builds BVHs.
 
 #include "compile/compiled_scene.h"
 #include "scene/scene.h"
 
 namespace alhazen {
 
-/// What rays are traced by. The binary tree serves tests and GPUs in double, the compressed wide one GPUs in float, the
-/// SIMD one CPUs.
+/// Selects the acceleration structures. The binary BVH is used by tests and by GPUs in double, the compressed wide one
+/// by GPUs in float, the SIMD one by CPUs.
 struct Trees {
   bool binary = true, wide = false, simd = false;
 };
 
-/// What the command line or a caller may override in the description.
+/// Overrides of the description by the command line or a caller.
 struct CompileOptions {
-  int64_t width = 0, height = 0;  ///< 0: as the scene says
-  int threads = 0;                ///< for the BVH; 0: as OpenMP has it
+  int64_t width = 0, height = 0;  ///< 0: as in the scene
+  int threads = 0;                ///< for the BVH; 0: OpenMP's default
   Trees trees;
-  /// Instances that all together come to no more triangles than this are copied into the world, which is walked faster.
-  uint64_t most_copied_triangles = 1u << 17;
-  uint64_t texture_budget = 0;  ///< bytes that pictures may take; 0: any
-  /// Whether a scene far from the world's origin is moved there (compile/render_space.h).
+  /// Instances with at most this many triangles in total are copied into the world, where traversal is faster.
+  uint64_t max_copied_triangles = 1u << 17;
+  uint64_t texture_budget = 0;  ///< bytes that images may take; 0: no limit
+  /// Whether to move a scene that is far from the world's origin there (compile/render_space.h).
   bool in_render_space = true;
-  /// How many segments paths have where `path` renders, so that light which it does not find is warned of; 0: that is
-  /// not asked.
+  /// Number of segments of paths if `path` renders, to warn of light that it does not find; 0: no such check.
   uint32_t path_segments = 0;
 };
 
-/// Takes the description apart as it goes, so that meshes are not held twice.
-/// Throws InputError for what cannot be rendered: indices out of range, coordinates that are not finite, radii that are
-/// not positive, too many primitives. Warns of what is left out: triangles of no area, motion of meshes and cameras,
-/// detail of pictures, light that is not found.
+/// Consumes the description while it compiles, so that meshes are not held twice in memory. Throws InputError for
+/// scenes that cannot be rendered: indices out of range, coordinates that are not finite, radii that are not positive,
+/// too many primitives. Warns of what is omitted: triangles of zero area, motion of cameras and of some meshes, detail
+/// of images, light that is not found.
 template <class Real>
 CompiledScene<Real> compile_scene(Scene&& scene, const CompileOptions& options, Diagnostics& diagnostics);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The compiled scene in memory: one arena that holds every array, and the view over it.
+// The compiled scene in memory: one arena with every array, and the view of it.
 
 #include <cstddef>
 #include <cstdlib>
@@ -18,12 +18,12 @@ struct FreeArena {
 struct SceneStatistics {
   uint64_t triangles = 0, spheres = 0, nodes = 0, lights = 0, instances = 0;
   uint64_t bytes = 0;        ///< of the arena
-  uint64_t tree_bytes = 0;   ///< of what rays walk: nodes, and the copies of primitives beside them
+  uint64_t tree_bytes = 0;   ///< of the acceleration structures: nodes, and their copies of primitives
   double build_seconds = 0;  ///< of the BVH alone
 };
 
-/// Owns what `view` points into. Every pointer of the view lies in [arena, arena + statistics.bytes), so copying those
-/// bytes and shifting the pointers makes the same scene elsewhere.
+/// Owns the memory of `view`. Every pointer of the view is in [arena, arena + statistics.bytes), so copying those bytes
+/// and shifting the pointers makes the same scene elsewhere.
 template <class Real>
 struct CompiledScene {
   std::unique_ptr<std::byte, FreeArena> arena;

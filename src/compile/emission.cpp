@@ -9,17 +9,17 @@ namespace alhazen {
 
 namespace {
 
-/// Lookups for all lights together, and how fine the grid of one may be.
-constexpr double most_lookups = 4e6;
+/// Number of lookups for all lights together, and the maximum grid resolution for one.
+constexpr double max_lookups = 4e6;
 constexpr int coarsest = 8, finest = 128;
 
-/// What a colour is worth to the sampler: its luminance, and not nothing where the colour is.
+/// Sampling weight of a colour: its luminance, kept above zero unless the colour is black.
 template <class Real>
 double worth(const Vec3<Real>& colour) {
   return std::max(static_cast<double>(luminance(colour)), 1e-3 * static_cast<double>(max_component(colour)));
 }
 
-/// Mean of `value(b1, b2)` over the cells of a grid of `side` rows of small triangles.
+/// Mean of `value(b1, b2)` over a triangle, sampled at the cells of a grid of `side` rows of small triangles.
 template <class Value>
 double mean_over_triangle(int side, const Value& value) {
   double sum = 0;
@@ -42,14 +42,14 @@ double mean_over_sphere(int side, const Value& value) {
 
 template <class Real>
 double mean_factor(const SceneView<Real>& view, const LightRecord<Real>& light, int side) {
-  const auto share = [&](const Vec3<Real>& factor) {
+  const auto relative_luminance = [&](const Vec3<Real>& factor) {
     const double value = worth(light.radiance * factor) / worth(light.radiance);
     return std::isfinite(value) ? value : 0;
   };
   const auto on_sphere = [&](const Vec3<Real>& center, Real radius, uint32_t frame) {
     return mean_over_sphere(side, [&](const Vec3d& d) {
       const Vec3<Real> outward = convert<Real>(d);
-      return share(sphere_emission_factor(view, light, frame, outward, center + outward * radius));
+      return relative_luminance(sphere_emission_factor(view, light, frame, outward, center + outward * radius));
     });
   };
   switch (light.kind) {
@@ -63,7 +63,7 @@ double mean_factor(const SceneView<Real>& view, const LightRecord<Real>& light, 
     }
     default:
       return mean_over_triangle(side, [&](double b1, double b2) {
-        return share(triangle_emission_factor(view, light, static_cast<Real>(b1), static_cast<Real>(b2)));
+        return relative_luminance(triangle_emission_factor(view, light, static_cast<Real>(b1), static_cast<Real>(b2)));
       });
   }
 }
@@ -76,7 +76,7 @@ void weigh_emission_textures(const SceneArrays<Real>& arrays, std::vector<double
                                       [](const LightRecord<Real>& light) { return light.texture.count > 0; });
   if (textured == 0) return;
   const int side =
-      std::clamp(static_cast<int>(std::sqrt(most_lookups / static_cast<double>(textured))), coarsest, finest);
+      std::clamp(static_cast<int>(std::sqrt(max_lookups / static_cast<double>(textured))), coarsest, finest);
   const SceneView<Real> view = arrays.view();
 #pragma omp parallel for schedule(dynamic, 64)
   for (size_t i = 0; i < arrays.lights.size(); ++i)

@@ -1,6 +1,6 @@
 #pragma once
 
-// The part of compiling that asks how much the textures of shapes that shine let through.
+// The part of scene compilation that integrates the emission textures of shapes.
 
 #include <vector>
 
@@ -8,9 +8,9 @@
 
 namespace alhazen {
 
-/// Multiplies the measures of lights that have a texture by its mean over the shape, by luminance, as found at points
-/// all over it. One that is black at all of them gets the measure 0: it is never sampled, and shines where a path comes
-/// upon it.
+/// Multiplies the measures of textured lights by the mean luminance of their texture over the shape, estimated at
+/// points all over it. A light that is black at all of them gets the measure 0: it is never sampled, and only BSDF
+/// sampling finds it.
 template <class Real>
 void weigh_emission_textures(const SceneArrays<Real>& arrays, std::vector<double>& measures);
 

@@ -9,9 +9,10 @@ namespace alhazen {
 
 namespace {
 
-/// The share of a row, and of the rows, that is given to all texels alike. It keeps a texel's share of [0, 1] above
-/// what float resolves in maps of up to 2^14 texels a side, however bright a sun stands in the row.
-constexpr double even_share = 1.0 / 256;
+/// Fraction of a row's probability, and of the rows', that is distributed evenly over all texels. It keeps the
+/// probability of a texel above what float resolves in maps of up to 2^14 texels a side, however bright a sun is in the
+/// row.
+constexpr double uniform_fraction = 1.0 / 256;
 
 SphereMapping mapping_of(const Light& light, const ImageTexels& map) {
   const bool is_octahedral = map.width == map.height;
@@ -21,14 +22,14 @@ SphereMapping mapping_of(const Light& light, const ImageTexels& map) {
   return is_octahedral ? SphereMapping::octahedral : SphereMapping::equirectangular;
 }
 
-/// What a texel is worth to the sampler: its luminance, and not nothing where the colour is.
+/// Sampling weight of a texel: its luminance, kept above zero unless the texel is black.
 double worth(const float* texel) {
   const Vec3d colour{static_cast<double>(texel[0]), static_cast<double>(texel[1]), static_cast<double>(texel[2])};
   return std::max(luminance(colour), 1e-3 * max_component(colour));
 }
 
-/// Mean over each texel's square of the bilinear interpolation between texels' worths: exact, and so above 0 wherever a
-/// lookup is. Neighbours count 1/8, 6/8, 1/8 along each axis.
+/// Means, over the square of each texel, of the bilinearly interpolated weights. They are exact, and so above 0
+/// wherever a lookup is. Neighbours have the weights 1/8, 6/8, 1/8 along each axis.
 std::vector<double> texel_means(const ImageTexels& map, SphereMapping mapping) {
   const int width = map.width, height = map.height;
   const auto index = [&](int x, int y) {
@@ -57,7 +58,7 @@ double texel_solid_angle(const ImageTexels& map, SphereMapping mapping, int y) {
   return 2 * std::numbers::pi / map.width * (cosine(y) - cosine(y + 1));
 }
 
-/// Appends count + 1 cumulative probabilities of weights, of which those above 0 share `even_share` alike.
+/// Appends count + 1 cumulative probabilities of the weights; those above 0 receive `uniform_fraction` in equal parts.
 template <class Real>
 void append_cdf(const double* weights, size_t count, std::vector<Real>& out) {
   const double sum = std::accumulate(weights, weights + count, 0.0);
@@ -65,10 +66,10 @@ void append_cdf(const double* weights, size_t count, std::vector<Real>& out) {
   double below = 0;
   out.push_back(Real(0));
   for (size_t i = 0; i < count; ++i) {
-    if (weights[i] > 0) below += (1 - even_share) * weights[i] / sum + even_share / positive;
+    if (weights[i] > 0) below += (1 - uniform_fraction) * weights[i] / sum + uniform_fraction / positive;
     out.push_back(static_cast<Real>(std::min(below, 1.0)));
   }
-  // Rounding may have left the last of them below 1; those of no weight after it must not be chosen.
+  // Rounding may have left the last value below 1; items of zero weight after it must not be chosen.
   const Real last = out.back();
   for (size_t i = out.size(); i-- > 0 && out[i] == last && positive > 0;) out[i] = Real(1);
 }

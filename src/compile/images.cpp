@@ -11,7 +11,7 @@ namespace {
 double decoded(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
 double encoded(double v) { return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 
-/// Between bytes and linear values, by tables.
+/// Converts between bytes and linear values by tables.
 struct ByteCodec {
   static constexpr int steps = 1 << 16;
   std::array<float, 256> values;
@@ -37,7 +37,7 @@ const ByteCodec& codec_of(bool srgb) {
   return srgb ? curved : linear;
 }
 
-/// Which texels of a row or column a texel of half as many stands for, and their shares of it.
+/// The texels of a row or column that contribute to a texel of half the resolution, and their weights.
 struct Taps {
   int first = 0, count = 0;
   float weight[4] = {};
@@ -57,7 +57,7 @@ std::vector<Taps> taps_of(int from, int to) {
   return taps;
 }
 
-/// `value(texel, channel)` is linear; `keep(index, value)` takes the means.
+/// `value(texel, channel)` returns linear values; `keep(index, value)` receives the means.
 template <class Value, class Keep>
 void take_means(const ImageTexels& image, int width, int height, const Value& value, const Keep& keep) {
   const std::vector<Taps> columns = taps_of(image.width, width), rows = taps_of(image.height, height);
@@ -86,7 +86,7 @@ size_t values_of(const ImageTexels& image) {
   return static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * static_cast<size_t>(image.channels);
 }
 
-/// With its pyramid, a third more.
+/// Bytes with the pyramid, which takes a third more.
 uint64_t bytes_of(const ImageTexels& image) {
   return values_of(image) * (image.floats.empty() ? 1 : sizeof(float)) * 4 / 3;
 }
@@ -104,7 +104,7 @@ void keep_one_channel(std::vector<Value>& values) {
   values.resize(values.size() / 3);
 }
 
-/// A third of the memory says the same of a picture without colour.
+/// Stores a grey image as a single channel, in a third of the memory.
 void reduce_grey(ImageTexels& image) {
   if (image.channels != 3 || !(image.floats.empty() ? is_grey(image.bytes) : is_grey(image.floats))) return;
   keep_one_channel(image.bytes);
@@ -150,7 +150,7 @@ void fit_images(Scene& scene, uint64_t budget, Diagnostics& diagnostics) {
     *largest = halved(*largest);
     was_halved[static_cast<size_t>(largest - scene.images.begin())] = true;
   }
-  diagnostics.warn({scene.name}, "the pictures of textures take " + std::to_string(before >> 20) +
+  diagnostics.warn({scene.name}, "the texture images take " + std::to_string(before >> 20) +
                                      " MiB, more than the budget of " + std::to_string(budget >> 20) + " MiB; " +
                                      std::to_string(std::count(was_halved.begin(), was_halved.end(), true)) + " of " +
                                      std::to_string(scene.images.size()) + " were made smaller");
@@ -181,33 +181,33 @@ void ImageBuilder<Real>::add(ImageTexels& image, bool with_pyramid) {
   const bool is_float = !image.floats.empty();
   if ((image.channels != 1 && image.channels != 3) || values == 0 ||
       (is_float ? image.floats.size() : image.bytes.size()) != values)
-    throw InputError({image.name}, "the picture does not hold width * height * channels values, of 1 or 3 channels");
+    throw InputError({image.name}, "the image does not hold width * height * channels values, of 1 or 3 channels");
   reduce_grey(image);
-  Picture picture{{append(image)}, is_float, image.srgb, static_cast<uint32_t>(image.channels)};
+  Pyramid pyramid{{append(image)}, is_float, image.srgb, static_cast<uint32_t>(image.channels)};
   while (with_pyramid && (image.width > 1 || image.height > 1)) {
     image = halved(image);
-    picture.levels.push_back(append(image));
+    pyramid.levels.push_back(append(image));
   }
   std::vector<uint8_t>().swap(image.bytes);
   std::vector<float>().swap(image.floats);
-  pictures_.push_back(std::move(picture));
+  pyramids_.push_back(std::move(pyramid));
 }
 
 template <class Real>
 uint32_t ImageBuilder<Real>::record(const Texture& texture) {
-  if (texture.image >= pictures_.size())
+  if (texture.image >= pyramids_.size())
     throw InputError("texture '" + texture.name + "': image index is out of range");
   const WrapMode wrap_t = texture.wrap_t.value_or(texture.wrap);
   const auto [known, is_new] = records_.try_emplace({texture.image, texture.wrap, wrap_t, texture.nearest},
                                                     static_cast<uint32_t>(out_.images.size()));
   if (!is_new) return known->second;
-  const Picture& picture = pictures_[texture.image];
-  const size_t levels = texture.nearest ? 1 : picture.levels.size();
+  const Pyramid& pyramid = pyramids_[texture.image];
+  const size_t levels = texture.nearest ? 1 : pyramid.levels.size();
   for (size_t i = 0; i < levels; ++i) {
-    const Level& level = picture.levels[i];
-    out_.images.push_back({level.first, level.width, level.height, picture.is_float ? 1u : 0u,
-                           picture.is_srgb ? 1u : 0u, static_cast<uint32_t>(texture.wrap),
-                           static_cast<uint32_t>(wrap_t), texture.nearest ? 1u : 0u, picture.channels,
+    const Level& level = pyramid.levels[i];
+    out_.images.push_back({level.first, level.width, level.height, pyramid.is_float ? 1u : 0u,
+                           pyramid.is_srgb ? 1u : 0u, static_cast<uint32_t>(texture.wrap),
+                           static_cast<uint32_t>(wrap_t), texture.nearest ? 1u : 0u, pyramid.channels,
                            static_cast<uint32_t>(levels - i), 0u});
   }
   return known->second;

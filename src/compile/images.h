@@ -1,6 +1,6 @@
 #pragma once
 
-// The part of compiling that turns pictures into texels and pyramids of them.
+// The part of scene compilation that turns images into texels and image pyramids.
 
 #include <map>
 #include <tuple>
@@ -11,22 +11,22 @@
 
 namespace alhazen {
 
-/// The picture in half the width and half the height (rounded down, at least 1): each texel is the mean, of linear
-/// values, over the area that it stands for.
+/// The image at half the width and half the height (rounded down, at least 1): each texel is the mean of the linear
+/// values over its area.
 ImageTexels halved(const ImageTexels& image);
 
-/// Halves the largest pictures, by bytes, until all of them with their pyramids take at most `budget` bytes, and says
-/// so in one warning. 0: no limit.
+/// Halves the largest images, by bytes, until all of them with their pyramids take at most `budget` bytes, and reports
+/// that in one warning. 0: no limit.
 void fit_images(Scene& scene, uint64_t budget, Diagnostics& diagnostics);
 
-/// Texels of all pictures of the scene, which are freed there, and records of them: one for each picture and each way
-/// that textures look it up, with those of its pyramid behind it where it is filtered.
+/// Moves the texels of all images out of the scene and makes their records: one for each image and each way that
+/// textures sample it, followed by those of its pyramid if it is filtered.
 template <class Real>
 class ImageBuilder {
  public:
   ImageBuilder(Scene& scene, SceneArrays<Real>& out);
 
-  /// Index into images of the record for a texture of kind image.
+  /// Index into images of the record for an image texture.
   uint32_t record(const Texture& texture);
 
  private:
@@ -34,7 +34,7 @@ class ImageBuilder {
     uint64_t first;
     uint32_t width, height;
   };
-  struct Picture {
+  struct Pyramid {
     std::vector<Level> levels;
     bool is_float, is_srgb;
     uint32_t channels;
@@ -43,7 +43,7 @@ class ImageBuilder {
   Level append(const ImageTexels& image);
 
   SceneArrays<Real>& out_;
-  std::vector<Picture> pictures_;
+  std::vector<Pyramid> pyramids_;
   std::map<std::tuple<uint32_t, WrapMode, WrapMode, bool>, uint32_t> records_;
 };
 

@@ -16,10 +16,10 @@ namespace {
 
 constexpr double pi_ = std::numbers::pi;
 
-/// Directions within an angle of an axis.
+/// A cone of directions about an axis.
 struct Cone {
   Vec3d axis{0, 0, 1};
-  double angle = -1;  ///< below 0: none
+  double angle = -1;  ///< negative: empty
 };
 
 Cone joined(const Cone& a, const Cone& b) {
@@ -36,11 +36,11 @@ Cone joined(const Cone& a, const Cone& b) {
   return {normalize(a.axis * std::cos(turn) + normalize(across) * std::sin(turn)), angle};
 }
 
-/// What holds a group of lights.
+/// Bounds of a group of lights.
 struct LightBounds {
   Bounds3<double> box;
   Cone normals;
-  double emission = 0;  ///< angle about a normal that holds what is emitted
+  double emission = 0;  ///< angle about a normal that bounds the emission
   double power = 0;
   bool two_sided = false;
 
@@ -52,8 +52,8 @@ struct LightBounds {
     two_sided = two_sided || b.two_sided;
   }
 
-  /// The surface area orientation heuristic: power, times the measure of where it goes, times the size (Estevez, Kulla
-  /// 2018, equation 1). The size does not vanish where lights lie in a line.
+  /// The surface area orientation heuristic: power times a measure of the emission cone times the size (Estevez, Kulla
+  /// 2018, equation 1). The size does not vanish if the lights are on a line.
   double cost() const {
     const double o = normals.angle, w = std::min(o + emission, pi_);
     const double directions = 2 * pi_ * (1 - std::cos(o)) +
@@ -105,7 +105,7 @@ Item item_of(const SceneArrays<Real>& arrays, const SceneView<Real>& view, uint3
     }
     case LightKind::spot: {
       const double outer = std::acos(static_cast<double>(light.cos_outer));
-      // Not all of a wide cone lies within a right angle of its axis.
+      // Parts of a wide cone are more than 90 degrees from its axis.
       b.normals = {convert<double>(light.direction), std::max(0.0, outer - pi_ / 2 + 2e-3)};
       b.emission = std::min(pi_ / 2, outer - b.normals.angle + 1e-3);
       add_ball(convert<double>(light.position), 0);
@@ -131,7 +131,7 @@ Item item_of(const SceneArrays<Real>& arrays, const SceneView<Real>& view, uint3
 LightTreeNode node_of(const LightBounds& b, const Vec3d& centre, double radius) {
   LightTreeNode node{};
   node.centre = convert<float>(centre);
-  // Wider by what rounding of the centre moves.
+  // Enlarged by the rounding error of the centre.
   const double moved = 4e-7 * max_component(abs(centre));
   node.radius = radius > 0 ? static_cast<float>(radius * (1 + 1e-6) + moved) : 0.0f;
   node.axis = convert<float>(b.normals.axis);
@@ -151,12 +151,12 @@ int bucket_of(const Item& item, int axis, const Bounds3<double>& centres) {
 }
 
 struct Split {
-  int axis = -1;   ///< below 0: none
-  int bucket = 0;  ///< the last of the first child
+  int axis = -1;   ///< negative: none
+  int bucket = 0;  ///< last bucket of the first child
   double cost = infinity<double>;
 };
 
-/// The cheapest of the planes between buckets along `axis`.
+/// Finds the cheapest plane between buckets along `axis`.
 void find_split(const Item* items, size_t count, int axis, const Bounds3<double>& centres, Split& best) {
   const Vec3d size = centres.diagonal();
   if (!(size[axis] > 0)) return;
@@ -178,7 +178,7 @@ void find_split(const Item* items, size_t count, int axis, const Bounds3<double>
   }
 }
 
-/// Builds the tree in place; a group of n lights has its 2 n - 2 descendants in a row, so that threads may build them.
+/// Builds the tree in place. The 2 n - 2 descendants of a group of n lights are contiguous, so threads can build them.
 class TreeBuilder {
  public:
   TreeBuilder(std::vector<Item>& items, std::vector<LightTreeNode>& nodes, std::vector<uint32_t>& trails)
@@ -216,12 +216,12 @@ class TreeBuilder {
   }
 
  private:
-  /// Whether so many lights fit below a node of that depth.
+  /// Returns whether this many lights fit below a node of that depth.
   static bool fits(size_t count, uint32_t depth) {
     return static_cast<uint32_t>(std::bit_width(count - 1)) + depth <= max_light_tree_depth;
   }
 
-  /// Puts the lights of the first child before the others and returns how many they are.
+  /// Moves the lights of the first child before the others and returns their number.
   static size_t partition(Item* items, size_t count, uint32_t depth) {
     Bounds3<double> centres;
     for (size_t i = 0; i < count; ++i) centres.extend(items[i].centre);
@@ -257,7 +257,7 @@ void build_light_tree(const std::vector<double>& weights, SceneArrays<Real>& out
         kind != LightKind::distant && kind != LightKind::constant_infinite && kind != LightKind::environment;
     if (is_finite && weights[i] > 0) items.push_back(item_of(out, view, i, weights[i]));
   }
-  // The root, one that is not used, and the pairs of children.
+  // The root, one unused node, and the pairs of children.
   std::vector<LightTreeNode> nodes(2 * items.size());
   std::vector<uint32_t> trails(out.lights.size());
   TreeBuilder builder(items, nodes, trails);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The tree that `path` chooses one of many lights by (core/lights/light_tree.h).
+// Builds the light tree by which `path` chooses one of many lights (core/lights/light_tree.h).
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace alhazen {
 
-/// Fills out.light_tree with the lights of finite distance whose weight, their power, is above 0, at least one of them;
-/// each is told its trail.
+/// Fills out.light_tree with the finite lights whose weight, their power, is above 0, of which there is at least one;
+/// each gets its trail.
 template <class Real>
 void build_light_tree(const std::vector<double>& weights, SceneArrays<Real>& out);
 

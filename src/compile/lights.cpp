@@ -16,7 +16,7 @@ bool is_at_infinity(LightKind kind) {
   return kind == LightKind::distant || kind == LightKind::constant_infinite || kind == LightKind::environment;
 }
 
-/// Emitted power, W, by luminance; of lights at infinity the irradiance, W / m^2, that they make.
+/// Emitted power, W, by luminance; for infinite lights their irradiance, W / m^2.
 template <class Real>
 double light_weight(const LightRecord<Real>& light, double measure) {
   const double value = static_cast<double>(luminance(light.radiance));
@@ -42,30 +42,30 @@ double light_weight(const LightRecord<Real>& light, double measure) {
 
 double cos_degrees(double angle) { return std::cos(angle * std::numbers::pi / 180); }
 
-/// Appends the picture of a light. Returns its integral by luminance over all directions, steradians.
+/// Appends the image of a light. Returns its luminance integrated over all directions, steradians.
 template <class Real>
-double add_light_picture(const Light& light, Scene& scene, SceneArrays<Real>& out) {
-  if (light.picture >= scene.light_images.size()) throw InputError(light.where, "the light names no picture");
-  ImageTexels& picture = scene.light_images[light.picture];
+double add_light_image(const Light& light, Scene& scene, SceneArrays<Real>& out) {
+  if (light.image >= scene.light_images.size()) throw InputError(light.where, "the light names no image");
+  ImageTexels& image = scene.light_images[light.image];
   const bool is_sphere = light.kind == LightKind::goniometric;
-  if (picture.width < 1 || picture.height < 1 || (is_sphere && picture.width != picture.height) ||
-      picture.floats.size() != 3 * static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height))
-    throw InputError(light.where, "the picture of a light does not hold three values a texel, or is not square");
+  if (image.width < 1 || image.height < 1 || (is_sphere && image.width != image.height) ||
+      image.floats.size() != 3 * static_cast<size_t>(image.width) * static_cast<size_t>(image.height))
+    throw InputError(light.where, "the image of a light does not hold three values per texel, or is not square");
   LightImageRecord<Real> record{};
   record.first_texel = out.texel_floats.size();
-  record.width = static_cast<uint32_t>(picture.width);
-  record.height = static_cast<uint32_t>(picture.height);
+  record.width = static_cast<uint32_t>(image.width);
+  record.height = static_cast<uint32_t>(image.height);
   record.axes = {convert<Real>(light.axes.tangent), convert<Real>(light.axes.bitangent),
                  convert<Real>(light.axes.normal)};
-  const double width = picture.width, height = picture.height;
+  const double width = image.width, height = image.height;
   const double half = std::tan(light.fov * std::numbers::pi / 360), shorter = std::min(width, height);
   record.half_width = static_cast<Real>(half * width / shorter);
   record.half_height = static_cast<Real>(half * height / shorter);
   double integral = 0;
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
       const float* t =
-          &picture.floats[3 * (static_cast<size_t>(y) * static_cast<size_t>(picture.width) + static_cast<size_t>(x))];
+          &image.floats[3 * (static_cast<size_t>(y) * static_cast<size_t>(image.width) + static_cast<size_t>(x))];
       const Vec3d colour{static_cast<double>(t[0]), static_cast<double>(t[1]), static_cast<double>(t[2])};
       double solid_angle = 4 * std::numbers::pi / (width * height);
       if (!is_sphere) {
@@ -74,7 +74,7 @@ double add_light_picture(const Light& light, Scene& scene, SceneArrays<Real>& ou
       }
       integral += luminance(colour) * solid_angle;
     }
-  out.texel_floats.insert(out.texel_floats.end(), picture.floats.begin(), picture.floats.end());
+  out.texel_floats.insert(out.texel_floats.end(), image.floats.begin(), image.floats.end());
   out.light_images.push_back(record);
   return integral;
 }
@@ -107,7 +107,7 @@ void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>&
         if (is_zero(light.radiance)) continue;
         record.primitive = static_cast<uint32_t>(out.light_images.size());
         record.direction = convert<Real>(light.axes.normal);
-        measures.push_back(add_light_picture(light, scene, out));
+        measures.push_back(add_light_image(light, scene, out));
         out.lights.push_back(record);
         continue;
       case LightKind::spot:
@@ -158,20 +158,20 @@ void assign_light_probabilities(const std::vector<double>& measures, LightSampli
   }
   const bool both = total[0] > 0 && total[1] > 0;
   for (size_t i = 0; i < count; ++i) {
-    const double share = total[is_at_infinity(out.lights[i].kind)];
-    out.lights[i].pmf = static_cast<Real>(share > 0 ? weights[i] / share * (both ? 0.5 : 1) : 0);
+    const double total_weight = total[is_at_infinity(out.lights[i].kind)];
+    out.lights[i].pmf = static_cast<Real>(total_weight > 0 ? weights[i] / total_weight * (both ? 0.5 : 1) : 0);
   }
   const bool has_tree = finite > 0 && sampling != LightSampling::power &&
                         (sampling == LightSampling::tree || finite > max_lights_without_tree);
-  // With a tree the others are chosen among those at infinity, which stand before all shapes.
+  // With a tree the others are chosen among the infinite lights, which precede all shapes.
   size_t chosen = count;
   while (has_tree && chosen > 0 && !is_at_infinity(out.lights[chosen - 1].kind)) --chosen;
   double sum = 0;
   out.light_cdf.assign(1, Real(0));
   for (size_t i = 0; i < chosen; ++i) {
     const bool counts = !has_tree || is_at_infinity(out.lights[i].kind);
-    const double share = total[is_at_infinity(out.lights[i].kind)];
-    if (counts && share > 0) sum += weights[i] / share * (both && !has_tree ? 0.5 : 1);
+    const double total_weight = total[is_at_infinity(out.lights[i].kind)];
+    if (counts && total_weight > 0) sum += weights[i] / total_weight * (both && !has_tree ? 0.5 : 1);
     out.light_cdf.push_back(i + 1 == chosen ? Real(1) : static_cast<Real>(sum));
   }
   if (!has_tree) return;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The part of compiling that gives each light its probability.
+// The part of scene compilation that gives each light its probability.
 
 #include <vector>
 
@@ -9,26 +9,26 @@
 
 namespace alhazen {
 
-/// Appends the lights of the description (not those that are shapes) to out.lights, with their measures, and sets the
-/// background of `view`. Constant infinite lights are summed into one. The texels of maps are freed as they are placed.
+/// Appends the lights of the description that are not shapes to out.lights, with their measures, and sets the
+/// background of `view`. Constant infinite lights are summed into one. The texels of maps are freed as they are copied.
 template <class Real>
 void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>& view, std::vector<double>& measures);
 
-/// Gives every light its probability: half for those at infinity where there are both kinds, within each half by power;
-/// those of finite distance by a light tree where `sampling` asks for one. `measures`, by light: the area of shapes
-/// times the mean of their texture, the integral of pictures over all directions; of other kinds it is not looked at.
+/// Gives every light its probability: half for infinite lights if there are both kinds, and within each half by power;
+/// finite lights use a light tree if `sampling` requests one. `measures`, by light: for shapes the area times the mean
+/// of the texture, for images the integral over all directions; unused for other kinds.
 template <class Real>
 void assign_light_probabilities(const std::vector<double>& measures, LightSampling sampling, SceneArrays<Real>& out,
                                 SceneView<Real>& view);
 
-/// Lays down what sampling the triangles among the lights needs, where they are after the trees have been built.
+/// Collects the data for sampling triangle lights, whose vertices are final once the trees are built.
 template <class Real>
 void add_triangle_emitters(SceneArrays<Real>& out);
 
-/// A light tree is built for more lights of finite distance than that.
+/// A light tree is built if there are more finite lights than this.
 inline constexpr size_t max_lights_without_tree = 2;
 
-/// Whether rays of paths find no light, so that how shadow rays fare alone says what is lit.
+/// Returns whether all lights are delta lights, which only shadow rays find.
 template <class Real>
 bool has_only_lights_without_size(const SceneArrays<Real>& out);
 

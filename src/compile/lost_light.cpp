@@ -14,10 +14,10 @@ namespace {
 
 constexpr uint32_t points_per_material = 32, max_materials = 64, max_lights = 16, rays_per_light = 256;
 constexpr uint32_t directions_per_point = 8;
-/// Of the light that falls on a material, how much must be sent on sharply, which a varnish or glass by its reflection
-/// alone does not come to, and how much of it must then be lost.
+/// Minimum fraction of the incident light that a material scatters into sharp lobes, above what varnish or glass
+/// reflects, and minimum fraction that must then be lost.
 constexpr double min_sharp = 0.15, min_lost = 0.005;
-/// Density over solid angle above which a lobe is as good as a mirror: that of GGX with an alpha of 0.009.
+/// Density over solid angle above which a lobe counts as specular: that of GGX with an alpha of 0.009.
 constexpr double sharp_pdf = 1000;
 
 bool is_without_size(LightKind kind) {
@@ -31,7 +31,7 @@ bool may_be_sharp(MaterialKind kind) {
 
 constexpr uint32_t no_object = 0xffffffffu;
 
-/// A place on a primitive, for any ray that comes to it.
+/// A point of a primitive, for testing light from any direction.
 struct Candidate {
   PrimitiveId primitive;
   uint32_t instance = no_instance;
@@ -65,9 +65,9 @@ class LostLightSearch {
   }
 
  private:
-  /// The instances, those of the same object beside each other.
+  /// The instances, sorted by object.
   struct Uses {
-    std::vector<uint32_t> first;      ///< by object, and the end of the last one's: index into `instances`
+    std::vector<uint32_t> first;      ///< by object, and one past the last: index into `instances`
     std::vector<uint32_t> instances;  ///< indices into `instances` of the scene
     uint32_t count(uint32_t object) const { return first[object + 1] - first[object]; }
   };
@@ -83,7 +83,7 @@ class LostLightSearch {
     return uses;
   }
 
-  /// Visits each primitive once, with the object that it is part of, or `no_object`.
+  /// Visits each primitive once, with the object that contains it, or `no_object`.
   template <class Visit>
   void for_each_primitive(const Visit& visit) const {
     const uint32_t in_world = view_.objects_count > 0 ? view_.objects[0].first_triangle : view_.triangles_count;
@@ -96,8 +96,8 @@ class LostLightSearch {
         visit(PrimitiveId(PrimitiveKind::triangle, view_.objects[k].first_triangle + i), k);
   }
 
-  /// Some primitives of each material that may be smooth, evenly from all that have it. One of an object counts as
-  /// often as the object stands somewhere, and each point on it is on an instance of its own.
+  /// Selects some primitives of each material that may be smooth, evenly among all that have it. A primitive of an
+  /// object counts once per instance, and each point on it is on a different instance.
   void collect_candidates() {
     std::vector<uint64_t> counts(view_.materials_count), seen(view_.materials_count);
     std::vector<bool> wanted(view_.materials_count);
@@ -114,7 +114,7 @@ class LostLightSearch {
     for_each_primitive([&](PrimitiveId id, uint32_t object) {
       const uint32_t m = material_of(id);
       if (!wanted[m]) return;
-      // As many points on each of few primitives, one each on some of many.
+      // Equally many points on each of few primitives, or one point each on some of many.
       const uint64_t before = seen[m] * points_per_material / counts[m];
       const uint64_t after = (seen[m] += uses_of(object)) * points_per_material / counts[m];
       for (uint64_t i = before; i < after; ++i)
@@ -128,9 +128,9 @@ class LostLightSearch {
     return uses.instances[uses.first[object] + std::min(chosen, count - 1)];
   }
 
-  Real random() { return unit_interval<Real>(mix32(++drawn_)); }
+  Real random() { return unit_interval<Real>(mix32(++random_count_)); }
 
-  /// A point of the candidate, as a ray meets it.
+  /// The candidate as the hit of a ray.
   SurfaceInteraction<Real> point_on(const Candidate& candidate, Hit<Real>& hit) {
     hit = {Real(0), Real(0), Real(0), candidate.primitive, candidate.instance};
     Ray<Real> ray{};
@@ -155,7 +155,7 @@ class LostLightSearch {
            opacity(view_, material, Ray<Real>{}, hit, si, RayKind::scattered) < Real(0.5);
   }
 
-  /// What becomes of light that falls on a material: shares of it.
+  /// Fractions of the light incident on a material.
   struct Tally {
     double incident = 0, sharp = 0, lost = 0;
     LostLight where;
@@ -171,7 +171,7 @@ class LostLightSearch {
     return {};
   }
 
-  /// Light on a point of a surface that is known to be smooth, which may be small and far away.
+  /// Tests light on a point of a surface that is known to be smooth, which may be small and far away.
   void light_candidate(const LightRecord<Real>& light, const Candidate& candidate) {
     Hit<Real> hit;
     const SurfaceInteraction<Real> si = point_on(candidate, hit);
@@ -179,12 +179,12 @@ class LostLightSearch {
     const LightSample<Real> s = sample_chosen_light(view_, light, si.position, false, Real(0), Vec2<Real>{});
     if (!(s.pdf > 0) || is_zero(s.radiance)) return;
     if (!(free_share(view_, intersector_, shadow_ray(si, s)) > 0)) return;
-    // The way that the light comes to the point.
+    // The shadow ray in reverse.
     hit.t = s.is_finite ? length(s.point - si.position) : Real(1);
     follow({si.position + s.direction * hit.t, -s.direction, Real(0)}, hit);
   }
 
-  /// Light on whatever is met in a direction that the light shines in, so that narrow cones on large surfaces count.
+  /// Tests light on the first hit in a direction of emission, so that narrow cones on large surfaces count.
   void send_ray(const LightRecord<Real>& light) {
     const Vec2<Real> u{random(), random()};
     Vec3<Real> direction = sample_uniform_sphere(u);
@@ -193,9 +193,9 @@ class LostLightSearch {
       const auto [sine_phi, cosine_phi] = sine_cosine_of_turn(2 * pi<Real> * u.y);
       direction = frame_about(light.direction).to_world({sine * cosine_phi, sine * sine_phi, cosine});
     } else if (light.kind == LightKind::projection) {
-      const LightImageRecord<Real>& picture = view_.light_images[light.primitive];
+      const LightImageRecord<Real>& image = view_.light_images[light.primitive];
       direction = normalize(
-          picture.axes.to_world({picture.half_width * (2 * u.x - 1), picture.half_height * (2 * u.y - 1), Real(1)}));
+          image.axes.to_world({image.half_width * (2 * u.x - 1), image.half_height * (2 * u.y - 1), Real(1)}));
     }
     Ray<Real> ray{light.position, direction, Real(0)};
     Hit<Real> hit;
@@ -206,7 +206,7 @@ class LostLightSearch {
     if (may_be_sharp(view_.materials[view_.surfaces[si.surface].material].kind)) follow(ray, hit);
   }
 
-  /// Follows light that comes along `ray` to `hit` in all directions that it is sent to there.
+  /// Follows light arriving along `ray` at `hit` in all directions into which it is scattered.
   void follow(const Ray<Real>& ray, const Hit<Real>& hit) {
     const ShadingPoint<Real> point = shading_point(view_, ray, hit);
     Tally& tally = tallies_[view_.surfaces[point.si.surface].material];
@@ -230,8 +230,8 @@ class LostLightSearch {
     return s.pdf > 0 && !is_zero(s.weight) && (s.specular || static_cast<double>(s.pdf) > sharp_pdf);
   }
 
-  /// Whether light along `ray`, which one smooth surface has sent on, arrives at a surface that scatters it. A path has
-  /// a segment from the camera to that surface, one for each smooth surface and one to the light.
+  /// Returns whether light along `ray`, scattered by one smooth surface, reaches a surface that scatters it diffusely.
+  /// A path has a segment from the camera to that surface, one for each smooth surface and one to the light.
   bool is_lost(Ray<Real> ray) {
     for (uint32_t segments = 3; segments <= max_segments_; ++segments) {
       Hit<Real> hit;
@@ -251,7 +251,7 @@ class LostLightSearch {
   uint32_t max_segments_;
   std::vector<Candidate> candidates_;
   std::vector<Tally> tallies_;  ///< by material
-  uint32_t drawn_ = 0;
+  uint32_t random_count_ = 0;
 };
 
 bool has_no_size(const Light& light) {
@@ -292,13 +292,14 @@ void warn_of_lost_light(const LostLight& lost, const Scene& scene, const SourceL
   const auto light = std::find_if(scene.lights.begin(), scene.lights.end(),
                                   [&](const Light& l) { return has_no_size(l) && before-- == 0; });
   if (light == scene.lights.end()) return;
-  std::string message = std::string("light of this ") + name_of(light->kind) + " is lost at the " +
-                        (lost.is_mirror ? "mirror " : "glass ") + where.to_string() +
-                        ": 'path' looks for lights without size along straight lines alone, not through glass or by "
-                        "way of mirrors";
+  std::string message =
+      std::string("light of this ") + name_of(light->kind) + " is lost at the " +
+      (lost.is_mirror ? "mirror " : "glass ") + where.to_string() +
+      ": 'path' connects lights without area to surfaces by straight shadow rays alone, not through glass or "
+      "by mirrors";
   if (!scene.replaced_integrator.empty())
     message += ", as the \"" + scene.replaced_integrator + "\" that the file asks for would";
-  message += "; a small shape that shines in its place is found";
+  message += "; a small emissive shape in its place is found";
   if (lost.others > 0)
     message += std::string(" (so it is with ") + (lost.others_may_be_more ? "at least " : "") +
                std::to_string(lost.others) + (lost.others == 1 ? " other)" : " others)");

@@ -1,6 +1,6 @@
 #pragma once
 
-// The part of compiling that turns images, textures and materials into records.
+// The part of scene compilation that makes the records of images, textures and materials.
 
 #include <vector>
 
@@ -9,13 +9,13 @@
 
 namespace alhazen {
 
-/// Fills images, texels, texture programs and materials of `out`; frees the texels of `scene`. A material is added at
-/// the end for shapes that name none; its index is scene.materials.size(). Returns the programs of the textures that
-/// shapes shine by, by index into scene.textures.
+/// Fills images, texels, texture programs and materials of `out`; frees the texels of `scene`. A default material is
+/// appended for shapes without one; its index is scene.materials.size(). Returns the programs of emission textures, by
+/// index into scene.textures.
 template <class Real>
 std::vector<TextureRange> compile_materials(Scene& scene, SceneArrays<Real>& out);
 
-/// By material: whether any texture of it, or of what it mixes, looks at uv. `scene` has no mixes of themselves.
+/// By material: whether any of its textures, or of those of its mixed materials, uses uv. `scene` has no cyclic mixes.
 std::vector<bool> materials_that_need_uv(const Scene& scene);
 
 }  // namespace alhazen

@@ -19,15 +19,15 @@ namespace alhazen {
 
 namespace {
 
-/// Rows of points that are looked at on a triangle which is seen under an angle of 1; between the two numbers.
+/// Rows of test points per radian that a triangle subtends; clamped between the two numbers.
 constexpr double rows_per_radian = 16;
 constexpr int min_rows = 1, max_rows = 6;
-/// Backs that a ray goes through before it gives up.
+/// Maximum number of back faces that a ray passes through.
 constexpr int max_backs = 64;
-/// Rays of the camera that look for backs behind small openings: one a pixel, up to these.
+/// Maximum number of camera rays that search for back faces behind small openings; there is one per pixel up to this.
 constexpr uint32_t max_camera_rays = 1u << 16;
-/// Of all directions from a camera in the open, how many lead out of the scene: below is the ground, and before it what
-/// is looked at. From within a room few do, through its windows.
+/// Minimum fraction of directions that escape from a camera in the open: the ground is below and the subject in front.
+/// From inside a room few do, through its windows.
 constexpr double min_open_directions = 0.4;
 
 template <class Real>
@@ -35,7 +35,7 @@ class Eye {
  public:
   explicit Eye(const SceneView<Real>& view) : view_(view), intersector_(view) {}
 
-  /// Where a ray of the camera towards `point` begins, without its lens; false where there is none.
+  /// Origin of the camera ray towards `point`, without the lens; returns false if there is none.
   bool origin_towards(const Vec3<Real>& point, Vec3<Real>& origin) const {
     const auto& m = view_.camera.world_from_camera;
     origin = {m[0][3], m[1][3], m[2][3]};
@@ -91,7 +91,7 @@ bool has_one_side(const SceneView<Real>& view, uint32_t index) {
   return view.materials[view.surfaces[view.triangles[index].surface].material].features & MaterialFeatures::one_sided;
 }
 
-/// Whether the triangle may be absent.
+/// Returns whether the triangle may be absent.
 template <class Real>
 bool is_candidate(const SceneView<Real>& view, uint32_t index) {
   const SurfaceRecord& surface = view.surfaces[view.triangles[index].surface];
@@ -99,10 +99,10 @@ bool is_candidate(const SceneView<Real>& view, uint32_t index) {
   return (features & MaterialFeatures::one_sided) && !(features & MaterialFeatures::half) && surface.light == no_light;
 }
 
-/// Marks the backs, of triangles below `end`, that the camera's rays through the middles of pixels go through.
+/// Marks the back faces of triangles below `end` that camera rays through pixel centres pass.
 template <class Real>
-void mark_backs_in_picture(const SceneView<Real>& view, uint32_t width, uint32_t height, uint32_t end, int team,
-                           std::vector<uint8_t>& is_open) {
+void mark_backs_in_image(const SceneView<Real>& view, uint32_t width, uint32_t height, uint32_t end, int team,
+                         std::vector<uint8_t>& is_open) {
   const BvhIntersector<Real> intersector(view);
   const double pixels = static_cast<double>(width) * height;
   const uint32_t step = static_cast<uint32_t>(std::ceil(std::sqrt(std::max(1.0, pixels / max_camera_rays))));
@@ -125,7 +125,7 @@ void mark_backs_in_picture(const SceneView<Real>& view, uint32_t width, uint32_t
     }
 }
 
-/// Sets of triangles that are joined.
+/// Sets of connected triangles.
 class JoinedSets {
  public:
   explicit JoinedSets(uint32_t count) : parent_(count) {
@@ -137,7 +137,7 @@ class JoinedSets {
   }
   void join(uint32_t a, uint32_t b) { parent_[root_of(a)] = root_of(b); }
 
-  /// The members of sets in which one is marked.
+  /// The members of all sets that contain a marked one.
   std::vector<uint8_t> of_marked(const std::vector<uint8_t>& marked) {
     std::vector<uint8_t> has_marked(parent_.size()), members(parent_.size());
     for (uint32_t i = 0; i < parent_.size(); ++i)
@@ -150,11 +150,12 @@ class JoinedSets {
   std::vector<uint32_t> parent_;
 };
 
-/// Triangles by so many of their corners, which stand in ascending order; those with the same ones next to each other.
+/// Triangles keyed by `points` of their corners in ascending order, and sorted so that equal keys are adjacent.
 template <class Real, size_t points>
 using ByCorners = std::vector<std::pair<std::array<std::array<Real, 3>, points>, uint32_t>>;
 
-/// Those from `first` on that `takes` takes: each by its corners (`points` is 1), its edges (2) or as a whole (3).
+/// The triangles from `first` on for which `takes` is true, keyed by corner (`points` is 1), edge (2) or as a whole
+/// (3).
 template <size_t points, class Real, class Takes>
 ByCorners<Real, points> by_corners(const SceneView<Real>& view, uint32_t first, uint32_t end, const Takes& takes) {
   ByCorners<Real, points> sorted;
@@ -174,10 +175,10 @@ ByCorners<Real, points> by_corners(const SceneView<Real>& view, uint32_t first, 
   return sorted;
 }
 
-/// Cosine of the angle below which triangles that share an edge are one wall.
+/// Cosine of the angle below which triangles that share an edge belong to the same wall.
 constexpr double min_cosine_of_wall = 0.9999;
 
-/// Opens the walls of which a part is open: candidates in one plane, joined edge to edge.
+/// Opens the walls of which a part is open: coplanar candidates that are connected by edges.
 template <class Real>
 void open_whole_walls(const SceneView<Real>& view, std::vector<uint8_t>& is_open) {
   const uint32_t end = static_cast<uint32_t>(is_open.size());
@@ -193,7 +194,7 @@ void open_whole_walls(const SceneView<Real>& view, std::vector<uint8_t>& is_open
   is_open = walls.of_marked(is_open);
 }
 
-/// Which triangles have corners in common, directly or by others between them, with one that is open.
+/// Marks the triangles that are connected by corners, directly or by others, to an open one.
 template <class Real>
 std::vector<uint8_t> rooms_of(const SceneView<Real>& view, const std::vector<uint8_t>& is_open) {
   const uint32_t end = static_cast<uint32_t>(is_open.size());
@@ -206,9 +207,9 @@ std::vector<uint8_t> rooms_of(const SceneView<Real>& view, const std::vector<uin
   return in_room;
 }
 
-/// Whether the camera looks at the scene from outside.
+/// Returns whether the camera sees the scene from outside.
 template <class Real>
-bool stands_in_the_open(const SceneView<Real>& view) {
+bool is_in_the_open(const SceneView<Real>& view) {
   if (view.camera.kind == CameraKind::orthographic) return true;
   const auto& m = view.camera.world_from_camera;
   const BvhIntersector<Real> intersector(view);
@@ -224,7 +225,7 @@ bool stands_in_the_open(const SceneView<Real>& view) {
   return outwards >= directions * min_open_directions;
 }
 
-/// Surfaces like others but for a feature of their material.
+/// Copies of surfaces whose material has an additional feature.
 template <class Real>
 class SurfacesWithFeature {
  public:
@@ -286,7 +287,7 @@ bool open_seen_backs(const SceneView<Real>& view, uint32_t width, uint32_t heigh
   const uint32_t end = out.objects.empty() ? view.triangles_count : out.objects[0].first_triangle;
   std::vector<uint8_t> is_open(end);
   const int team = threads > 0 ? threads : omp_get_max_threads();
-  mark_backs_in_picture(view, width, height, end, team, is_open);
+  mark_backs_in_image(view, width, height, end, team, is_open);
   const Eye<Real> eye(view);
 #pragma omp parallel for schedule(dynamic, 256) num_threads(team)
   for (uint32_t i = 0; i < end; ++i)
@@ -294,8 +295,8 @@ bool open_seen_backs(const SceneView<Real>& view, uint32_t width, uint32_t heigh
   if (std::find(is_open.begin(), is_open.end(), 1) == is_open.end()) return false;
   open_whole_walls(view, is_open);
   std::vector<uint8_t> is_lit_through(end);
-  if (has_only_lights_without_size(out) && stands_in_the_open(view)) is_lit_through = rooms_of(view, is_open);
-  // From here on the view is not used: it does not know of surfaces and materials that are new.
+  if (has_only_lights_without_size(out) && is_in_the_open(view)) is_lit_through = rooms_of(view, is_open);
+  // The view is not used from here on: it lacks the new surfaces and materials.
   SurfacesWithFeature<Real> absent(out, MaterialFeatures::absent), lit_through(out, MaterialFeatures::lit_through);
   for (uint32_t i = 0; i < end; ++i) {
     uint32_t& surface = out.triangles[i].surface;

@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// So many times farther from the origin than from what it sees a camera must be for the world to be moved.
+/// The world is moved if the camera is this many times farther from the origin than from what it sees.
 constexpr double min_distance_ratio = 16;
 
 using Box = Bounds3<double>;
@@ -28,7 +28,7 @@ Box box_of(const Mesh& mesh) {
   return box;
 }
 
-/// The boxes of everything that the scene places in the world, in object space or about the group, transformed.
+/// The bounding boxes of everything that is placed in the world, in object or group space, and transformed.
 std::vector<Box> world_boxes(const Scene& scene) {
   std::vector<Box> meshes;
   for (const Mesh& mesh : scene.meshes) meshes.push_back(box_of(mesh));

@@ -1,6 +1,6 @@
 #pragma once
 
-// Host storage of a scene while it grows, one vector for each array of the list, and its move into one arena.
+// Host storage of a scene while it is built, one vector for each array of the list, and its move into one arena.
 
 #include <algorithm>
 #include <cstring>
@@ -19,7 +19,7 @@ struct SceneArrays {
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY
 
-  /// What has been filled so far, for the functions of the core; arrays that grow leave it behind.
+  /// A view of the arrays so far, for functions of the core; it is invalidated when arrays grow.
   SceneView<Real> view() const {
     SceneView<Real> view;
 #define ALHAZEN_ARRAY(type, name) \
@@ -30,7 +30,7 @@ struct SceneArrays {
     return view;
   }
 
-  /// Bytes of the arena, each array starting on a multiple of the alignment.
+  /// Size of the arena in bytes; each array is aligned.
   size_t arena_bytes() const {
     size_t bytes = 0;
     const auto add = [&](size_t size) { bytes += (size + arena_alignment - 1) / arena_alignment * arena_alignment; };

@@ -165,7 +165,7 @@ void EarClipper::queue_all() {
 
 /// The corner to cut off where no ear is left, as in an outline that crosses itself: one without area if there is one
 /// among the next, else a convex one, else any. To look at all of them each time would take quadratic time.
-uint32_t EarClipper::least_harm() {
+uint32_t EarClipper::min_harm() {
   constexpr int looked_at = 64;
   uint32_t convex = cursor_, corner = cursor_;
   for (int i = 0; i < looked_at; ++i, corner = corners_[corner].next) {
@@ -186,7 +186,7 @@ std::span<const std::array<uint32_t, 3>> EarClipper::triangulate(std::span<const
     if (left_ < left_at_scan_ && (left_ <= 64 || left_ <= left_at_scan_ / 8 * 7))
       queue_all();
     else
-      clip(least_harm());
+      clip(min_harm());
   }
   triangles_.push_back({corners_[cursor_].previous, cursor_, corners_[cursor_].next});
   return triangles_;

@@ -222,8 +222,8 @@ struct Light {
   uint32_t environment = no_index;                      ///< index into Scene::environments
   Frame<double> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< environment: x, y, z of the map in world space, orthonormal
   SourceLocation where;
-  uint32_t picture = no_index;  ///< index into Scene::light_images
-  double fov = 90;              ///< projection: degrees over the shorter side of the image
+  uint32_t image = no_index;  ///< index into Scene::light_images
+  double fov = 90;            ///< projection: degrees over the shorter side of the image
 };
 
 /// How `path` chooses one of several finite lights.

@@ -49,7 +49,7 @@ LightSource "distant" "point3 from" [ 1 2 3 ])"));
     light.radiance = splat(0.5);
     light.position = {0.5, 1, -2};
     light.axes = test::map_askew();
-    light.picture = static_cast<uint32_t>(scene.light_images.size());
+    light.image = static_cast<uint32_t>(scene.light_images.size());
     scene.light_images.push_back(test::sun_map(8, 8, 3));
     scene.lights.push_back(light);
   }

@@ -65,7 +65,7 @@ CompiledScene<Real> flat_instanced_scene(const Scene& scene, bool as_copies) {
   options.threads = 1;
   options.trees = {.binary = true, .wide = true, .simd = true};
   options.in_render_space = false;
-  options.most_copied_triangles = as_copies ? ~uint64_t{0} : 0;
+  options.max_copied_triangles = as_copies ? ~uint64_t{0} : 0;
   CompiledScene<Real> flat = compile_scene<Real>(Scene(scene), options, diagnostics);
   expect_no_warnings(diagnostics);
   return flat;

@@ -30,7 +30,7 @@ double index_of(const AlbedoGrid& grid, uint32_t quantity) {
   return grid.kind == AlbedoGrid::Kind::glass && quantity >= GlassGrid::from_within ? 1 / grid.ior : grid.ior;
 }
 
-/// The azimuth of a node, as grid_direction has it.
+/// The azimuth of a node, by the convention of grid_direction.
 Vec2d azimuth_of_node(uint32_t node, uint32_t azimuths) {
   if (azimuths == 1) return {1, 0};
   const double t = 0.5 * (1 - std::cos(pi<double> * node / (azimuths - 1)));
@@ -38,28 +38,28 @@ Vec2d azimuth_of_node(uint32_t node, uint32_t azimuths) {
   return {t / length, (1 - t) / length};
 }
 
-/// base and edge of GGX whose Fresnel term is Schlick's. In loops without branches, which compilers take several
-/// normals at once by.
+/// Adds base and edge of GGX with Schlick's Fresnel term. The loops have no branches, so that compilers vectorize over
+/// normals.
 void add_ggx(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, Quantities& q) {
-  const UnshadowedShare unshadowed(o, alpha);
+  const UnshadowedFraction unshadowed(o, alpha);
   const double u2 = sqr(alpha.x), v2 = sqr(alpha.y);
   normals.for_batches(o, alpha, [&](const VisibleNormals::Batch& m) {
     double all[VisibleNormals::Batch::most], edges[VisibleNormals::Batch::most];
     for (size_t k = 0; k < m.count; ++k) {
       const double cosine = o.x * m.x[k] + o.y * m.y[k] + o.z * m.z[k];
       const double x = 2 * cosine * m.x[k] - o.x, y = 2 * cosine * m.y[k] - o.y, z = 2 * cosine * m.z[k] - o.z;
-      const double above = z > 0 ? z : 0.0, share = unshadowed.by_squares(u2 * x * x + v2 * y * y, above);
+      const double above = z > 0 ? z : 0.0, fraction = unshadowed.by_squares(u2 * x * x + v2 * y * y, above);
       const double rest = 1 - cosine, rest2 = rest * rest;
-      all[k] = cosine > 0 ? m.weight[k] * share : 0.0;
+      all[k] = cosine > 0 ? m.weight[k] * fraction : 0.0;
       edges[k] = all[k] * (rest2 * rest2 * rest);
     }
     for (size_t k = 0; k < m.count; ++k) q[GgxGrid::base] += all[k] - edges[k], q[GgxGrid::edge] += edges[k];
   });
 }
 
-/// The quantities of glass on one side, `eta` being the index of the other one relative to it.
+/// The quantities of glass on one side; `eta` is the index of the other side relative to it.
 void add_glass(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double eta, double* q) {
-  const UnshadowedShare unshadowed(o, alpha);
+  const UnshadowedFraction unshadowed(o, alpha);
   normals.for_each(o, alpha, [&](const Vec3d& m, double weight) {
     const double cosine = dot(o, m);
     if (!(cosine > 0)) return;
@@ -80,12 +80,12 @@ void add_glass(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha
 }
 
 void add_coat(const GridNormals& normals, const AlbedoGrid& grid, const Vec3d& o, const Vec2d& alpha, Quantities& q) {
-  q[CoatGrid::interface] = reflected_share(normals.dense_in_tails, o, alpha, [&](double cosine, double) {
+  q[CoatGrid::interface] = reflected_fraction(normals.dense_in_tails, o, alpha, [&](double cosine, double) {
     double cos_t;
     return fresnel_dielectric(cosine, grid.ior, cos_t);
   });
   if (!grid.conserves) {
-    q[CoatGrid::transmission] = transmitted_share(normals.even, o, alpha, grid.ior, grid.thickness);
+    q[CoatGrid::transmission] = transmitted_fraction(normals.even, o, alpha, grid.ior, grid.thickness);
     return;
   }
   q[CoatGrid::transmission] = (1 - q[CoatGrid::interface]) * std::exp(-grid.thickness / cosine_in_coat(o.z, grid.ior));
@@ -118,7 +118,7 @@ class SheenDirections {
   std::array<double, count> weights_;
 };
 
-/// What quantities of a direction are computed together: those whose nodes have the same cosines.
+/// Computes together the quantities of a direction whose nodes have the same cosines.
 void add_side(const GridNormals& normals, const AlbedoGrid& grid, uint32_t first, const Vec3d& o, const Vec2d& alpha,
               Quantities& q) {
   switch (grid.kind) {
@@ -156,7 +156,7 @@ double mean_of(const double* rows, uint32_t azimuths, double ior) {
 void fill_block(const GridNormals& normals, const AlbedoGrid& grid, const AlbedoGridRecord& record, const Vec2d& alpha,
                 double* block) {
   const uint32_t sides = grid.kind == AlbedoGrid::Kind::glass ? 2 : 1, each = record.quantities / sides;
-  const uint32_t azimuths = alpha.x == alpha.y ? 1 : record.azimuths;  // the others are the same
+  const uint32_t azimuths = alpha.x == alpha.y ? 1 : record.azimuths;  // all azimuths are equal
   for (uint32_t first = 0; first < record.quantities; first += each)
     for (uint32_t a = 0; a < azimuths; ++a)
       for (uint32_t i = 0; i < grid_cosines; ++i) {
@@ -168,13 +168,13 @@ void fill_block(const GridNormals& normals, const AlbedoGrid& grid, const Albedo
           for (uint32_t same = a; same < record.azimuths; same += azimuths)
             block[(k * record.azimuths + same) * grid_cosines + i] = q[k];
       }
-  if (grid.kind == AlbedoGrid::Kind::glass || grid.kind == AlbedoGrid::Kind::sheen) return;  // nobody asks for means
+  if (grid.kind == AlbedoGrid::Kind::glass || grid.kind == AlbedoGrid::Kind::sheen) return;  // their means are unused
   for (uint32_t k = 0; k < record.quantities; ++k)
     block[record.quantities * record.azimuths * grid_cosines + k] =
         mean_of(block + k * record.azimuths * grid_cosines, azimuths, index_of(grid, k));
 }
 
-/// The block of a pair of alphas from that of the pair the other way round.
+/// Makes the block of a pair of alphas from that of the exchanged pair.
 void mirror_block(const AlbedoGridRecord& record, const double* from, double* to) {
   const uint32_t rows = record.quantities * record.azimuths;
   for (uint32_t row = 0; row < rows; ++row) {
@@ -209,8 +209,8 @@ AlbedoGridRecord record_of(const AlbedoGrid& grid) {
 
 namespace {
 
-/// How many normals a direction sees, for errors of a thousandth at most where it is one material's alone and of a few
-/// where alphas are interpolated as well. Glass from within needs more of them: total reflection sets in with a leap.
+/// Number of normals per direction, for errors of at most a thousandth for the grid of one material, and of a few
+/// thousandths if alphas are interpolated too. Glass from inside needs more, since total reflection begins abruptly.
 size_t normals_of(const AlbedoGrid& grid, const AlbedoGridRecord& record) {
   const bool is_constant = record.alphas_u * record.alphas_v == 1;
   if (grid.kind == AlbedoGrid::Kind::glass) return is_constant ? 1597 : 377;

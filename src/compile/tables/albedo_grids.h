@@ -10,7 +10,7 @@
 
 namespace alhazen {
 
-/// What a grid is of. A surface whose two alphas are the same at every point has `is_anisotropic` false.
+/// The contents of a grid. `is_anisotropic` is false if the two alphas of the surface are equal at every point.
 struct AlbedoGrid {
   enum class Kind {
     ggx,    ///< quantities as GgxGrid

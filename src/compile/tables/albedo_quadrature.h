@@ -1,7 +1,7 @@
 #pragma once
 
-// Integrals over the microfacet normals of GGX that a direction sees: what the tables and grids of albedo are computed
-// by.
+// Integrals over the GGX microfacet normals visible from a direction, from which the albedo tables and grids are
+// computed.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,8 @@
 
 namespace alhazen {
 
-/// The cosine of a node: the inverse of cosine_coordinate, a little inside of where there is no direction.
+/// The cosine of a node: the inverse of cosine_coordinate, moved slightly inside where the direction would be
+/// undefined.
 inline double cosine_at(uint32_t node, double ior, uint32_t nodes) {
   if (ior >= 1) return std::max(sqr(static_cast<double>(node) / (nodes - 1)), 1e-4);
   const uint32_t critical = critical_node(nodes);
@@ -33,8 +34,8 @@ inline double alpha_at(uint32_t node, uint32_t nodes) {
   return std::min(1.0, sqr(least + (1 - least) * node / (nodes - 1)));
 }
 
-/// Mean of value(cosine) over all directions, weighted by the cosine. Below an index of 1 the directions that are
-/// totally reflected and the others are taken apart: the latter may fill a small cone.
+/// Mean of value(cosine) over all directions, weighted by the cosine. Below an index of 1, totally reflected directions
+/// and the others are integrated separately: the latter may fill a small cone.
 template <class Value>
 double mean_over_cosines(double ior, const Value& value) {
   constexpr int steps = 256;
@@ -42,19 +43,19 @@ double mean_over_cosines(double ior, const Value& value) {
   for (int k = 0; k < steps; ++k) {
     const double x = (k + 0.5) / steps;
     if (ior >= 1) {
-      // Midpoints by sqrt(cosine) = x: 2 cos d cos = 4 x^3 dx.
+      // Midpoints in x = sqrt(cosine): 2 cos d cos = 4 x^3 dx.
       sum += value(x * x) * 4 * x * x * x / steps;
       continue;
     }
     const double critical2 = 1 - ior * ior, cos2 = critical2 * (1 - (1 - x) * (1 - x));
     sum += value(std::sqrt(cos2)) * critical2 * 2 * (1 - x) / steps;
-    // By x = sqrt(cosine of refraction), where 2 cos d cos = ior^2 4 x^3 dx.
+    // Substitutes x = sqrt(cosine of refraction), where 2 cos d cos = ior^2 4 x^3 dx.
     sum += value(safe_sqrt(1 - ior * ior * (1 - x * x * x * x))) * ior * ior * 4 * x * x * x / steps;
   }
   return sum;
 }
 
-/// Mean over all directions of what is looked up in a row of a table.
+/// Mean over all directions of the values interpolated in a row of a table.
 inline double mean_of_row(const double* row, double ior, uint32_t nodes) {
   return mean_over_cosines(ior, [&](double cosine) {
     const double place = cosine_coordinate(cosine, ior, nodes) * (nodes - 1);
@@ -63,16 +64,16 @@ inline double mean_of_row(const double* row, double ior, uint32_t nodes) {
   });
 }
 
-/// How the disk that normals are taken from is weighted: evenly, or with more points where normals are far from the
-/// mean. What these tails reflect counts where the interface reflects much.
+/// Weighting of the disk from which normals are sampled: evenly, or with more points where normals are far from the
+/// mean. The reflection of these tails matters if the interface reflects strongly.
 enum class Density { even, dense_in_tails };
 
-/// Normals that a direction sees, with weights that add up to 1. As sample_visible_normal has them, of points that
-/// are the same for all directions: those of a Fibonacci lattice, which a kink in what is summed, as along the horizon,
-/// disturbs less than it does a square of as many.
+/// Normals visible from a direction, with weights that add up to 1. They are those of sample_visible_normal for points
+/// that are the same for all directions: a Fibonacci lattice, which is less disturbed by a kink in the integrand, such
+/// as at the horizon, than a square grid of as many points.
 class VisibleNormals {
  public:
-  /// As many of them as are at hand at once.
+  /// A batch of normals that is in memory at once.
   struct Batch {
     static constexpr size_t most = 64;
     size_t count;
@@ -94,7 +95,7 @@ class VisibleNormals {
     for (double& weight : weight_) weight /= sum;
   }
 
-  /// Calls visit(batch) until all were visited.
+  /// Calls visit(batch) for all batches.
   template <class Visit>
   void for_batches(const Vec3d& o, const Vec2d& alpha, const Visit& visit) const {
     const Vec3d stretched = normalize(stretch(o, alpha));
@@ -120,7 +121,7 @@ class VisibleNormals {
     }
   }
 
-  /// Calls visit(normal, weight).
+  /// Calls visit(normal, weight) for all normals.
   template <class Visit>
   void for_each(const Vec3d& o, const Vec2d& alpha, const Visit& visit) const {
     for_batches(o, alpha, [&](const Batch& batch) {
@@ -132,14 +133,14 @@ class VisibleNormals {
   std::vector<double> x_, y_, height_, weight_;
 };
 
-/// Of what visible microfacets send from `o` to another direction, the share that no other one holds up: G2 / G1.
-class UnshadowedShare {
+/// The unshadowed fraction of what visible microfacets send from `o` to another direction: G2 / G1.
+class UnshadowedFraction {
  public:
-  UnshadowedShare(const Vec3d& o, const Vec2d& alpha) : alpha_(alpha), lambda_(ggx_lambda(o, alpha)) {}
+  UnshadowedFraction(const Vec3d& o, const Vec2d& alpha) : alpha_(alpha), lambda_(ggx_lambda(o, alpha)) {}
   double operator()(const Vec3d& i) const {
     return i.z == 0 ? 0.0 : (1 + lambda_) / (1 + lambda_ + ggx_lambda(i, alpha_));
   }
-  /// Of a direction by its squared coordinates, those along the surface times alpha^2, and its cosine: more than 0.
+  /// Takes a direction by its squared coordinates, the tangential ones times alpha^2, and its cosine, which is above 0.
   double by_squares(double stretched2, double cosine) const {
     return (1 + lambda_) * cosine / ((0.5 + lambda_) * cosine + 0.5 * std::sqrt(cosine * cosine + stretched2));
   }
@@ -149,38 +150,39 @@ class UnshadowedShare {
   double lambda_;
 };
 
-/// Mean of weight(cosine at the microfacet, that of the reflected direction) over what GGX of that alpha reflects.
+/// Mean of weight(cosine at the microfacet, cosine of the reflected direction) over the reflection of GGX with that
+/// alpha.
 template <class Weight>
-double reflected_share(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, const Weight& weight) {
-  const UnshadowedShare unshadowed(o, alpha);
+double reflected_fraction(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, const Weight& weight) {
+  const UnshadowedFraction unshadowed(o, alpha);
   double sum = 0;
-  normals.for_each(o, alpha, [&](const Vec3d& m, double share) {
+  normals.for_each(o, alpha, [&](const Vec3d& m, double weight_of_normal) {
     const double cosine = dot(o, m);
     const Vec3d i = m * (2 * cosine) - o;
-    if (i.z > 0 && cosine > 0) sum += share * weight(cosine, i.z) * unshadowed(i);
+    if (i.z > 0 && cosine > 0) sum += weight_of_normal * weight(cosine, i.z) * unshadowed(i);
   });
   return sum;
 }
 
-/// Cosine by which light from that cosine outside goes down through a coat. Where a smooth interface reflects
-/// everything, below an index of 1, what a rough one lets in goes along it.
+/// Cosine at which light arriving at that cosine from outside travels down in a coat. Where a smooth interface reflects
+/// everything, below an index of 1, light that a rough one transmits travels along it.
 inline double cosine_in_coat(double cosine, double ior) {
   const double within = safe_sqrt(1 - (1 - cosine * cosine) / (ior * ior));
   return ior < 1 ? std::max(within, 0.1) : within;
 }
 
-/// Share of light from `o` that single scattering at a rough interface lets through to what lies below a medium.
-inline double transmitted_share(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double ior,
-                                double optical_thickness) {
-  const UnshadowedShare unshadowed(o, alpha);
+/// Fraction of light from `o` that single scattering at a rough interface transmits to the base below a medium.
+inline double transmitted_fraction(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double ior,
+                                   double optical_thickness) {
+  const UnshadowedFraction unshadowed(o, alpha);
   double sum = 0;
-  normals.for_each(o, alpha, [&](const Vec3d& m, double share) {
+  normals.for_each(o, alpha, [&](const Vec3d& m, double weight_of_normal) {
     const double cosine = dot(o, m);
     double cos_t;
     const double passes = cosine > 0 ? 1 - fresnel_dielectric(cosine, ior, cos_t) : 0;
     if (passes == 0) return;
     const Vec3d i = m * (cosine / ior - cos_t) - o * (1 / ior);
-    if (i.z < 0) sum += share * passes * std::exp(optical_thickness / i.z) * unshadowed(i);
+    if (i.z < 0) sum += weight_of_normal * passes * std::exp(optical_thickness / i.z) * unshadowed(i);
   });
   return sum;
 }

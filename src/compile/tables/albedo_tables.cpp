@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t normals = 377;
 
-/// `albedo(direction, alphas)` at every value, and its means over all directions. `ior`: of what interface it is.
+/// Tabulates `albedo(direction, alphas)` and its means over all directions, for an interface of index `ior`.
 template <class Albedo>
 std::vector<double> table_of(const Albedo& albedo, double ior) {
   std::vector<double> table(albedo_table_size);
@@ -30,7 +30,7 @@ std::vector<double> table_of(const Albedo& albedo, double ior) {
   return table;
 }
 
-/// Share of diffuse light from below that the interface sends down again, after a way up and one down.
+/// Fraction of diffuse light from below that the interface reflects down, after travelling up and down the medium.
 double inner_reflectance(const VisibleNormals& seen, double ior, double alpha, double optical_thickness) {
   const bool smooth = alpha <= least_layered_alpha<double>;
   const int steps = smooth ? 4096 : 96;
@@ -43,17 +43,17 @@ double inner_reflectance(const VisibleNormals& seen, double ior, double alpha, d
     };
     const Vec3d o{std::sqrt(1 - cosine * cosine), 0, cosine};
     sum += 2 * cosine *
-           (smooth ? reflected(cosine, cosine) : reflected_share(seen, o, Vec2d{alpha, alpha}, reflected)) / steps;
+           (smooth ? reflected(cosine, cosine) : reflected_fraction(seen, o, Vec2d{alpha, alpha}, reflected)) / steps;
   }
   return sum;
 }
 
 std::vector<double> interface_albedo(double ior) {
-  // Glass and water reflect next to nothing of what the tails of GGX have.
+  // Glass and water reflect next to nothing from the tails of GGX.
   const VisibleNormals seen(normals, ior >= 1 && ior <= 2 ? Density::even : Density::dense_in_tails);
   return table_of(
       [&](const Vec3d& o, const Vec2d& alpha) {
-        return reflected_share(seen, o, alpha, [ior](double cosine, double) {
+        return reflected_fraction(seen, o, alpha, [ior](double cosine, double) {
           double cos_t;
           return fresnel_dielectric(cosine, ior, cos_t);
         });
@@ -65,7 +65,7 @@ double* column(std::vector<double>& table, uint32_t column) {
   return table.data() + (albedo_side + column) * albedo_side;
 }
 
-/// What the interface does not reflect goes through it.
+/// The interface transmits all that it does not reflect.
 std::vector<double> conserving_transmission(double ior, double optical_thickness) {
   const VisibleNormals seen(normals, Density::even);
   std::vector<double> table = *interface_albedo_table(ior);
@@ -79,7 +79,7 @@ std::vector<double> conserving_transmission(double ior, double optical_thickness
       entering[i] = 1 - row[i];
       row[i] = (1 - row[i]) * std::exp(-optical_thickness / cosine_in_coat(cosine_at(i, ior, albedo_side), ior));
     }
-    // Diffuse light leaves by as much as it enters, over the square of the index; more than all of it does not.
+    // Diffuse light leaves as it enters, divided by the square of the index, but no more than all of it.
     const double mean = mean_of_row(entering.data(), ior, albedo_side);
     double* back = column(table, CoatColumns::back) + j;
     *back = std::max(0.0, 1 - (ior >= 1 ? 1 - *back : mean) / (ior * ior)) * kept;
@@ -90,11 +90,11 @@ std::vector<double> conserving_transmission(double ior, double optical_thickness
   return table;
 }
 
-/// What single scattering at the interface lets through.
+/// The transmission of single scattering at the interface.
 std::vector<double> lossy_transmission(double ior, double optical_thickness) {
   const VisibleNormals seen(normals, Density::even);
   std::vector<double> table = table_of(
-      [&](const Vec3d& o, const Vec2d& alpha) { return transmitted_share(seen, o, alpha, ior, optical_thickness); },
+      [&](const Vec3d& o, const Vec2d& alpha) { return transmitted_fraction(seen, o, alpha, ior, optical_thickness); },
       ior);
   table.resize(coat_transmission_size);
 #pragma omp parallel for schedule(dynamic)
@@ -104,7 +104,7 @@ std::vector<double> lossy_transmission(double ior, double optical_thickness) {
     const double back = inner_reflectance(seen, ior, alpha_at(j, albedo_side), optical_thickness);
     column(table, CoatColumns::back)[j] = back;
     column(table, CoatColumns::escape)[j] = 1 - back;
-    // Below an index of 1 an error of the mean would be scaled up.
+    // Below an index of 1 an error of the mean would be amplified.
     const double leaving = ior * ior * (1 - back);
     column(table, CoatColumns::scale)[j] = ior < 1 && mean > leaving ? leaving / mean : 1;
   }

@@ -22,7 +22,7 @@ Vec3d direction_at(size_t i, double ior) {
   return {std::sqrt(1 - cosine * cosine), 0, cosine};
 }
 
-/// Numbers of walk `index`, the same ones for every direction, so that the rows are smooth.
+/// Random numbers of walk `index`, the same for every direction, so that the rows are smooth.
 class Numbers {
  public:
   explicit Numbers(uint64_t index) : state_(mix64(index + 1)) {}
@@ -36,12 +36,12 @@ class Numbers {
   uint64_t state_;
 };
 
-/// What leaves the coat after one bounce off the metal, and after any number.
+/// Light that leaves the coat after one bounce off the metal, and after any number.
 struct Left {
   double once = 0, all = 0;
 };
 
-/// One walk of light from `o` that goes in; at the interface both ways on are followed: out, and down again.
+/// A random walk of light that enters from `o`; at the interface it follows both branches: out, and down again.
 Left walk(const CoatedMetal& coat, double coat_alpha, double metal_alpha, const Vec3d& o, Numbers numbers) {
   Left left;
   const DielectricBsdf<double> interface { coat.ior, coat_alpha };
@@ -69,19 +69,19 @@ Left walk(const CoatedMetal& coat, double coat_alpha, double metal_alpha, const 
   return left;
 }
 
-/// Where GGX sends light from a direction, and how much of it.
+/// A direction into which GGX reflects light, and how much of it.
 struct Reflected {
   double cosine, weight;
 };
 
 constexpr int lobe_strata = 24;
 
-/// Adds them to `lobe`, at most lobe_strata^2.
+/// Adds at most lobe_strata^2 of them to `lobe`.
 void add_lobe(const Vec3d& o, double alpha, std::vector<Reflected>& lobe) {
   constexpr int strata = lobe_strata;
   for (int a = 0; a < strata; ++a)
     for (int b = 0; b < strata; ++b) {
-      // Anywhere in its stratum: midpoints would miss the tail of the distribution.
+      // At random in its stratum: midpoints would miss the tail of the distribution.
       const Vec2d u = Numbers(static_cast<uint64_t>(a * strata + b)).pair();
       const Vec3d m = sample_visible_normal(o, alpha, Vec2d{(a + u.x) / strata, (b + u.y) / strata});
       const Vec3d i = m * (2 * dot(o, m)) - o;
@@ -89,23 +89,23 @@ void add_lobe(const Vec3d& o, double alpha, std::vector<Reflected>& lobe) {
     }
 }
 
-/// Light of the lobe from direction `k`, before its own scale.
+/// Albedo of the lobe, scaled for its directions but not for its own.
 double scaled_albedo(const std::vector<Reflected>& lobe, const Row& scales, double ior) {
   double sum = 0;
   for (const Reflected& r : lobe) sum += r.weight * coated_metal_value(scales.data(), r.cosine, ior);
   return sum;
 }
 
-/// Scales s for which the lobe times s(o) s(i) has the albedo that is wanted (as Sinkhorn balances matrices). Along the
-/// horizon a narrow lobe may want them beyond all bounds, and between the nodes they would make light.
+/// Scales s for which the lobe times s(o) s(i) has the wanted albedo (Sinkhorn balancing). At the horizon a narrow lobe
+/// may need unbounded scales, and interpolation between nodes would then create energy.
 Row scales_for(const Row& wanted, const std::vector<std::vector<Reflected>>& lobes, double ior) {
-  constexpr double most_scale = 2;
+  constexpr double max_scale = 2;
   Row scales;
   scales.fill(1);
   for (int round = 0; round < 60; ++round)
     for (size_t k = 0; k < scales.size(); ++k) {
       const double sum = scaled_albedo(lobes[k], scales, ior);
-      if (sum > 0) scales[k] = std::min(most_scale, std::sqrt(scales[k] * wanted[k] / sum));
+      if (sum > 0) scales[k] = std::min(max_scale, std::sqrt(scales[k] * wanted[k] / sum));
     }
   for (size_t k = 0; k < scales.size(); ++k) {
     const double sum = scales[k] * scaled_albedo(lobes[k], scales, ior);
@@ -117,7 +117,7 @@ Row scales_for(const Row& wanted, const std::vector<std::vector<Reflected>>& lob
 void add_block(const CoatedMetal& coat, double coat_alpha, double metal_alpha, uint64_t walks, double* block) {
   Row once{}, all{};
   std::vector<std::vector<Reflected>> lobes(coated_metal_cosines);
-  // Before threads part: memory that ends in one of them would end the process.
+  // Allocated before the parallel loop: running out of memory inside it would end the process.
   for (std::vector<Reflected>& lobe : lobes) lobe.reserve(lobe_strata * lobe_strata);
 #pragma omp parallel for schedule(dynamic)
   for (size_t k = 0; k < coated_metal_cosines; ++k) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Tables that take a while to compute, kept for scenes that need the same again: studies and interactive use compile a
+// Caches tables that take a while to compute for scenes that need the same ones: studies and interactive use compile a
 // scene many times.
 
 #include <cstddef>
@@ -13,24 +13,24 @@ namespace alhazen {
 
 using Table = std::shared_ptr<const std::vector<double>>;
 
-/// By all that a table depends on. May be asked by several threads at once.
+/// The key holds all that a table depends on. The cache is thread-safe.
 template <class Key>
 class TableCache {
  public:
-  /// What compute() returns for that key. Two threads may compute the same table, which neither waits for.
+  /// Returns the result of compute() for that key. Two threads may compute the same table; neither waits for the other.
   template <class Compute>
   Table get(const Key& key, const Compute& compute) {
     if (Table known = find(key)) return known;
     const Table table = std::make_shared<const std::vector<double>>(compute());
     const std::lock_guard lock(mutex_);
-    if (values_ + table->size() > most_values) tables_.clear(), values_ = 0;
+    if (values_ + table->size() > max_values) tables_.clear(), values_ = 0;
     const auto [place, is_new] = tables_.try_emplace(key, table);
     if (is_new) values_ += table->size();
     return place->second;
   }
 
  private:
-  static constexpr size_t most_values = size_t{1} << 23;  ///< 64 MiB
+  static constexpr size_t max_values = size_t{1} << 23;  ///< 64 MiB
 
   Table find(const Key& key) {
     const std::lock_guard lock(mutex_);

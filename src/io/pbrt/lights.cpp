@@ -140,7 +140,7 @@ ImageTexels read_light_picture(Build& build, ParameterList& list, const std::str
 }
 
 void add_light_picture(Build& build, Light& light, ImageTexels picture) {
-  light.picture = static_cast<uint32_t>(build.scene.light_images.size());
+  light.image = static_cast<uint32_t>(build.scene.light_images.size());
   build.scene.light_images.push_back(std::move(picture));
 }
 

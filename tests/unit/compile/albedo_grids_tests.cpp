@@ -49,7 +49,7 @@ TEST(AlbedoTables, FollowTheEdgeOfTotalReflection) {
       // Evenly over the cone that light enters from and as much again beyond it.
       const double cosine = std::sqrt(1 - std::min(1.0, 2 * ior * ior) * k / directions);
       const double exact =
-          reflected_share(seen, {std::sqrt(1 - cosine * cosine), 0, cosine}, alpha, [&](double c, double) {
+          reflected_fraction(seen, {std::sqrt(1 - cosine * cosine), 0, cosine}, alpha, [&](double c, double) {
             double cos_t;
             return fresnel_dielectric(c, ior, cos_t);
           });

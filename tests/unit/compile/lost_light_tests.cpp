@@ -33,7 +33,7 @@ std::vector<Diagnostics::Warning> warnings_of(const std::string& text, uint32_t 
   CompileOptions options;
   options.threads = 1;
   options.path_segments = path_segments;
-  options.most_copied_triangles = 0;  // instances stay instances
+  options.max_copied_triangles = 0;  // instances stay instances
   options.trees = {.binary = false, .wide = false, .simd = true};
   const CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
   EXPECT_EQ(flat.view.nodes_count, 0u);  // what was not asked for is not kept

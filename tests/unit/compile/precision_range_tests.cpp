@@ -58,12 +58,12 @@ TEST(PrecisionRange, CamerasAreFinite) {
 
 TEST(PrecisionRange, SpheresAreFinite) {
   expect_for_double_alone("WorldBegin LightSource \"infinite\"\nShape \"sphere\" \"float radius\" 1e20\n",
-                          "the sphere is too large or lies too far away");
+                          "the sphere is too large or too far away");
   // Two, since a scene that is far away as a whole is moved (compile/render_space.h).
   expect_for_double_alone(
       "WorldBegin LightSource \"infinite\"\nShape \"sphere\"\n"
       "Scale 1e20 1e20 1e20 Translate 1e20 0 0\nShape \"sphere\" \"float radius\" 1e-20\n",
-      "the sphere is too large or lies too far away");
+      "the sphere is too large or too far away");
 }
 
 TEST(PrecisionRange, SpheresThatAreTooSmallAreLeftOut) {

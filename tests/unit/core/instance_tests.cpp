@@ -288,7 +288,7 @@ TYPED_TEST(Instances, OfAFewTrianglesAreCopied) {
   CompileOptions options;
   const CompiledScene<TypeParam> scene = compile_scene<TypeParam>(instanced_scene(8, 10, reach), options, diagnostics);
   EXPECT_EQ(scene.view.instances_count, 0u);
-  options.most_copied_triangles = 1000;
+  options.max_copied_triangles = 1000;
   EXPECT_EQ(compile_scene<TypeParam>(instanced_scene(8, 10, reach), options, diagnostics).view.instances_count, 10u);
 }
 

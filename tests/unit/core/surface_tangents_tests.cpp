@@ -77,7 +77,7 @@ CompiledScene<Real> scene_of(Scene scene) {
   Diagnostics diagnostics;
   CompileOptions options;
   options.threads = 1;
-  options.most_copied_triangles = 0;
+  options.max_copied_triangles = 0;
   options.trees = {.binary = true, .wide = false, .simd = false};
   CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
   expect_no_warnings(diagnostics);

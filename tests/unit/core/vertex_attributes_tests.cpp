@@ -117,7 +117,7 @@ TYPED_TEST(VertexAttributes, DensityOfUvsWhereAnInstanceIsAtTheTime) {
     instance.world_from_group.end = Transform::scale({end, end, end});
     described.instances.assign(2, instance);
     CompileOptions options;
-    options.most_copied_triangles = 0;
+    options.max_copied_triangles = 0;
     Diagnostics diagnostics;
     const auto scene = compile_scene<Real>(std::move(described), options, diagnostics);
     Hit<Real> hit = this->hit(scene);
