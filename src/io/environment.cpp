@@ -35,19 +35,19 @@ ImageTexels read_environment(const InputPath& path) {
 
 std::string environment_fault(const ImageTexels& map) {
   if (map.width != map.height && map.width != 2 * map.height)
-    return "the picture has " + std::to_string(map.width) + " x " + std::to_string(map.height) +
-           " pixels; a map of the whole sphere is square (equal-area octahedral) or twice as wide as high "
+    return "the image has " + std::to_string(map.width) + " x " + std::to_string(map.height) +
+           " pixels; an environment map is square (equal-area octahedral) or twice as wide as high "
            "(equirectangular): convert or scale it";
   const auto odd = std::find_if(map.floats.begin(), map.floats.end(), [](float v) { return !std::isfinite(v); });
   if (odd == map.floats.end()) return {};
   const auto texel = static_cast<size_t>(odd - map.floats.begin()) / 3, width = static_cast<size_t>(map.width);
-  return "the picture has a value that is infinite or not a number at column " + std::to_string(texel % width) +
+  return "the image has a value that is infinite or not a number at column " + std::to_string(texel % width) +
          ", row " + std::to_string(texel / width) + ": replace it by a finite one";
 }
 
 double upward_irradiance(const ImageTexels& map) {
   const SphereMapping mapping = map.width == map.height ? SphereMapping::octahedral : SphereMapping::equirectangular;
-  // Small maps are integrated at several points a texel, since the horizon cuts through texels.
+  // Small maps are integrated at several points per texel, since the horizon cuts through texels.
   const int parts = std::max(1, 512 / map.height);
   const double width = static_cast<double>(map.width) * parts, height = static_cast<double>(map.height) * parts;
   const auto weight = [&](int x, int y) {
@@ -77,7 +77,7 @@ void use_environment(Scene& scene, const InputPath& path) {
   light.kind = LightKind::environment;
   light.radiance = {1, 1, 1};
   light.environment = 0;
-  // The map's middle is its -x; what is left of it, its +y, is on the camera's left.
+  // The map's centre is its -x; the direction to the left of it, its +y, is on the camera's left.
   const bool is_right_handed = scene.camera.world_from_camera.start.swaps_handedness();
   light.axes = {{0, 0, 1}, {is_right_handed ? -1.0 : 1.0, 0, 0}, {0, 1, 0}};
   light.where = {path.name};

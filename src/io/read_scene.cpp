@@ -17,11 +17,11 @@ namespace alhazen {
 
 namespace {
 
-/// A mesh under a white sky, seen from the front, above and aside, so that it fills the picture.
+/// A mesh under a white sky, seen from the front, the side and above, so that it fills the image.
 Scene scene_around(Mesh&& mesh, const std::string& path) {
   Bounds3<double> box;
   for (const Vec3d& p : mesh.positions) box.extend(p);
-  if (box.is_empty() || mesh.indices.empty()) throw InputError({path}, "the mesh has no faces, so there is no picture");
+  if (box.is_empty() || mesh.indices.empty()) throw InputError({path}, "the mesh has no faces, so there is no image");
   Scene scene;
   scene.name = path;
   const double radius = std::max(0.5 * length(box.diagonal()), 1e-30);
@@ -51,7 +51,7 @@ std::string format_of(const InputPath& input) {
   InputFile file(input);
   if (std::string_view(head.data(), file.read(head.data(), head.size())) == "glTF") return "gltf";
   throw InputError({path},
-                   "the format is not known by this name: give a .pbrt scene, a .gltf or .glb scene, or a .ply mesh "
+                   "the format is unknown by this name: give a .pbrt scene, a .gltf or .glb scene, or a .ply mesh "
                    "(.pbrt and .ply also as .gz)");
 }
 
@@ -67,7 +67,7 @@ Scene read_by_format(const std::string& path, const ReadOptions& options, Diagno
     throw InputError("the time of the animation must be a finite number of seconds");
   if (format == "gltf") return read_gltf(input, options, diagnostics);
   if (!options.is_default())
-    throw InputError({path}, "cameras, variants, animations and their time can be chosen of glTF files alone");
+    throw InputError({path}, "cameras, variants, animations and their time can be chosen for glTF files only");
   if (format == "pbrt") return read_pbrt(input, diagnostics);
   return scene_around(read_ply(input, diagnostics), path);
 }
@@ -81,14 +81,14 @@ Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostic
   } catch (const std::length_error&) {
   }
   throw InputError({path},
-                   "what the scene holds is too large for the memory of this machine, or for a limit set on it (ulimit "
-                   "-v): give it fewer or smaller meshes and pictures");
+                   "the scene is too large for the memory of this machine, or for a limit set on it (ulimit "
+                   "-v): give it fewer or smaller meshes and images");
 }
 
 SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
   const InputPath input = path_beside(path, path, options.confine);
   if (format_of(input) == "gltf") return list_gltf(input, diagnostics);
-  // These offer nothing to choose from, but what cannot be read is told of all the same.
+  // These formats offer no choices, but unreadable files are reported all the same.
   ReadOptions only_read;
   only_read.confine = options.confine;
   read_scene(path, only_read, diagnostics);

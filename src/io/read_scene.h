@@ -1,6 +1,6 @@
 #pragma once
 
-// The one door for scene files: the reader is chosen by the name's extension.
+// The single entry point for scene files: it selects the reader by the name's extension.
 
 #include <string>
 
@@ -10,15 +10,15 @@
 
 namespace alhazen {
 
-/// Reads a scene (.pbrt, .pbrt.gz, .gltf, .glb), or a mesh alone (.ply, .ply.gz), which is given a camera and a sky to
-/// be seen by. Throws InputError, also where `options` choose what the format does not offer.
+/// Reads a scene (.pbrt, .pbrt.gz, .gltf, .glb), or a mesh alone (.ply, .ply.gz), to which it adds a camera and a sky.
+/// Throws InputError, also if `options` select something that the format does not offer.
 Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics);
 inline Scene read_scene(const std::string& path, Diagnostics& diagnostics) { return read_scene(path, {}, diagnostics); }
 
-/// What `options` may choose from. Throws InputError.
+/// The choices for `options`. Throws InputError.
 SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics);
 
-/// `path` for reading: bound to the folder of the scene file `scene` where `confine` says so, else as it is.
+/// `path` for reading: confined to the folder of the scene file `scene` if `confine`, else as it is.
 InputPath path_beside(const std::string& scene, const std::string& path, bool confine);
 
 }  // namespace alhazen

@@ -122,7 +122,7 @@ TEST_F(Gltf, RefusesWhatIsNotThere) {
   }
   const CommandResult pbrt = run({"render", "scene.pbrt", "--camera", "near"});
   EXPECT_EQ(pbrt.exit_code, 2);
-  EXPECT_NE(pbrt.err.find("glTF files alone"), std::string::npos) << pbrt.err;
+  EXPECT_NE(pbrt.err.find("glTF files only"), std::string::npos) << pbrt.err;
 }
 
 TEST_F(Gltf, TellsWhereAFileIsBad) {

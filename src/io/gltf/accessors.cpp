@@ -10,7 +10,7 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// Elements that no byte of the file stands for (all zero until sparse values replace some).
+/// Limit on elements that are not backed by bytes of the file (all are zero until sparse values replace some).
 constexpr uint64_t max_zero_elements = uint64_t{1} << 24;
 
 enum ComponentType : uint64_t { byte = 5120, ubyte, short_, ushort, uint = 5125, float_ };
@@ -21,7 +21,7 @@ struct Layout {
   size_t component_size = 0;
   bool normalized = false;
   size_t components() const { return rows * columns; }
-  /// Columns of matrices begin at multiples of 4 bytes.
+  /// Columns of matrices are aligned to 4 bytes.
   size_t column_bytes() const {
     const size_t bytes = rows * component_size;
     return columns > 1 ? (bytes + 3) / 4 * 4 : bytes;
@@ -103,7 +103,7 @@ void for_each_component(const Document& document, const Json& place, const Layou
     document.fail(place, "elements of " + std::to_string(element) + " bytes overlap in a buffer view whose stride is " +
                              std::to_string(stride));
   const uint64_t available = view.bytes.size();
-  // Written so that nothing overflows, whatever the file says.
+  // Written so that it cannot overflow, whatever the file contains.
   if (offset > available || element > available - offset || (count - 1) > (available - offset - element) / stride)
     document.fail(place, "the accessor's " + std::to_string(count) + " elements do not fit into its buffer view of " +
                              std::to_string(available) + " bytes");
@@ -148,7 +148,7 @@ SparseIndices read_sparse(const Document& document, Buffers& buffers, const Json
   return result;
 }
 
-/// Both kinds of reading: `convert(bytes)` gives the value of a component.
+/// Shared by both kinds of reading: `convert(bytes)` returns the value of a component.
 template <class Value, class Convert>
 std::vector<Value> read_all(const Document& document, Buffers& buffers, const Json& accessor, const Layout& layout,
                             const Convert& convert) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Accessors as arrays of numbers: every component type, normalised integers, strides, sparse values.
+// Reads accessors as arrays of numbers: every component type, normalized integers, strides, sparse values.
 
 #include <initializer_list>
 #include <vector>
@@ -20,11 +20,11 @@ class Accessors {
  public:
   Accessors(const Document& document, Buffers& buffers) : document_(document), buffers_(buffers) {}
 
-  /// As floats, all of them finite. `types` are those that are right here, such as {"VEC3", "VEC4"}.
+  /// As floats, all of them finite. `types` are those accepted here, such as {"VEC3", "VEC4"}.
   Values floats(uint32_t index, std::initializer_list<const char*> types);
   /// As unsigned integers: indices, joints.
   std::vector<uint32_t> integers(uint32_t index, const char* type);
-  /// How many elements it has, by itself.
+  /// The number of elements of the accessor.
   size_t count(uint32_t index) const;
   bool is_normalized(uint32_t index) const;
 

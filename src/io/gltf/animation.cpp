@@ -40,7 +40,7 @@ struct Sampler {
 
   size_t elements_a_key() const { return interpolation == "CUBICSPLINE" ? 3 : 1; }
 
-  /// The value of a key, `width` numbers; part 0 is the in-tangent, 1 the value, 2 the out-tangent of a spline.
+  /// The `width` numbers of a key; part 0 is the in-tangent, 1 the value, 2 the out-tangent of a spline.
   std::vector<double> key(size_t k, size_t width, size_t part) const {
     const size_t scalars = width / values.components;
     const size_t first = (k * elements_a_key() + (elements_a_key() == 3 ? part : 0)) * scalars;
@@ -104,7 +104,7 @@ Sampler read_sampler(const Document& document, Accessors& accessors, const Json&
   return sampler;
 }
 
-/// The sampler that a channel names.
+/// The sampler that a channel refers to.
 const Json& sampler_of(const Document& document, const Json& samplers, const Json& channel) {
   const uint64_t index = document.required_whole(channel, "sampler");
   if (index >= samplers.items.size())

@@ -1,6 +1,6 @@
 #pragma once
 
-// Buffers and buffer views, read when they are first asked for.
+// Buffers and buffer views, read on first use.
 
 #include <map>
 #include <span>
@@ -19,7 +19,7 @@ class Buffers {
  public:
   explicit Buffers(const Document& document) : document_(document) {}
 
-  /// The bytes of a buffer view, decompressed where EXT_meshopt_compression says so. Spans stay valid.
+  /// The bytes of a buffer view, decompressed if it uses EXT_meshopt_compression. Spans remain valid.
   const BufferView& view(uint32_t index);
 
  private:
@@ -34,7 +34,7 @@ class Buffers {
 };
 
 /// Decodes EXT_meshopt_compression: `compression` is the extension's object, `source` its bytes. Throws InputError,
-/// also where the program was built without meshoptimizer.
+/// also if the program was built without meshoptimizer.
 std::vector<uint8_t> decode_meshopt(const Document& document, const Json& compression, std::span<const uint8_t> source);
 
 }  // namespace alhazen::gltf

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// glTF's cameras look along -z; here z leads into the scene. Their scale counts for nothing.
+/// glTF's cameras look along -z; here z points into the scene. Their scale is ignored.
 Transform world_from_camera(const Document& document, const Json& place, const Matrix4& node) {
   const Vec3d x = column(node, 0), y = column(node, 1), z = column(node, 2);
   if (!(length(x) > 0 && length(y) > 0 && length(z) > 0))
     document.fail(place, "the node of the camera is scaled to nothing");
-  // Made orthonormal, the direction of view kept.
+  // Orthonormalized, with the viewing direction unchanged.
   const Vec3d forward = -normalize(z);
   const Vec3d side = cross(forward, y);
   if (!(length(side) > 0)) document.fail(place, "the node of the camera is sheared to nothing");
@@ -28,7 +28,7 @@ Transform world_from_camera(const Document& document, const Json& place, const M
                             {0, 0, 0, 1}}});
 }
 
-/// The longer side of pictures is 1280 pixels where the camera has a shape of its own.
+/// The longer side of the image is 1280 pixels if the camera has an aspect ratio.
 void set_film(double aspect, FilmSettings& film) {
   const double side = 1280;
   film.width = std::max<int64_t>(1, std::lround(aspect >= 1 ? side : side * aspect));
@@ -42,7 +42,7 @@ void set_perspective(const Document& document, const Json& description, Scene& s
   if (!(aspect >= 0 && aspect < 1e4 && (aspect == 0 || aspect > 1e-4)))
     document.fail(description, "\"aspectRatio\" must be above 0");
   if (aspect > 0) set_film(aspect, scene.film);
-  // The described angle is that over the shorter axis.
+  // The field of view is given over the shorter axis.
   const double shorter = aspect > 0 && aspect < 1 ? 2 * std::atan(std::tan(yfov / 2) * aspect) : yfov;
   scene.camera.fov = shorter * degrees;
 }
@@ -53,7 +53,7 @@ void set_orthographic(const Document& document, const Json& description, Scene& 
   if (!(x > 0 && y > 0 && x < 1e9 * y && y < 1e9 * x))
     document.fail(description, "\"xmag\" and \"ymag\" must be above 0");
   scene.camera.kind = CameraKind::orthographic;
-  // By the scale of the camera and not by a window, so that pictures of another shape are not stretched.
+  // Uses the camera's scale instead of a window, so that images with another aspect ratio are not stretched.
   scene.camera.world_from_camera.start = Transform::scale(splat(std::min(x, y)));
   if (x / y < 1e4 && y / x < 1e4) set_film(x / y, scene.film);
 }

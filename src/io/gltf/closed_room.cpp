@@ -1,4 +1,4 @@
-// A camera within closed walls where nothing shines, such as below a painted sky: no light from outside gets there.
+// Handles a camera inside closed walls without any emission, such as below a sky dome: no light from outside enters.
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +22,9 @@ bool lets_light_through(const Material& material) {
          material.principled.diffuse_transmission != no_index;
 }
 
-/// The distance at which the ray meets the triangle, or 0 (Moeller, Trumbore 1997). `cull` leaves out those seen from
-/// behind.
-double meet(const Vec3d& origin, const Vec3d& direction, const Vec3d& p0, const Vec3d& p1, const Vec3d& p2, bool cull) {
+/// The distance at which the ray hits the triangle, or 0 (Moeller, Trumbore 1997). `cull` ignores back faces.
+double intersect_triangle(const Vec3d& origin, const Vec3d& direction, const Vec3d& p0, const Vec3d& p1,
+                          const Vec3d& p2, bool cull) {
   const Vec3d e1 = p1 - p0, e2 = p2 - p0, normal = cross(direction, e2);
   const double determinant = dot(e1, normal);
   if (determinant == 0 || (cull && determinant < 0)) return 0;
@@ -36,7 +36,7 @@ double meet(const Vec3d& origin, const Vec3d& direction, const Vec3d& p0, const 
   return std::max(0.0, dot(e2, q) / determinant);
 }
 
-/// What is met last along the ray.
+/// The last hit along the ray.
 Wall outermost(const Scene& scene, const Vec3d& eye, const Vec3d& direction) {
   Wall wall;
   double farthest = 0;
@@ -44,12 +44,13 @@ Wall outermost(const Scene& scene, const Vec3d& eye, const Vec3d& direction) {
     const Material& material = scene.materials[shape.material];
     if (lets_light_through(material)) return;
     const Mesh& mesh = scene.meshes[shape.mesh];
-    // In the space of the mesh, where distances along the ray are the same.
+    // In mesh space distances along the ray are the same.
     const Transform back = world.inverse();
     const Vec3d origin = back.point(eye), along = back.direction(direction);
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-      const double t = meet(origin, along, mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
-                            mesh.positions[mesh.indices[i + 2]], !material.double_sided);
+      const double t =
+          intersect_triangle(origin, along, mesh.positions[mesh.indices[i]], mesh.positions[mesh.indices[i + 1]],
+                             mesh.positions[mesh.indices[i + 2]], !material.double_sided);
       if (t > farthest) farthest = t, wall = {true, is_of_instance, index};
     }
   };
@@ -65,23 +66,23 @@ Wall outermost(const Scene& scene, const Vec3d& eye, const Vec3d& direction) {
 
 bool light_closed_room(Scene& scene) {
   const Vec3d eye = scene.camera.world_from_camera.start.point({0, 0, 0});
-  std::vector<bool> shines(scene.groups[0].shapes.size());
+  std::vector<bool> is_emissive(scene.groups[0].shapes.size());
   bool any = false;
-  // Upwards first: most scenes are open there, and cost one look at every triangle.
+  // Starts upwards: most scenes are open there, which one ray per triangle then shows.
   constexpr int steps = 5;
   for (int y = steps - 1; y >= 0; --y)
     for (int x = 0; x < 2 * steps; ++x) {
-      // Not along an edge of what is built of boxes.
+      // The directions avoid the edges of axis-aligned boxes.
       const double height = -0.93 + 1.9 * (y + 0.5) / steps, turn = 0.613 + (x + 0.37 * y) * std::numbers::pi / steps;
       const double ring = std::sqrt(1 - height * height);
       const Wall wall = outermost(scene, eye, {ring * std::cos(turn), height, ring * std::sin(turn)});
       if (!wall.is_met) return false;
-      if (!wall.is_of_instance) shines[wall.shape] = any = true;
+      if (!wall.is_of_instance) is_emissive[wall.shape] = any = true;
     }
   if (!any) return false;
-  for (size_t i = 0; i < shines.size(); ++i) {
+  for (size_t i = 0; i < is_emissive.size(); ++i) {
     Shape& shape = scene.groups[0].shapes[i];
-    if (!shines[i] || shape.emission) continue;
+    if (!is_emissive[i] || shape.emission) continue;
     const Material& material = scene.materials[shape.material];
     const uint32_t colour =
         material.type == MaterialType::principled ? material.principled.base_colour : material.reflectance;

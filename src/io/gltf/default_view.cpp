@@ -1,4 +1,4 @@
-// What a file without cameras or lights is seen by.
+// The camera and the lights for a file without any.
 
 #include <algorithm>
 #include <array>
@@ -30,10 +30,10 @@ void for_each_vertex(const Scene& scene, const Visit& visit) {
       visit_shape(shape, instance.world_from_group.start * shape.world_from_object.start);
 }
 
-/// From the middle of a box to where it is looked at from. glTF has models face +z: what is flat that way, such as a
-/// panel with writing, is seen from the front, bodies more from aside and above; what is long in z from its side, and
-/// what lies flat from above.
-Vec3d way_to_eye(const Vec3d& half) {
+/// From the centre of a box to the camera. glTF models face +z. A model that is flat in z, such as a sign, is seen from
+/// the front, others more from the side and from above; one that is long in z is seen from its side, and one that is
+/// flat in y from above.
+Vec3d direction_to_eye(const Vec3d& half) {
   const auto ratio = [](double a, double b) { return b > 0 ? std::clamp(a / b, 0.0, 1.0) : 1.0; };
   const double depth = ratio(1.5 * half.z, std::max(half.x, half.y));
   const double length_in_z = 1 - ratio(half.x, half.z), flatness = 1 - ratio(half.y, std::max(half.x, half.z));
@@ -48,15 +48,15 @@ void fit_camera(Scene& scene, double aspect) {
   for_each_vertex(scene, [&](const Vec3d& p) { box.extend(p); });
   if (box.is_empty()) box.extend(Vec3d{});
   const Vec3d center = box.center(), half = box.diagonal() * 0.5;
-  const Vec3d backward = way_to_eye(half);
+  const Vec3d backward = direction_to_eye(half);
   const Vec3d right = normalize(cross(Vec3d{0, 1, 0}, backward)), up = cross(backward, right);
   scene.camera.fov = 40;
-  // The angle is that over the shorter axis of the picture. A little of the picture is left free at every edge.
+  // The field of view is over the shorter axis of the image, with a small margin at every edge.
   const double tangent = std::tan(20 * std::numbers::pi / 180) / 1.08;
   const double across = tangent * std::max(aspect, 1.0), along = tangent / std::min(aspect, 1.0);
-  // A point is seen where |x - eye.x| <= tangent * (distance - z), by its coordinates along right, up and backward: so
-  // of all points, the largest x + tangent * z and the largest -x + tangent * z place the eye between them and set its
-  // distance.
+  // A point is visible if |x - eye.x| <= tangent * (distance - z), in coordinates along right, up and backward. So the
+  // largest x + tangent * z and the largest -x + tangent * z of all points determine the eye's position between them
+  // and its distance.
   double to_right = -1e300, to_left = -1e300, to_top = -1e300, to_bottom = -1e300, nearest = -1e300;
   const auto visit = [&](const Vec3d& point) {
     const Vec3d p = point - center;
@@ -67,7 +67,7 @@ void fit_camera(Scene& scene, double aspect) {
   };
   for_each_vertex(scene, visit);
   if (nearest == -1e300) visit(center);
-  // Of a scene that is one point, any distance will do.
+  // If the scene is a single point, any distance will do.
   const double size = length(half) > 0 ? length(half) : 1e-6;
   const double distance =
       std::max({(to_right + to_left) / (2 * across), (to_top + to_bottom) / (2 * along), nearest + size * 1e-3});
@@ -85,17 +85,17 @@ void add_neutral_light(Scene& scene) {
   map.height = 64;
   map.srgb = false;
   map.name = "the neutral light";
-  // Before and above the model, beside it, and behind: for light, for what shines, and for its edge.
+  // In front of and above the model, beside it, and behind: key light, fill light and rim light.
   struct Window {
     Vec3d direction;
-    double cosine, brightness;  ///< at the edge; of the middle
+    double cosine, brightness;  ///< cosine at the edge; brightness at the centre
   };
   const std::array<Window, 3> windows{Window{normalize(Vec3d{-0.5, 0.8, 0.7}), 0.94, 7},
                                       Window{normalize(Vec3d{0.95, 0.2, 0.2}), 0.92, 1.5},
                                       Window{normalize(Vec3d{0.85, 0.6, -0.55}), 0.93, 2}};
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) {
-      // z of the map is up in the world.
+      // The map's z is up in world space.
       const Vec3d d =
           direction_of_square(SphereMapping::equirectangular, Vec2d{(x + 0.5) / map.width, (y + 0.5) / map.height});
       const Vec3d world{d.x, d.z, -d.y};
@@ -108,7 +108,7 @@ void add_neutral_light(Scene& scene) {
   light.kind = LightKind::environment;
   light.radiance = {1, 1, 1};
   light.environment = static_cast<uint32_t>(scene.environments.size());
-  // x, y, z of the map in the world: a rotation that takes z to y.
+  // The axes x, y, z of the map in world space: a rotation that takes z to y.
   light.axes = {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
   light.where = {scene.name};
   scene.environments.push_back(std::move(map));

@@ -46,11 +46,11 @@ void Document::read_container(std::span<const uint8_t> bytes) {
   const auto bad = [&](const std::string& message) { throw InputError({path_}, message); };
   if (bytes.size() < 12) bad("the .glb file ends within its header of 12 bytes");
   const uint32_t version = little_endian(bytes, 4), length = little_endian(bytes, 8);
-  if (version != 2) bad("the .glb file is of version " + std::to_string(version) + "; version 2 is read");
+  if (version != 2) bad("the .glb file has version " + std::to_string(version) + "; only version 2 is supported");
   if (length > bytes.size())
-    bad("the .glb file is truncated: it says to have " + std::to_string(length) + " bytes and has " +
+    bad("the .glb file is truncated: its header gives " + std::to_string(length) + " bytes and it has " +
         std::to_string(bytes.size()));
-  if (length < 12) bad("the .glb file says to be shorter than its own header");
+  if (length < 12) bad("the length in the header of the .glb file is shorter than the header");
   bool has_json = false;
   for (size_t at = 12; at < length;) {
     if (length - at < 8) bad("the .glb file ends within the header of a chunk");
@@ -79,10 +79,10 @@ void Document::check_version() const {
   if (asset == nullptr) fail(root_, "the file has no \"asset\", so it is not glTF 2.0");
   const std::string version = string(*asset, "version"), minimum = string(*asset, "minVersion");
   if (!version.starts_with("2."))
-    fail(*asset, version.empty() ? std::string("\"asset\" has no \"version\"; glTF 2.0 is read")
-                                 : "the file is glTF " + quoted(version) + "; glTF 2.0 is read: convert it");
+    fail(*asset, version.empty() ? std::string("\"asset\" has no \"version\"; only glTF 2.0 is supported")
+                                 : "the file is glTF " + quoted(version) + "; only glTF 2.0 is supported: convert it");
   if (!minimum.empty() && minimum != "2.0")
-    fail(*asset, "the file needs glTF " + quoted(minimum) + "; glTF 2.0 is read");
+    fail(*asset, "the file needs glTF " + quoted(minimum) + "; only glTF 2.0 is supported");
 }
 
 void Document::fail(const Json& at, const std::string& message) const { throw InputError(place(at), message); }

@@ -1,7 +1,7 @@
 #pragma once
 
-// A glTF document: its JSON, where it lies, and how members are read. Every reading checks the kind and the range of
-// what it reads and throws InputError with the place.
+// A glTF document: its JSON, its path, and how members are read. Every function checks the kind and the range of what
+// it reads and throws InputError with the location in the file.
 
 #include <array>
 #include <cstdint>
@@ -24,13 +24,13 @@ class Document {
   Document(std::span<const uint8_t> bytes, const InputPath& path, const std::string& folder, Diagnostics& diagnostics);
 
   const Json& root() const { return root_; }
-  /// Values may change as long as nobody holds on to one that moves.
+  /// Values may be changed as long as nobody holds a reference to one that moves.
   Json& mutable_root() { return root_; }
   const std::string& path() const { return path_; }
-  /// Of the files that the document names.
+  /// For the files that the document refers to.
   const InputScope& scope() const { return scope_; }
   const std::string& folder() const { return folder_; }
-  /// The binary chunk of a .glb file; without one, null.
+  /// The binary chunk of a .glb file, or null.
   const std::optional<std::span<const uint8_t>>& binary_chunk() const { return binary_chunk_; }
   Diagnostics& diagnostics() const { return diagnostics_; }
 
@@ -38,26 +38,26 @@ class Document {
   [[noreturn]] void fail(const Json& at, const std::string& message) const;
   void warn(const Json& at, const std::string& message) const { diagnostics_.warn(place(at), message); }
 
-  /// The items of an array of the root ("nodes", "meshes", ...); empty where there is none.
+  /// The items of an array of the root ("nodes", "meshes", ...); empty if there is none.
   const std::vector<Json>& array(const char* name) const;
   /// Item `index` of such an array, which must be an object.
   const Json& item(const char* array_name, size_t index) const;
 
-  // Members of `object`: absent ones give the fallback, or null.
+  // Members of `object`; absent ones give the fallback, or null.
   const Json* object(const Json& object, const char* key) const;
   const Json* list(const Json& object, const char* key) const;
   double number(const Json& object, const char* key, double fallback) const;
   bool flag(const Json& object, const char* key, bool fallback) const;
   std::string string(const Json& object, const char* key, const std::string& fallback = {}) const;
-  /// A whole number in [0, 2^53].
+  /// An integer in [0, 2^53].
   std::optional<uint64_t> whole(const Json& object, const char* key) const;
   uint64_t required_whole(const Json& object, const char* key) const;
-  /// A whole number below the number of items of the root's array `array_name`.
+  /// An integer below the number of items of the root's array `array_name`.
   std::optional<uint32_t> index(const Json& object, const char* key, const char* array_name) const;
   uint32_t required_index(const Json& object, const char* key, const char* array_name) const;
-  /// A value that is such a number itself.
+  /// The same for a value instead of a member.
   uint32_t as_index(const Json& value, const char* array_name) const;
-  /// Exactly `count` numbers; empty where absent.
+  /// Exactly `count` numbers; empty if absent.
   std::vector<double> numbers(const Json& object, const char* key, size_t count) const;
   Vec3d vec3(const Json& object, const char* key, const Vec3d& fallback) const;
   /// The member `name` of the member "extensions".
@@ -75,7 +75,7 @@ class Document {
   std::optional<std::span<const uint8_t>> binary_chunk_;
 };
 
-/// Refuses what the file requires and is not known; warns of what it uses and is not known.
+/// Throws if the file requires an unknown extension; warns of unknown ones that it uses.
 void check_extensions(const Document& document);
 
 }  // namespace alhazen::gltf

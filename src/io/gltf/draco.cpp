@@ -12,7 +12,7 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// 1, or what normalised integers of the accessor that the attribute stands for are divided by.
+/// The divisor of normalized integers of the accessor that the attribute replaces, else 1.
 float divisor_of(const Document& document, const Json& primitive, const std::string& name) {
   const Json* attributes = document.object(primitive, "attributes");
   const auto index = attributes == nullptr ? std::nullopt : document.index(*attributes, name.c_str(), "accessors");

@@ -33,14 +33,14 @@ constexpr std::array<std::string_view, 27> known_extensions{
     "KHR_meshopt_compression",
     "KHR_draco_mesh_compression",
     "EXT_mesh_gpu_instancing",
-    // Said where they matter: a texture that has no other picture.
+    // Reported only for a texture that has no other image.
     "EXT_texture_webp",
     "KHR_texture_basisu",
     "MSFT_texture_dds",
     "EXT_texture_avif",
 };
 
-/// Data that no picture shows.
+/// Extensions that do not affect the image.
 constexpr std::array<std::string_view, 9> metadata_extensions{
     "KHR_xmp",
     "KHR_xmp_json_ld",

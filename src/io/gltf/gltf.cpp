@@ -22,12 +22,12 @@ namespace gltf {
 
 namespace {
 
-/// A mesh where a node has it.
+/// A mesh as placed by a node.
 struct Placement {
   uint32_t mesh = 0;
   Matrix4 world = identity;
   Deformation deformation;
-  std::string key;  ///< the same for placements that may be instances of each other; empty: of none
+  std::string key;  ///< equal for placements that may be instances of each other; empty: not an instance
 };
 
 std::vector<std::string> variant_names(const Document& document) {
@@ -46,7 +46,7 @@ std::vector<std::string> animation_names(const Document& document) {
   return names;
 }
 
-/// Null where none is asked for.
+/// Null if no animation is requested.
 const Json* chosen_animation(const Document& document, const ReadOptions& options) {
   if (!options.time && options.animation.empty()) return nullptr;
   const std::vector<std::string> names = animation_names(document);
@@ -54,7 +54,7 @@ const Json* chosen_animation(const Document& document, const ReadOptions& option
   return &document.item("animations", index);
 }
 
-/// Whether the matrix can be inverted well enough to be a Transform.
+/// Returns whether the matrix is well enough conditioned for a Transform.
 bool is_invertible(const Matrix4& m) {
   const double volume = length(column(m, 0)) * length(column(m, 1)) * length(column(m, 2));
   return volume > 1e-100 && std::abs(determinant(m)) > 1e-9 * volume;
@@ -79,16 +79,16 @@ class SceneReader {
     if (!has_camera) fit_camera(scene_, options_.aspect);
     const bool is_lit = !scene_.lights.empty() || emits_;
     scene_.film.fits_exposure = is_lit;
-    // What has a camera and lights is a scene, lit as it says; else it is a model to be looked at.
+    // A file with a camera and lights is rendered with its own lights; otherwise it is shown as a model.
     if (has_camera && !is_lit && light_closed_room(scene_))
       document_.warn(
           document_.root(),
-          "nothing shines within the walls that the camera stands in; the outermost of them shine by their own "
+          "nothing emits light within the walls around the camera; the outermost of them emit light of their own "
           "colour");
     else if (!has_camera || !is_lit)
       add_neutral_light(scene_);
     if (scene_.meshes.empty())
-      document_.warn(document_.root(), "the file has no surface to be drawn; the picture is empty");
+      document_.warn(document_.root(), "the file has no surface to be drawn; the image is empty");
     return std::move(scene_);
   }
 
@@ -127,7 +127,7 @@ class SceneReader {
     placement.deformation.weights = weights(node, *mesh);
     const auto skin = document_.index(description, "skin", "skins");
     if (skin) {
-      // What a skin moves stands where its joints have it, wherever its node is.
+      // A skinned mesh is placed by its joints, wherever its own node is.
       placement.deformation.joints = nodes_.joints(*skin);
       placements_.push_back(placement);
       return;
@@ -186,8 +186,7 @@ class SceneReader {
     return matrices;
   }
 
-  /// Where no variant is asked for, and in primitives that the variant does not name, it is the primitive's own
-  /// material.
+  /// The primitive's own material, unless a variant is chosen and the primitive has one for it.
   std::optional<uint32_t> material_index(const Json& primitive) const {
     const Json* extension = document_.extension(primitive, "KHR_materials_variants");
     const Json* mappings = extension == nullptr ? nullptr : document_.list(*extension, "mappings");
@@ -232,9 +231,9 @@ class SceneReader {
         }
       }
       std::vector<Shape> placed = shapes(placement);
-      // Lights are known one by one, so what shines is not an instance.
-      const bool shines = std::any_of(placed.begin(), placed.end(), [](const Shape& s) { return s.emission; });
-      if (is_repeated && !shines) {
+      // Lights are distinguished one by one, so emissive meshes are not instanced.
+      const bool is_emissive = std::any_of(placed.begin(), placed.end(), [](const Shape& s) { return s.emission; });
+      if (is_repeated && !is_emissive) {
         const auto group = static_cast<uint32_t>(scene_.groups.size());
         groups[placement.key] = group;
         scene_.groups.push_back({document_.string(document_.item("meshes", placement.mesh), "name"), placed});
@@ -302,7 +301,7 @@ namespace gltf {
 
 namespace {
 
-/// The bytes of the main file. What cannot be one is refused by its first bytes, however large it is.
+/// Reads the bytes of the main file. A file of another kind is refused by its first bytes, however large it is.
 std::vector<uint8_t> read_main_file(const InputPath& path) {
   InputFile file(path);
   std::array<char, 4> head{};

@@ -1,6 +1,6 @@
 #pragma once
 
-// glTF 2.0: .gltf with the files it names, and .glb.
+// glTF 2.0: .gltf with the files it refers to, and .glb.
 
 #include <cstdint>
 #include <span>
@@ -15,14 +15,14 @@ namespace alhazen {
 /// Reads the default scene of a file. Throws InputError.
 Scene read_gltf(const InputPath& path, const ReadOptions& options, Diagnostics& diagnostics);
 
-/// The same of bytes in memory; `path` is for messages and for what confines the files, which are relative to `folder`.
+/// The same for bytes in memory; `path` is for messages and confinement; files are relative to `folder`.
 Scene parse_gltf(std::span<const uint8_t> bytes, const InputPath& path, const std::string& folder,
                  const ReadOptions& options, Diagnostics& diagnostics);
 
-/// Names of what ReadOptions choose from.
+/// The names among which ReadOptions choose.
 SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics);
 
-/// Whether bytes begin a .glb file.
+/// Returns whether the bytes begin a .glb file.
 bool is_glb(std::span<const uint8_t> bytes);
 
 }  // namespace alhazen

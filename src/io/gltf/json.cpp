@@ -12,7 +12,7 @@ namespace alhazen::gltf {
 namespace {
 
 constexpr int max_depth = 128;
-/// Names are looked for one after the other.
+/// Limits the linear search for names.
 constexpr size_t max_names = 4096;
 
 void append_utf8(std::string& text, uint32_t code) {
@@ -111,7 +111,7 @@ class Parser {
     }
   }
 
-  /// What applications add for themselves ("extras") is checked and not kept: it may be of any size.
+  /// Application-specific data ("extras") are checked but not stored: they may have any size.
   void read_member(std::string&& key, Json& object, int depth) {
     if (key == "extras" || extras_ > 0) {
       ++extras_;
@@ -234,7 +234,7 @@ class Parser {
         ++at_;
         return result;
       }
-      if (text_[at_] != '\\') fail("a control character stands within a string");
+      if (text_[at_] != '\\') fail("a control character is not allowed in a string");
       ++at_;
       read_escape(result);
     }
@@ -244,7 +244,7 @@ class Parser {
   const std::string& file_;
   size_t at_ = 0, line_start_ = 0;
   int line_ = 1;
-  int extras_ = 0;  ///< how many objects of "extras" the current value is within
+  int extras_ = 0;  ///< number of "extras" objects that contain the current value
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Vec3d white{1, 1, 1};
 
-/// Reads one material. A factor out of its range is brought back into it, with a warning.
+/// Reads one material. A factor out of range is clamped, with a warning.
 class MaterialReader {
  public:
   MaterialReader(const Document& document, Textures& textures, const Json& description, bool has_vertex_colours)
@@ -51,7 +51,7 @@ class MaterialReader {
     }
   }
 
-  /// A mesh carries two sets. Usually these are 0 and 1; a higher one takes the place of one that is not used.
+  /// A mesh carries two uv sets, usually 0 and 1; a higher one replaces one that is not used.
   UvSets choose_uv_sets() const {
     std::set<int> sets;
     collect_sets(document_, description_, sets);
@@ -72,7 +72,7 @@ class MaterialReader {
     return chosen;
   }
 
-  /// That of the first of the textures that follow tangents: a mesh has them once.
+  /// The uv set of the first texture that uses tangents: a mesh has tangents for one set.
   std::optional<int> tangent_set() const {
     const Principled& p = material_.principled;
     for (const uint32_t texture : {material_.normal_map, p.clearcoat_normal_map, p.anisotropy_direction})
@@ -83,7 +83,7 @@ class MaterialReader {
 
   double in_range(const Json& at, const char* key, double value, double low, double high) const {
     if (value >= low && value <= high) return value;
-    document_.warn(at, std::string("\"") + key + "\" is out of its range; the nearest value in it is used");
+    document_.warn(at, std::string("\"") + key + "\" is out of its range; it is clamped");
     return std::clamp(value, low, high);
   }
 
@@ -101,31 +101,31 @@ class MaterialReader {
     return textures_.image(object, key, texels, use_.uv_sets);
   }
 
-  /// factor * one channel of a linear picture; absent where it is `default_value` everywhere.
+  /// factor * one channel of a linear image; absent if it is `default_value` everywhere.
   uint32_t scalar(const Json& object, const char* factor_key, double factor_fallback, const char* texture_key,
                   int channel, double default_value) {
     const double factor = unit(object, factor_key, factor_fallback);
-    const uint32_t picture =
+    const uint32_t texture =
         texture_key == nullptr ? no_index : textures_.channel(image(object, texture_key, Texels::linear), channel);
-    if (picture == no_index) return factor == default_value ? no_index : textures_.constant({factor, factor, factor});
-    return textures_.scaled({factor, factor, factor}, picture);
+    if (texture == no_index) return factor == default_value ? no_index : textures_.constant({factor, factor, factor});
+    return textures_.scaled({factor, factor, factor}, texture);
   }
 
-  /// factor * the alpha of a picture, likewise.
+  /// factor * the alpha of an image, likewise.
   uint32_t alpha_scalar(const Json& object, const char* factor_key, double factor_fallback, const char* texture_key,
                         double default_value) {
     const double factor = unit(object, factor_key, factor_fallback);
-    const uint32_t picture = image(object, texture_key, Texels::alpha);
-    if (picture == no_index) return factor == default_value ? no_index : textures_.constant({factor, factor, factor});
-    return textures_.scaled({factor, factor, factor}, picture);
+    const uint32_t texture = image(object, texture_key, Texels::alpha);
+    if (texture == no_index) return factor == default_value ? no_index : textures_.constant({factor, factor, factor});
+    return textures_.scaled({factor, factor, factor}, texture);
   }
 
   uint32_t coloured(const Json& object, const char* factor_key, const Vec3d& fallback, const char* texture_key,
                     const Vec3d& default_value, double high = 1) {
     const Vec3d factor = colour(object, factor_key, fallback, high);
-    const uint32_t picture = image(object, texture_key, Texels::srgb);
-    if (picture == no_index) return factor == default_value ? no_index : textures_.constant(factor);
-    return textures_.scaled(factor, picture);
+    const uint32_t texture = image(object, texture_key, Texels::srgb);
+    if (texture == no_index) return factor == default_value ? no_index : textures_.constant(factor);
+    return textures_.scaled(factor, texture);
   }
 
   void read_base() {
@@ -158,23 +158,23 @@ class MaterialReader {
       alpha_ = image(object, texture_key, Texels::alpha);
   }
 
-  /// The dielectric of the newer model with its reflection scaled to what `specularFactor` says; that of black
-  /// diffusion and bright specular is a metal in all but name.
+  /// Converts to the newer model's dielectric with its reflection scaled by `specularFactor`; black diffuse and bright
+  /// specular colours give a metal.
   void read_specular_glossiness(const Json& object) {
     Principled& p = material_.principled;
     const Vec3d specular = colour(object, "specularFactor", white) / 0.04;
     p.specular_colour =
         textures_.product(textures_.constant(specular), image(object, "specularGlossinessTexture", Texels::srgb));
     const double glossiness = unit(object, "glossinessFactor", 1);
-    const uint32_t picture = image(object, "specularGlossinessTexture", Texels::alpha);
-    if (picture == no_index) {
+    const uint32_t gloss_map = image(object, "specularGlossinessTexture", Texels::alpha);
+    if (gloss_map == no_index) {
       p.roughness = textures_.constant(white * (1 - glossiness));
       return;
     }
-    Texture& texture = textures_.at(picture);
+    Texture& texture = textures_.at(gloss_map);
     texture.image_scale = glossiness;
     texture.invert = true;
-    p.roughness = picture;
+    p.roughness = gloss_map;
   }
 
   void read_alpha() {
@@ -190,7 +190,7 @@ class MaterialReader {
     material_.alpha = alpha;
   }
 
-  /// Emission of the base colour, whatever the light, over black.
+  /// Emits the base colour over black, independently of the lights.
   void make_unlit() {
     use_.emission = Emission{white, material_.double_sided, material_.principled.base_colour};
     material_.principled = {};
@@ -215,7 +215,7 @@ class MaterialReader {
     Principled& p = material_.principled;
     if (const Json* e = extension("KHR_materials_ior")) {
       p.ior = document_.number(*e, "ior", 1.5);
-      // 0 stands for an infinite index.
+      // 0 means an infinite index.
       if (p.ior == 0) p.ior = 1e6;
       p.ior = in_range(*e, "ior", p.ior, 1, 1e6);
     }
@@ -246,7 +246,7 @@ class MaterialReader {
     }
   }
 
-  /// The thickness is for renderers that do not know where a ray leaves; here it only says that there is a volume.
+  /// The thickness is for rasterizers, which cannot find where a ray leaves; here it only indicates a volume.
   void read_volume(const Json& e) {
     Principled& p = material_.principled;
     p.thin = !(document_.number(e, "thicknessFactor", 0) > 0);
@@ -254,7 +254,7 @@ class MaterialReader {
     p.attenuation_colour = colour(e, "attenuationColor", white);
     p.attenuation_distance = document_.number(e, "attenuationDistance", std::numeric_limits<double>::infinity());
     if (!(p.attenuation_distance > 0)) document_.fail(e, "\"attenuationDistance\" must be above 0");
-    // What enters a volume must meet the surface from within too.
+    // Light inside the volume must hit the surface from inside too.
     if (p.transmission != no_index || p.diffuse_transmission != no_index) material_.double_sided = true;
   }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Materials: the metallic-roughness model and its extensions, as principled materials of the described scene.
+// Materials: glTF's metallic-roughness model and its extensions, as principled materials of the scene description.
 
 #include <map>
 #include <tuple>
@@ -9,12 +9,12 @@
 
 namespace alhazen::gltf {
 
-/// A material as a shape needs it.
+/// A material as used by a shape.
 struct MaterialUse {
   uint32_t material = no_index;  ///< index into Scene::materials
   std::optional<Emission> emission;
   UvSets uv_sets{0, 1};
-  /// The set of the mesh, 0 or 1, which the tangents of normal maps and anisotropy follow; none where there are none.
+  /// The mesh's uv set, 0 or 1, whose tangents normal maps and anisotropy use; absent if they are not needed.
   std::optional<int> tangent_set;
 };
 
@@ -23,7 +23,7 @@ class Materials {
   Materials(const Document& document, Textures& textures, Scene& scene)
       : document_(document), textures_(textures), scene_(scene) {}
 
-  /// Material `index` of the document, or the default one. Vertex colours are a factor of the base colour.
+  /// Material `index` of the document, or the default one. Vertex colours multiply the base colour.
   const MaterialUse& use(std::optional<uint32_t> index, bool has_vertex_colours);
 
  private:

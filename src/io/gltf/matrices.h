@@ -1,6 +1,6 @@
 #pragma once
 
-// 4x4 matrices that may not be invertible, which Transform has no place for.
+// 4x4 matrices that may be singular, which Transform does not allow.
 
 #include <algorithm>
 #include <cmath>
@@ -37,8 +37,8 @@ inline Vec3d column(const Matrix4& m, size_t i) { return {m[0][i], m[1][i], m[2]
 
 inline double determinant(const Matrix4& m) { return dot(cross(column(m, 0), column(m, 1)), column(m, 2)); }
 
-/// By the cofactors, which are the inverse transpose times the determinant; turned so that what mirrors keeps the
-/// normal on its side.
+/// Uses the cofactors, which are the inverse transpose times the determinant; the sign is chosen so that mirroring
+/// keeps the normal on its side.
 inline Vec3d transform_normal(const Matrix4& m, const Vec3d& n) {
   const Vec3d x = column(m, 0), y = column(m, 1), z = column(m, 2);
   const Vec3d moved = cross(y, z) * n.x + cross(z, x) * n.y + cross(x, y) * n.z;
@@ -50,7 +50,7 @@ inline Matrix4 from_trs(const Vec3d& translation, std::array<double, 4> q, const
   const auto length_of_q = [&] { return std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]); };
   double size = length_of_q();
   if (!(size > 1e-140 && size < 1e140)) {
-    // The squares leave the range of double, or all are 0.
+    // The squares overflow or underflow the range of double, or all are 0.
     const double largest = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3])});
     if (largest > 0)
       for (double& value : q) value /= largest;

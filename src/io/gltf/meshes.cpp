@@ -11,7 +11,7 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// Values of one attribute with the morph targets added; nothing where the primitive does not have it.
+/// Values of one attribute with the morph targets added; nothing if the primitive lacks it.
 using Attribute = std::optional<Values>;
 
 class PrimitiveReader {
@@ -55,7 +55,7 @@ class PrimitiveReader {
   }
 
  private:
-  /// From Draco's data where they have it, else from the accessor.
+  /// From the Draco data if they have it, else from the accessor.
   Attribute base(const std::string& name, std::initializer_list<const char*> types) {
     if (draco_) {
       const auto entry = draco_->attributes.find(name);
@@ -105,7 +105,7 @@ class PrimitiveReader {
   }
 
   void read_directions(Mesh& mesh) {
-    // Without normals the triangles are flat, and tangents that are given count for nothing.
+    // Without normals the triangles are flat, and given tangents are ignored, as the specification demands.
     const Attribute normals = read("NORMAL", {"VEC3"});
     if (!normals) return;
     for (size_t i = 0; i < vertices_; ++i) {
@@ -125,7 +125,7 @@ class PrimitiveReader {
     }
   }
 
-  /// v runs down the picture in glTF, and up here.
+  /// v points down the image in glTF, and up here.
   std::vector<Vec2f> read_uvs(int set) {
     std::vector<Vec2f> uvs;
     const Attribute values = read("TEXCOORD_" + std::to_string(set), {"VEC2"});
@@ -162,8 +162,8 @@ class PrimitiveReader {
     if (draco_ || mode == 4) {
       if (order.size() % 3 != 0) {
         document_.warn(primitive_,
-                       "the triangles of a mesh have a number of vertices that is no multiple of 3; what is "
-                       "left over is not drawn");
+                       "the number of vertices of the triangles is not a multiple of 3; the remaining vertices "
+                       "are not drawn");
         order.resize(order.size() - order.size() % 3);
       }
       return order;
@@ -191,7 +191,7 @@ class PrimitiveReader {
       const std::string number = std::to_string(set);
       Influences influences;
       if (const Attribute joints = draco_attribute("JOINTS_" + number)) {
-        // Compressed data may hold any number; those beyond the joints of the skin are refused below.
+        // Compressed data may hold any number; those beyond the skin's joints are refused below.
         for (const float joint : joints->data)
           influences.joints.push_back(joint > 0 ? static_cast<uint32_t>(std::min(joint, 0x1p31f)) : 0);
       } else if (const auto index = document_.index(*attributes_, ("JOINTS_" + number).c_str(), "accessors")) {
@@ -203,7 +203,7 @@ class PrimitiveReader {
       if (!weights) document_.fail(*attributes_, "\"JOINTS_" + number + "\" has no \"WEIGHTS_" + number + "\"");
       influences.weights = *weights;
       if (influences.joints.size() != 4 * vertices_ || influences.weights.count != vertices_)
-        document_.fail(*attributes_, "joints and weights must be as many as the vertices");
+        document_.fail(*attributes_, "there must be as many joints and weights as vertices");
       for (const uint32_t joint : influences.joints)
         if (joint >= deformation_.joints.size())
           document_.fail(*attributes_, "joint " + std::to_string(joint) + " is out of range: the skin has " +
@@ -220,11 +220,11 @@ class PrimitiveReader {
     return entry->second;
   }
 
-  /// Linear blend skinning: each vertex by the weighted mean of its joints' matrices.
+  /// Linear blend skinning: transforms each vertex by the weighted mean of its joints' matrices.
   void skin(Mesh& mesh) {
     const std::vector<Influences> influences = read_influences();
     if (influences.empty())
-      document_.warn(*attributes_, "a skinned mesh has no \"JOINTS_0\"; its first joint moves it whole");
+      document_.warn(*attributes_, "a skinned mesh has no \"JOINTS_0\"; its first joint moves the whole mesh");
     for (size_t i = 0; i < vertices_; ++i) {
       Matrix4 blended{};
       double total = 0;
@@ -260,7 +260,7 @@ class PrimitiveReader {
   size_t vertices_ = 0;
 };
 
-/// Names the data that a primitive is made of: members with their indices.
+/// Identifies the data of a primitive: appends members with their indices.
 void append_key(const Json* value, std::string& key) {
   if (value == nullptr) return;
   for (size_t i = 0; i < value->items.size(); ++i) {

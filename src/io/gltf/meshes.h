@@ -12,11 +12,11 @@
 
 namespace alhazen::gltf {
 
-/// What bends a mesh before it is placed.
+/// Deformations of a mesh before it is placed.
 struct Deformation {
   std::vector<double> weights;   ///< of the morph targets; missing ones are 0
   std::vector<Matrix4> joints;   ///< of the skin: world from mesh; empty without one
-  std::optional<Matrix4> baked;  ///< moves everything, where the transform of a node cannot be inverted
+  std::optional<Matrix4> baked;  ///< transforms every vertex, if a node's transform is singular
 };
 
 class Meshes {
@@ -24,8 +24,8 @@ class Meshes {
   Meshes(const Document& document, Buffers& buffers, Accessors& accessors, Scene& scene)
       : document_(document), buffers_(buffers), accessors_(accessors), scene_(scene) {}
 
-  /// The index into Scene::meshes of a primitive, as its material needs it, or nothing where it has no area (points,
-  /// lines). The same data give the same mesh.
+  /// The index into Scene::meshes of a primitive, as its material needs it, or nothing if it has no area (points,
+  /// lines). Equal data give the same mesh.
   std::optional<uint32_t> read(const Json& primitive, const MaterialUse& material, const Deformation& deformation);
 
  private:

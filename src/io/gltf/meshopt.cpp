@@ -29,8 +29,8 @@ Layout read_layout(const Document& document, const Json& compression, size_t sou
                     : layout.stride != 2 && layout.stride != 4)
     bad("a \"byteStride\" of " + std::to_string(layout.stride) + " cannot be decompressed");
   if (layout.mode == "TRIANGLES" && layout.count % 3 != 0) bad("\"count\" must be a multiple of 3 for triangles");
-  // Both codecs have a size that they cannot go below: a header of 2 bits for 16 bytes of attributes and a byte a
-  // triangle or index. So a small file cannot ask for all memory.
+  // Both codecs have a minimum size: a header of 2 bits per 16 bytes of attributes, and a byte per triangle or index.
+  // So a small file cannot request all memory.
   const uint64_t most = is_attributes ? 256 * uint64_t{source_bytes} : 3 * uint64_t{source_bytes};
   if (layout.count > (uint64_t{1} << 31) || layout.count > most)
     bad("the compressed data are too short for " + std::to_string(layout.count) + " items");
@@ -43,7 +43,7 @@ void apply_filter(const Document& document, const Json& compression, const Layou
   const auto require = [&](bool fits) {
     if (!fits)
       document.fail(compression,
-                    "the filter " + layout.filter + " does not go with a \"byteStride\" of " + std::to_string(stride));
+                    "the filter " + layout.filter + " does not support a \"byteStride\" of " + std::to_string(stride));
   };
   if (layout.filter == "OCTAHEDRAL") {
     require(stride == 4 || stride == 8);
@@ -76,7 +76,7 @@ std::vector<uint8_t> decode_meshopt(const Document& document, const Json& compre
   else
     error = meshopt_decodeIndexSequence(bytes.data(), count, stride, source.data(), source.size());
   if (error != 0)
-    document.fail(compression, "the data compressed by meshoptimizer are damaged, or of a version that is not known");
+    document.fail(compression, "the data compressed by meshoptimizer are damaged or of an unknown version");
   apply_filter(document, compression, layout, bytes);
   return bytes;
 }

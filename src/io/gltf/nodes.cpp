@@ -9,7 +9,7 @@ namespace {
 NodePose read_pose(const Document& document, const Json& node) {
   NodePose pose;
   if (const std::vector<double> m = document.numbers(node, "matrix", 16); !m.empty()) {
-    Matrix4 matrix;  // by columns in the file
+    Matrix4 matrix;  // column by column in the file
     for (size_t i = 0; i < 16; ++i) matrix[i % 4][i / 4] = m[i];
     if (matrix[3] != identity[3]) document.fail(node, "the last row of \"matrix\" must be 0 0 0 1");
     pose.matrix = matrix;
@@ -32,8 +32,8 @@ void check_transform(const Document& document, const Json& at, const Matrix4& ma
     for (const double value : row)
       if (!(std::abs(value) <= largest))
         document.fail(at,
-                      "the transform of the node, with those above it, has numbers over 1e18, which nothing can be "
-                      "traced at: scale the scene down");
+                      "the transform of the node, with its ancestors, has numbers over 1e18, which are too large "
+                      "for ray tracing: scale the scene down");
 }
 
 Nodes::Nodes(const Document& document, Accessors& accessors) : document_(document), accessors_(accessors) {
@@ -48,7 +48,8 @@ Nodes::Nodes(const Document& document, Accessors& accessors) : document_(documen
     for (const Json& value : children->items) {
       const uint32_t child = document.as_index(value, "nodes");
       if (parents_[child] != no_index)
-        document.fail(value, "node " + std::to_string(child) + " is the child of two nodes; it may be that of one");
+        document.fail(value,
+                      "node " + std::to_string(child) + " is the child of two nodes; it may have one parent only");
       parents_[child] = i;
       children_[i].push_back(child);
     }
@@ -56,7 +57,7 @@ Nodes::Nodes(const Document& document, Accessors& accessors) : document_(documen
   check_trees();
 }
 
-/// With one parent each, what no root leads to is in a loop.
+/// As each node has one parent, nodes that no root reaches form a cycle.
 void Nodes::check_trees() {
   std::vector<uint32_t> stack;
   std::vector<bool> reached(poses_.size());

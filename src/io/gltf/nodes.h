@@ -18,7 +18,8 @@ struct NodePose {
   std::vector<double> weights;                 ///< of morph targets; empty: those of the mesh
 };
 
-/// Throws at `at`, a node, where a matrix has numbers that are not finite or beyond what can be traced.
+/// Throws, with the location of the node `at`, if a matrix has numbers that are not finite or too large for ray
+/// tracing.
 void check_transform(const Document& document, const Json& at, const Matrix4& matrix);
 
 class Nodes {
@@ -26,8 +27,7 @@ class Nodes {
   /// Reads all nodes and checks that they form trees.
   Nodes(const Document& document, Accessors& accessors);
 
-  /// Moves nodes to where animation `animation` has them at `time` seconds; before its start and after its end it
-  /// stands.
+  /// Sets nodes to their state in animation `animation` at `time` seconds; time is clamped to the animation.
   void animate(const Json& animation, double time);
   /// To be called once after the poses are final.
   void place();
@@ -37,9 +37,9 @@ class Nodes {
   const NodePose& pose(uint32_t node) const { return poses_[node]; }
   /// The nodes of the scene, each once, parents before their children.
   std::vector<uint32_t> of_scene() const { return collect(true); }
-  /// Those of them to be drawn: KHR_node_visibility hides a node and what is below it.
+  /// Those of them that are visible: KHR_node_visibility hides a node and its descendants.
   std::vector<uint32_t> drawn() const { return collect(false); }
-  /// World from mesh, of each joint of a skin.
+  /// World-from-mesh matrices of the joints of a skin.
   std::vector<Matrix4> joints(uint32_t skin);
 
  private:
@@ -52,7 +52,7 @@ class Nodes {
   Accessors& accessors_;
   std::vector<NodePose> poses_;
   std::vector<std::vector<uint32_t>> children_;
-  std::vector<uint32_t> parents_;  ///< no_index: none
+  std::vector<uint32_t> parents_;  ///< no_index for roots
   std::vector<Matrix4> world_;
 };
 

@@ -7,7 +7,7 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// The names between the slashes: ~1 stands for a slash and ~0 for ~.
+/// Splits a pointer at slashes and decodes ~1 to a slash and ~0 to ~.
 std::vector<std::string> tokens_of(const std::string& pointer) {
   std::vector<std::string> tokens;
   for (size_t i = 0; i < pointer.size(); ++i) {
@@ -23,7 +23,7 @@ std::vector<std::string> tokens_of(const std::string& pointer) {
   return tokens;
 }
 
-/// The value of the name in `parent`; members that the file leaves out are added. Null where there is no such place.
+/// The member of `parent` with that name; absent optional members are added. Null if there can be none.
 Json* step(Json& parent, const std::string& token) {
   if (parent.kind == JsonKind::array) {
     const std::optional<int64_t> index = parse_integer(token);
@@ -42,7 +42,7 @@ Json* step(Json& parent, const std::string& token) {
   return &parent.items.back();
 }
 
-/// What is animated lies below an item of one of these, and not deep.
+/// Animatable values are below an item of one of these arrays, and not deep.
 bool may_be_animated(const Document& document, const std::vector<std::string>& tokens) {
   if (tokens.size() < 3 || tokens.size() > 16 || document.root().find(tokens[0]) == nullptr) return false;
   for (const char* name : {"nodes", "materials", "meshes", "cameras", "extensions"})
@@ -82,7 +82,7 @@ void write_pointed_values(Document& document, const std::vector<PointedValue>& v
     Json* place = may_be_animated(document, tokens) ? &document.mutable_root() : nullptr;
     for (size_t i = 0; i < tokens.size() && place != nullptr; ++i) place = step(*place, tokens[i]);
     if (place == nullptr) {
-      document.warn(*value.channel, "the pointer " + quoted(value.pointer) + " of the animation leads nowhere");
+      document.warn(*value.channel, "the pointer " + quoted(value.pointer) + " of the animation refers to nothing");
       continue;
     }
     write(*place, tokens.back(), value.numbers);

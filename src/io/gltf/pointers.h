@@ -1,6 +1,6 @@
 #pragma once
 
-// KHR_animation_pointer: animations of any number in the file, which a JSON pointer (RFC 6901) names.
+// KHR_animation_pointer: animates any number in the file, referred to by a JSON pointer (RFC 6901).
 
 #include <string>
 #include <vector>
@@ -9,18 +9,18 @@
 
 namespace alhazen::gltf {
 
-/// What an animation sets a value to.
+/// A value that an animation sets.
 struct PointedValue {
   std::string pointer;
-  std::vector<double> numbers;    ///< one for a number or a truth value, else those of an array
-  const Json* channel = nullptr;  ///< where it is said
+  std::vector<double> numbers;    ///< one for a number or boolean, else those of an array
+  const Json* channel = nullptr;  ///< for messages
 };
 
-/// What the channels of `animation` that point say at `time` seconds.
+/// The values of the pointer channels of `animation` at `time` seconds.
 std::vector<PointedValue> pointed_values(const Document& document, const Json& animation, double time);
 
-/// Writes such values into the document, so that everything is read from it as it is at that time. A pointer that leads
-/// nowhere is a warning.
+/// Writes such values into the document, so that everything is read as it is at that time. A pointer that refers to
+/// nothing causes a warning.
 void write_pointed_values(Document& document, const std::vector<PointedValue>& values);
 
 }  // namespace alhazen::gltf

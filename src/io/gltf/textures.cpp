@@ -128,7 +128,7 @@ void Textures::set_sampler(const Json& texture, Texture& node) const {
   node.nearest = filter == 9728;
 }
 
-/// The transform of KHR_texture_transform is over coordinates whose v runs down the picture:
+/// KHR_texture_transform applies to coordinates whose v points down the image:
 ///   u' = c su u + s sv v + ou,  v' = -s su u + c sv v + ov  with c, s cosine and sine of the rotation.
 /// Here t = 1 - v' is a function of (u, 1 - v).
 void Textures::set_mapping(const Json& info, const UvSets& uv_sets, Texture& node) const {
@@ -151,13 +151,14 @@ uint32_t Textures::scene_image(const Json& texture, Texels texels) {
     return load(document_.required_index(*webp, "source", "images"), texels);
   for (const char* name : {"KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif"})
     if (document_.extension(texture, name) != nullptr)
-      document_.fail(texture, std::string("the texture has its picture by the extension ") + name +
-                                  " alone, which is not read: convert it to PNG or JPEG, or add one as \"source\"");
+      document_.fail(texture,
+                     std::string("the texture has its image by the extension ") + name +
+                         " alone, which is not supported: convert it to PNG or JPEG, or add one as \"source\"");
   document_.warn(texture, "a texture has no \"source\"; it counts as white");
   return no_index;
 }
 
-/// Nothing for the alpha of an opaque picture.
+/// Returns nothing for the alpha of an opaque image.
 std::optional<ImageTexels> Textures::decode(const Json& image, const std::string& name, std::span<const uint8_t> bytes,
                                             Texels texels) const {
   const bool is_png = starts_with(bytes, "\x89PNG\r\n\x1a\n");
@@ -166,8 +167,8 @@ std::optional<ImageTexels> Textures::decode(const Json& image, const std::string
   if (!is_png && !is_webp && !is_jpeg) {
     const char* format = unread_format(bytes);
     document_.fail(image, format != nullptr
-                              ? std::string("pictures in ") + format + " are not read: convert it to PNG or JPEG"
-                              : std::string("the picture is neither PNG nor JPEG nor WebP"));
+                              ? std::string("images in ") + format + " are not supported: convert it to PNG or JPEG"
+                              : std::string("the image is neither PNG nor JPEG nor WebP"));
   }
   if (texels == Texels::alpha) {
     if (is_jpeg) return std::nullopt;

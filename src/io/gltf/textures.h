@@ -1,6 +1,6 @@
 #pragma once
 
-// Textures of the document as nodes of the described scene.
+// Textures of the document as nodes of the scene description.
 
 #include <array>
 #include <map>
@@ -14,10 +14,10 @@
 
 namespace alhazen::gltf {
 
-/// What is taken of a picture.
+/// The data that are used of an image.
 enum class Texels { srgb, linear, alpha };
 
-/// Which sets of texture coordinates a mesh gets: uvs are TEXCOORD_(first), second_uvs TEXCOORD_(second).
+/// The sets of texture coordinates of a mesh: uvs are TEXCOORD_(first), second_uvs TEXCOORD_(second).
 using UvSets = std::array<int, 2>;
 
 class Textures {
@@ -28,7 +28,7 @@ class Textures {
   uint32_t constant(const Vec3d& value);
   /// a * b; absent ones count as 1.
   uint32_t product(uint32_t a, uint32_t b);
-  /// `value` times a texture; absent where both are 1.
+  /// `value` times a texture; absent if both are 1.
   uint32_t scaled(const Vec3d& value, uint32_t texture);
   uint32_t channel(uint32_t texture, int channel);
   uint32_t mix(uint32_t at_0, uint32_t at_1, uint32_t amount);
@@ -36,8 +36,8 @@ class Textures {
   uint32_t node(TextureKind kind);
   Texture& at(uint32_t index) const { return scene_.textures[index]; }
 
-  /// The picture of the member `key` of `object`, a textureInfo; absent where there is no such member, and for `alpha`
-  /// where the picture is opaque.
+  /// The image of the member `key` of `object`, a textureInfo; absent if there is no such member, and for `alpha` if
+  /// the image is opaque.
   uint32_t image(const Json& object, const char* key, Texels texels, const UvSets& uv_sets);
 
  private:
@@ -55,7 +55,7 @@ class Textures {
   std::map<std::tuple<uint32_t, Texels>, uint32_t> images_;
 };
 
-/// The sets of texture coordinates that a textureInfo names.
+/// The set of texture coordinates that a textureInfo uses.
 int texture_coordinate_set(const Document& document, const Json& info);
 
 }  // namespace alhazen::gltf

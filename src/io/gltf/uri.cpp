@@ -89,7 +89,7 @@ Resource load_uri(const Document& document, const Json& uri) {
   InputPath path((folder / decoded).string(), document.scope());
   InputProblem problem = input_problem(path);
   if (!problem.message.empty() && decoded != uri.string && !std::filesystem::path(uri.string).is_absolute()) {
-    // Some exporters forget to encode.
+    // Some exporters do not percent-encode.
     InputPath as_written((folder / uri.string).string(), document.scope());
     if (input_problem(as_written).message.empty()) {
       path = std::move(as_written);
@@ -97,7 +97,7 @@ Resource load_uri(const Document& document, const Json& uri) {
     }
   }
   if (problem.is_missing)
-    document.fail(uri, "the file " + alhazen::quoted(decoded) + " is not there; it must lie beside the glTF file");
+    document.fail(uri, "the file " + alhazen::quoted(decoded) + " does not exist; it must be beside the glTF file");
   if (!problem.message.empty()) document.fail(uri, "the file " + alhazen::quoted(decoded) + " " + problem.message);
   return {read_bytes(path), path.name};
 }

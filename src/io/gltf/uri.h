@@ -1,6 +1,6 @@
 #pragma once
 
-// What a URI of a glTF file stands for: bytes within the URI, or a file beside the document.
+// Resolves URIs of a glTF file: to bytes within the URI, or to a file beside the document.
 
 #include <cstdint>
 #include <string>
@@ -12,11 +12,11 @@ namespace alhazen::gltf {
 
 struct Resource {
   std::vector<uint8_t> bytes;
-  std::string name;  ///< the file, or a few words, for messages
+  std::string name;  ///< the file, or a description, for messages
 };
 
-/// The bytes that `uri`, a string of the document, leads to. Throws InputError where there are none: other schemes than
-/// `data`, paths that are not relative, files that are missing.
+/// The bytes that `uri`, a string of the document, refers to. Throws InputError for schemes other than `data`, paths
+/// that are not relative, and missing files.
 Resource load_uri(const Document& document, const Json& uri);
 
 }  // namespace alhazen::gltf

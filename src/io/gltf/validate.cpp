@@ -85,13 +85,13 @@ class Validator {
     if (has_view == (o.find("uri") != nullptr)) d_.fail(o, "an image has either a \"uri\" or a \"bufferView\"");
   }
 
-  /// Members whose names end in "Texture", wherever extensions of the material have them.
+  /// Checks members whose names end in "Texture", wherever extensions of the material have them.
   void check_textures(const Json& o, int depth) {
     for (size_t i = 0; i < o.items.size() && depth < 8; ++i) {
       const Json& member = o.items[i];
       if (member.kind != JsonKind::object || o.keys.empty() || o.keys[i] == "extras") continue;
       if (o.keys[i].ends_with("Texture")) {
-        // Of extensions that are not known, it is not known either whether they need one.
+        // Unknown extensions may or may not need one.
         if (depth < 2)
           d_.required_index(member, "index", "textures");
         else
@@ -101,7 +101,7 @@ class Validator {
     }
   }
 
-  /// The number of elements of the attributes, all of which must have it.
+  /// Returns the number of elements of the attributes, which must all have the same.
   std::optional<uint64_t> check_attributes(const Json& attributes, std::optional<uint64_t> count) {
     for (size_t i = 0; i < attributes.items.size(); ++i) {
       const std::string& name = attributes.keys[i];
@@ -109,7 +109,7 @@ class Validator {
       const uint64_t elements = d_.required_whole(accessor, "count");
       if (count && *count != elements)
         d_.fail(attributes.items[i], "\"" + name + "\" has " + std::to_string(elements) +
-                                         " elements where another has " + std::to_string(*count));
+                                         " elements and another attribute has " + std::to_string(*count));
       count = elements;
     }
     return count;

@@ -4,8 +4,8 @@
 
 namespace alhazen::gltf {
 
-/// Checks what can be told without the data: that every reference in the document leads to something, whether it is
-/// drawn or not, and that what belongs together is there. Throws InputError at the first fault.
+/// Checks everything that does not need the data: that every reference in the document is valid, whether used or not,
+/// and that required members are present. Throws InputError at the first error.
 void validate(const Document& document);
 
 }  // namespace alhazen::gltf

@@ -84,9 +84,9 @@ Scene Build::finish() {
   tessellate_spheres_of_skewed_instances(*this);
   const SourceLocation where{scene.name, 0, 0};
   if (!any_shape && scene.lights.empty())
-    diagnostics.warn(where, "the scene has no shapes and no lights; the picture will be black");
+    diagnostics.warn(where, "the scene has no shapes and no lights; the image will be black");
   else if (!any_emission)
-    diagnostics.warn(where, "the scene has no lights; the picture will be black");
+    diagnostics.warn(where, "the scene has no lights; the image will be black");
   if (lens_image_distance) scene.camera.fov = realistic_fov(*this);
   const double shutter = scene.camera.shutter_close - scene.camera.shutter_open;
   scene.film.exposure = exposure_time.value_or(shutter) * iso / 100 * lens_exposure;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Colours and spectra of parameters.
+// Reads colours and spectra from parameters.
 
 #include <optional>
 #include <string>
@@ -12,11 +12,11 @@ namespace alhazen::pbrt {
 
 enum class ColourUse {
   albedo,      ///< within [0, 1]
-  illuminant,  ///< of a light: spectra are scaled to luminance 1, rgb is taken as given
+  illuminant,  ///< of a light: spectra are scaled to luminance 1, rgb is used as given
   unbounded,   ///< any factor of 0 or more
 };
 
-/// The types that a colour can be given as.
+/// The parameter types that specify a colour.
 inline constexpr std::initializer_list<ParameterType> colour_types{ParameterType::rgb, ParameterType::spectrum,
                                                                    ParameterType::xyz, ParameterType::blackbody};
 

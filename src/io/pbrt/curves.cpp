@@ -23,8 +23,8 @@ Vec3d bezier_derivative(const Segment& p, double t) {
   return ((p[1] - p[0]) * (s * s) + (p[2] - p[1]) * (2 * s * t) + (p[3] - p[2]) * (t * t)) * 3;
 }
 
-/// How many straight pieces stay within a twentieth of the width of the curve, or a thousandth of its length where that
-/// is more (Wang 1984: n^2 = d (d - 1) / 8 * the largest second difference / tolerance).
+/// Number of straight pieces for an error within a twentieth of the curve's width, or a thousandth of its length if
+/// that is more (Wang 1984: n^2 = d (d - 1) / 8 * the largest second difference / tolerance).
 uint32_t pieces_of(const Segment& p, double width) {
   const double bend = std::max(length(p[0] - p[1] * 2 + p[2]), length(p[1] - p[2] * 2 + p[3]));
   const double reach = length(p[1] - p[0]) + length(p[2] - p[1]) + length(p[3] - p[2]);
@@ -33,11 +33,11 @@ uint32_t pieces_of(const Segment& p, double width) {
   return static_cast<uint32_t>(std::clamp(std::ceil(std::sqrt(0.75 * bend / tolerance)), 1.0, 32.0));
 }
 
-/// A place on the curve.
+/// A point on the curve with its frame.
 struct Station {
   Vec3d point, tangent;  ///< tangent: unit length
   double u;
-  Vec3d normal{};  ///< unit length, across the tangent
+  Vec3d normal{};  ///< unit length, perpendicular to the tangent
 };
 
 Vec3d slerp(const Vec3d& a, const Vec3d& b, double t) {
@@ -56,7 +56,7 @@ std::vector<Station> stations_of(const Curve& curve) {
     for (uint32_t k = i == 0 ? 0 : 1; k <= pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
       Station station{bezier(p, t), bezier_derivative(p, t), (static_cast<double>(i) + t) / count};
-      // Where control points coincide the derivative vanishes; the chord to the side stands for it.
+      // The derivative vanishes where control points coincide; the chord to the other end replaces it.
       if (!(length_squared(station.tangent) > 0))
         station.tangent = bezier(p, std::min(t + 0.01, 1.0)) - bezier(p, std::max(t - 0.01, 0.0));
       const double size = length(station.tangent);
@@ -75,8 +75,8 @@ Vec3d across(const Vec3d& v, const Vec3d& tangent) {
   return size > 1e-9 ? rest / size : frame_about(tangent).tangent;
 }
 
-/// Normals that turn about the tangent as little as possible, by double reflection (Wang, Juttler, Zheng, Liu 2008,
-/// "Computation of Rotation Minimizing Frames").
+/// Computes rotation-minimizing normals by double reflection (Wang, Juttler, Zheng, Liu 2008, "Computation of Rotation
+/// Minimizing Frames").
 void add_minimal_normals(std::vector<Station>& stations) {
   stations[0].normal = frame_about(stations[0].tangent).tangent;
   for (size_t i = 1; i < stations.size(); ++i) {
@@ -101,7 +101,7 @@ void add_vertex(Mesh& mesh, const Vec3d& position, const Vec3d& normal, double u
   mesh.uvs.push_back({static_cast<float>(u), static_cast<float>(v)});
 }
 
-/// Quads between rings of `count` vertices; closed: the last vertex is joined with the first.
+/// Adds quads between rings of `count` vertices; if closed, the last vertex is joined to the first.
 void join_rings(Mesh& mesh, uint32_t rings, uint32_t count, bool closed) {
   for (uint32_t ring = 0; ring + 1 < rings; ++ring) {
     for (uint32_t k = 0; k + (closed ? 0 : 1) < count; ++k) {
@@ -142,12 +142,12 @@ Mesh strip(const std::vector<Station>& stations, const Curve& curve) {
   return mesh;
 }
 
-/// Raised to degree 3.
+/// Elevates a quadratic segment to degree 3.
 Segment raised(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return {a, lerp(a, b, 2.0 / 3), lerp(b, c, 1.0 / 3), c};
 }
 
-/// The segment of uniform B-spline control points from `p`, by its blossom.
+/// The segment of the uniform B-spline with control points from `p`, computed by its blossom.
 Segment segment_of_spline(const Vec3d* p, int degree) {
   if (degree == 2) return raised(lerp(p[0], p[1], 0.5), p[1], lerp(p[1], p[2], 0.5));
   const Vec3d b1 = lerp(p[1], p[2], 1.0 / 3), b2 = lerp(p[1], p[2], 2.0 / 3);

@@ -22,7 +22,7 @@ int64_t read_side(ParameterList& list, std::string_view name, int32_t fallback) 
   const int32_t side = list.integer(name, fallback);
   if (side < 1 || side > max_side)
     fail(list.place_of(name),
-         "\"" + std::string(name) + "\" is " + std::to_string(side) + "; a picture has from 1 to 100000 pixels a side");
+         "\"" + std::string(name) + "\" is " + std::to_string(side) + "; an image has from 1 to 100000 pixels a side");
   return side;
 }
 
@@ -36,8 +36,8 @@ std::array<int64_t, 4> read_pixel_bounds(Build& build, ParameterList& list, cons
       std::clamp<int64_t>(bounds[0], 0, film.width), std::clamp<int64_t>(bounds[1], 0, film.width),
       std::clamp<int64_t>(bounds[2], 0, film.height), std::clamp<int64_t>(bounds[3], 0, film.height)};
   if (inside[0] >= inside[1] || inside[2] >= inside[3])
-    fail(place, "\"pixelbounds\" leaves no pixel of the picture; it takes x0 x1 y0 y1");
-  if (inside != bounds) build.warn(place, "\"pixelbounds\" reaches past the picture; it is cut to it");
+    fail(place, "\"pixelbounds\" leaves no pixel of the image; it takes x0 x1 y0 y1");
+  if (inside != bounds) build.warn(place, "\"pixelbounds\" reaches past the image; it is clipped to it");
   return inside;
 }
 
@@ -52,11 +52,11 @@ std::array<int64_t, 4> read_crop_window(ParameterList& list, const FilmSettings&
   const auto [y0, y1] = std::minmax(values[2], values[3]);
   const std::array<int64_t, 4> bounds{pixel(x0, film.width), pixel(x1, film.width), pixel(y0, film.height),
                                       pixel(y1, film.height)};
-  if (bounds[0] >= bounds[1] || bounds[2] >= bounds[3]) fail(place, "\"cropwindow\" leaves no pixel of the picture");
+  if (bounds[0] >= bounds[1] || bounds[2] >= bounds[3]) fail(place, "\"cropwindow\" leaves no pixel of the image");
   return bounds;
 }
 
-/// What scales the radiance, and the simulated sensors that are not supported.
+/// Reads the scale of the radiance; the simulated sensors are not supported.
 void read_sensor(Build& build, ParameterList& list) {
   build.iso = list.positive("iso", 100);
   build.exposure_time.reset();
@@ -64,9 +64,9 @@ void read_sensor(Build& build, ParameterList& list) {
   const std::string sensor = list.string("sensor", "cie1931");
   if (sensor != "cie1931")
     build.warn(list.place_of("sensor"),
-               "the sensor \"" + sensor + "\" is not supported; the picture is as bright, in linear sRGB");
+               "the sensor \"" + sensor + "\" is not supported; the image is as bright, in linear sRGB");
   if (list.number("whitebalance", 0) != 0)
-    build.warn(list.place_of("whitebalance"), "\"whitebalance\" is not supported; it is left out");
+    build.warn(list.place_of("whitebalance"), "\"whitebalance\" is not supported; it is ignored");
   if (list.has("maxcomponentvalue"))
     build.warn(list.place_of("maxcomponentvalue"), "\"maxcomponentvalue\" is not supported; samples are not clamped");
 }
@@ -108,8 +108,8 @@ void read_spherical(Build&, ParameterList& list, Camera& camera) {
   list.ignore({"frameaspectratio", "screenwindow", "lensradius", "focaldistance"});
 }
 
-/// The numbers of a lens file: four an interface, from the front of the lens to the film: radius of curvature and
-/// distance to the next in millimetres, index of refraction behind it, diameter.
+/// Reads a lens file, which has four numbers per interface, from the front of the lens to the film: radius of curvature
+/// and distance to the next interface in millimetres, index of refraction behind it, and diameter.
 std::vector<double> read_lens_file(const InputPath& input) {
   const std::string& path = input.name;
   const std::vector<uint8_t> bytes = read_short_text(input);
@@ -126,16 +126,16 @@ std::vector<double> read_lens_file(const InputPath& input) {
         used = 0;
       }
       if (used != word.size() || !std::isfinite(value))
-        throw InputError({path}, "a lens file holds numbers, four an interface, not " + alhazen::quoted(word));
+        throw InputError({path}, "a lens file holds four numbers per interface, not " + alhazen::quoted(word));
       values.push_back(value);
     }
   }
   if (values.empty() || values.size() % 4 != 0)
-    throw InputError({path}, "a lens file holds four numbers an interface: radius, thickness, index, diameter");
+    throw InputError({path}, "a lens file holds four numbers per interface: radius, thickness, index, diameter");
   return values;
 }
 
-/// Of a ray near the axis that comes in along it, through all interfaces (an aperture stop has radius 0).
+/// Traces a paraxial ray, parallel to the axis, through all interfaces (an aperture stop has radius 0).
 double focal_length(const std::vector<double>& lens) {
   double height = 1, slope = 0, index = 1;
   for (size_t i = 0; i < lens.size(); i += 4) {
@@ -155,7 +155,7 @@ void read_realistic(Build& build, ParameterList& list, Camera& camera) {
   if (list.has("lensfile")) {
     const double f =
         focal_length(read_lens_file(build.existing_file(list.place_of("lensfile"), list.string("lensfile", ""))));
-    // Where the thin lens of that focal length has the picture; millimetres, of scenes in metres.
+    // Image distance of a thin lens of that focal length, in millimetres for scenes in metres.
     if (f > 0 && 1000 * distance > f) build.lens_image_distance = f * 1000 * distance / (1000 * distance - f);
   }
   const double diameter = list.positive("aperturediameter", 1);
@@ -185,7 +185,7 @@ void set_film(Build& build, const std::string& kind, ParameterList& list) {
   film.width = read_side(list, "xresolution", 1280);
   film.height = read_side(list, "yresolution", 720);
   if (film.width * film.height >= max_pixels)
-    fail(list.place_of("yresolution"), "the picture has 10^9 pixels or more; lower xresolution or yresolution");
+    fail(list.place_of("yresolution"), "the image has 10^9 pixels or more; lower xresolution or yresolution");
   film.filename = list.string("filename", "");
   if (list.has("pixelbounds")) film.pixel_bounds = read_pixel_bounds(build, list, film);
   if (list.has("cropwindow")) {
@@ -196,7 +196,7 @@ void set_film(Build& build, const std::string& kind, ParameterList& list) {
   }
   read_sensor(build, list);
   if (build.state.rgb_space != "srgb")
-    build.warn(list.place(), "the picture is written in linear sRGB, not in the colour space of the film");
+    build.warn(list.place(), "the image is written in linear sRGB, not in the colour space of the film");
   build.film_diagonal = list.positive("diagonal", 35);
   list.ignore({"savefp16", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"});
   list.reject_unknown();

@@ -31,7 +31,7 @@ WrapMode read_wrap(Build& build, ParameterList& list) {
   return WrapMode::clamp;
 }
 
-/// All filters but the first are interpolated, also between sizes of the picture where it is seen from afar.
+/// All filters but "point" interpolate, and use the image pyramid for minification.
 bool read_nearest(ParameterList& list) {
   const std::string filter = list.string("filter", "bilinear");
   if (filter == "point") return true;
@@ -46,7 +46,7 @@ ImageTexels read_scalar(Build& build, ParameterList& list, const InputPath& path
     build.warn(list.place_of("filename"),
                "the float texture is the alpha channel of \"" + list.string("filename", "") +
                    "\"; pbrt-v4 reads alpha of EXR, of RGBA in PNG and of QOI alone and takes the mean of the colours "
-                   "here: save the picture without alpha where they are meant");
+                   "here: save the image without alpha where they are meant");
   return std::move(scalar.texels);
 }
 

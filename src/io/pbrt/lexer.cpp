@@ -10,11 +10,11 @@ namespace alhazen::pbrt {
 
 namespace {
 
-/// Decompressed bytes that one file may hold: what a small .gz can grow to must not keep the machine for hours.
+/// Limit on the decompressed bytes of one file, so that a small .gz file cannot occupy the machine for hours.
 constexpr uint64_t max_text_bytes = uint64_t{8} << 30;
 
-/// What is read at a time; less where the file is smaller, since scenes may include very many.
-constexpr size_t window_size = size_t{1} << 18, smallest_window = 4096;
+/// Bytes read at a time; less for smaller files, since scenes may include very many.
+constexpr size_t window_size = size_t{1} << 18, min_window = 4096;
 
 /// Longer than any name or path.
 constexpr size_t max_token_size = size_t{1} << 20;
@@ -23,7 +23,7 @@ bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; 
 
 bool ends_word(char c) { return is_blank(c) || c == '"' || c == '[' || c == ']'; }
 
-/// from_chars calls both 1e999 and 1e-999 out of range; only the first is an error.
+/// from_chars reports both 1e999 and 1e-999 as out of range; only the first is an error.
 bool is_underflow(std::string_view text) {
   const size_t exponent = text.find_first_of("eE");
   if (exponent != std::string_view::npos) return text.substr(exponent + 1, 1) == "-";
@@ -41,7 +41,7 @@ std::string_view without_plus(std::string_view text) {
 Lexer::Lexer(std::shared_ptr<const SourceFile> source)
     : source_(std::move(source)),
       bytes_(source_->open()),
-      window_(std::clamp<size_t>(bytes_->plausible_size(), smallest_window, window_size)) {
+      window_(std::clamp<size_t>(bytes_->plausible_size(), min_window, window_size)) {
   position_ = end_ = window_.data();
   while (end_ - position_ < 4 && refill()) {
   }
@@ -69,7 +69,7 @@ int Lexer::line() const { return static_cast<int>(std::min<int64_t>(line_, std::
 
 bool Lexer::more() { return position_ < end_ || refill(); }
 
-/// The window is about to move: the token that the caller holds gets a copy of its text.
+/// Copies the text of the token that the caller holds before the window moves.
 void Lexer::keep_returned_token() {
   const bool is_in_window = returned_.text.data() >= window_.data() && returned_.text.data() < end_;
   if (returned_.text.empty() || !is_in_window) return;
@@ -77,14 +77,14 @@ void Lexer::keep_returned_token() {
   returned_.text = returned_text_;
 }
 
-/// Reads on, from `position_`, which is the end of what was read. False at the end of the text.
+/// Reads more text from `position_`, the end of the window. Returns false at the end of the text.
 bool Lexer::refill() {
   keep_returned_token();
   const char* const kept_from = token_start_ ? token_start_ : position_;
   const size_t moved = static_cast<size_t>(kept_from - window_.data()), kept = static_cast<size_t>(end_ - kept_from);
   if (kept > max_token_size)
     fail({source_, token_.line, token_.column},
-         "a word or string of over 1 MiB is none; is a quotation mark or a blank missing?");
+         "a word or string of over 1 MiB is too long; is a quotation mark or a blank missing?");
   std::memmove(window_.data(), kept_from, kept);
   column_offset_ += static_cast<int64_t>(moved);
   position_ -= moved;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Cuts a scene text into tokens as it is read. The only place of the reader that turns characters into numbers.
+// Splits a scene text into tokens as it is read. Only this part of the reader converts characters to numbers.
 
 #include <cstdint>
 #include <memory>
@@ -16,12 +16,12 @@ enum class TokenKind { end, word, string, open_bracket, close_bracket };
 
 struct Token {
   TokenKind kind = TokenKind::end;
-  std::string_view text;  ///< as it stands in the source, with the quotes of a string
+  std::string_view text;  ///< as in the source, including the quotes of a string
   int line = 1;
   int column = 1;
 };
 
-/// Holds a window of the text, so that memory does not grow with it.
+/// Holds a window of the text, so that memory does not grow with the file.
 class Lexer {
  public:
   explicit Lexer(std::shared_ptr<const SourceFile> source);
@@ -30,7 +30,7 @@ class Lexer {
 
   /// The next token. Its text is valid until `next` is called.
   const Token& peek() const { return token_; }
-  /// Goes past it. The text of what is returned is valid until `next` is called again.
+  /// Advances past it. The text of the returned token is valid until `next` is called again.
   Token next();
   Place place(const Token& token) const { return {source_, token.line, token.column}; }
 
@@ -52,21 +52,21 @@ class Lexer {
   std::vector<char> window_;
   const char* position_ = nullptr;
   const char* end_ = nullptr;
-  const char* token_start_ = nullptr;  ///< what must stay in the window; null between tokens
+  const char* token_start_ = nullptr;  ///< start of what must remain in the window; null between tokens
   int64_t line_ = 1;
-  int64_t column_offset_ = 1;  ///< of a position in the line: this and its distance from the window's start
+  int64_t column_offset_ = 1;  ///< the column of a position is this plus its distance from the window's start
   Token token_;
   Token returned_;
   std::string returned_text_;  ///< of `returned_`, once the window has moved past it
 };
 
-/// The token as a message names it: `"text"`, shortened, or `the end of the file`.
+/// The token as it appears in messages: `"text"`, shortened, or `the end of the file`.
 std::string described(const Token& token);
 
-/// The characters of a string token with its escapes resolved.
+/// The characters of a string token, with escapes resolved.
 std::string unquoted(const Lexer& lexer, const Token& token);
 
-/// The next token, which must be a string. `what` names it in the message.
+/// Reads the next token, which must be a string. `what` describes it in the message.
 std::string expect_string(Lexer& lexer, const std::string& what);
 
 /// The value of a number token. It is always finite: the format has no infinity and no NaN.

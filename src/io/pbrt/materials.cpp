@@ -17,10 +17,10 @@ namespace {
 
 struct ReadMaterial {
   Material material;
-  bool invisible = false;  ///< shapes of it are left out
+  bool invisible = false;  ///< its shapes are omitted
 };
 
-/// The Fraunhofer d line, at which the index of a glass is quoted.
+/// The Fraunhofer d line, at which indices of refraction of glass are quoted.
 constexpr double d_line_nanometres = 587.56;
 
 void read_roughness(Build& build, ParameterList& list, const std::string& prefix, Material& material) {
@@ -44,7 +44,7 @@ const Spectrum& copper(const ParameterList& list, const std::string& name) {
   fail(list.place(), "the spectrum \"" + name + "\", default of " + list.directive() + ", is missing in this build");
 }
 
-/// eta and k, together where both are spectra: their projections to sRGB depend on each other.
+/// Reads eta and k, together if both are spectra, since their conversions to sRGB depend on each other.
 void read_conductor_indices(Build& build, ParameterList& list, const std::string& prefix, Material& material) {
   const std::string eta_name = prefix + "eta", k_name = prefix + "k";
   const Parameter* eta = list.find(eta_name);
@@ -104,15 +104,15 @@ ReadMaterial read_dielectric(Build& build, ParameterList& list) {
   return read;
 }
 
-/// What lies between the interface and the base of a coat.
+/// Reads the medium between the interface and the base of a coat.
 void read_coat(Build& build, ParameterList& list, Material& material) {
   material.thickness_is_given = list.has("thickness");
   material.thickness = list.number("thickness", 0.01);
   if (!(material.thickness >= 0)) fail(list.place_of("thickness"), "\"thickness\" must not be negative");
   const Parameter* albedo = list.find("albedo");
   if (albedo && albedo->type != ParameterType::texture && !is_zero(colour_of(build, *albedo, ColourUse::unbounded)))
-    build.warn(albedo->place, "light scattered within coats is not supported; they absorb alone");
-  // pbrt-v4 counts both surfaces.
+    build.warn(albedo->place, "scattering within coats is not supported; they only absorb");
+  // pbrt-v4 counts bounces at both surfaces.
   const int32_t depth = list.integer("maxdepth", 10);
   if (depth < 1) fail(list.place_of("maxdepth"), "\"maxdepth\" must be 1 or more");
   material.coat_bounces = (std::min(depth, 1000) + 1) / 2;
@@ -197,7 +197,7 @@ ReadMaterial read_mix(Build& build, ParameterList& list) {
   return read;
 }
 
-/// What the materials that are replaced take besides what their replacement does.
+/// Ignores parameters of replaced materials that the replacement does not use.
 void ignore_parameters_of_replaced(ParameterList& list) {
   list.ignore({"reflectance", "roughness", "uroughness", "vroughness", "remaproughness", "eta", "g", "scale", "sigma_a",
                "sigma_s", "mfp", "name", "eumelanin", "beta_m", "beta_n", "alpha", "color", "pheomelanin", "filename"});
@@ -205,11 +205,11 @@ void ignore_parameters_of_replaced(ParameterList& list) {
 
 struct KnownMaterial {
   ReadMaterial (*read)(Build&, ParameterList&);
-  const char* replacement = nullptr;  ///< what is done instead, where the material is not supported
+  const char* replacement = nullptr;  ///< what is used instead, if the material is not supported
 };
 
-constexpr const char* as_diffuse = "diffuse of its reflectance (0.5 where it has none) is used";
-constexpr const char* as_nothing = "its surfaces are left out, as participating media are";
+constexpr const char* as_diffuse = "diffuse with its reflectance (0.5 if it has none) is used";
+constexpr const char* as_nothing = "its surfaces are omitted, as participating media are";
 
 const std::map<std::string, KnownMaterial> known_materials{
     {"diffuse", {read_diffuse}},
@@ -219,7 +219,7 @@ const std::map<std::string, KnownMaterial> known_materials{
     {"coatedconductor", {read_coated_conductor}},
     {"thindielectric", {read_thin_dielectric}},
     {"diffusetransmission", {read_diffuse_transmission}},
-    {"subsurface", {read_subsurface, "diffuse of its reflectance (0.5 where it has none) under its interface is used"}},
+    {"subsurface", {read_subsurface, "diffuse with its reflectance (0.5 if it has none) under its interface is used"}},
     {"measured", {read_diffuse, as_diffuse}},
     {"hair", {read_diffuse, as_diffuse}},
     {"mix", {read_mix}},
@@ -227,7 +227,7 @@ const std::map<std::string, KnownMaterial> known_materials{
     {"none", {read_interface, as_nothing}},
     {"", {read_interface, as_nothing}}};
 
-/// `"string normalmap"`: the picture of normals, whose values are linear.
+/// `"string normalmap"`: the image of normals, whose values are linear.
 uint32_t read_normal_map(Build& build, ParameterList& list) {
   if (!list.has("normalmap")) return no_index;
   const InputPath path = build.existing_file(list.place_of("normalmap"), list.string("normalmap", ""));
@@ -327,7 +327,7 @@ void define_named_medium(Build& build, const std::string& name, ParameterList& l
       return;
     }
   }
-  build.warn(list.place(), "participating media that scatter are not supported; they are left out");
+  build.warn(list.place(), "participating media that scatter are not supported; they are omitted");
 }
 
 void set_medium_interface(Build& build, const std::string& inside, const std::string& outside, const Place& place) {
@@ -335,8 +335,8 @@ void set_medium_interface(Build& build, const std::string& inside, const std::st
   build.state.absorption_inside = {};
   if (!absorbing(inside) || !outside.empty()) {
     build.warn(place,
-               "participating media are not supported, but for homogeneous ones without scattering inside "
-               "dielectrics; they are left out");
+               "participating media are not supported, except homogeneous ones without scattering inside "
+               "dielectrics; they are omitted");
     return;
   }
   if (!inside.empty()) build.state.absorption_inside = build.absorbing_media.at(inside);
@@ -344,7 +344,7 @@ void set_medium_interface(Build& build, const std::string& inside, const std::st
 
 namespace {
 
-/// A mix with surfaces that are left out lets rays through where those are.
+/// A mix with omitted surfaces is transparent where it selects those.
 void finish_mix(Build& build, uint32_t index) {
   const Material mix = build.scene.materials[index];
   const bool first = build.material_is_invisible[mix.mixed[0]], second = build.material_is_invisible[mix.mixed[1]];
@@ -374,7 +374,7 @@ void finish_materials(Build& build) {
   const std::vector<uint32_t> mixes = order_of_mixes(build.scene.materials, of_itself);
   if (of_itself != no_index)
     fail(build.mix_places.at(of_itself),
-         "the mix \"" + build.scene.materials[of_itself].name + "\" is made of itself, directly or through others");
+         "the mix \"" + build.scene.materials[of_itself].name + "\" contains itself, directly or through others");
   for (const uint32_t mix : mixes) finish_mix(build, mix);
   for (const auto& [index, variant] : build.variants) {
     Material material = build.scene.materials[variant.base];
@@ -382,7 +382,7 @@ void finish_materials(Build& build) {
     if (material.type == MaterialType::dielectric)
       material.absorption = variant.absorption;
     else if (!is_zero(variant.absorption) && !build.material_is_invisible[variant.base])
-      build.warn(variant.medium_place, "a medium inside a surface that is no dielectric is left out");
+      build.warn(variant.medium_place, "a medium inside a surface that is not a dielectric is omitted");
     build.scene.materials[index] = std::move(material);
     build.material_is_invisible[index] = build.material_is_invisible[variant.base];
   }

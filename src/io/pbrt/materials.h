@@ -8,25 +8,25 @@
 
 namespace alhazen::pbrt {
 
-/// `Material "kind"`: the material of the shapes that follow.
+/// `Material "kind"`: the material of subsequent shapes.
 void set_material(Build& build, const std::string& kind, ParameterList& list);
 /// `MakeNamedMaterial "name" "string type" "kind"`.
 void define_named_material(Build& build, const std::string& name, ParameterList& list);
 /// `NamedMaterial "name"`, which may be defined later.
 void use_named_material(Build& build, const std::string& name, const Place& place);
 
-/// The material of a shape: the current one, or the diffuse one of reflectance 0.5 where none was set.
+/// The material of a shape: the current one, or a diffuse one with reflectance 0.5 if none is set.
 uint32_t current_material(Build& build);
 
-/// The same with the `alpha` of a shape, and with what the medium inside it absorbs.
+/// The same with the `alpha` of a shape, and with the absorption of the medium inside it.
 uint32_t material_of_shape(Build& build, uint32_t alpha, const Place& place);
 
-/// `MakeNamedMedium`: kept where all that it does is to absorb.
+/// `MakeNamedMedium`: stored if it only absorbs.
 void define_named_medium(Build& build, const std::string& name, ParameterList& list);
 /// `MediumInterface`.
 void set_medium_interface(Build& build, const std::string& inside, const std::string& outside, const Place& place);
 
-/// What had to wait until all materials were defined.
+/// Completes materials after all of them are defined.
 void finish_materials(Build& build);
 
 }  // namespace alhazen::pbrt

@@ -12,10 +12,10 @@ namespace alhazen::pbrt {
 
 namespace {
 
-/// Triangles that subdivision may lead to.
+/// Limit on triangles after subdivision.
 constexpr size_t max_subdivided_triangles = size_t{1} << 22;
 
-/// Vertices that indices of 32 bits can tell apart, with room for one more patch.
+/// Limit on vertices for 32-bit indices, with room for one more patch.
 constexpr size_t max_vertices = (size_t{1} << 32) - 1000;
 
 void orient_by_normals(Mesh& mesh) {
@@ -29,7 +29,7 @@ void orient_by_normals(Mesh& mesh) {
   }
 }
 
-/// Positions and indices with `corners` a face. One face needs no indices.
+/// Reads positions and indices with `corners` per face. A single face needs no indices.
 Mesh read_faces(ParameterList& list, size_t corners) {
   Mesh mesh;
   const Place indices_place = list.place_of("indices");
@@ -54,10 +54,10 @@ Mesh read_faces(ParameterList& list, size_t corners) {
 void require_per_vertex(const Place& place, std::string_view name, size_t count, size_t vertices) {
   if (count != 0 && count != vertices)
     fail(place, "\"" + std::string(name) + "\" has " + std::to_string(count) + " values for " +
-                    std::to_string(vertices) + " points; it takes one a point");
+                    std::to_string(vertices) + " points; it takes one per point");
 }
 
-/// Normals and uvs with one value a vertex, or none.
+/// Reads normals and uvs with one value per vertex, if there are any.
 void read_vertex_data(ParameterList& list, Mesh& mesh) {
   const Place normals_place = list.place_of("N"), uvs_place = list.place_of("uv");
   mesh.normals = list.take_normals("N");
@@ -66,7 +66,7 @@ void read_vertex_data(ParameterList& list, Mesh& mesh) {
   require_per_vertex(uvs_place, "uv", mesh.uvs.size(), mesh.positions.size());
 }
 
-/// Growing a list to its length leaves up to as much again unused.
+/// Frees the unused capacity of an array that grew, which may be as large as its contents.
 void release_slack(Mesh& mesh) {
   mesh.positions.shrink_to_fit();
   mesh.indices.shrink_to_fit();
@@ -78,7 +78,7 @@ void release_slack(Mesh& mesh) {
 
 uint32_t add_mesh(Build& build, const ParameterList& list, Mesh mesh) {
   for (const Vec3d& position : mesh.positions)
-    if (!is_finite(position)) fail(list.place(), list.directive() + ": a coordinate grows past double precision");
+    if (!is_finite(position)) fail(list.place(), list.directive() + ": a coordinate exceeds double precision");
   orient_by_normals(mesh);
   release_slack(mesh);
   build.scene.meshes.push_back(std::move(mesh));
@@ -97,7 +97,7 @@ uint32_t read_bilinear_mesh(Build& build, ParameterList& list) {
   read_vertex_data(list, patches);
   list.ignore({"faceIndices"});
   if (list.has("emissionfilename"))
-    build.warn(list.place_of("emissionfilename"), "pictures of the emission of patches are not supported");
+    build.warn(list.place_of("emissionfilename"), "emission images of patches are not supported");
   Mesh mesh;
   for (size_t i = 0; i < patches.indices.size(); i += 4) {
     BilinearPatch patch{{}, {}, {Vec2f{0, 0}, Vec2f{1, 0}, Vec2f{0, 1}, Vec2f{1, 1}}};
@@ -117,7 +117,7 @@ uint32_t read_bilinear_mesh(Build& build, ParameterList& list) {
 uint32_t read_ply_mesh(Build& build, ParameterList& list) {
   list.ignore({"edgelength"});
   if (list.has("displacement"))
-    build.warn(list.place_of("displacement"), "\"displacement\" of meshes is not supported; it is left out");
+    build.warn(list.place_of("displacement"), "\"displacement\" of meshes is not supported; it is ignored");
   if (!list.has("filename")) fail(list.place(), list.directive() + " needs \"string filename\" [ \"mesh.ply\" ]");
   const InputPath path = build.existing_file(list.place_of("filename"), list.string("filename", ""));
   const auto [entry, is_new] = build.meshes_by_key.try_emplace("ply " + path.name, 0u);

@@ -1,13 +1,13 @@
 #pragma once
 
-// The shapes that a scene file gives as vertices and indices.
+// The shapes that a scene file specifies by vertices and indices.
 
 #include "io/pbrt/build.h"
 
 namespace alhazen::pbrt {
 
-/// Adds a mesh to the scene. Where it has normals, the winding of each triangle is turned to agree with them: pbrt
-/// takes the side of a surface from its normals where it has them. Throws at the place of the directive where a
+/// Adds a mesh to the scene. If it has normals, the winding of each triangle is made to agree with them: pbrt
+/// determines the side of a surface by its normals if it has any. Throws with the location of the directive if a
 /// coordinate is not finite.
 uint32_t add_mesh(Build& build, const ParameterList& list, Mesh mesh);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Suggestions for misspelt names, and for names of the version before.
+// Suggestions for misspelt names, and for names of pbrt-v3.
 
 #include <algorithm>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace alhazen::pbrt {
 
-/// Levenshtein distance, by the row.
+/// Levenshtein distance, computed row by row.
 inline size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<size_t> row(b.size() + 1);
   for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -25,7 +25,7 @@ inline size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-/// `; did you mean "x"?` where one of `names` is close to `word`, else nothing.
+/// `; did you mean "x"?` if one of `names` is close to `word`, else nothing.
 template <class Names>
 std::string suggestion(std::string_view word, const Names& names) {
   std::string_view best;
@@ -43,7 +43,8 @@ std::string suggestion(std::string_view word, const Names& names) {
   return best.empty() ? std::string() : "; did you mean \"" + std::string(best) + "\"?";
 }
 
-/// After a name that is not known: what to do where it is one of pbrt-v3's that pbrt-v4 took out, else `otherwise`.
+/// The end of the message for an unknown name: what to do if it is one of pbrt-v3 that pbrt-v4 removed, else
+/// `otherwise`.
 inline std::string or_upgrade(std::string_view name, const std::string& otherwise) {
   constexpr std::string_view names_of_v3[] = {
       "image",          "area",         "color",       "matte",          "plastic",           "substrate",
@@ -52,11 +53,12 @@ inline std::string or_upgrade(std::string_view name, const std::string& otherwis
       "directlighting", "whitted",      "heightfield", "nurbs",          "SurfaceIntegrator", "VolumeIntegrator"};
   for (const std::string_view old : names_of_v3)
     if (name == old)
-      return "; that is of pbrt-v3, and pbrt-v4 files are read: convert it by 'pbrt --upgrade old.pbrt > new.pbrt'";
+      return "; that is pbrt-v3, and only pbrt-v4 files are supported: convert it by 'pbrt --upgrade old.pbrt > "
+             "new.pbrt'";
   return otherwise;
 }
 
-/// The same for one of several kinds.
+/// The same for one of several kinds, with a suggestion.
 template <class Names>
 std::string upgrade_or_suggestion(std::string_view name, const Names& names) {
   return or_upgrade(name, suggestion(name, names));

@@ -21,11 +21,11 @@ const Value& known_kind(const std::map<std::string, Value>& kinds, const std::st
   fail(list.place(), "unknown " + what + " \"" + kind + "\"" + upgrade_or_suggestion(kind, names));
 }
 
-/// What stands in for an integrator of pbrt-v4, and what to say where the picture is another one for it.
+/// The replacement of an integrator of pbrt-v4, and the warning if it renders another image.
 struct IntegratorReplacement {
   IntegratorKind type = IntegratorKind::path;
   const char* difference = nullptr;
-  bool finds_more = false;  ///< follows paths from lights too, and so finds caustics of lights without size
+  bool finds_more = false;  ///< also traces paths from lights, and so finds caustics of delta lights
 };
 
 constexpr IntegratorReplacement from_lights_too{.finds_more = true};
@@ -98,7 +98,7 @@ void set_sampler(Build& build, const std::string& kind, ParameterList& list) {
     const int64_t x = positive_integer(list, "xsamples", 4), y = positive_integer(list, "ysamples", 4);
     build.scene.samples_per_pixel = x * y;
     if (build.scene.samples_per_pixel > 0x7fffffff)
-      fail(list.place(), list.directive() + ": xsamples * ysamples is over 2^31 samples a pixel");
+      fail(list.place(), list.directive() + ": xsamples * ysamples is over 2^31 samples per pixel");
     list.ignore({"jitter"});
   } else {
     build.scene.samples_per_pixel = positive_integer(list, "pixelsamples", kind == "independent" ? 4 : 16);
@@ -110,7 +110,7 @@ void set_sampler(Build& build, const std::string& kind, ParameterList& list) {
 
 namespace {
 
-/// "power" and "bvh" are done as asked for; "uniform" and "exhaustive" are left to what suits the scene.
+/// "power" and "bvh" are supported; "uniform" and "exhaustive" leave the choice to the renderer.
 void set_light_sampler(Build& build, ParameterList& list) {
   const std::string sampler = list.string("lightsampler", "");
   if (sampler == "power")
@@ -131,9 +131,9 @@ void set_integrator(Build& build, const std::string& kind, ParameterList& list) 
   build.scene.max_depth = list.integer("maxdepth", 5);
   if (build.scene.max_depth < 0) fail(list.place_of("maxdepth"), "\"maxdepth\" cannot be negative");
   if (list.boolean("regularize", false))
-    build.warn(list.place_of("regularize"), "\"regularize\" is not supported; it is left out");
-  // Of these settings none changes what a picture converges to; what `path` does not find at all is warned of where the
-  // scene is compiled.
+    build.warn(list.place_of("regularize"), "\"regularize\" is not supported; it is ignored");
+  // None of these settings changes the expected image; light that `path` cannot find is warned of when the scene is
+  // compiled.
   set_light_sampler(build, list);
   list.ignore({"samplelights", "samplebsdf", "visualizestrategies", "visualizeweights", "bootstrapsamples", "chains",
                "mutationsperpixel", "largestepprobability", "sigma", "photonsperiteration", "radius", "seed",
@@ -164,7 +164,7 @@ void set_option(Build& build, Lexer& lexer, const Place& place) {
   if (plain == "seed") {
     build.scene.seed = static_cast<uint32_t>(integer_of(lexer, value));
   } else if (flags_without_support.contains(plain)) {
-    if (read_flag(lexer, value, name)) build.warn(place, "option \"" + plain + "\" is not supported; it is left out");
+    if (read_flag(lexer, value, name)) build.warn(place, "option \"" + plain + "\" is not supported; it is ignored");
   } else if (!without_effect.contains(plain)) {
     std::set<std::string> known = without_effect;
     known.insert(flags_without_support.begin(), flags_without_support.end());

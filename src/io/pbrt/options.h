@@ -10,7 +10,7 @@
 namespace alhazen::pbrt {
 
 void set_camera(Build& build, const std::string& kind, ParameterList& list);
-/// Degrees over the shorter side of the film, of the realistic camera that was read.
+/// Field of view in degrees over the shorter side of the film, of the realistic camera in the file.
 double realistic_fov(const Build& build);
 void set_film(Build& build, const std::string& kind, ParameterList& list);
 void set_filter(Build& build, const std::string& kind, ParameterList& list);

@@ -16,7 +16,7 @@ struct NamedType {
   ParameterType type;
 };
 
-/// With the spellings of earlier versions of the format.
+/// Includes the spellings of earlier versions of the format.
 constexpr std::array<NamedType, 19> types{{{"bool", ParameterType::boolean},
                                            {"float", ParameterType::number},
                                            {"integer", ParameterType::integer},
@@ -66,8 +66,8 @@ Parameter declared(const Lexer& lexer, const Token& token, const std::string& di
   return parameter;
 }
 
-/// Calls `read_item` for each item of a bracketed list or for the one item that stands without brackets.
-/// `read_item` consumes one item, which may take several tokens.
+/// Calls `read_item` for each item of a bracketed list or for a single item without brackets. `read_item` consumes one
+/// item, which may take several tokens.
 template <class ReadItem>
 void for_each_item(Lexer& lexer, const Parameter& parameter, bool tuple, ReadItem read_item) {
   if (lexer.peek().kind != TokenKind::open_bracket) {
@@ -102,14 +102,14 @@ double next_number(Lexer& lexer, const Parameter& parameter) {
   return value;
 }
 
-/// One number of a tuple; a list that ends within a tuple is an error of the parameter.
+/// Reads one number of a tuple; it is an error of the parameter if the list ends within a tuple.
 double tuple_number(Lexer& lexer, const Parameter& parameter, const char* size) {
   if (lexer.peek().kind == TokenKind::close_bracket)
     fail(parameter.place, "\"" + parameter.name + "\": the number of values is not a multiple of " + size);
   return next_number(lexer, parameter);
 }
 
-/// Normals and texture coordinates are kept in single precision.
+/// Normals and texture coordinates are stored in single precision.
 float tuple_float(Lexer& lexer, const Parameter& parameter, const char* size) {
   const Place place = lexer.place(lexer.peek());
   const auto value = static_cast<float>(tuple_number(lexer, parameter, size));
@@ -160,7 +160,7 @@ Normals read_normals(Lexer& lexer, const Parameter& parameter) {
   return list;
 }
 
-/// `true` and `false`, also in quotes as earlier versions have them.
+/// `true` and `false`, also in quotes as in earlier versions.
 Booleans read_booleans(Lexer& lexer, const Parameter& parameter) {
   Booleans list;
   for_each_item(lexer, parameter, false, [&] {
@@ -183,7 +183,7 @@ Strings read_strings(Lexer& lexer, const Parameter& parameter) {
   return list;
 }
 
-/// Numbers or names; the first item decides.
+/// Numbers or names; the first item determines which.
 void read_spectrum_values(Lexer& lexer, Parameter& parameter) {
   Strings names;
   Numbers numbers;

@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 14> type_names{"bool",   "float",   "inte
 
 std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
-/// The one value of a parameter, or an error.
+/// Returns the single value of a parameter, or throws.
 template <class Values>
 typename Values::value_type single(const Parameter& parameter) {
   const auto& values = std::get<Values>(parameter.values);

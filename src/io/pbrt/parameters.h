@@ -1,7 +1,7 @@
 #pragma once
 
-// The typed parameter lists of directives: `"float fov" [ 40 ]`. A parameter knows its place, a list knows which of its
-// parameters were asked for.
+// The typed parameter lists of directives: `"float fov" [ 40 ]`. A parameter knows its location in the file, and a list
+// knows which of its parameters have been looked up.
 
 #include <cstdint>
 #include <initializer_list>
@@ -39,7 +39,7 @@ std::string_view name_of(ParameterType type);
 
 using Booleans = std::vector<bool>;
 using Numbers = std::vector<double>;
-/// Integers as two's complement, so that the indices of a mesh move into it without a copy.
+/// Integers in two's complement, so that the indices of a mesh are moved without a copy.
 using Integers = std::vector<uint32_t>;
 using Points2 = std::vector<Vec2f>;
 using Points3 = std::vector<Vec3d>;
@@ -50,33 +50,33 @@ struct Parameter {
   ParameterType type = ParameterType::number;
   std::string name;
   std::variant<Numbers, Booleans, Integers, Points2, Points3, Normals, Strings> values;
-  std::string rgb_space = "srgb";  ///< of type rgb: the colour space in force where the parameter stands
+  std::string rgb_space = "srgb";  ///< for type rgb: the current colour space where the parameter is
   Place place;
 
   size_t count() const;
 };
 
-/// Defaults that `Attribute` sets for the directives that follow.
+/// Defaults that `Attribute` sets for subsequent directives.
 using InheritedParameters = std::vector<std::shared_ptr<const Parameter>>;
 
-/// What follows the name of a directive. Each look-up throws InputError where the parameter has another type or count.
+/// The parameters of a directive. Each look-up throws InputError if the parameter has another type or count.
 class ParameterList {
  public:
   ParameterList() = default;
   ParameterList(std::string directive, Place place) : directive_(std::move(directive)), place_(std::move(place)) {}
 
-  /// Throws where a parameter of that name is there already.
+  /// Throws if there is a parameter of that name already.
   void add(Parameter parameter);
   void inherit(const InheritedParameters& defaults) { inherited_ = defaults; }
 
-  /// The directive as messages name it: `Shape "sphere"`.
+  /// The directive as it appears in messages: `Shape "sphere"`.
   const std::string& directive() const { return directive_; }
   const Place& place() const { return place_; }
-  /// The place of a parameter, or of the directive where it is not given.
+  /// The location of a parameter, or of the directive if it is absent.
   const Place& place_of(std::string_view name) const;
   const std::vector<Parameter>& own() const { return own_; }
 
-  /// Null where it is not given. Counts as asked for.
+  /// Null if it is absent. Counts as a look-up.
   const Parameter* find(std::string_view name);
   const Parameter* find(std::string_view name, std::initializer_list<ParameterType> types);
   bool has(std::string_view name) { return find(name) != nullptr; }
@@ -88,7 +88,7 @@ class ParameterList {
   Vec3d point(std::string_view name, const Vec3d& fallback);
   std::string string(std::string_view name, const std::string& fallback);
 
-  // Whole arrays; empty where not given. They leave the list.
+  // Whole arrays, which are moved out of the list; empty if absent.
   Numbers take_numbers(std::string_view name);
   Integers take_integers(std::string_view name);
   Points2 take_points2(std::string_view name);
@@ -96,10 +96,10 @@ class ParameterList {
   Normals take_normals(std::string_view name);
   Strings take_strings(std::string_view name, ParameterType type = ParameterType::string);
 
-  /// Parameters that pbrt-v4 knows but that have no bearing here.
+  /// Accepts parameters that pbrt-v4 knows but that have no effect here.
   void ignore(std::initializer_list<std::string_view> names);
   void ignore_all();
-  /// Throws for the first parameter that nobody asked for.
+  /// Throws for the first parameter that has not been looked up.
   void reject_unknown() const;
 
  private:

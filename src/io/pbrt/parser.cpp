@@ -21,9 +21,9 @@ namespace {
 
 constexpr size_t max_block_depth = 4096;
 constexpr size_t max_file_depth = 64;
-/// Of one target of Attribute; every block and every shape copies them. No directive has as many parameters.
+/// Limit per target of Attribute, since every block and every shape copies them. No directive has as many parameters.
 constexpr size_t max_defaults = 256;
-/// Files that include others twice each grow without end long before they nest deeply.
+/// Limit on the total number of files: files that include others twice multiply long before they nest deeply.
 constexpr size_t max_files = 100'000;
 
 }  // namespace
@@ -87,7 +87,7 @@ void Parser::parse_file(std::shared_ptr<const SourceFile> source) {
   Lexer lexer(source);
   Lexer* outer = std::exchange(lexer_, &lexer);
   while (lexer.peek().kind != TokenKind::end) parse_directive();
-  // Files that are included may open and close blocks for each other; only at the end nothing may be open.
+  // Included files may open and close blocks for each other; all must be closed only at the end.
   if (!outer) require_closed(0);
   open_files_.pop_back();
   lexer_ = outer;
@@ -118,9 +118,8 @@ void Parser::parse_directive() {
   }
   const Directive& directive = *found->second;
   directive_ = directive.name;
-  if (directive.section == Section::options && build_.in_world)
-    fail(place, directive_ + " must stand before WorldBegin");
-  if (directive.section == Section::world && !build_.in_world) fail(place, directive_ + " must stand after WorldBegin");
+  if (directive.section == Section::options && build_.in_world) fail(place, directive_ + " must be before WorldBegin");
+  if (directive.section == Section::world && !build_.in_world) fail(place, directive_ + " must be after WorldBegin");
   (this->*directive.handle)(place);
 }
 
@@ -204,7 +203,7 @@ void Parser::attribute(const Place& place) {
   if (found == targets.end())
     fail(place, "unknown target \"" + target + "\" of Attribute; use shape, light, material, medium or texture");
   for (const Parameter& parameter : list.own()) {
-    // A later default of that name hides the earlier one for good.
+    // A later default of that name replaces the earlier one permanently.
     std::erase_if(*found->second, [&](const auto& earlier) { return earlier->name == parameter.name; });
     if (found->second->size() == max_defaults) fail(place, "over 256 defaults are set for \"" + target + "\"");
     found->second->push_back(std::make_shared<const Parameter>(parameter));
@@ -232,7 +231,7 @@ void Parser::include(const Place& place) {
   parse_file(std::make_shared<const SourceFile>(SourceFile{path.name, path, {}}));
 }
 
-/// As Include, but what the file sets does not reach the file that imports it.
+/// Like Include, but the attributes that the file sets do not affect the importing file.
 void Parser::import(const Place& place) {
   open_block(Block::attribute, place);
   const size_t depth = blocks_.size();

@@ -1,6 +1,6 @@
 #pragma once
 
-// Goes through the directives of a scene file and of those that it includes.
+// Processes the directives of a scene file and of the files that it includes.
 
 #include <memory>
 #include <string>
@@ -25,7 +25,7 @@ class Parser {
     GraphicsState saved;
     Place place;
   };
-  /// Where a directive may stand.
+  /// Where a directive is allowed.
   enum class Section { anywhere, options, world };
   using Handler = void (Parser::*)(const Place&);
   struct Directive {
@@ -78,7 +78,7 @@ class Parser {
   Lexer* lexer_ = nullptr;  ///< of the innermost file
   std::string directive_;   ///< name of the current one
   std::vector<OpenBlock> blocks_;
-  /// Of the files that include each other now; what a text in memory has is nobody's.
+  /// The files that are currently including each other; a text in memory has none.
   std::vector<FileNumber> open_files_;
   size_t file_count_ = 0;
 };

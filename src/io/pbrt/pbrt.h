@@ -9,12 +9,12 @@
 
 namespace alhazen {
 
-/// Reads a scene file and all that it includes. Paths in it are relative to the folder of the top file.
-/// What pbrt-v4 knows and this reader does not have yet is replaced and named in one warning; what is unknown,
-/// ill-typed or malformed throws InputError with `file:line:column` and the excerpt.
+/// Reads a scene file and all that it includes. Paths in it are relative to the folder of the top file. Features of
+/// pbrt-v4 that are not supported are replaced, with one warning each; anything unknown, ill-typed or malformed throws
+/// InputError with `file:line:column` and an excerpt.
 Scene read_pbrt(const InputPath& path, Diagnostics& diagnostics);
 
-/// The same from a text in memory. `name` stands for the file in messages; includes are looked up in `folder`.
+/// The same for a text in memory. `name` replaces the file in messages; includes are looked up in `folder`.
 Scene parse_pbrt(const std::string& text, const std::string& name, const std::string& folder, Diagnostics& diagnostics);
 
 }  // namespace alhazen

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// The part of a quadric that phimax and zmin, zmax leave.
+/// The part of a quadric within phimax, zmin and zmax.
 struct Extent {
   double z_min = 0, z_max = 0, phi_max = 360;
 };
@@ -47,7 +47,7 @@ Extent read_extent(ParameterList& list, double z_min, double z_max) {
   return extent;
 }
 
-/// The mesh of a curved shape with these measures: made once for all shapes that are alike.
+/// The mesh of a curved shape with these measures, made once for all equal shapes.
 template <class Make>
 uint32_t shared_mesh(Build& build, const ParameterList& list, const std::string& kind,
                      const std::array<double, 4>& measures, Make make) {
@@ -115,7 +115,7 @@ const std::map<std::string, ShapeReader> readers{{"sphere", read_sphere},
                                                  {"loopsubdiv", read_as_mesh<read_loop_subdivision>},
                                                  {"curve", read_as_mesh<read_curve>}};
 
-/// Area in world space, at the start of the shutter.
+/// Area in world space when the shutter opens.
 double world_area(const Build& build, const Shape& shape) {
   const Transform& world = shape.world_from_object.start;
   if (shape.type == ShapeType::sphere) {
@@ -138,20 +138,20 @@ std::optional<Emission> emission_of(Build& build, const Shape& shape) {
   if (!build.state.area_light) return {};
   const AreaLight& light = *build.state.area_light;
   if (build.open_object != 0) {
-    build.warn(light.place, "area lights of objects that are instanced are not supported; they do not shine");
+    build.warn(light.place, "area lights of objects that are instanced are not supported; they do not emit");
     return {};
   }
   Emission emission{light.radiance, light.two_sided, light.texture};
   if (light.power > 0) {
     const double area = world_area(build, shape);
-    if (!(area > 0)) fail(light.place, "\"power\" cannot be shared out over a shape without area");
-    emission.radiance *= light.power / ((light.two_sided ? 2 : 1) * pi * area * light.picture_mean);
+    if (!(area > 0)) fail(light.place, "\"power\" cannot be distributed over a shape without area");
+    emission.radiance *= light.power / ((light.two_sided ? 2 : 1) * pi * area * light.image_mean);
     if (!is_finite(emission.radiance)) fail(light.place, "\"power\" is too large for the area of the shape");
   }
   return emission;
 }
 
-/// The texture of `alpha`, absent where the shape is opaque; `visible` is false where nothing of it can be seen.
+/// The texture of `alpha`, absent if the shape is opaque; `visible` is false if the shape is fully transparent.
 uint32_t read_alpha(Build& build, ParameterList& list, bool& visible) {
   const uint32_t alpha = scalar_texture(build, list, "alpha");
   visible = true;

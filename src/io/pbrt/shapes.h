@@ -10,8 +10,8 @@ namespace alhazen::pbrt {
 
 void add_shape(Build& build, const std::string& kind, ParameterList& list);
 
-/// Spheres are spheres only under rotation, translation and uniform scale. Where an instance skews its group, the
-/// spheres of that group become meshes.
+/// Spheres stay spheres only under rotation, translation and uniform scale. Spheres in groups with other instance
+/// transforms become meshes.
 void tessellate_spheres_of_skewed_instances(Build& build);
 
 }  // namespace alhazen::pbrt

@@ -11,16 +11,16 @@ namespace alhazen::pbrt {
 
 namespace {
 
-/// Bytes of the excerpt; lines of generated files run to megabytes.
+/// Length of the excerpt in bytes; lines of generated files may have megabytes.
 constexpr uint64_t excerpt_width = 100;
 
-/// A part of a line, and how many of its bytes stand before the caret.
+/// A part of a line, and the number of its bytes before the caret.
 struct Excerpt {
   std::string text;
   size_t caret = 0;
 };
 
-/// Goes through the text once, however long it is, and keeps what is shown of the line.
+/// Reads through the text once, however long it is, and keeps the part of the line to show.
 Excerpt find_excerpt(ByteSource& source, int line, uint64_t caret) {
   const uint64_t begin = caret > excerpt_width / 2 ? caret - excerpt_width / 2 : 0;
   Excerpt excerpt;
@@ -55,7 +55,7 @@ std::string excerpt_at(const Place& place) {
     excerpt =
         find_excerpt(*place.source->open(), place.line, place.column > 0 ? static_cast<uint64_t>(place.column - 1) : 0);
   } catch (const InputError&) {
-    return {};  // the file is gone or damaged: the error that is told is another
+    return {};  // the file is gone or damaged: the original error is reported without an excerpt
   }
   if (excerpt.text.empty() || excerpt.caret > excerpt.text.size()) return {};
   size_t columns = 0, all = 0;

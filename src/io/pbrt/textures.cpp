@@ -16,7 +16,7 @@ namespace {
 constexpr uint32_t max_texture_levels = 64;
 constexpr uint64_t max_texture_nodes = uint64_t{1} << 20;
 
-/// A texture node under way, and whether its values are scalars or colours.
+/// A texture node being read, and whether its values are scalars or colours.
 struct TextureRequest {
   Build& build;
   ParameterList& list;
@@ -28,7 +28,7 @@ struct TextureRequest {
   }
 };
 
-/// The first two rows of a planar mapping are the vectors that (s, t) go along.
+/// The first two rows of a planar mapping are the vectors of s and t.
 Transform planar_mapping(ParameterList& list, const Transform& texture_from_world) {
   const Vec3d v1 = list.point("v1", {1, 0, 0}), v2 = list.point("v2", {0, 1, 0});
   Matrix4 rows = texture_from_world.matrix();
@@ -43,7 +43,7 @@ Transform planar_mapping(ParameterList& list, const Transform& texture_from_worl
   return Transform(rows, rows);
 }
 
-/// The mappings of pbrt-v4 to two dimensions. Each takes the parameters that it has a use for.
+/// Reads pbrt-v4's 2D mappings. Each uses only its own parameters.
 void read_mapping(const TextureRequest& request, Texture& texture) {
   ParameterList& list = request.list;
   const std::string mapping = list.string("mapping", "uv");
@@ -143,7 +143,7 @@ uint32_t add_mix(Build& build, uint32_t at_0, uint32_t at_1, uint32_t amount) {
   return add_node(build, mix);
 }
 
-/// Mixes of mixes, by the coordinates of the mapping.
+/// Builds bilinear interpolation from mixes of mixes, over the coordinates of the mapping.
 void read_bilerp(const TextureRequest& request, Texture& texture) {
   Build& build = request.build;
   Texture coordinates;
@@ -185,7 +185,7 @@ void read_windy(const TextureRequest& request, Texture& texture) {
 }
 
 void read_ptex(const TextureRequest& request, Texture&) {
-  fail(request.list.place(), "textures of kind \"ptex\" cannot be read; use an \"imagemap\" over uv instead");
+  fail(request.list.place(), "textures of kind \"ptex\" are not supported; use an \"imagemap\" over uv instead");
 }
 
 using TextureReader = void (*)(const TextureRequest&, Texture&);
@@ -223,7 +223,7 @@ uint32_t find_texture(const Build& build, const Parameter& parameter, bool is_fl
        "texture \"" + names[0] + "\" is not defined before this" + suggestion(names[0], names_of(wanted)));
 }
 
-/// Brings the sizes up to date; what a texture is made of stands before it.
+/// Updates the sizes; the inputs of a texture precede it.
 void measure_textures(Build& build) {
   std::vector<TextureSize>& sizes = build.texture_sizes;
   for (size_t i = sizes.size(); i < build.scene.textures.size(); ++i) {
@@ -240,13 +240,13 @@ void measure_textures(Build& build) {
   }
 }
 
-/// What could not be evaluated is refused where it is defined.
+/// Refuses a texture that could not be evaluated, where it is defined.
 void check_size_of_last(Build& build, const Place& place) {
   measure_textures(build);
   const TextureSize& size = build.texture_sizes.back();
   if (size.levels > max_texture_levels || size.stack > max_texture_stack || size.nodes > max_texture_nodes)
     fail(place, "texture \"" + build.scene.textures.back().name +
-                    "\" is made of too many textures within each other; use fewer levels of scale and mix");
+                    "\" has too many textures nested within each other; use fewer levels of scale and mix");
 }
 
 }  // namespace

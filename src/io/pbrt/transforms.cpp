@@ -24,7 +24,7 @@ std::array<double, count> read_numbers(Lexer& lexer, const char* directive) {
   return values;
 }
 
-/// Sixteen numbers in brackets, column by column.
+/// Reads sixteen numbers in brackets, column by column.
 Matrix4 read_matrix(Lexer& lexer, const char* directive) {
   if (lexer.peek().kind != TokenKind::open_bracket)
     fail(lexer.place(lexer.peek()),
@@ -49,7 +49,7 @@ bool is_finite(const Transform& transform) {
   return true;
 }
 
-/// Changes the active ones of the two matrices: `change` gets the old one and returns the new one.
+/// Changes the active ones of the two matrices: `change` maps the old one to the new one.
 template <class Change>
 void change_active(Build& build, const Place& place, Change change) {
   GraphicsState& state = build.state;
@@ -60,7 +60,7 @@ void change_active(Build& build, const Place& place, Change change) {
     fail(place, std::string("the transformation is not usable: ") + error.what());
   }
   if (!is_finite(state.ctm_start) || !is_finite(state.ctm_end))
-    fail(place, "the transformation grows past double precision; check its scale");
+    fail(place, "the transformation exceeds double precision; check its scale");
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace alhazen {
 
 namespace {
 
-/// No number is as long as this; it bounds how far ahead the buffer must reach.
-constexpr size_t longest_word = 512;
+/// Longer than any number; it bounds how far ahead the buffer must reach.
+constexpr size_t max_word = 512;
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 /// A line ends with a line feed, a carriage return, or both.
@@ -43,7 +43,7 @@ void AsciiValues::skip_blanks() {
   } while (input_.require(1));
 }
 
-/// Goes to the next line that holds something; false where there is none.
+/// Advances to the next line that is not blank; returns false if there is none.
 bool AsciiValues::skip_blank_lines() {
   while (true) {
     skip_blanks();
@@ -70,21 +70,21 @@ void AsciiValues::end_row() {
   skip_blanks();
   if (!input_.require(1) || is_line_end(*input_.data())) return;
   word_offset_ = input_.offset();
-  fail("a value too many; the header gives " + std::to_string(element_->properties.size()) +
-       " properties, and each row stands on its own line");
+  fail("there is one value too many; the header gives " + std::to_string(element_->properties.size()) +
+       " properties, and each row must be on its own line");
 }
 
 std::string_view AsciiValues::next_word(const PlyProperty& property) {
   skip_blanks();
-  input_.require(longest_word);
+  input_.require(max_word);
   word_offset_ = input_.offset();
   const char* const begin = input_.data();
-  const char* const end = begin + std::min(input_.available(), longest_word);
+  const char* const end = begin + std::min(input_.available(), max_word);
   const char* c = begin;
   while (c < end && !is_blank(*c) && !is_line_end(*c)) ++c;
   const std::string_view word(begin, static_cast<size_t>(c - begin));
   if (word.empty()) fail("the line ends where a value of " + quoted(property.name) + " is expected");
-  if (word.size() == longest_word) fail(quoted(word) + " is too long for a number");
+  if (word.size() == max_word) fail(quoted(word) + " is too long for a number");
   input_.skip(word.size());
   return word;
 }
@@ -114,7 +114,7 @@ void AsciiValues::skip(const PlyProperty& property, uint64_t count) {
 }
 
 void AsciiValues::expect_end(Diagnostics& diagnostics) {
-  // What is left of the last row was checked by end_row.
+  // The rest of the last row was checked by end_row.
   if (skip_blank_lines()) diagnostics.warn(place(input_.offset()), "data after the last element are ignored");
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The values of ascii PLY data: each row of an element stands on a line of its own.
+// The values of ascii PLY data, in which each row of an element is one line.
 
 #include <string>
 #include <string_view>
@@ -11,7 +11,7 @@
 
 namespace alhazen {
 
-/// Has the same members as BinaryValues; the readers of rows are written once over either.
+/// Has the same members as BinaryValues; the row readers are templates over either.
 class AsciiValues {
  public:
   AsciiValues(InputBuffer& input, const std::string& name, const PlyHeader& header);
@@ -24,9 +24,9 @@ class AsciiValues {
   uint64_t list_length(const PlyProperty& property);
   void skip(const PlyProperty& property, uint64_t count);
 
-  /// An error at the value that was read last.
+  /// Throws an error at the value that was read last.
   [[noreturn]] void fail(const std::string& message) const;
-  /// Warns where something other than blanks follows.
+  /// Warns if something other than blanks follows.
   void expect_end(Diagnostics& diagnostics);
 
  private:

@@ -13,7 +13,7 @@
 
 namespace alhazen {
 
-/// Has the same members as AsciiValues; the readers of rows are written once over either.
+/// Has the same members as AsciiValues; the row readers are templates over either.
 template <std::endian order>
 class BinaryValues {
  public:
@@ -40,7 +40,7 @@ class BinaryValues {
   }
 
   void skip(const PlyProperty& property, uint64_t count) {
-    // At most 2^32 values of 8 bytes: no overflow.
+    // At most 2^32 values of 8 bytes, so this cannot overflow.
     uint64_t left = count * size_of(property.type);
     while (left > 0) {
       if (!input_.require(1)) fail_at_end();
@@ -50,12 +50,12 @@ class BinaryValues {
     }
   }
 
-  /// An error in the current row. Binary data have no lines: the element and its number, from 0, tell the place.
+  /// Throws an error in the current row. Binary data have no lines, so the element and its number, from 0, locate it.
   [[noreturn]] void fail(const std::string& message) const {
     throw InputError({name_}, element_->name + " " + std::to_string(index_) + ": " + message);
   }
 
-  /// Warns where something follows.
+  /// Warns if data follow.
   void expect_end(Diagnostics& diagnostics) {
     if (input_.require(1)) diagnostics.warn({name_}, "data after the last element are ignored");
   }
@@ -99,7 +99,7 @@ class BinaryValues {
       case PlyType::float64:
         break;
     }
-    // The readers of rows ask for integers only where the header has them.
+    // The row readers read integers only if the header declares them.
     fail("an integer is expected");
   }
 

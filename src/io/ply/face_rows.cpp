@@ -21,7 +21,7 @@ int index_list(const PlyElement& element, const std::string& name) {
 
 void reserve_triangles(std::vector<uint32_t>& indices, uint64_t rows, uint64_t triangles_of_first, uint64_t bytes,
                        PlyType type) {
-  // Each triangle of a fan or a strip brings one index more. Doubles: the product of two lies overflows integers.
+  // Each triangle of a fan or a strip takes one more index. Uses doubles: the product of two false counts may overflow.
   const double possible = static_cast<double>(bytes) / static_cast<double>(size_of(type));
   const double promised = static_cast<double>(rows) * static_cast<double>(triangles_of_first);
   const size_t triangles = static_cast<size_t>(std::min(possible, promised));

@@ -1,6 +1,6 @@
 #pragma once
 
-// Rows of the elements `face` and `tristrips`: lists of vertex indices, cut into triangles.
+// Reads the elements `face` and `tristrips`: lists of vertex indices, split into triangles.
 
 #include <string>
 #include <vector>
@@ -10,11 +10,12 @@
 
 namespace alhazen {
 
-/// The number of the property of `element` that lists vertex indices, or -1 where the element is empty.
-/// Throws InputError where there is none or where it cannot be used.
+/// The index of the property of `element` that lists vertex indices, or -1 if the element is empty. Throws InputError
+/// if there is none or it cannot be used.
 int index_list(const PlyElement& element, const std::string& name);
 
-/// Reserves for `rows` rows with as many triangles as the first, but for no more indices than `bytes` could hold.
+/// Reserves memory for `rows` rows with as many triangles as the first, but for no more indices than `bytes` could
+/// hold.
 void reserve_triangles(std::vector<uint32_t>& indices, uint64_t rows, uint64_t triangles_of_first, uint64_t bytes,
                        PlyType type);
 
@@ -26,10 +27,10 @@ uint32_t checked_index(Values& values, int64_t index, uint64_t vertex_count) {
   return static_cast<uint32_t>(index);
 }
 
-/// How the indices of one list make triangles.
+/// How a list of indices forms triangles.
 enum class FaceKind {
-  polygon,  ///< a fan about the first vertex, which Polygons cuts anew where it is wrong
-  strips,   ///< each vertex makes a triangle with the two before it; -1 begins the next strip
+  polygon,  ///< a fan about the first vertex, which Polygons retriangulates if it is wrong
+  strips,   ///< each vertex forms a triangle with the two before it; -1 starts the next strip
 };
 
 template <class Values>
@@ -58,7 +59,7 @@ void read_strips(Values& values, const PlyProperty& list, uint64_t length, uint6
       continue;
     }
     const uint32_t c = checked_index(values, raw, vertex_count);
-    // Every other triangle is turned round so that all keep the winding of the first.
+    // Every other triangle is reversed so that all have the winding of the first.
     const bool turned = in_strip % 2 == 1;
     if (in_strip >= 2) indices.insert(indices.end(), {turned ? b : a, turned ? a : b, c});
     a = b;
@@ -67,7 +68,7 @@ void read_strips(Values& values, const PlyProperty& list, uint64_t length, uint6
   }
 }
 
-/// `list`: which property holds the indices. `bytes`: how many the whole file may have.
+/// `list`: the property with the indices. `bytes`: estimate for the whole file.
 template <class Values>
 void read_faces(Values& values, const PlyElement& element, FaceKind kind, int list, uint64_t vertex_count,
                 uint64_t bytes, std::vector<uint32_t>& indices, Polygons& polygons) {

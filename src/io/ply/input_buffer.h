@@ -1,6 +1,6 @@
 #pragma once
 
-// A window over a stream of bytes: what is to be decoded next lies in it in one piece.
+// A window over a stream of bytes that keeps the data to be decoded contiguous.
 
 #include <cstring>
 #include <memory>
@@ -15,14 +15,14 @@ class InputBuffer {
 
   explicit InputBuffer(ByteSource& source) : source_(source), bytes_(new char[capacity]) {}
 
-  /// True where `wanted` bytes, at most `capacity`, follow in memory; false where the stream ends before.
+  /// True if `wanted` bytes, at most `capacity`, are in memory; false if the stream ends before.
   bool require(size_t wanted) { return available() >= wanted || refill(wanted); }
 
   const char* data() const { return bytes_.get() + begin_; }
   size_t available() const { return end_ - begin_; }
   void skip(size_t count) { begin_ += count; }
 
-  /// How far into the stream data() is.
+  /// The offset of data() in the stream.
   uint64_t offset() const { return offset_of_buffer_ + begin_; }
 
  private:

@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// What the rows need to know of the header, checked before any of them is read.
+/// The information from the header that the rows need, checked before any of them is read.
 struct Plan {
   const PlyElement* vertices = nullptr;
   VertexLayout layout;
@@ -26,14 +26,14 @@ Plan make_plan(const PlyHeader& header, const std::string& name, uint64_t bytes,
   if (!plan.vertices) throw InputError({name, header.lines}, "the header has no element 'vertex'");
   if (plan.vertices->count >= no_index)
     throw InputError({name, plan.vertices->line},
-                     "too many vertices; an index can name " + std::to_string(no_index - 1) + " at most");
+                     "too many vertices; there can be " + std::to_string(no_index - 1) + " at most");
   plan.layout = vertex_layout(*plan.vertices, name, diagnostics);
   return plan;
 }
 
 template <class Values>
 void skip_rows(Values& values, const PlyElement& element) {
-  // Rows of nothing take neither bytes nor lines, and there can be any number of them.
+  // Rows without properties take neither bytes nor lines, so there may be any number of them.
   if (element.properties.empty()) return;
   for (uint64_t i = 0; i < element.count; ++i) {
     values.begin_row(element, i);

@@ -1,6 +1,6 @@
 #pragma once
 
-// PLY from any source of bytes: the part of read_ply that knows no files.
+// Parses PLY from any source of bytes.
 
 #include <string>
 
@@ -9,7 +9,7 @@
 
 namespace alhazen {
 
-/// As read_ply (io/ply/ply.h); `name` stands for the file in messages.
+/// As read_ply (io/ply/ply.h); `name` replaces the file in messages.
 Mesh parse_ply(ByteSource& source, const std::string& name, Diagnostics& diagnostics);
 
 }  // namespace alhazen

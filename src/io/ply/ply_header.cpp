@@ -13,7 +13,7 @@ namespace alhazen {
 
 namespace {
 
-/// In the order of PlyType: the name of the format of 1994, the name that later writers use, and the size in bytes.
+/// In the order of PlyType: the name in the format of 1994, the name that later writers use, and the size in bytes.
 struct TypeInfo {
   std::string_view name, later_name;
   size_t size;
@@ -30,8 +30,8 @@ constexpr std::array<TypeInfo, 8> types{{
     {"double", "float64", 8},
 }};
 
-/// A header that is longer is none: what looks like one may be any file that begins with "ply".
-constexpr uint64_t longest_header = 1u << 20;
+/// Limit on the header: a longer one means that some other file begins with "ply".
+constexpr uint64_t max_header = 1u << 20;
 
 struct Word {
   std::string_view text;
@@ -59,7 +59,7 @@ class HeaderReader {
   std::string line_;
   std::vector<Word> words_;
   bool format_known_ = false;
-  bool ends_with_return_ = false;  ///< lines, not with a line feed
+  bool ends_with_return_ = false;  ///< lines end with a carriage return, not with a line feed
   std::set<std::string, std::less<>> element_names_, property_names_;
   PlyHeader header_;
 };
@@ -78,21 +78,21 @@ void HeaderReader::read_magic() {
   const bool begins = input_.require(4) && std::string_view(input_.data(), 3) == "ply";
   if (!begins || (input_.data()[3] != '\n' && input_.data()[3] != '\r'))
     fail(1, "not a PLY file: the first line must be 'ply'");
-  // Old programs of the Macintosh end lines with a carriage return alone. The data begin right behind the last one, so
-  // that a line feed there is the first byte of binary data.
+  // Old Macintosh programs end lines with a carriage return alone. The data begin right after the last one, so a line
+  // feed there is the first byte of binary data.
   ends_with_return_ = input_.data()[3] == '\r' && !(input_.require(5) && input_.data()[4] == '\n');
   header_.lines = 0;
   read_line();
 }
 
-/// The next line without its end, cut into words.
+/// Reads the next line without its end, split into words.
 void HeaderReader::read_line() {
   line_.clear();
   words_.clear();
   ++header_.lines;
   while (true) {
     if (!input_.require(1)) fail(static_cast<int>(line_.size()) + 1, "the file ends within the header");
-    if (input_.offset() >= longest_header) fail(1, "the header has no 'end_header' within its first MiB");
+    if (input_.offset() >= max_header) fail(1, "the header has no 'end_header' within its first MiB");
     const char c = *input_.data();
     input_.skip(1);
     if (c == (ends_with_return_ ? '\r' : '\n')) break;
@@ -209,7 +209,7 @@ int PlyElement::find(std::string_view property) const {
 }
 
 size_t PlyElement::smallest_row(PlyFormat format) const {
-  // In ascii a value takes at least one digit and the blank or line end behind it.
+  // In ascii a value takes at least one digit and a blank or line end.
   if (format == PlyFormat::ascii) return 2 * properties.size();
   size_t bytes = 0;
   for (const PlyProperty& property : properties)

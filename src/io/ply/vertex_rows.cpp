@@ -32,7 +32,7 @@ void assign(VertexLayout& layout, const PlyElement& element, const Names& names,
         static_cast<VertexSlot>(first_slot + static_cast<int>(i));
 }
 
-/// To float, where doubles beyond its range become infinite: the conversion itself is undefined for them.
+/// Converts to float. Doubles beyond its range become infinite, since the conversion itself is undefined for them.
 float to_float(double value) {
   constexpr double largest = static_cast<double>(std::numeric_limits<float>::max());
   if (std::abs(value) <= largest) return static_cast<float>(value);
@@ -55,7 +55,7 @@ VertexLayout vertex_layout(const PlyElement& element, const std::string& name, D
   layout.normals = normal_count == normal_names.size();
   if (layout.normals) assign(layout, element, normal_names, slot_nx);
   if (normal_count > 0 && !layout.normals)
-    diagnostics.warn(where, "some of nx, ny, nz are missing: the normals are left out");
+    diagnostics.warn(where, "some of nx, ny, nz are missing: the normals are ignored");
 
   for (const auto& names : uv_names) {
     if (layout.uvs || count_scalars(element, names) < names.size()) continue;
@@ -81,7 +81,7 @@ void VertexRows::add(const Row& row) {
 
 void VertexRows::add_normal(const Row& row) {
   const Vec3f normal{to_float(row[slot_nx]), to_float(row[slot_ny]), to_float(row[slot_nz])};
-  // Also turns down what would become zero or infinite when it is normalised.
+  // Also rejects normals that would become zero or infinite when normalized.
   const float squared = length_squared(normal);
   if (std::isfinite(squared) && squared > 0) {
     mesh_.normals.push_back(normal);
@@ -90,7 +90,7 @@ void VertexRows::add_normal(const Row& row) {
   normals_ = false;
   mesh_.normals = {};
   complaint_about_normals_ = "the normal of vertex " + std::to_string(mesh_.positions.size() - 1) +
-                             " has no direction: all normals are left out";
+                             " has no direction: all normals are ignored";
 }
 
 void VertexRows::add_uv(const Row& row) {
@@ -102,7 +102,7 @@ void VertexRows::add_uv(const Row& row) {
   uvs_ = false;
   mesh_.uvs = {};
   complaint_about_uvs_ =
-      "the uv of vertex " + std::to_string(mesh_.positions.size() - 1) + " is not finite: all uvs are left out";
+      "the uv of vertex " + std::to_string(mesh_.positions.size() - 1) + " is not finite: all uvs are ignored";
 }
 
 void VertexRows::warn(Diagnostics& diagnostics) const {

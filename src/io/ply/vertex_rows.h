@@ -1,6 +1,6 @@
 #pragma once
 
-// Rows of the element `vertex`: which property is what, and their values into the mesh.
+// Reads the element `vertex`: assigns properties to attributes, and copies values to the mesh.
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace alhazen {
 
-/// Where the values of a row go, in this order, whatever the order of the file.
+/// Destinations of the values of a row, in this order, whatever the order in the file.
 enum VertexSlot { slot_x, slot_y, slot_z, slot_nx, slot_ny, slot_nz, slot_u, slot_v, slot_count, slot_none };
 
 struct VertexLayout {
@@ -20,10 +20,11 @@ struct VertexLayout {
   bool normals = false, uvs = false;
 };
 
-/// Throws InputError where there are no positions.
+/// Throws InputError if there are no positions.
 VertexLayout vertex_layout(const PlyElement& element, const std::string& name, Diagnostics& diagnostics);
 
-/// Takes rows in the order of slots. Normals or uvs that are of no use are left out for all vertices, with a warning.
+/// Accepts rows in the order of slots. If normals or uvs are unusable, they are dropped for all vertices, with a
+/// warning.
 class VertexRows {
  public:
   using Row = std::array<double, slot_count>;

@@ -147,7 +147,7 @@ TEST(GltfAccessors, ReadBinaryFilesAndFilesBesideThem) {
   const ParsedGltf beside = parse_text(file.root.dump(), {}, folder.path());
   expect_point(beside.mesh().positions[1], {1, 0, 0});
   file.root["buffers"][0]["uri"] = "missing.bin";
-  EXPECT_NE(error_of_gltf(file.root.dump(), {}, folder.path()).find("'missing.bin' is not there"), std::string::npos);
+  EXPECT_NE(error_of_gltf(file.root.dump(), {}, folder.path()).find("'missing.bin' does not exist"), std::string::npos);
   file.root["buffers"][0]["uri"] = "http://example.org/a.bin";
   EXPECT_NE(error_of_gltf(file.root.dump(), {}, folder.path()).find("is not a file"), std::string::npos);
 }

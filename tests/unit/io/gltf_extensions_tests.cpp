@@ -76,7 +76,7 @@ TEST(GltfPointers, ThatLeadNowhereAreAWarning) {
        {"/materials/7/alphaCutoff", "/asset/version/x", "nothing", "", "/animations/0/samplers/0",
         "/materials/0/a/b/c/d/e/f/g/h/i/j/k/l/m/n/o/p/q/r/s/t"}) {
     const ParsedGltf parsed = animated(pointer, {0, 1}, "SCALAR").parse(at_time(1));
-    EXPECT_TRUE(parsed.warned("leads nowhere")) << pointer;
+    EXPECT_TRUE(parsed.warned("refers to nothing")) << pointer;
     EXPECT_EQ(parsed.shapes().size(), 1u);
   }
 }
@@ -186,7 +186,7 @@ TEST(GltfLights, ClosedRoomsShineByTheirOwnColour) {
   ASSERT_TRUE(closed.shapes().at(0).emission);
   expect_point(closed.texture(closed.shapes()[0].emission->texture).value, {1, 0.5, 0.25});
   EXPECT_TRUE(closed.scene.lights.empty());
-  EXPECT_TRUE(closed.warned("nothing shines within the walls"));
+  EXPECT_TRUE(closed.warned("nothing emits light within the walls"));
   const ParsedGltf open = room(2);
   EXPECT_FALSE(open.shapes().at(0).emission);
   EXPECT_EQ(open.scene.lights.size(), 1u);

@@ -32,7 +32,7 @@ TEST(GltfMeshes, DropLeftOverVerticesWithAWarning) {
   file.add_node({{"mesh", file.add_mesh(primitive)}});
   const ParsedGltf parsed = file.parse();
   EXPECT_EQ(parsed.mesh().indices, (std::vector<uint32_t>{0, 1, 2}));
-  EXPECT_TRUE(parsed.warned("no multiple of 3"));
+  EXPECT_TRUE(parsed.warned("not a multiple of 3"));
 }
 
 TEST(GltfMeshes, SkipPointsAndLinesWithOneWarning) {

@@ -26,7 +26,7 @@ class PbrtEnvironment : public ::testing::Test {
     map = sun_map(16, 8, 5);
     channel_of(map, 0, 7, 2) = -3;
     write("sun", map);
-    folder_.write_text("broken.exr", "not a picture");
+    folder_.write_text("broken.exr", "not an image");
     folder_.write("grey.png", png(2, 1, 8, 2, {0, 0, 128, 255, 255, 128, 0}));
   }
 

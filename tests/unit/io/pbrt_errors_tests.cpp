@@ -149,7 +149,7 @@ const std::vector<Malformed> malformed{
     {"WorldBegin Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 inf ]", "1:62", {"expected a number"}},
     {"WorldBegin Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] \"normal N\" [ 0 0 1 ]",
      "1:66",
-     {"one a point"}},
+     {"one per point"}},
     {"WorldBegin Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ] \"point2 uv\" [ 1e39 0 ]",
      "1:80",
      {"too large"}},

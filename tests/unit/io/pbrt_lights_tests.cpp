@@ -75,7 +75,7 @@ TEST_F(PbrtLightPictures, AGoniometricLightStandsUpright) {
   expect_near(sent_to(light, {0, 2, 0}), Vec3d{10, 12, 14} / splat(4.0), 1e-6);
   EXPECT_TRUE(is_zero(sent_to(light, {0, -2, 0})));
   EXPECT_TRUE(is_zero(sent_to("Rotate 180 1 0 0 " + light, {0, 2, 0})));
-  EXPECT_TRUE(world("LightSource \"goniometric\" \"rgb I\" [ 1 1 1 ]").warned("alike in all directions"));
+  EXPECT_TRUE(world("LightSource \"goniometric\" \"rgb I\" [ 1 1 1 ]").warned("equally in all directions"));
 }
 
 /// Integral of what is sent to a sphere of radius 1 is the power.

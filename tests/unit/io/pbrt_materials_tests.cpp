@@ -218,7 +218,7 @@ TEST(PbrtMaterials, AbsorbingMediaInsideDielectrics) {
   EXPECT_EQ(p.diagnostics.warnings().size(), 0u);
   expect_near(only_material(p).absorption, {2, 4, 6});
   const Parsed opaque = parse_world(medium + "MediumInterface \"tea\" \"\" Material \"diffuse\"" + sphere);
-  EXPECT_TRUE(opaque.warned("no dielectric"));
+  EXPECT_TRUE(opaque.warned("not a dielectric"));
 }
 
 TEST(PbrtMaterials, MediaAreWarnedOf) {

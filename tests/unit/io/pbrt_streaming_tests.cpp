@@ -160,7 +160,7 @@ TEST(PbrtStreaming, ManyOfAKindTakeLinearTime) {
                 "\" \"texture tex2\" \"" + other + "\"\n";
   }
   const std::string error = error_of("WorldBegin\n" + textures);
-  EXPECT_NE(error.find("test.pbrt:9:1: texture \"7\" is made of too many"), std::string::npos)
+  EXPECT_NE(error.find("test.pbrt:9:1: texture \"7\" has too many"), std::string::npos)
       << "a texture used twice by each of the next: " << error;
   std::string chain = "Texture \"0\" \"spectrum\" \"constant\"\n";
   for (int i = 0; i < many; ++i)

@@ -105,7 +105,7 @@ TEST(PbrtObjects, InstanceMayStandBeforeTheDefinition) {
 TEST(PbrtObjects, LightsInObjectsAreWarnedOf) {
   const Parsed p = parse_world("ObjectBegin \"o\" LightSource \"point\" AreaLightSource \"diffuse\" " + sphere +
                                "ObjectEnd ObjectInstance \"o\"");
-  EXPECT_TRUE(p.warned("a light is not part of the object"));
+  EXPECT_TRUE(p.warned("a light in an object is not part of it"));
   EXPECT_TRUE(p.warned("area lights of objects"));
   EXPECT_EQ(p.scene.lights.size(), 1u);
   EXPECT_FALSE(p.scene.groups[1].shapes[0].emission);

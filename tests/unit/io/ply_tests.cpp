@@ -379,14 +379,14 @@ TEST(Ply, Warnings) {
     EXPECT_EQ(warning(header_of("ascii", "element vertex 3\n" + xyz + normal + faces) + "0 0 0 0 0 1\n1 0 0 " + bad +
                           "\n0 1 0 0 0 1\n3 0 1 2\n",
                       0, 0, 1),
-              "test.ply: the normal of vertex 1 has no direction: all normals are left out");
+              "test.ply: the normal of vertex 1 has no direction: all normals are ignored");
   EXPECT_EQ(warning(header_of("ascii", "element vertex 1\n" + xyz + "property float u\nproperty float v\n" + faces) +
                         "0 0 0 inf 0\n3 0 0 0\n",
                     0, 0, 1),
-            "test.ply: the uv of vertex 0 is not finite: all uvs are left out");
+            "test.ply: the uv of vertex 0 is not finite: all uvs are ignored");
   EXPECT_EQ(warning(header_of("ascii", "element vertex 1\n" + xyz + "property float nx\n" + faces) + "0 0 0 1\n3 0 0 0",
                     0, 0, 1),
-            "test.ply:3: some of nx, ny, nz are missing: the normals are left out");
+            "test.ply:3: some of nx, ny, nz are missing: the normals are ignored");
 }
 
 struct Malformed {
@@ -446,7 +446,7 @@ const Malformed malformed_rows[] = {
     {TRIANGLE, "test.ply:10:1: ", "vertex 0: the file ends here; the header promises 3 of element 'vertex'"},
     {TRIANGLE "0 0 0\n1 0 0\n0 1 0\n", "test.ply:13:1: ", "face 0: the file ends here"},
     {TRIANGLE "0 0 0\n1 0\n0 1 0\n", "test.ply:11:4: ", "vertex 1: the line ends where a value of 'z' is expected"},
-    {TRIANGLE "0 0 0\n1 0 0 7\n", "test.ply:11:7: ", "vertex 1: a value too many"},
+    {TRIANGLE "0 0 0\n1 0 0 7\n", "test.ply:11:7: ", "vertex 1: there is one value too many"},
     {TRIANGLE "0 0 0\n1 x 0\n", "test.ply:11:3: ", "vertex 1: 'x' is not a number; expected a value of 'y'"},
     {TRIANGLE "0 0 0\n1 0,5 0\n", "test.ply:11:3: ", "'0,5' is not a number"},
     {TRIANGLE "0 0 0\n1 0x10 0\n", "test.ply:11:3: ", "'0x10' is not a number"},
