@@ -7,7 +7,7 @@ namespace alhazen {
 
 namespace {
 
-// CIE 015, colour matching functions of the standard observer of 1931 (2 degrees), every 5 nm from 360 nm to 830 nm.
+// CIE 015, colour matching functions of the 1931 standard observer (2 degrees), every 5 nm from 360 nm to 830 nm.
 constexpr double first = 360, step = 5;
 
 constexpr std::array<double, 95> x_bar{

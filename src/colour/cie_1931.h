@@ -1,16 +1,16 @@
 #pragma once
 
-// The standard observer: how eye and spectrum make a colour.
+// The CIE 1931 standard observer.
 
 #include "core/math/vec.h"
 
 namespace alhazen {
 
-/// The range of wavelengths, in nanometres, over which spectra are integrated.
+/// The range of wavelengths in nanometres over which spectra are integrated.
 inline constexpr int first_visible = 360, last_visible = 830;
 
-/// The colour matching functions (x, y, z) of the CIE 1931 2-degree observer, linear between the tabulated values;
-/// zero outside of the visible range.
+/// The colour matching functions (x, y, z) of the CIE 1931 2-degree observer, interpolated linearly between tabulated
+/// values; zero outside the visible range.
 Vec3d cie_1931(double nanometres);
 
 }  // namespace alhazen

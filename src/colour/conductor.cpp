@@ -1,4 +1,4 @@
-// Metals: from spectra of eta and k to three channels of the same reflectance.
+// Metals: converts spectra of eta and k to three channels with the same reflectance.
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@ namespace alhazen {
 
 namespace {
 
-/// Total reflection would ask for an infinite k.
-constexpr double largest_reflectance = 0.9999;
+/// Total reflection would need an infinite k.
+constexpr double max_reflectance = 0.9999;
 
-/// Measurements may end within the visible range; beyond, where the eye hardly sees, their last value is held.
+/// Measurements may end within the visible range; their last value is used beyond, where the eye is hardly sensitive.
 double held(const Spectrum& spectrum, double nanometres) {
   if (spectrum.wavelengths.empty()) return 0;
   return spectrum.at(std::clamp(nanometres, spectrum.wavelengths.front(), spectrum.wavelengths.back()));
@@ -34,7 +34,7 @@ Spectrum normal_reflectance(const Spectrum& eta, const Spectrum& k) {
   return reflectance;
 }
 
-/// The mean of eta over what each channel sees under D65; its negative sensitivities are left out.
+/// The mean of eta weighted by each channel's sensitivity under D65; negative sensitivities are ignored.
 Vec3d mean_by_channel(const Spectrum& eta) {
   const Spectrum& d65 = *named_spectrum("stdillum-D65");
   Vec3d sum, total;
@@ -46,8 +46,8 @@ Vec3d mean_by_channel(const Spectrum& eta) {
   return sum / total;
 }
 
-/// Sets k so that `eta` and it reflect `reflectance` at normal incidence; where eta alone reflects more than that,
-/// k is 0 and eta is moved.
+/// Sets k so that `eta` and `k` reflect `reflectance` at normal incidence; if eta alone reflects more than that, k is 0
+/// and eta is changed.
 void match_reflectance(double reflectance, double& eta, double& k) {
   const double k_squared = (reflectance * (eta + 1) * (eta + 1) - (eta - 1) * (eta - 1)) / (1 - reflectance);
   if (k_squared >= 0) {
@@ -65,7 +65,7 @@ ConductorRgb conductor_rgb(const Spectrum& eta, const Spectrum& k) {
   const Vec3d reflectance = reflectance_rgb(normal_reflectance(eta, k));
   ConductorRgb rgb{mean_by_channel(eta), {}};
   for (int channel = 0; channel < 3; ++channel)
-    match_reflectance(std::clamp(reflectance[channel], 0.0, largest_reflectance), rgb.eta[channel], rgb.k[channel]);
+    match_reflectance(std::clamp(reflectance[channel], 0.0, max_reflectance), rgb.eta[channel], rgb.k[channel]);
   return rgb;
 }
 

@@ -64,7 +64,7 @@ constexpr std::array<double, 26> sf11_eta{1.8700216, 1.8516256, 1.8374708, 1.826
                                           1.7747222, 1.772685,  1.770834,  1.7691447, 1.7675964, 1.7661718, 1.7648559,
                                           1.7636363, 1.7625018, 1.7614432, 1.7604522, 1.7595216};
 
-// The last three are glasses SF; scene files of pbrt call them F.
+// The last three are SF glasses; pbrt scene files call them F.
 constexpr std::array<NamedTable, 7> tables{{
     {"glass-BK7", bk7_wavelengths, bk7_eta},
     {"glass-BAF10", baf10_wavelengths, baf10_eta},

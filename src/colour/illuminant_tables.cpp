@@ -18,8 +18,8 @@ constexpr std::array<double, 107> a{
     210.365,  213.268, 216.12,  218.92,  221.667, 224.361, 227,     229.585, 232.115, 234.589, 237.008, 239.37,
     241.675,  243.924, 246.116, 248.251, 250.329, 252.35,  254.314, 256.221, 258.071, 259.865, 261.602};
 
-// From S0, S1 and S2 of CIE 015 at 5000 K * 1.4388 / 1.4380. The table of this name in pbrt-v4 is another and has not
-// the chromaticity of D50.
+// Computed from S0, S1 and S2 of CIE 015 at 5000 K * 1.4388 / 1.4380. The table of this name in pbrt-v4 differs and
+// does not have the chromaticity of D50.
 constexpr std::array<double, 107> d50{
     0.01922, 1.03486, 2.0505,  4.91445, 7.7784,  11.263,  14.7475, 16.3478, 17.948,  19.4788, 21.0097, 22.4758,
     23.9419, 25.4513, 26.9607, 25.7241, 24.4875, 27.1791, 29.8706, 39.5893, 49.3081, 52.9105, 56.5128, 58.2733,

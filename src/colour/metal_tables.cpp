@@ -4,10 +4,10 @@ namespace alhazen {
 
 namespace {
 
-// Index of refraction (eta) and absorption coefficient (k) as measured (refractiveindex.info collects such tables); the
-// figures are those that pbrt-v4 has under the same names, so that scenes look alike.
+// Measured indices of refraction (eta) and absorption coefficients (k) (refractiveindex.info collects such tables); the
+// values are those that pbrt-v4 uses under the same names, so that scenes look alike.
 
-// Wavelengths in nm of silver, aluminium, gold and copper: even steps of photon energy from 4.15 eV down.
+// Wavelengths in nm for silver, aluminium, gold and copper: equal steps of photon energy from 4.15 eV down.
 constexpr std::array<double, 56> pure_wavelengths{
     298.757,  302.4004, 306.1338, 309.9604, 313.884,  317.9081, 322.0368, 326.2741, 330.6245, 335.0924,
     339.6827, 344.4005, 349.2512, 354.2405, 359.3744, 364.6593, 370.102,  375.7096, 381.4898, 387.4506,

@@ -1,4 +1,4 @@
-// The lookup of spectra by name.
+// Looks up spectra by name.
 
 #include <map>
 #include <string_view>
@@ -13,7 +13,7 @@ namespace {
 
 using SpectraByName = std::map<std::string_view, Spectrum>;
 
-/// Tables that end within the visible range are continued to its ends with their last values, as pbrt-v4 does.
+/// Tables that end within the visible range are extended to its ends with their last values, as in pbrt-v4.
 Spectrum spectrum_of(const NamedTable& table) {
   Spectrum spectrum;
   const auto add = [&](double wavelength, double value) {

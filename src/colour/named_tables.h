@@ -1,6 +1,6 @@
 #pragma once
 
-// The tables behind named_spectrum(), as the data files hold them.
+// The tables of named_spectrum() as stored in the data files.
 
 #include <array>
 #include <span>

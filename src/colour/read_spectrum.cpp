@@ -1,4 +1,4 @@
-// Text files of wavelength and value pairs (`.spd`).
+// Reads text files of wavelength and value pairs (`.spd`).
 
 #include <cmath>
 #include <cstring>
@@ -16,12 +16,12 @@ struct Number {
   SourceLocation where;
 };
 
-/// Hands out the numbers of a text one after the other. A comment runs from `#` to the end of its line.
+/// Reads the numbers of a text one by one. A comment extends from `#` to the end of its line.
 class NumberReader {
  public:
   NumberReader(std::string_view text, const std::string& name) : text_(text), where_{name, 1, 1} {}
 
-  /// False at the end of the text; where() is then that end.
+  /// Returns false at the end of the text; where() is then that end.
   bool next(Number& number) {
     skip_blanks_and_comments();
     if (text_.empty()) return false;
@@ -70,8 +70,8 @@ Spectrum read_spectrum(const InputPath& path) {
   Number wavelength, value;
   while (numbers.next(wavelength)) {
     if (!spectrum.wavelengths.empty() && wavelength.value <= spectrum.wavelengths.back())
-      throw InputError(wavelength.where, "wavelengths must ascend; this one is not above the one before");
-    if (!numbers.next(value)) throw InputError(wavelength.where, "a wavelength without a value behind it");
+      throw InputError(wavelength.where, "wavelengths must ascend; this one is not above the previous one");
+    if (!numbers.next(value)) throw InputError(wavelength.where, "a wavelength without a value after it");
     spectrum.wavelengths.push_back(wavelength.value);
     spectrum.values.push_back(value.value);
   }

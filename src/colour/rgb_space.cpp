@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// Three rows.
+/// A matrix as three rows.
 using Matrix3 = std::array<Vec3d, 3>;
 
 constexpr Vec3d multiply(const Matrix3& m, const Vec3d& v) { return {dot(m[0], v), dot(m[1], v), dot(m[2], v)}; }
@@ -49,16 +49,16 @@ constexpr RgbSpace aces{"aces2065-1", {{0.7347, 0.2653}, {0, 1}, {0.0001, -0.077
 /// XYZ of a chromaticity, with x + y + z = 1.
 constexpr Vec3d xyz_of(const Vec2d& xy) { return {xy.x, xy.y, 1 - xy.x - xy.y}; }
 
-/// The same with Y = 1.
+/// The XYZ of the white with Y = 1.
 constexpr Vec3d white_of(const Chromaticities& space) { return xyz_of(space.white) / space.white.y; }
 
-/// The primaries, each as strong as makes their sum the white.
+/// The primaries, scaled so that their sum is the white.
 constexpr Matrix3 xyz_from_rgb(const Chromaticities& space) {
   const Matrix3 primaries = transpose({xyz_of(space.red), xyz_of(space.green), xyz_of(space.blue)});
   return scale_columns(primaries, multiply(invert(primaries), white_of(space)));
 }
 
-/// XYZ under one white to the corresponding XYZ under another: the cone responses of Bradford are scaled
+/// Chromatic adaptation of XYZ from one white to another, which scales cone responses by the Bradford method
 /// (Lam 1985; the matrix is that of ICC.1, annex E).
 constexpr Matrix3 adaptation(const Vec3d& from, const Vec3d& to) {
   constexpr Matrix3 cones{{{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
@@ -91,7 +91,7 @@ SrgbFromPrimaries::SrgbFromPrimaries(const Chromaticities& chromaticities) {
   const Vec2d given[] = {chromaticities.red, chromaticities.green, chromaticities.blue, chromaticities.white};
   const Chromaticities& own = srgb.chromaticities;
   const Vec2d known[] = {own.red, own.green, own.blue, own.white};
-  // Far less than can be seen, and more than rounding.
+  // Far below visible differences, and above rounding errors.
   constexpr double tolerance = 1e-5;
   is_identity_ = true;
   for (size_t i = 0; i < 4; ++i)
@@ -100,7 +100,7 @@ SrgbFromPrimaries::SrgbFromPrimaries(const Chromaticities& chromaticities) {
   rows_ = is_identity_ ? Matrix3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}} : srgb_from(chromaticities);
   for (const Vec3d& row : rows_)
     for (const double factor : {row.x, row.y, row.z})
-      if (!(std::abs(factor) <= 1e6)) throw InputError("its chromaticities are of no colour space");
+      if (!(std::abs(factor) <= 1e6)) throw InputError("its chromaticities do not define a colour space");
 }
 
 Vec3d xyz_to_srgb(Vec3d xyz) { return multiply(srgb_from_xyz, xyz); }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Colour spaces of three primaries, and their way to linear sRGB.
+// RGB colour spaces and their conversion to linear sRGB.
 
 #include <array>
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace alhazen {
 
-/// Linear sRGB of CIE XYZ, whose Y = 1 with the chromaticity of D65 is (1, 1, 1). May be negative: out of gamut.
+/// Converts CIE XYZ to linear sRGB; Y = 1 with the chromaticity of D65 is (1, 1, 1). Out-of-gamut colours are negative.
 Vec3d xyz_to_srgb(Vec3d xyz);
 
-/// CIE 1931 x and y of the primaries and of the white that equal parts of them make.
+/// CIE 1931 x and y of the primaries and of their white, the sum of equal parts.
 struct Chromaticities {
   Vec2d red, green, blue, white;
 };
 
-/// Linear sRGB of linear red, green and blue of primaries. White stays white, as below.
+/// Converts linear RGB with given primaries to linear sRGB. White stays white, as below.
 class SrgbFromPrimaries {
  public:
-  /// Throws InputError where these make no colours: not finite, on one line, or of a white without luminance.
+  /// Throws InputError if the chromaticities are invalid: not finite, on one line, or with a white of zero luminance.
   explicit SrgbFromPrimaries(const Chromaticities& chromaticities);
-  /// Whether nothing changes: the primaries are those of sRGB, but for what a float may differ.
+  /// Whether nothing changes: the primaries are those of sRGB up to float precision.
   bool is_identity() const { return is_identity_; }
   Vec3d operator()(const Vec3d& rgb) const { return {dot(rows_[0], rgb), dot(rows_[1], rgb), dot(rows_[2], rgb)}; }
 
@@ -31,11 +31,11 @@ class SrgbFromPrimaries {
   bool is_identity_ = false;
 };
 
-/// True for the names that to_srgb knows: srgb, rec2020, dci-p3 (with the white D65), aces2065-1.
+/// True for the names that to_srgb accepts: srgb, rec2020, dci-p3 (with the white D65), aces2065-1.
 bool is_rgb_space(const std::string& name);
 
-/// Linear sRGB of linear `rgb` of the space of that name. White stays white: what has another white than D65
-/// (aces2065-1) is adapted to it by the method of Bradford. Throws InputError where the name is not known.
+/// Converts linear `rgb` of the named space to linear sRGB. White stays white: a white other than D65 (aces2065-1) is
+/// adapted by the Bradford method. Throws InputError if the name is unknown.
 Vec3d to_srgb(const std::string& space, Vec3d rgb);
 
 }  // namespace alhazen

@@ -23,12 +23,12 @@ Spectrum constant_spectrum(double value) { return {{double{first_visible}, doubl
 Spectrum blackbody_spectrum(double kelvin) {
   // CODATA 2018, exact: second radiation constant h c / k, and Wien's displacement constant; both in nm K.
   constexpr double second_radiation = 1.438776877e7, wien = 2.897771955e6;
-  // What is colder than this has nothing in the visible range that a double could hold.
+  // Colder bodies emit nothing in the visible range that a double could represent.
   constexpr double coldest = 10;
   const bool glows = std::isfinite(kelvin) && kelvin >= coldest;
   Spectrum spectrum;
   for (int nanometres = first_visible; nanometres <= last_visible; ++nanometres) {
-    // Over the largest value of the law itself, which may lie outside of the visible range.
+    // Relative to the maximum of Planck's law, which may be outside the visible range.
     const double x = 1 / (nanometres * kelvin);
     const double of_peak =
         std::pow(wien * x, 5) * std::expm1(second_radiation / wien) / std::expm1(second_radiation * x);
@@ -61,7 +61,7 @@ Vec3d srgb_under_d65(const Spectrum& reflectance) {
 }  // namespace
 
 Vec3d reflectance_rgb(const Spectrum& reflectance) {
-  // Each channel over that of white. The matrix alone would leave 1e-5, for its white is rounded to four digits.
+  // Divides each channel by that of white. The matrix alone leaves an error of 1e-5, since its white has four digits.
   static const Vec3d white = srgb_under_d65(constant_spectrum(1));
   return srgb_under_d65(reflectance) / white;
 }

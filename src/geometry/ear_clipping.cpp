@@ -12,10 +12,10 @@ double cross(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Whether a box is apart from the half plane on the left of a -> b.
+/// Returns whether a box is outside the half-plane to the left of a -> b.
 bool is_right_of(const Vec2d& low, const Vec2d& high, const Vec2d& a, const Vec2d& b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
-  // The corner of the box that lies farthest to the left.
+  // The corner of the box that is farthest to the left.
   const Vec2d corner{dy > 0 ? low.x : high.x, dx > 0 ? high.y : low.y};
   return dx * (corner.y - a.y) - dy * (corner.x - a.x) < 0;
 }
@@ -42,7 +42,7 @@ void EarClipper::link(std::span<const Vec2d> corners) {
   build(0, 0, count);
 }
 
-/// A tree over all corners, halved along the longer side of its boxes.
+/// Builds a tree over all corners, halved along the longer side of its boxes.
 void EarClipper::build(uint32_t node, uint32_t first, uint32_t count) {
   if (nodes_.size() <= node) nodes_.resize(node + 1);
   Node made{at_[order_[first]], at_[order_[first]], first, count, 0};
@@ -66,7 +66,7 @@ void EarClipper::build(uint32_t node, uint32_t first, uint32_t count) {
   build(2 * node + 2, first + count / 2, count - count / 2);
 }
 
-/// Keeps count, in every node above the corner, of those that may block an ear: the ones that are not convex.
+/// Updates, in every node above the corner, the count of corners that may block an ear: those that are not convex.
 void EarClipper::set_convex(uint32_t corner, bool convex) {
   Corner& c = corners_[corner];
   if (c.convex == convex) return;
@@ -77,9 +77,9 @@ void EarClipper::set_convex(uint32_t corner, bool convex) {
   }
 }
 
-/// Whether the outline beside `p`, which coincides with a corner of the triangle at `tip`, goes on within the angle of
-/// that corner.
-bool EarClipper::lies_within(uint32_t p, uint32_t tip) const {
+/// Returns whether the outline next to `p`, which coincides with a corner of the triangle at `tip`, continues within
+/// the angle of that corner.
+bool EarClipper::is_within(uint32_t p, uint32_t tip) const {
   const uint32_t triangle[3] = {corners_[tip].previous, tip, corners_[tip].next};
   for (int k = 0; k < 3; ++k) {
     const uint32_t corner = triangle[k], after = triangle[(k + 1) % 3], before = triangle[(k + 2) % 3];
@@ -94,7 +94,7 @@ bool EarClipper::blocks(uint32_t p, uint32_t tip) const {
   const uint32_t a = corners_[tip].previous, c = corners_[tip].next;
   if (p == a || p == tip || p == c) return false;
   if (area(a, tip, p) < 0 || area(tip, c, p) < 0 || area(c, a, p) < 0) return false;
-  if (at_[p] == at_[a] || at_[p] == at_[tip] || at_[p] == at_[c]) return lies_within(p, tip);
+  if (at_[p] == at_[a] || at_[p] == at_[tip] || at_[p] == at_[c]) return is_within(p, tip);
   return true;
 }
 
@@ -113,9 +113,9 @@ bool EarClipper::is_blocked(uint32_t tip, uint32_t node) const {
   return false;
 }
 
-/// An ear holds no other corner. Only corners that are not convex need be looked at: where any lies within, one of
-/// these does. A corner that repeats its neighbour, or at which the outline turns back on itself, is cut off as well:
-/// it has no area.
+/// An ear contains no other corner. It suffices to test corners that are not convex: if any corner is inside, one of
+/// these is. A corner that repeats its neighbour, or at which the outline reverses, is clipped as well, since it has no
+/// area.
 bool EarClipper::is_ear(uint32_t corner) const {
   const Corner& c = corners_[corner];
   const Vec2d &a = at_[c.previous], &b = at_[corner], &d = at_[c.next];
@@ -143,7 +143,7 @@ void EarClipper::clip(uint32_t corner) {
   update(c.next);
 }
 
-/// First in, first out: ears are cut all along the outline before the corners that this leaves come to be cut.
+/// Clips ears first in, first out: all along the outline before the corners that become ears thereby.
 void EarClipper::clip_ears() {
   for (size_t i = 0; i < queue_.size() && left_ > 3; ++i) {
     const uint32_t corner = queue_[i];
@@ -163,9 +163,9 @@ void EarClipper::queue_all() {
   } while (corner != cursor_);
 }
 
-/// The corner to cut off where no ear is left, as in an outline that crosses itself: one without area if there is one
-/// among the next, else a convex one, else any. To look at all of them each time would take quadratic time.
-uint32_t EarClipper::min_harm() {
+/// The corner to clip if no ear is left, as in a self-intersecting outline: one without area if the next few have one,
+/// else a convex one, else any. Testing all of them each time would take quadratic time.
+uint32_t EarClipper::least_harm() {
   constexpr int looked_at = 64;
   uint32_t convex = cursor_, corner = cursor_;
   for (int i = 0; i < looked_at; ++i, corner = corners_[corner].next) {
@@ -181,12 +181,12 @@ std::span<const std::array<uint32_t, 3>> EarClipper::triangulate(std::span<const
   while (true) {
     clip_ears();
     if (left_ <= 3) break;
-    // That only the neighbours of an ear can become ears holds in exact arithmetic and for simple outlines. All are
-    // looked at again where few are left or an eighth of them has gone, which keeps the time in proportion.
+    // Only the neighbours of an ear can become ears, but this holds only in exact arithmetic and for simple outlines.
+    // So all are tested again when few are left or an eighth has been clipped, which bounds the cost.
     if (left_ < left_at_scan_ && (left_ <= 64 || left_ <= left_at_scan_ / 8 * 7))
       queue_all();
     else
-      clip(min_harm());
+      clip(least_harm());
   }
   triangles_.push_back({corners_[cursor_].previous, cursor_, corners_[cursor_].next});
   return triangles_;

@@ -9,11 +9,11 @@ namespace alhazen::pbrt {
 
 namespace {
 
-/// An undirected edge with what lies across it. Edges of one or of more than two faces count as boundary.
+/// An undirected edge and its adjacent faces. Edges of one or of more than two faces count as boundary.
 struct Edge {
   uint32_t low = 0, high = 0;
   uint32_t faces = 0;
-  Vec3d opposite_sum;  ///< of the corners opposite to it
+  Vec3d opposite_sum;  ///< sum of the corners opposite to it
   bool is_boundary() const { return faces != 2; }
 };
 
@@ -26,7 +26,7 @@ struct EdgeTable {
 EdgeTable find_edges(const Mesh& mesh) {
   const auto corners = static_cast<uint32_t>(mesh.indices.size());
   const auto next = [](uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
-  std::vector<std::pair<uint64_t, uint32_t>> keyed;  // both ends in one number, and the corner
+  std::vector<std::pair<uint64_t, uint32_t>> keyed;  // both end points in one number, and the corner
   keyed.reserve(corners);
   for (uint32_t corner = 0; corner < corners; ++corner) {
     const auto [low, high] = std::minmax(mesh.indices[corner], mesh.indices[next(corner)]);
@@ -50,7 +50,7 @@ EdgeTable find_edges(const Mesh& mesh) {
   return table;
 }
 
-/// What surrounds each vertex.
+/// The neighbourhood of a vertex.
 struct Ring {
   uint32_t valence = 0, boundary_valence = 0;
   Vec3d sum, boundary_sum;  ///< of the neighbours, and of those along boundary edges
@@ -73,10 +73,10 @@ std::vector<Ring> find_rings(const Mesh& mesh, const std::vector<Edge>& edges) {
   return rings;
 }
 
-/// Weight of each neighbour of an inner vertex.
+/// Weight of each neighbour of an interior vertex.
 double beta(uint32_t valence) { return valence == 3 ? 3.0 / 16 : 3.0 / (8 * valence); }
 
-/// Blends a vertex with its ring. Corners of a boundary, and vertices of no face, stay where they are.
+/// Blends a vertex with its ring. Boundary corners and isolated vertices remain in place.
 Vec3d blended(const Vec3d& p, const Ring& ring, double inner_weight, double boundary_weight) {
   if (ring.valence == 0) return p;
   if (ring.boundary_valence == 0) return p * (1 - ring.valence * inner_weight) + ring.sum * inner_weight;
@@ -119,7 +119,7 @@ void move_to_limit(Mesh& mesh) {
   mesh.positions = std::move(limit);
 }
 
-/// Normals as the mean of those of the faces around, by area.
+/// Computes normals as area-weighted means of the adjacent face normals.
 void add_normals(Mesh& mesh) {
   std::vector<Vec3d> sums(mesh.positions.size());
   for (size_t corner = 0; corner < mesh.indices.size(); corner += 3) {

@@ -6,8 +6,8 @@
 
 namespace alhazen::pbrt {
 
-/// Subdivides positions and indices of `control` `levels` times, pushes the vertices to the limit surface and gives
-/// them normals. Each level has four times the triangles. The edges of open meshes stay sharp curves.
+/// Subdivides positions and indices of `control` `levels` times, moves the vertices to the limit surface and gives them
+/// normals. Each level quadruples the triangles. The edges of open meshes remain sharp curves.
 Mesh loop_subdivided(Mesh control, int levels);
 
 }  // namespace alhazen::pbrt

@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-/// One polygon as its fan in the indices of a mesh.
+/// A polygon, stored as a fan in the indices of a mesh.
 class Fan {
  public:
   Fan(uint32_t* indices, uint64_t corners) : indices_(indices), corners_(corners) {}
@@ -28,15 +28,15 @@ Vec3d fan_area(const Mesh& mesh, const Fan& fan, uint64_t i) {
   return cross(mesh.positions[fan.corner(i)] - first, mesh.positions[fan.corner(i + 1)] - first);
 }
 
-/// Twice the area of the polygon along its normal; of one that is not planar, of its projection of the largest area.
+/// Twice the area of the polygon along its normal; if it is not planar, of its largest projection.
 Vec3d polygon_area(const Mesh& mesh, const Fan& fan) {
   Vec3d sum{};
   for (uint64_t i = 1; i + 1 < fan.corners(); ++i) sum = sum + fan_area(mesh, fan, i);
   return sum;
 }
 
-/// Whether no triangle of the fan lies the wrong way round. What rounding turns, slivers of a millionth of the area,
-/// does not count.
+/// Returns whether no triangle of the fan is flipped. Slivers of a millionth of the area, which rounding may flip, do
+/// not count.
 bool covers_the_polygon(const Mesh& mesh, const Fan& fan, const Vec3d& area) {
   const double size = max_component(abs(area));
   if (!(size > 0)) return true;
@@ -47,8 +47,8 @@ bool covers_the_polygon(const Mesh& mesh, const Fan& fan, const Vec3d& area) {
   return true;
 }
 
-/// The corners without the axis that is closest to the normal, counter-clockwise, and scaled, by a power of two, so
-/// that areas of the largest and the smallest can be held.
+/// Projects the corners along the axis closest to the normal, counter-clockwise, and scales them by a power of two so
+/// that areas neither overflow nor underflow.
 void project(const Mesh& mesh, const Fan& fan, const Vec3d& normal, std::vector<Vec2d>& corners) {
   const Vec3d size = abs(normal);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;

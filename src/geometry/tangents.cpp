@@ -44,7 +44,7 @@ class TangentBuilder {
   }
 
  private:
-  /// Gives vertices that are the same a number in common.
+  /// Assigns a common number to equal vertices.
   void weld() {
     std::unordered_map<Corner, uint32_t, CornerHash> known;
     known.reserve(mesh_.positions.size());
@@ -59,7 +59,7 @@ class TangentBuilder {
     groups_ = known.size();
   }
 
-  /// Twice the signed area in uv: above 0 where uv runs round the triangle as its corners do.
+  /// Twice the signed area in uv: above 0 if uv has the winding of the corners.
   double turn(size_t t) const {
     const uint32_t* v = &mesh_.indices[3 * t];
     const auto uv = [&](int i) { return Vec2d{static_cast<double>(uvs_[v[i]].x), static_cast<double>(uvs_[v[i]].y)}; };
@@ -67,7 +67,8 @@ class TangentBuilder {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   }
 
-  /// Each corner gets the direction of increasing u in the plane of its normal, weighed by the angle there.
+  /// Adds to each corner the direction of increasing u, projected perpendicular to the normal and weighted by the
+  /// angle.
   void add_triangle(size_t t) {
     const double determinant = turn(t);
     if (determinant == 0 || !std::isfinite(determinant)) return;
@@ -96,7 +97,7 @@ class TangentBuilder {
       const double determinant = turn(t);
       for (size_t i = 0; i < 3; ++i) {
         uint32_t& vertex = mesh_.indices[3 * t + i];
-        // A triangle without area in uv goes either way.
+        // A triangle without uv area fits either orientation.
         const uint8_t wanted = determinant < 0 ? mirrored : straight;
         if (way[vertex] == unused) way[vertex] = wanted;
         if (way[vertex] == wanted || determinant == 0) continue;
@@ -135,7 +136,7 @@ class TangentBuilder {
   const std::vector<Vec2f>& uvs_;
   std::vector<uint32_t> group_;  ///< of each vertex
   size_t groups_ = 0;
-  std::vector<Vec3d> sums_;  ///< of each group, of the triangles that run straight and of those mirrored
+  std::vector<Vec3d> sums_;  ///< of each group: of triangles with uv in order, and of mirrored ones
 };
 
 }  // namespace

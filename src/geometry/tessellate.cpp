@@ -10,7 +10,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Segments of a full turn, and of the way from pole to pole.
+/// Number of segments in a full circle, and from pole to pole.
 constexpr double segments_of_turn = 128;
 constexpr double segments_of_meridian = 64;
 constexpr uint32_t bilinear_segments = 8;
@@ -19,7 +19,7 @@ uint32_t segments(double part, double of_whole) {
   return static_cast<uint32_t>(std::max(2.0, std::ceil(part * of_whole - 1e-9)));
 }
 
-/// The point of the unit circle at column `column` of `columns`. A full turn ends exactly where it began.
+/// The point of the unit circle at column `column` of `columns`. A full circle ends exactly where it begins.
 Vec2d on_circle(uint32_t column, uint32_t columns, double phi_max) {
   if (phi_max >= 360 && column == columns) return {1, 0};
   const double phi = phi_max * pi / 180 * column / columns;
@@ -28,8 +28,8 @@ Vec2d on_circle(uint32_t column, uint32_t columns, double phi_max) {
 
 Vec2f uv_at(double u, double v) { return {static_cast<float>(u), static_cast<float>(v)}; }
 
-/// The triangles of a grid of (columns + 1) x (rows + 1) vertices that starts at `first`, counter-clockwise in (u, v).
-/// Triangles that have shrunk to a line are left out.
+/// Appends the triangles of a grid of (columns + 1) x (rows + 1) vertices that starts at `first`, counter-clockwise in
+/// (u, v). Degenerate triangles are omitted.
 void append_grid(uint32_t first, uint32_t columns, uint32_t rows, Mesh& mesh) {
   const auto add = [&mesh](uint32_t a, uint32_t b, uint32_t c) {
     const Vec3d &p = mesh.positions[a], &q = mesh.positions[b], &r = mesh.positions[c];
@@ -45,7 +45,7 @@ void append_grid(uint32_t first, uint32_t columns, uint32_t rows, Mesh& mesh) {
 }
 
 bool is_flat_and_convex(const std::array<Vec3d, 4>& p) {
-  // Around the patch: p00, p10, p11, p01.
+  // In order around the patch: p00, p10, p11, p01.
   const std::array<Vec3d, 4> ring{p[0], p[1], p[3], p[2]};
   const Vec3d normal = cross(ring[2] - ring[0], ring[3] - ring[1]);
   const double size = length(normal);
@@ -63,7 +63,7 @@ Vec3d patch_normal(const std::array<Vec3d, 4>& p, double u, double v) {
   return cross(lerp(p[1] - p[0], p[3] - p[2], v), lerp(p[2] - p[0], p[3] - p[1], u));
 }
 
-/// The normal of the patch at (u, v). Where a side has shrunk to a point it is that of the middle.
+/// The normal of the patch at (u, v). If a side has zero length, it is that of the centre.
 Vec3f unit_patch_normal(const std::array<Vec3d, 4>& p, double u, double v) {
   for (const Vec3d& normal : {patch_normal(p, u, v), patch_normal(p, 0.5, 0.5)}) {
     const double size = length(normal);

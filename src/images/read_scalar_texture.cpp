@@ -14,7 +14,7 @@ namespace alhazen {
 
 namespace {
 
-/// Decodes 8-bit values; the curve is called 256 times, not once a texel.
+/// Decodes 8-bit values by a table, so that the curve is evaluated 256 times, not once per texel.
 class ByteDecoder {
  public:
   explicit ByteDecoder(bool srgb) {
@@ -65,44 +65,44 @@ std::optional<ImageTexels> exr_alpha(const Image& image, const std::string& path
   return unless_opaque(std::move(texels));
 }
 
-std::optional<ImageTexels> decode_alpha(const std::string& path, PictureFormat format, std::span<const uint8_t> bytes) {
+std::optional<ImageTexels> decode_alpha(const std::string& path, ImageFormat format, std::span<const uint8_t> bytes) {
   switch (format) {
-    case PictureFormat::png:
+    case ImageFormat::png:
       return decode_png_alpha(path, bytes);
-    case PictureFormat::tga:
+    case ImageFormat::tga:
       return decode_tga_alpha(path, bytes);
-    case PictureFormat::bmp:
+    case ImageFormat::bmp:
       return decode_bmp_alpha(path, bytes);
-    case PictureFormat::webp:
+    case ImageFormat::webp:
       return decode_webp_alpha(path, bytes);
-    case PictureFormat::qoi:
+    case ImageFormat::qoi:
       return decode_qoi_alpha(path, bytes);
-    case PictureFormat::exr:
-    case PictureFormat::jpeg:
-    case PictureFormat::hdr:
-    case PictureFormat::pfm:
+    case ImageFormat::exr:
+    case ImageFormat::jpeg:
+    case ImageFormat::hdr:
+    case ImageFormat::pfm:
       break;
   }
   return std::nullopt;
 }
 
-/// The colour type of a PNG file stands at byte 25; 6 is RGBA.
-bool pbrt_reads_alpha(PictureFormat format, std::span<const uint8_t> bytes) {
-  return format == PictureFormat::qoi || (format == PictureFormat::png && bytes.size() > 25 && bytes[25] == 6);
+/// The colour type of a PNG file is byte 25; 6 is RGBA.
+bool pbrt_reads_alpha(ImageFormat format, std::span<const uint8_t> bytes) {
+  return format == ImageFormat::qoi || (format == ImageFormat::png && bytes.size() > 25 && bytes[25] == 6);
 }
 
 ScalarTexture read_scalar(const InputPath& input, TextureEncoding encoding) {
   const std::string& path = input.name;
-  const PictureFormat format = picture_format(input);
+  const ImageFormat format = image_format(input);
   ImageTexels colours;
-  if (format == PictureFormat::exr) {
+  if (format == ImageFormat::exr) {
     const Image image = read_exr(input);
     if (std::optional<ImageTexels> alpha = exr_alpha(image, path)) return {std::move(*alpha), true, false};
     colours = exr_texels(image, path, true);
   } else {
     const std::vector<uint8_t> bytes = read_bytes(input);
     if (std::optional<ImageTexels> alpha = decode_alpha(path, format, bytes))
-      return {std::move(*alpha), true, format != PictureFormat::webp && !pbrt_reads_alpha(format, bytes)};
+      return {std::move(*alpha), true, format != ImageFormat::webp && !pbrt_reads_alpha(format, bytes)};
     colours = decode_texture(path, format, bytes, encoding);
   }
   make_grey(colours);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Images as scalar textures: one channel, from the alpha of the file or from its colours.
+// Images as scalar textures: one channel, from the file's alpha or from its colours.
 
 #include <string>
 
@@ -9,15 +9,15 @@
 namespace alhazen {
 
 struct ScalarTexture {
-  ImageTexels texels;  ///< of one channel, unless the image is grey and keeps its encoded bytes in three equal ones
+  ImageTexels texels;  ///< one channel, unless the image is grey and keeps its encoded bytes in three equal channels
   bool from_alpha = false;
-  /// True where the values are those of an alpha channel that pbrt-v4 does not read: it knows alpha in EXR and QOI
-  /// files and in PNG files of the colour type RGBA, and averages the colours of all others.
+  /// True if the values come from an alpha channel that pbrt-v4 does not read: it reads alpha of EXR and QOI files and
+  /// of PNG files of the colour type RGBA, and averages the colours of all others.
   bool differs_from_pbrt = false;
 };
 
-/// Reads an image for use as a scalar: its alpha channel where it has one that is not 1 everywhere, else the mean of
-/// its linear colours. Alpha is linear whatever `encoding` says, since every format defines it so. Throws InputError.
+/// Reads an image for use as a scalar: its alpha channel if there is one that is not 1 everywhere, else the mean of its
+/// linear colours. Alpha is linear whatever `encoding` says, as every format defines it. Throws InputError.
 ScalarTexture read_scalar_texture(const InputPath& path, TextureEncoding encoding);
 
 }  // namespace alhazen

@@ -12,23 +12,24 @@
 
 namespace alhazen {
 
-PictureFormat picture_format(const InputPath& input) {
+ImageFormat image_format(const InputPath& input) {
   const std::string& path = input.name;
   InputFile file(input);
   if (file.size() == 0) throw_malformed(path, "the file is empty");
   std::array<char, 12> buffer{};
   const std::string_view head(buffer.data(), file.read(buffer.data(), buffer.size()));
-  if (head.starts_with("\x76\x2f\x31\x01")) return PictureFormat::exr;
-  if (head.starts_with("\x89PNG\r\n\x1a\n")) return PictureFormat::png;
-  if (head.starts_with("\xff\xd8\xff")) return PictureFormat::jpeg;
-  if (head.starts_with("#?")) return PictureFormat::hdr;
-  if (head.starts_with("PF") || head.starts_with("Pf")) return PictureFormat::pfm;
-  if (head.starts_with("RIFF") && head.substr(8) == "WEBP") return PictureFormat::webp;
-  if (head.starts_with("qoif")) return PictureFormat::qoi;
-  // The other signatures are long enough never to begin a TGA; "BM" is not.
-  if (extension_of(path) == "tga") return PictureFormat::tga;
-  if (head.starts_with("BM")) return PictureFormat::bmp;
-  throw_malformed(path, "is not a picture of a known kind; PNG, JPEG, TGA, BMP, QOI, WebP, HDR, PFM and EXR are");
+  if (head.starts_with("\x76\x2f\x31\x01")) return ImageFormat::exr;
+  if (head.starts_with("\x89PNG\r\n\x1a\n")) return ImageFormat::png;
+  if (head.starts_with("\xff\xd8\xff")) return ImageFormat::jpeg;
+  if (head.starts_with("#?")) return ImageFormat::hdr;
+  if (head.starts_with("PF") || head.starts_with("Pf")) return ImageFormat::pfm;
+  if (head.starts_with("RIFF") && head.substr(8) == "WEBP") return ImageFormat::webp;
+  if (head.starts_with("qoif")) return ImageFormat::qoi;
+  // The other signatures are too long to begin a TGA file by chance; "BM" is not.
+  if (extension_of(path) == "tga") return ImageFormat::tga;
+  if (head.starts_with("BM")) return ImageFormat::bmp;
+  throw_malformed(path,
+                  "is not an image of a known format; PNG, JPEG, TGA, BMP, QOI, WebP, HDR, PFM and EXR are supported");
 }
 
 bool is_opaque(const ImageTexels& texels) {
@@ -73,22 +74,22 @@ ImageTexels exr_texels(const Image& image, const std::string& path, bool is_data
 
 namespace {
 
-ImageTexels decode_format(const std::string& path, PictureFormat format, std::span<const uint8_t> bytes,
+ImageTexels decode_format(const std::string& path, ImageFormat format, std::span<const uint8_t> bytes,
                           TextureEncoding encoding) {
   switch (format) {
-    case PictureFormat::png:
+    case ImageFormat::png:
       return decode_png(path, bytes, encoding != TextureEncoding::linear);
-    case PictureFormat::jpeg:
+    case ImageFormat::jpeg:
       return decode_jpeg(path, bytes);
-    case PictureFormat::tga:
+    case ImageFormat::tga:
       return decode_tga(path, bytes);
-    case PictureFormat::bmp:
+    case ImageFormat::bmp:
       return decode_bmp(path, bytes);
-    case PictureFormat::hdr:
+    case ImageFormat::hdr:
       return decode_hdr(path, bytes);
-    case PictureFormat::webp:
+    case ImageFormat::webp:
       return decode_webp(path, bytes);
-    case PictureFormat::qoi:
+    case ImageFormat::qoi:
       return decode_qoi(path, bytes);
     default:
       return decode_pfm(path, bytes);
@@ -97,7 +98,7 @@ ImageTexels decode_format(const std::string& path, PictureFormat format, std::sp
 
 }  // namespace
 
-ImageTexels decode_texture(const std::string& path, PictureFormat format, std::span<const uint8_t> bytes,
+ImageTexels decode_texture(const std::string& path, ImageFormat format, std::span<const uint8_t> bytes,
                            TextureEncoding encoding) {
   ImageTexels texels = decode_format(path, format, bytes, encoding);
   texels.srgb = texels.srgb && !texels.bytes.empty() && encoding != TextureEncoding::linear;
@@ -107,8 +108,8 @@ ImageTexels decode_texture(const std::string& path, PictureFormat format, std::s
 ImageTexels read_texture(const InputPath& input, TextureEncoding encoding) {
   const std::string& path = input.name;
   try {
-    const PictureFormat format = picture_format(input);
-    if (format == PictureFormat::exr) return exr_texels(read_exr(input), path, encoding == TextureEncoding::data);
+    const ImageFormat format = image_format(input);
+    if (format == ImageFormat::exr) return exr_texels(read_exr(input), path, encoding == TextureEncoding::data);
     return decode_texture(path, format, read_bytes(input),
                           encoding == TextureEncoding::data ? TextureEncoding::linear : encoding);
   } catch (const std::bad_alloc&) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures as textures: PNG, JPEG, TGA, BMP, QOI, WebP, HDR, PFM and EXR, to texels.
+// Reads images as textures: PNG, JPEG, TGA, BMP, QOI, WebP, HDR, PFM and EXR.
 
 #include <string>
 
@@ -9,15 +9,14 @@
 
 namespace alhazen {
 
-/// `data`: linear, and no colours, as normals are: whatever primaries an EXR file has, its numbers are taken as they
-/// are.
+/// `data`: linear values that are not colours, such as normals; primaries in EXR files are ignored.
 enum class TextureEncoding { automatic, srgb, linear, data };
 
-/// Reads a picture for use as a texture. 8-bit files stay 8-bit and are marked sRGB unless `encoding` is linear; 16-bit
-/// and float files become floats, decoded from sRGB where the format says so (16-bit PNG). Grey becomes three equal
-/// channels; alpha is left out; colours of EXR files whose primaries are not those of sRGB are turned to linear sRGB
-/// (read_scalar_texture reads it). Throws InputError that names the file and what is wrong: missing, unreadable, of an
-/// unknown kind, over 2^30 texels.
+/// Reads an image for use as a texture. 8-bit files stay 8-bit and are marked sRGB unless `encoding` is linear; 16-bit
+/// and float files become floats, decoded from sRGB if the format is so encoded (16-bit PNG). Grey becomes three equal
+/// channels; alpha is ignored (read_scalar_texture reads it); colours of EXR files with other primaries than sRGB are
+/// converted to linear sRGB. Throws InputError that names the file and the problem: missing, unreadable, of an unknown
+/// format, over 2^30 texels.
 ImageTexels read_texture(const InputPath& path, TextureEncoding encoding);
 
 }  // namespace alhazen

@@ -4,7 +4,7 @@
 
 namespace alhazen {
 
-// The constants are those of IEC 61966-2-1, whose two thresholds meet to within 1e-7.
+// The constants are those of IEC 61966-2-1, whose two thresholds agree to within 1e-7.
 
 double srgb_encode(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;

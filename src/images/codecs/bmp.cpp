@@ -1,4 +1,4 @@
-// BMP input: the uncompressed kinds of all versions of the header, with palettes and with bit masks.
+// Reads BMP: the uncompressed variants of all header versions, with palettes and bit masks.
 
 #include <array>
 #include <bit>
@@ -19,14 +19,14 @@ struct BmpHeader {
   bool from_top = false;
   size_t bits = 0;
   size_t palette_at = 0, palette_count = 0, palette_entry_size = 4;
-  std::array<uint32_t, 4> masks{};  ///< red, green, blue, alpha; of 16 and 32 bits
+  std::array<uint32_t, 4> masks{};  ///< red, green, blue, alpha; for 16 and 32 bits
   bool alpha_is_declared = false;
 
   /// Rows are padded to four bytes.
   size_t row_size() const { return (static_cast<size_t>(width) * bits + 31) / 32 * 4; }
 };
 
-/// The oldest header, of 12 bytes: small numbers and palettes of three bytes.
+/// The oldest header, of 12 bytes, has small numbers and palette entries of three bytes.
 void read_core_header(ByteReader& in, BmpHeader& header) {
   header.width = in.u16();
   header.height = in.u16();
@@ -44,15 +44,15 @@ void read_info_header(ByteReader& in, size_t header_size, BmpHeader& header) {
   header.bits = in.u16();
   const uint32_t compression = in.u32();
   const bool has_masks = compression == 3 || compression == 6;
-  if (compression != 0 && !has_masks) in.fail("a compressed BMP picture is not supported; save it without compression");
+  if (compression != 0 && !has_masks) in.fail("a compressed BMP image is not supported; save it without compression");
   in.skip(12);  // size of the texels, resolution
   header.palette_count = in.u32();
-  in.skip(4);  // colours that matter
+  in.skip(4);  // important colours
   const bool has_alpha_mask = has_masks && (header_size >= 56 || compression == 6);
   if (has_masks)
     for (size_t c = 0; c < (has_alpha_mask ? 4u : 3u); ++c) header.masks[c] = in.u32();
   header.alpha_is_declared = header.masks[3] != 0;
-  // The masks of the header of 40 bytes stand behind it.
+  // The masks follow a header of 40 bytes.
   header.palette_at = 14 + header_size + (has_masks && header_size == 40 ? (compression == 6 ? 16 : 12) : 0);
   if (!has_masks && header.bits == 16) header.masks = {0x7c00, 0x03e0, 0x001f, 0};
   if (!has_masks && header.bits == 32) header.masks = {0xff0000, 0x00ff00, 0x0000ff, 0xff000000};
@@ -63,7 +63,7 @@ BmpHeader read_header(ByteReader& in) {
   in.skip(10);
   header.texels_at = in.u32();
   const size_t header_size = in.u32();
-  if (header_size != 12 && (header_size < 40 || header_size > 124)) in.fail("not a BMP picture of a known version");
+  if (header_size != 12 && (header_size < 40 || header_size > 124)) in.fail("not a BMP image of a known version");
   header.palette_at = 14 + header_size;
   if (header_size == 12)
     read_core_header(in, header);
@@ -71,7 +71,7 @@ BmpHeader read_header(ByteReader& in) {
     read_info_header(in, header_size, header);
   const bool indexed = header.bits == 1 || header.bits == 4 || header.bits == 8;
   if (!indexed && header.bits != 16 && header.bits != 24 && header.bits != 32)
-    in.fail("a BMP picture of " + std::to_string(header.bits) + " bits a texel is not supported");
+    in.fail("a BMP image of " + std::to_string(header.bits) + " bits per texel is not supported");
   const size_t full_palette = size_t{1} << (indexed ? header.bits : 0);
   if (indexed && (header.palette_count == 0 || header.palette_count > full_palette))
     header.palette_count = full_palette;
@@ -110,7 +110,7 @@ void decode_row(const BmpHeader& header, std::span<const uint8_t> palette, std::
   }
 }
 
-/// The row that is stored `y` rows from the start.
+/// The row that is stored `y` rows from the start of the texels.
 size_t row_from_top(const BmpHeader& header, size_t y) {
   return header.from_top ? y : static_cast<size_t>(header.height) - 1 - y;
 }

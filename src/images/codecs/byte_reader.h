@@ -1,6 +1,6 @@
 #pragma once
 
-// A place in the bytes of a file that never runs past their end.
+// A cursor over the bytes of a file that cannot run past their end.
 
 #include <cstdint>
 #include <span>
@@ -20,7 +20,7 @@ class ByteReader {
   size_t remaining() const { return bytes_.size() - position_; }
 
   std::span<const uint8_t> take(size_t count) {
-    if (count > remaining()) throw_malformed(path_, "the picture ends too early; it is truncated or damaged");
+    if (count > remaining()) throw_malformed(path_, "the image ends too early; it is truncated or damaged");
     position_ += count;
     return bytes_.subspan(position_ - count, count);
   }
@@ -41,7 +41,7 @@ class ByteReader {
   }
   int32_t i32() { return static_cast<int32_t>(u32()); }
 
-  /// The text up to the next line feed, which is consumed and left out.
+  /// The text up to the next line feed, which is consumed but not returned.
   std::string_view line() {
     const size_t start = position_;
     while (u8() != '\n') {

@@ -1,4 +1,4 @@
-// Which channels of an image with many are its colours.
+// Selects the colour channels of an image with many channels.
 
 #include <algorithm>
 #include <array>
@@ -11,19 +11,19 @@ namespace alhazen {
 
 namespace {
 
-/// The channels of one layer, by what stands behind the last dot of their names; -1 where there is none.
+/// The channels of one layer, by the component after the last dot of their names; -1 if absent.
 struct Layer {
   int red = -1, green = -1, blue = -1, luminance = -1, alpha = -1;
   bool has_chroma = false, is_vector = false;
 
   bool has_colour() const { return red >= 0 && green >= 0 && blue >= 0; }
-  /// CIE XYZ, or the three numbers of a vector: Y alone is not the picture.
+  /// CIE XYZ, or the components of a vector: Y alone is not the image.
   bool is_xyz() const { return is_vector && luminance >= 0 && !has_colour(); }
-  /// Where chroma is stored beside it, the luminance alone is not the picture.
+  /// If chroma is stored too, the luminance alone is not the image.
   bool has_grey() const { return luminance >= 0 && !has_chroma; }
 };
 
-/// Layers by name, in the order of the alphabet; the base layer is "".
+/// Layers by name, in alphabetical order; the base layer is "".
 std::map<std::string, Layer> layers_of(const Image& image) {
   std::map<std::string, Layer> layers;
   for (size_t i = 0; i < image.channels.size(); ++i) {
@@ -48,15 +48,15 @@ ColourChannels channels_of(const Layer& layer) {
   return {{layer.luminance, layer.luminance, layer.luminance}, layer.alpha, {}};
 }
 
-/// Whether programs call the whole picture so, beside layers of its parts.
-bool is_whole_picture(const std::string& layer) {
+/// Returns whether programs use this name for the whole image beside layers of its parts.
+bool is_whole_image(const std::string& layer) {
   const size_t dot = layer.rfind('.');
   std::string name = dot == std::string::npos ? layer : layer.substr(dot + 1);
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   return name == "combined" || name == "beauty" || name == "rgba" || name == "rgb";
 }
 
-/// The only layer that `has`, or the only one of them that is named as the whole picture.
+/// The only layer for which `has` holds, or the only one of them that is named like a whole image.
 template <class Has>
 ColourChannels only_layer(const std::map<std::string, Layer>& layers, const Has& has) {
   const Layer* whole = nullptr;
@@ -68,7 +68,7 @@ ColourChannels only_layer(const std::map<std::string, Layer>& layers, const Has&
     any = &layer;
     ++count;
     names += (names.empty() ? "'" : ", '") + name + "'";
-    if (!is_whole_picture(name)) continue;
+    if (!is_whole_image(name)) continue;
     whole = &layer;
     ++whole_count;
   }
@@ -77,19 +77,19 @@ ColourChannels only_layer(const std::map<std::string, Layer>& layers, const Has&
   ColourChannels none;
   if (count > 1)
     none.fault =
-        "has colours in several layers (" + names + ") and none without a name: write the one that is meant as R, G, B";
+        "has colours in several layers (" + names + ") and none without a name: write the intended one as R, G, B";
   return none;
 }
 
-/// What there is instead of colours.
+/// What the file has instead of colours.
 std::string fault_of(const std::map<std::string, Layer>& layers) {
   const auto any = [&](const auto& is) {
     return std::any_of(layers.begin(), layers.end(), [&](const auto& entry) { return is(entry.second); });
   };
   if (any([](const Layer& layer) { return layer.luminance >= 0 && layer.has_chroma; }))
-    return "has luminance and chroma (Y, RY, BY), which are not read: convert it to R, G, B";
+    return "has luminance and chroma (Y, RY, BY), which are not supported: convert it to R, G, B";
   if (any([](const Layer& layer) { return layer.is_xyz(); }))
-    return "has X, Y, Z and no R, G, B; neither CIE XYZ nor vectors are read: convert it to R, G, B";
+    return "has X, Y, Z and no R, G, B; neither CIE XYZ nor vectors are supported: convert it to R, G, B";
   return "has neither channels R, G, B nor grey in Y or a single channel";
 }
 

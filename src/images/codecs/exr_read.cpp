@@ -1,4 +1,4 @@
-// EXR input: every channel of one part, as float.
+// Reads EXR: every channel of one part, as float.
 
 #include <ImathBox.h>
 #include <ImfChannelList.h>
@@ -42,8 +42,8 @@ void skip_text(ByteReader& in) {
   }
 }
 
-/// Walks the attributes of all headers. The library makes room for the size that an attribute declares, up to 2 GiB,
-/// before it finds that the file ends; here such a file is refused.
+/// Checks the attributes of all headers. OpenEXR allocates the size that an attribute declares, up to 2 GiB, before it
+/// detects the end of the file; such files are refused here.
 void check_attributes(const std::string& path, std::span<const uint8_t> bytes) {
   ByteReader in(path, bytes);
   in.skip(4);  // the signature
@@ -60,10 +60,10 @@ void check_attributes(const std::string& path, std::span<const uint8_t> bytes) {
 
 struct ExrChannel {
   std::string name;
-  int x_sampling = 1, y_sampling = 1;  ///< every so many pixels there is a value
+  int x_sampling = 1, y_sampling = 1;  ///< subsampling: one value for this many pixels
 };
 
-/// Files hold channels in the order of the alphabet. People and `Image` expect the base layer first and R, G, B, A.
+/// Files hold channels in alphabetical order. Users and `Image` expect the base layer first, in the order R, G, B, A.
 std::tuple<std::string, size_t, std::string> reading_order(const std::string& name) {
   const size_t dot = name.rfind('.');
   const std::string layer = dot == std::string::npos ? "" : name.substr(0, dot);
@@ -80,8 +80,8 @@ std::vector<ExrChannel> channels_of(const Imf::Header& header) {
   return channels;
 }
 
-/// Spreads the values of a subsampled channel, which stand packed at the front of the plane, over all pixels: nearest
-/// value. From the end backward, so that no value is overwritten before its last use.
+/// Expands a subsampled channel, whose values are packed at the front of the plane, to all pixels by nearest neighbour.
+/// It runs backward, so that no value is overwritten before its last use.
 void spread(std::vector<float>& plane, int width, int height, const ExrChannel& channel) {
   const int columns = (width + channel.x_sampling - 1) / channel.x_sampling;
   for (int y = height - 1; y >= 0; --y)
@@ -98,7 +98,7 @@ std::optional<Chromaticities> chromaticities_of(const Imf::Header& header) {
   return Chromaticities{point(c.red), point(c.green), point(c.blue), point(c.white)};
 }
 
-/// Refuses a picture, or a tile of it, that the file cannot hold.
+/// Refuses an image, or a tile of it, that the file cannot hold.
 void check_header(const std::string& path, const Imf::Header& header, size_t channels, uint64_t file_size) {
   if (header.hasType() && Imf::isDeepData(header.type())) throw_malformed(path, "holds deep data; compile it first");
   if (channels == 0) throw_malformed(path, "the EXR file has no channels");
@@ -112,8 +112,8 @@ void check_header(const std::string& path, const Imf::Header& header, size_t cha
   check_plausible(path, sizeof(float) * channels * tile.xSize * uint64_t{tile.ySize}, file_size);
 }
 
-/// How much a part is the picture: with colours, with a luminance, with one channel of whatever it is, with channels
-/// that are no picture, with data that are not read.
+/// Ranks a part by its contents: colours, a luminance, a single channel of any kind, several channels that are no
+/// image, unsupported data.
 int rank_of(const Imf::Header& header) {
   if (header.hasType() && Imf::isDeepData(header.type())) return 0;
   Image image;
@@ -125,19 +125,19 @@ int rank_of(const Imf::Header& header) {
   return name == "Y" || name.ends_with(".Y") ? 3 : 2;
 }
 
-/// The first part of the highest rank: of several pictures, as of a stereo pair, the first is the default.
-int picture_part(const Imf::MultiPartInputFile& file) {
+/// The first part of the highest rank: of several images, such as a stereo pair, the first is the default.
+int image_part(const Imf::MultiPartInputFile& file) {
   int best = 0;
   for (int part = 1; part < file.parts(); ++part)
     if (rank_of(file.header(part)) > rank_of(file.header(best))) best = part;
   return best;
 }
 
-Image read_picture_part(const std::string& path, std::span<const uint8_t> bytes) {
+Image read_image_part(const std::string& path, std::span<const uint8_t> bytes) {
   check_attributes(path, bytes);
   MemoryStream stream(path, bytes);
   Imf::MultiPartInputFile file(stream);
-  const int number = picture_part(file);
+  const int number = image_part(file);
   const Imf::Header& header = file.header(number);
   const std::vector<ExrChannel> channels = channels_of(header);
   check_header(path, header, channels.size(), bytes.size());
@@ -168,7 +168,7 @@ Image read_picture_part(const std::string& path, std::span<const uint8_t> bytes)
 Image read_exr(const InputPath& input) {
   const std::string& path = input.name;
   try {
-    return read_picture_part(path, read_bytes(input));
+    return read_image_part(path, read_bytes(input));
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {

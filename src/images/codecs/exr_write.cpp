@@ -1,5 +1,5 @@
-// EXR output by OpenEXR's scanline interface, a block of rows at a time, so that a large picture with many channels
-// is never in memory as a whole.
+// Writes EXR by OpenEXR's scanline interface, a block of rows at a time, so that a large image with many channels is
+// never in memory as a whole.
 
 #include <ImathBox.h>
 #include <ImfChannelList.h>
@@ -43,7 +43,7 @@ struct ExrPlane {
   size_t value_size() const { return type == Imf::HALF ? sizeof(half) : sizeof(float); }
 };
 
-/// Half floats end at 65504; what is larger would turn into an infinity that no later step could undo.
+/// Half floats end at 65504; larger values would become infinities, which no later step could undo.
 half to_half(float value) {
   if (std::isnan(value)) return half(value);
   return half(std::clamp(value, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX)));
@@ -87,7 +87,7 @@ void store_row(std::span<const float> values, ExrPlane& plane, int row_in_block)
     std::copy(values.begin(), values.end(), reinterpret_cast<float*>(plane.block.data()) + first);
 }
 
-/// Asks the source for rows y to y + count - 1.
+/// Gets rows y to y + count - 1 from the source.
 void fill_block(const ImageSource& source, int y, int count, std::vector<float>& row, std::vector<ExrPlane>& planes) {
   const size_t width = static_cast<size_t>(source.width);
   for (int i = 0; i < count; ++i) {
@@ -110,13 +110,13 @@ void write_block(Imf::OutputFile& output, const std::vector<ExrPlane>& planes, i
 
 void check_source(const std::string& path, const ImageSource& source) {
   const std::string failure = "cannot write " + path + ": ";
-  if (source.width <= 0 || source.height <= 0) throw RenderError(failure + "the picture has no pixels");
-  if (source.channels.empty()) throw RenderError(failure + "the picture has no channels");
+  if (source.width <= 0 || source.height <= 0) throw RenderError(failure + "the image has no pixels");
+  if (source.channels.empty()) throw RenderError(failure + "the image has no channels");
   const std::set<std::string> names(source.channels.begin(), source.channels.end());
   if (names.size() != source.channels.size()) throw RenderError(failure + "two channels have the same name");
 }
 
-/// Runs a step of the library; what it throws becomes a RenderError, the disk's own failure before all others.
+/// Runs a step of the library and converts its exceptions to RenderError; the disk's own failure takes precedence.
 template <class Step>
 auto guarded(const std::string& path, AtomicFile& file, const Step& step) {
   try {
@@ -145,7 +145,7 @@ void write_exr(const std::string& path, const ImageSource& source, const ExrOpti
       fill_block(source, y, count, row, planes);
       guarded(path, file, [&] { write_block(*output, planes, count); });
     }
-  }  // the destructor of the output writes the table of its blocks
+  }  // the destructor of the output writes its offset table
   file.commit();
 }
 

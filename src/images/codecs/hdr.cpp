@@ -1,6 +1,6 @@
-// Radiance HDR input (RGBE), after Ward, "Real Pixels", Graphics Gems II, and the format's manual page: flat scanlines,
-// the old run lengths and the new ones. Values are taken as they stand: EXPOSURE lines are not divided out, as other
-// renderers do not.
+// Reads Radiance HDR (RGBE), after Ward, "Real Pixels", Graphics Gems II, and the format's manual page: flat scanlines,
+// the old run-length encoding and the new one. Values are used unchanged: EXPOSURE lines are ignored, as in other
+// renderers.
 
 #include <algorithm>
 #include <array>
@@ -22,11 +22,11 @@ void read_variables(ByteReader& in) {
   in.line();  // "#?RADIANCE" or "#?RGBE"
   for (std::string_view line = in.line(); !line.empty() && line != "\r"; line = in.line())
     if (line.starts_with("FORMAT=") && !line.starts_with("FORMAT=32-bit_rle_rgbe"))
-      in.fail("an HDR picture with " + std::string(line.substr(0, 40)) + "; only 32-bit_rle_rgbe is supported");
+      in.fail("an HDR image with " + std::string(line.substr(0, 40)) + "; only 32-bit_rle_rgbe is supported");
 }
 
-/// How the scanlines of a file make the picture. "-Y height +X width" are rows from the top down, each from the left;
-/// -X runs from the right, +Y from the bottom up, and where X is named first the scanlines are columns.
+/// How the scanlines of a file form the image. "-Y height +X width" means rows from the top down, each from the left;
+/// -X runs from the right, +Y from the bottom up, and if X comes first the scanlines are columns.
 struct Layout {
   int64_t width = 0, height = 0;
   bool from_bottom = false, from_right = false, columns = false;
@@ -41,7 +41,7 @@ struct Layout {
   }
 };
 
-/// One axis, " -Y 32" with or without blanks before it, which is taken off `line`.
+/// Reads one axis, " -Y 32" with or without blanks before it, and removes it from `line`.
 bool read_axis(std::string_view& line, char& name, bool& negative, int64_t& size) {
   line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
   if (line.size() < 3 || (line[0] != '-' && line[0] != '+') || (line[1] != 'X' && line[1] != 'Y')) return false;
@@ -61,7 +61,7 @@ Layout read_layout(ByteReader& in) {
   int64_t first_size = 0, second_size = 0;
   if (!read_axis(line, first, first_negative, first_size) || !read_axis(line, second, second_negative, second_size) ||
       first == second)
-    in.fail("an HDR picture whose size is not given as \"-Y height +X width\" or another order of the axes");
+    in.fail("an HDR image whose size is not given as \"-Y height +X width\" or another order of the axes");
   Layout layout;
   layout.columns = first == 'X';
   layout.width = layout.columns ? first_size : second_size;
@@ -71,7 +71,7 @@ Layout read_layout(ByteReader& in) {
   return layout;
 }
 
-/// Each of the four components by itself: runs (128 + count, value) and literals (count, values).
+/// Decodes each of the four components separately: runs (128 + count, value) and literals (count, values).
 void read_new_run_lengths(ByteReader& in, std::vector<Rgbe>& row) {
   for (size_t component = 0; component < 4; ++component) {
     size_t x = 0;
@@ -79,15 +79,15 @@ void read_new_run_lengths(ByteReader& in, std::vector<Rgbe>& row) {
       const size_t code = in.u8();
       const bool run = code > 128;
       const size_t count = run ? code - 128 : code;
-      if (count == 0 || count > row.size() - x) in.fail("a run of the HDR picture leaves its row; it is damaged");
+      if (count == 0 || count > row.size() - x) in.fail("a run of the HDR image extends past its row; it is damaged");
       const std::span<const uint8_t> values = in.take(run ? 1 : count);
       for (size_t i = 0; i < count; ++i) row[x++][component] = values[run ? 0 : i];
     }
   }
 }
 
-/// Texels one after the other; (1, 1, 1, n) repeats the last one n times, and again n * 256 times where it follows
-/// itself. `first` is what has been read of the row already.
+/// Decodes texels in order; (1, 1, 1, n) repeats the previous one n times, and n * 256 times if it follows another such
+/// code. `first` is the part of the row that has been read already.
 void read_old_run_lengths(ByteReader& in, const Rgbe& first, std::vector<Rgbe>& row) {
   Rgbe texel = first;
   size_t x = 0;
@@ -96,7 +96,7 @@ void read_old_run_lengths(ByteReader& in, const Rgbe& first, std::vector<Rgbe>& 
     if (texel[0] == 1 && texel[1] == 1 && texel[2] == 1) {
       const size_t count = size_t{texel[3]} << shift;
       if (x == 0 || shift > 16 || count > row.size() - x)
-        in.fail("a run of the HDR picture leaves its row; it is damaged");
+        in.fail("a run of the HDR image extends past its row; it is damaged");
       const Rgbe last = row[x - 1];
       for (size_t i = 0; i < count; ++i) row[x++] = last;
       shift += 8;
@@ -119,7 +119,7 @@ void read_row(ByteReader& in, std::vector<Rgbe>& row) {
     read_old_run_lengths(in, {head[0], head[1], head[2], head[3]}, row);
 }
 
-/// Mantissas of 8 bits below a common exponent, biased by 128.
+/// Mantissas of 8 bits with a common exponent, biased by 128.
 void decode_texel(const Rgbe& texel, float* rgb) {
   const float unit = texel[3] == 0 ? 0.0f : std::ldexp(1.0f, texel[3] - (128 + 8));
   for (size_t c = 0; c < 3; ++c) rgb[c] = static_cast<float>(texel[c]) * unit;

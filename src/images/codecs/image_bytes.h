@@ -1,6 +1,6 @@
 #pragma once
 
-// The bytes of a picture on disk, and the bounds that keep a hostile one from taking all memory.
+// The bytes of an image file, and limits that prevent malicious files from exhausting memory.
 
 #include <cstdint>
 #include <span>
@@ -14,15 +14,15 @@ namespace alhazen {
 
 inline constexpr int64_t max_texels = int64_t{1} << 30;
 
-/// Throws InputError where `path` is not a readable regular file, or an empty one.
+/// Throws InputError if `path` is not a readable regular file, or empty.
 std::vector<uint8_t> read_bytes(const InputPath& path);
 
-// The next two are called with what a header declares, before anything of that size is allocated.
+// The next two check what a header declares before anything of that size is allocated.
 
-/// Throws InputError where the size is empty or over `max_texels`.
+/// Throws InputError if the size is empty or over `max_texels`.
 void check_size(const std::string& path, int64_t width, int64_t height);
 
-/// Throws InputError where `decoded_bytes` are beyond all that a file of `file_size` bytes could hold, compressed.
+/// Throws InputError if a file of `file_size` bytes could not hold `decoded_bytes` even when compressed.
 void check_plausible(const std::string& path, uint64_t decoded_bytes, uint64_t file_size);
 
 [[noreturn]] void throw_malformed(const std::string& path, const std::string& message);

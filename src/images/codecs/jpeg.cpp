@@ -1,8 +1,8 @@
-// JPEG input by stb_image, behind a check of the file's segments. By itself stb_image reads zeros past the end of a
-// truncated file, takes as long as the scans of a hostile one, and (up to version 2.27) trusts the counts of Huffman
-// tables and decodes with tables that the file never gave. So the check refuses such counts, and memory is handed out
-// zeroed: a table of zeros decodes to zeros. It also lets sums and shifts of bits overflow in damaged files; the build
-// compiles this file with -fwrapv, so that they are only wrong values.
+// Reads JPEG by stb_image, after checking the file's segments. By itself stb_image reads zeros past the end of a
+// truncated file, takes as long as the scans of a malicious one require, and (up to version 2.27) trusts the counts of
+// Huffman tables and decodes with tables that are missing in the file. So the check refuses such counts, and allocated
+// memory is zeroed: a table of zeros decodes to zeros. Sums and shifts of bits may also overflow in damaged files; this
+// file is compiled with -fwrapv, so that they only give wrong values.
 
 #include <cstdlib>
 #include <limits>
@@ -29,11 +29,11 @@ namespace {
 
 constexpr int start_of_image = 0xd8, end_of_image = 0xd9, start_of_scan = 0xda, huffman_tables = 0xc4;
 
-/// Progressive files have ten scans or so; each is a pass over the whole picture, however small it is in the file.
+/// Progressive files have about ten scans; each is a pass over the whole image, however small it is in the file.
 constexpr int max_scans = 100;
 
-/// The next marker, past the entropy-coded data before it: there 0xff is stuffed with 0, and restart markers
-/// (0xd0 to 0xd7) belong to the data.
+/// The next marker, after any entropy-coded data: in these 0xff is stuffed with 0, and restart markers (0xd0 to 0xd7)
+/// are part of the data.
 int next_marker(ByteReader& in) {
   while (true) {
     while (in.u8() != 0xff) {
@@ -44,7 +44,7 @@ int next_marker(ByteReader& in) {
   }
 }
 
-/// A segment of tables: of each a byte for its place, the counts of codes of 1 to 16 bits, and a symbol a code.
+/// A segment of tables: each has a byte for its index, the counts of codes of 1 to 16 bits, and a symbol per code.
 void check_huffman_tables(const std::string& path, std::span<const uint8_t> segment) {
   ByteReader in(path, segment);
   while (in.remaining() > 0) {
@@ -52,22 +52,22 @@ void check_huffman_tables(const std::string& path, std::span<const uint8_t> segm
     const auto counts = in.take(16);
     size_t codes = 0;
     for (const uint8_t count : counts) codes += count;
-    if (codes > 256) in.fail("a Huffman table of the JPEG picture has more than 256 codes; it is damaged");
+    if (codes > 256) in.fail("a Huffman table of the JPEG image has more than 256 codes; it is damaged");
     in.skip(codes);
   }
 }
 
-/// Walks the segments to the end of the image; throws InputError where the file ends before.
+/// Checks the segments up to the end of the image; throws InputError if the file ends before.
 void check_segments(const std::string& path, std::span<const uint8_t> bytes) {
   ByteReader in(path, bytes);
   int scans = 0;
   for (int marker = next_marker(in); marker != end_of_image; marker = next_marker(in)) {
-    if (marker == start_of_image || marker == 1) continue;  // markers that stand alone
+    if (marker == start_of_image || marker == 1) continue;  // markers without a segment
     const size_t high = in.u8(), length = high << 8 | in.u8();
-    if (length < 2) in.fail("a segment of the JPEG picture has no length; it is damaged");
+    if (length < 2) in.fail("a segment of the JPEG image has no length; it is damaged");
     const std::span<const uint8_t> segment = in.take(length - 2);
     if (marker == huffman_tables) check_huffman_tables(path, segment);
-    if (marker == start_of_scan && ++scans > max_scans) in.fail("the JPEG picture has more than 100 scans");
+    if (marker == start_of_scan && ++scans > max_scans) in.fail("the JPEG image has more than 100 scans");
   }
 }
 
@@ -75,7 +75,7 @@ void check_segments(const std::string& path, std::span<const uint8_t> bytes) {
 
 ImageTexels decode_jpeg(const std::string& path, std::span<const uint8_t> bytes) {
   if (bytes.size() > static_cast<size_t>(std::numeric_limits<int>::max()))
-    throw_malformed(path, "a JPEG picture of over 2 GiB is not supported");
+    throw_malformed(path, "a JPEG image of over 2 GiB is not supported");
   check_segments(path, bytes);
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;

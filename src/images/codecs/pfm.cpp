@@ -1,4 +1,4 @@
-// PFM input: "PF" (colour) or "Pf" (grey), width, height, scale, then floats, rows from the bottom up. A negative
+// Reads PFM: "PF" (colour) or "Pf" (grey), width, height, scale, then floats, rows from the bottom up. A negative scale
 // scale means little-endian; its absolute value is a factor on the values.
 
 #include <array>
@@ -17,7 +17,7 @@ namespace {
 
 bool is_space(uint8_t c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
 
-/// The next word of the header; the one space behind it is consumed.
+/// The next word of the header; the single space after it is consumed.
 std::string read_word(ByteReader& in) {
   uint8_t c = in.u8();
   while (is_space(c)) c = in.u8();
@@ -32,7 +32,7 @@ Number read_number(ByteReader& in, const char* what) {
   Number value{};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size())
-    in.fail(std::string("the ") + what + " of the PFM picture is not a number");
+    in.fail(std::string("the ") + what + " of the PFM image is not a number");
   return value;
 }
 
@@ -49,7 +49,7 @@ ImageTexels decode_pfm(const std::string& path, std::span<const uint8_t> bytes) 
   const size_t channels = read_word(in) == "PF" ? 3 : 1;
   const int64_t columns = read_number<int64_t>(in, "width"), rows = read_number<int64_t>(in, "height");
   const double scale = read_number<double>(in, "scale");
-  if (scale == 0 || !std::isfinite(scale)) in.fail("the scale of the PFM picture is not a finite number other than 0");
+  if (scale == 0 || !std::isfinite(scale)) in.fail("the scale of the PFM image is not a finite number other than 0");
   check_size(path, columns, rows);
 
   const size_t width = static_cast<size_t>(columns), height = static_cast<size_t>(rows);

@@ -1,4 +1,4 @@
-// PNG input of every depth and colour type, by libpng.
+// Reads PNG of every depth and colour type by libpng.
 
 #include <png.h>
 
@@ -14,8 +14,8 @@ namespace alhazen {
 
 namespace {
 
-/// libpng reports errors by longjmp. Each method that sets the jump calls libpng and nothing else, and has no object
-/// with a destructor on its frame.
+/// libpng reports errors by longjmp. Each method that sets the jump only calls libpng, and has no object with a
+/// destructor in its frame.
 class PngReader {
  public:
   explicit PngReader(std::span<const uint8_t> bytes) : bytes_(bytes) {}
@@ -44,8 +44,8 @@ class PngReader {
            png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
   }
 
-  /// Palettes and small depths widened, grey tripled, alpha kept or dropped: three or four samples a texel, big-endian
-  /// where they have 16 bits.
+  /// Palettes and small depths are expanded, grey is tripled, alpha is kept or dropped: three or four samples per
+  /// texel, big-endian if they have 16 bits.
   bool start(bool with_alpha, size_t expected_row_bytes) {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_palette_to_rgb(png_);
@@ -61,7 +61,7 @@ class PngReader {
     return true;
   }
 
-  /// Reads to the end of the file, so that a missing end is noticed too.
+  /// Reads to the end of the file, so that truncation is detected too.
   bool read_rows(png_bytepp rows) {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_read_image(png_, rows);
@@ -86,7 +86,7 @@ class PngReader {
     reader->bytes_ = reader->bytes_.subspan(size);
   }
 
-  std::span<const uint8_t> bytes_;  ///< what is still to be read
+  std::span<const uint8_t> bytes_;  ///< not yet read
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
   char message_[256] = {};
@@ -104,7 +104,7 @@ std::vector<float> decode_samples(const std::vector<uint8_t>& samples, bool srgb
 struct Samples {
   int width = 0, height = 0;
   bool has_16_bits = false;
-  std::vector<uint8_t> bytes;  ///< no texels where alpha was asked of a file that has none
+  std::vector<uint8_t> bytes;  ///< empty if alpha was requested and the file has none
 };
 
 Samples read_samples(const std::string& path, std::span<const uint8_t> bytes, bool with_alpha) {

@@ -1,4 +1,4 @@
-// PNG output with 8 bits, by libpng.
+// Writes 8-bit PNG by libpng.
 
 #include <png.h>
 
@@ -14,8 +14,8 @@ namespace alhazen {
 
 namespace {
 
-/// libpng reports errors by longjmp. Each method here sets the jump, calls libpng and nothing else, and has no object
-/// with a destructor on its frame; no C++ exception passes through libpng's frames.
+/// libpng reports errors by longjmp. Each method here sets the jump and only calls libpng, and has no object with a
+/// destructor in its frame; no C++ exception passes through libpng's frames.
 class PngWriter {
  public:
   PngWriter(const std::string& path, AtomicFile& file) : path_(path), file_(file) {}
@@ -77,7 +77,7 @@ class PngWriter {
       file_.write(data, size);
       return true;
     } catch (const RenderError&) {
-      return false;  // the file remembers why
+      return false;  // the file remembers the cause
     }
   }
 
@@ -90,7 +90,7 @@ class PngWriter {
 
 uint8_t encode(double linear) { return static_cast<uint8_t>(std::floor(255 * srgb_encode(linear) + 0.5)); }
 
-/// `channels`: where R, G and B stand in `row`.
+/// `channels`: positions of R, G and B in `row`.
 void encode_row(std::span<const float> row, const Vec3<size_t>& channels, const PngOptions& options,
                 std::vector<uint8_t>& encoded) {
   const size_t width = encoded.size() / 3;
@@ -105,16 +105,14 @@ void encode_row(std::span<const float> row, const Vec3<size_t>& channels, const 
 
 size_t find_channel(const std::string& path, const ImageSource& source, const char* name) {
   const auto found = std::find(source.channels.begin(), source.channels.end(), name);
-  if (found == source.channels.end())
-    throw RenderError("cannot write " + path + ": the picture has no channel " + name);
+  if (found == source.channels.end()) throw RenderError("cannot write " + path + ": the image has no channel " + name);
   return static_cast<size_t>(found - source.channels.begin());
 }
 
 }  // namespace
 
 void write_png(const std::string& path, const ImageSource& source, const PngOptions& options) {
-  if (source.width <= 0 || source.height <= 0)
-    throw RenderError("cannot write " + path + ": the picture has no pixels");
+  if (source.width <= 0 || source.height <= 0) throw RenderError("cannot write " + path + ": the image has no pixels");
   const Vec3<size_t> channels{find_channel(path, source, "R"), find_channel(path, source, "G"),
                               find_channel(path, source, "B")};
   AtomicFile file(path);

@@ -1,4 +1,4 @@
-// QOI input, after "The Quite OK Image Format, Specification Version 1.0" (2022): lossless RGB and RGBA of 8 bits.
+// Reads QOI, after "The Quite OK Image Format, Specification Version 1.0" (2022): lossless 8-bit RGB and RGBA.
 
 #include <algorithm>
 #include <array>
@@ -31,8 +31,8 @@ QoiHeader read_header(ByteReader& in) {
   header.height = big_endian_32(in);
   const int channels = in.u8(), colour_space = in.u8();
   if (channels != 3 && channels != 4)
-    in.fail("a QOI picture of " + std::to_string(channels) + " channels; it has 3 or 4");
-  if (colour_space > 1) in.fail("a QOI picture of an unknown colour space");
+    in.fail("a QOI image of " + std::to_string(channels) + " channels; it has 3 or 4");
+  if (colour_space > 1) in.fail("a QOI image of an unknown colour space");
   header.has_alpha = channels == 4;
   header.linear = colour_space == 1;
   return header;
@@ -40,7 +40,7 @@ QoiHeader read_header(ByteReader& in) {
 
 uint8_t sum(uint8_t value, int difference) { return static_cast<uint8_t>(value + difference); }
 
-/// Reads one chunk, which changes `pixel`, and returns for how many pixels it stands.
+/// Reads one chunk, which changes `pixel`, and returns the number of pixels that it encodes.
 int64_t read_chunk(ByteReader& in, const std::array<Pixel, 64>& seen, Pixel& pixel) {
   const int tag = in.u8();
   if (tag >= 0xfe) {  // the values themselves, without and with alpha
@@ -79,7 +79,7 @@ void decode_pixels(ByteReader& in, size_t count, const Store& store) {
     for (int64_t k = 0; k < run && i < count; ++k) store(i++, pixel);
   }
   const auto end = in.take(8);
-  if (end[0] != 0 || end[6] != 0 || end[7] != 1) in.fail("the QOI picture has no end where it should; it is damaged");
+  if (end[0] != 0 || end[6] != 0 || end[7] != 1) in.fail("the QOI image does not end where it should; it is damaged");
 }
 
 ImageTexels empty_texels(const std::string& path, const QoiHeader& header, size_t file_size, int channels) {

@@ -1,5 +1,5 @@
-// TGA input, after the "Truevision TGA File Format Specification 2.0": palettes, colours of 15 to 32 bits, grey; with
-// and without run lengths.
+// Reads TGA, after the "Truevision TGA File Format Specification 2.0": palettes, colours of 15 to 32 bits, grey; with
+// and without run-length encoding.
 
 #include <algorithm>
 #include <utility>
@@ -35,7 +35,7 @@ TgaHeader read_header(ByteReader& in) {
   header.run_lengths = (type & 8) != 0;
   header.indexed = (type & ~8) == 1;
   header.grey = (type & ~8) == 3;
-  if (type > 11 || (type & ~8) < 1 || (type & ~8) > 3) in.fail("not a TGA picture of a known type");
+  if (type > 11 || (type & ~8) < 1 || (type & ~8) > 3) in.fail("not a TGA image of a known type");
   header.palette_first = in.u16();
   header.palette_count = in.u16();
   header.palette_bits = in.u8();
@@ -56,13 +56,13 @@ bool is_colour_depth(size_t bits) { return bits == 15 || bits == 16 || bits == 2
 void check_header(const TgaHeader& header, const ByteReader& in) {
   const bool depth_is_known =
       header.indexed || header.grey ? header.bits == 8 || header.bits == 16 : is_colour_depth(header.bits);
-  if (!depth_is_known) in.fail("a TGA picture of " + std::to_string(header.bits) + " bits a texel is not supported");
-  if (header.indexed && !header.has_palette) in.fail("a TGA picture of indices without a palette");
+  if (!depth_is_known) in.fail("a TGA image of " + std::to_string(header.bits) + " bits per texel is not supported");
+  if (header.indexed && !header.has_palette) in.fail("a TGA image of indices without a palette");
   if (header.has_palette && !is_colour_depth(header.palette_bits))
-    in.fail("a TGA palette of " + std::to_string(header.palette_bits) + " bits an entry is not supported");
+    in.fail("a TGA palette of " + std::to_string(header.palette_bits) + " bits per entry is not supported");
 }
 
-/// The texels as the file has them, `texel_size` bytes each. Runs may go on over the end of a row.
+/// The texels as in the file, `texel_size` bytes each. Runs may extend over the end of a row.
 std::vector<uint8_t> read_texels(const TgaHeader& header, ByteReader& in) {
   const size_t size = header.texel_size();
   std::vector<uint8_t> texels(static_cast<size_t>(header.width) * static_cast<size_t>(header.height) * size);
@@ -79,7 +79,7 @@ std::vector<uint8_t> read_texels(const TgaHeader& header, ByteReader& in) {
   return texels;
 }
 
-/// Blue stands first; 15 and 16 bits have five a channel, and their last bit is no colour.
+/// Blue comes first; 15 and 16 bits have five per channel, and their last bit is not part of the colour.
 void decode_colour(const uint8_t* value, size_t bits, uint8_t* rgb) {
   if (bits >= 24) {
     std::reverse_copy(value, value + 3, rgb);
@@ -89,7 +89,7 @@ void decode_colour(const uint8_t* value, size_t bits, uint8_t* rgb) {
   for (int c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>(((packed >> (10 - 5 * c) & 31) * 255 + 15) / 31);
 }
 
-/// Where the colour of a texel is stored: in the palette, or in the texel itself.
+/// The location of a texel's colour: in the palette, or in the texel itself.
 const uint8_t* colour_at(const TgaHeader& header, std::span<const uint8_t> palette, const uint8_t* value,
                          const ByteReader& in) {
   if (!header.indexed) return value;
@@ -99,16 +99,16 @@ const uint8_t* colour_at(const TgaHeader& header, std::span<const uint8_t> palet
   return palette.data() + (index - header.palette_first) * header.palette_entry_size();
 }
 
-/// Of grey texels of 16 bits the second eight are alpha.
+/// In 16-bit grey texels the second byte is alpha.
 uint8_t alpha_of(const TgaHeader& header, const uint8_t* colour) {
   if (header.grey) return colour[1];
   return header.colour_bits() == 32 ? colour[3] : static_cast<uint8_t>((colour[1] & 0x80) != 0 ? 255 : 0);
 }
 
-/// Calls `store(texel, colour)` with the place of every texel, counted from the top left, and its bytes.
+/// Calls `store(texel, colour)` with the index of every texel, counted from the top left, and its bytes.
 template <class Store>
-void read_picture(const std::string& path, const TgaHeader& header, ByteReader& in, size_t file_size,
-                  ImageTexels& texels, const Store& store) {
+void read_image(const std::string& path, const TgaHeader& header, ByteReader& in, size_t file_size, ImageTexels& texels,
+                const Store& store) {
   check_header(header, in);
   check_size(path, header.width, header.height);
   check_plausible(path,
@@ -132,7 +132,7 @@ ImageTexels decode_tga(const std::string& path, std::span<const uint8_t> bytes) 
   ByteReader in(path, bytes);
   const TgaHeader header = read_header(in);
   ImageTexels texels{header.width, header.height, {}, {}, true, path};
-  read_picture(path, header, in, bytes.size(), texels, [&](size_t texel, const uint8_t* colour) {
+  read_image(path, header, in, bytes.size(), texels, [&](size_t texel, const uint8_t* colour) {
     uint8_t* rgb = &texels.bytes[3 * texel];
     if (header.grey)
       std::fill_n(rgb, 3, colour[0]);
@@ -148,7 +148,7 @@ std::optional<ImageTexels> decode_tga_alpha(const std::string& path, std::span<c
   if (!header.may_have_alpha()) return std::nullopt;
   ImageTexels texels{header.width, header.height, {}, {}, false, path, 1};
   uint8_t any = 0;
-  read_picture(path, header, in, bytes.size(), texels, [&](size_t texel, const uint8_t* colour) {
+  read_image(path, header, in, bytes.size(), texels, [&](size_t texel, const uint8_t* colour) {
     texels.bytes[texel] = alpha_of(header, colour);
     any |= texels.bytes[texel];
   });

@@ -1,4 +1,4 @@
-// WebP input by libwebp.
+// Reads WebP by libwebp.
 
 #include <utility>
 
@@ -25,7 +25,7 @@ Decoded decode(const std::string& path, std::span<const uint8_t> bytes) {
   WebPBitstreamFeatures features{};
   if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK)
     throw_malformed(path, "not a readable WebP file");
-  if (features.has_animation != 0) throw_malformed(path, "animated WebP pictures are not supported");
+  if (features.has_animation != 0) throw_malformed(path, "animated WebP images are not supported");
   check_size(path, features.width, features.height);
   const uint64_t pixels = static_cast<uint64_t>(features.width) * static_cast<uint64_t>(features.height);
   check_plausible(path, pixels, bytes.size());
@@ -33,7 +33,7 @@ Decoded decode(const std::string& path, std::span<const uint8_t> bytes) {
   result.rgba.resize(4 * pixels);
   if (WebPDecodeRGBAInto(bytes.data(), bytes.size(), result.rgba.data(), result.rgba.size(), 4 * features.width) ==
       nullptr)
-    throw_malformed(path, "not a readable WebP file: its picture is damaged");
+    throw_malformed(path, "not a readable WebP file: its image is damaged");
   return result;
 }
 
@@ -65,7 +65,7 @@ std::optional<ImageTexels> decode_webp_alpha(const std::string& path, std::span<
 
 ImageTexels decode_webp(const std::string& path, std::span<const uint8_t>) {
   throw InputError({path},
-                   "the program was built without libwebp-dev, so WebP pictures are not read: convert it to PNG "
+                   "the program was built without libwebp-dev, so WebP images are not supported: convert it to PNG "
                    "or JPEG, or build with that library");
 }
 

@@ -10,8 +10,8 @@ namespace alhazen {
 
 namespace {
 
-/// Knots at equal distances through the colours of "magma" (Smith and van der Walt 2015, in the public domain),
-/// sRGB-encoded with 8 bits.
+/// Equidistant samples of the colour map "magma" (Smith and van der Walt 2015, in the public domain), sRGB-encoded with
+/// 8 bits.
 constexpr std::array<Vec3d, 9> knots{{{0, 0, 4},
                                       {28, 16, 68},
                                       {79, 18, 123},

@@ -1,12 +1,13 @@
 #pragma once
 
-// Colours for numbers.
+// A colour map for scalar values.
 
 #include "core/math/vec.h"
 
 namespace alhazen {
 
-/// Black over purple and orange to pale yellow, with a lightness that rises evenly: linear sRGB for a value in [0, 1].
+/// Linear sRGB for a value in [0, 1]: from black over purple and orange to pale yellow, with uniformly rising
+/// lightness.
 Vec3d error_colour(double value);
 
 }  // namespace alhazen

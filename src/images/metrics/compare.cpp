@@ -14,16 +14,16 @@ namespace alhazen {
 
 namespace {
 
-/// Two pictures of the same size, pixel by pixel.
+/// Two images of the same size, compared pixel by pixel.
 class Pair {
  public:
   Pair(const Image& a, const Image& b) : a_(a), b_(b) {
     if (a.width != b.width || a.height != b.height)
-      throw InputError("the pictures differ in size: " + size_text(a) + " and " + size_text(b) +
-                       "; only pictures of the same size can be compared");
-    if (a.width <= 0 || a.height <= 0) throw InputError("the pictures have no pixels");
+      throw InputError("the images differ in size: " + size_text(a) + " and " + size_text(b) +
+                       "; only images of the same size can be compared");
+    if (a.width <= 0 || a.height <= 0) throw InputError("the images have no pixels");
     for (const ColourChannels& channels : {channels_a_, channels_b_})
-      if (!channels) throw InputError("a picture " + channels.fault + ", so there is nothing to compare");
+      if (!channels) throw InputError("an image " + channels.fault + ", so there is nothing to compare");
   }
 
   size_t width() const { return static_cast<size_t>(a_.width); }
@@ -56,7 +56,7 @@ Vec3d encoded(const Vec3d& colour) {
 
 double mean_of(const Vec3d& v) { return (v.x + v.y + v.z) / 3; }
 
-/// The measures that look at each pixel by itself. Returns the number of pixels that count.
+/// Computes the metrics that treat each pixel separately. Returns the number of valid pixels.
 int64_t compare_pixels(const Pair& pair, ImageDifference& result) {
   int64_t count = 0;
   double encoded_mse = 0;
@@ -81,7 +81,7 @@ int64_t compare_pixels(const Pair& pair, ImageDifference& result) {
   return count;
 }
 
-// Pixels that do not count are black in both pictures, so that they add no difference to those around them.
+// Invalid pixels are black in both images, so that they add no difference to their neighbours.
 
 double mean_ssim(const Pair& pair) {
   Plane<double> a(pair.width(), pair.height()), b = a;
@@ -148,7 +148,7 @@ Image difference_image(const Image& a, const Image& b) {
 
 Image reduced(const Image& image, int factor) {
   if (factor < 1 || factor > std::min(image.width, image.height))
-    throw InputError("a picture of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+    throw InputError("an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
                      " cannot be reduced by " + std::to_string(factor));
   Image small{image.width / factor, image.height / factor, image.channels, {}};
   const auto width = static_cast<size_t>(image.width), columns = static_cast<size_t>(small.width),

@@ -1,6 +1,6 @@
 #pragma once
 
-// How far two pictures are apart.
+// Difference metrics of two images.
 
 #include <cstdint>
 
@@ -8,13 +8,13 @@
 
 namespace alhazen {
 
-/// Over the channels R, G, B of linear values unless said otherwise; pixels that are not finite in either picture are
-/// counted and left out of every mean.
+/// Metrics over the channels R, G, B of linear values unless said otherwise; pixels that are not finite in either image
+/// are counted and excluded from every mean.
 struct ImageDifference {
   double mse = 0;     ///< mean squared error
   double rmse = 0;    ///< its root
   double relmse = 0;  ///< mean of (a - b)^2 / (b^2 + 0.01), b the reference
-  double psnr = 0;    ///< dB, of the sRGB-encoded values clamped to [0, 1]; infinite for equal pictures
+  double psnr = 0;    ///< dB, of the sRGB-encoded values clamped to [0, 1]; infinite for equal images
   double ssim = 0;    ///< structural similarity of the encoded luminance (Wang et al. 2004), Gaussian window of 11
   double flip = 0;    ///< mean LDR-FLIP (Andersson et al. 2020) at 67 pixels per degree
   double mean_a = 0, mean_b = 0;             ///< mean luminance of each
@@ -22,14 +22,14 @@ struct ImageDifference {
   int64_t nonfinite_a = 0, nonfinite_b = 0;  ///< pixels with a NaN or infinite channel
 };
 
-/// Throws InputError where the sizes differ or a picture has neither R, G, B nor a single channel.
+/// Throws InputError if the sizes differ or an image has neither R, G, B nor a single channel.
 ImageDifference compare_images(const Image& a, const Image& b);
 
-/// The picture with each `factor` x `factor` pixels made one, their mean; rows and columns that are left over at the
-/// right and the bottom are dropped. Throws InputError where nothing would be left.
+/// The image downsampled: each pixel is the mean of `factor` x `factor` pixels; remaining rows and columns at the right
+/// and the bottom are dropped. Throws InputError if nothing would be left.
 Image reduced(const Image& image, int factor);
 
-/// A picture (R, G, B) of where they differ: the FLIP error of each pixel through a perceptually ordered colour map.
+/// An image (R, G, B) of the differences: the FLIP error of each pixel through a perceptually ordered colour map.
 Image difference_image(const Image& a, const Image& b);
 
 }  // namespace alhazen

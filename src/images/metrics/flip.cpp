@@ -9,8 +9,8 @@ namespace alhazen {
 
 namespace {
 
-// Names and values of the constants are those of the paper: section 4.1 for the colours, 4.2 for the features, 4.3
-// for their combination.
+// Names and values of the constants are those of the paper: section 4.1 for the colours, 4.2 for the features, 4.3 for
+// their combination.
 constexpr double pi = std::numbers::pi;
 constexpr double pixels_per_degree = 0.7 * (3840 / 0.7) * (pi / 180);
 constexpr double q_c = 0.7, p_c = 0.4, p_t = 0.95;
@@ -43,7 +43,7 @@ double cielab_curve(double t) {
   return t > delta * delta * delta ? std::cbrt(t) : t / (3 * delta * delta) + 4.0 / 29;
 }
 
-/// CIELAB with its chroma scaled by the lightness, for the Hunt effect: dark colours look less colourful.
+/// CIELAB with chroma scaled by lightness, for the Hunt effect: dark colours look less colourful.
 Vec3d hunt_adjusted_lab(const Vec3d& rgb) {
   const Vec3d xyz = relative_xyz(rgb);
   const Vec3d f{cielab_curve(xyz.x), cielab_curve(xyz.y), cielab_curve(xyz.z)};
@@ -86,8 +86,8 @@ Plane<float> blurred(const Plane<float>& plane, const SensitivityGaussian& gauss
   return convolve(plane, kernel, kernel);
 }
 
-/// The blue-yellow filter is the sum of two Gaussians, which is not separable: two blurs, weighted by the volumes
-/// under the Gaussians.
+/// The blue-yellow filter is the sum of two Gaussians, which is not separable: two blurs, weighted by the volumes under
+/// the Gaussians.
 Plane<float> blurred_blue_yellow(const Plane<float>& plane) {
   double sum_1 = 0, sum_2 = 0;
   const std::vector<float> kernel_1 = gaussian_kernel(blue_yellow_1, sum_1);
@@ -110,7 +110,7 @@ void set_colour(ColourPlanes& planes, size_t i, const Vec3d& colour) {
   for (int c = 0; c < 3; ++c) planes[static_cast<size_t>(c)].values[i] = static_cast<float>(colour[c]);
 }
 
-/// What the eye resolves of a picture, in the colour space in which differences are measured.
+/// The part of an image that the eye resolves, in the colour space in which differences are measured.
 ColourPlanes perceived_colours(const ColourPlanes& rgb) {
   ColourPlanes planes = rgb;
   const size_t count = rgb[0].values.size();
@@ -123,8 +123,8 @@ ColourPlanes perceived_colours(const ColourPlanes& rgb) {
   return planes;
 }
 
-/// Maps a colour distance to [0, 1]: distances up to p_c of the largest, that between pure green and pure blue, take
-/// up the range to p_t.
+/// Maps a colour distance to [0, 1]: distances up to p_c times the largest one, that between pure green and pure blue,
+/// are mapped to [0, p_t].
 class ColourError {
  public:
   double operator()(const Vec3d& a, const Vec3d& b) const {
@@ -139,13 +139,13 @@ class ColourError {
 
 // The feature pipeline.
 
-/// Edges and points of the luminance: magnitudes of the first and of the second derivative.
+/// Edges and points of the luminance: magnitudes of the first and second derivatives.
 struct Features {
   Plane<float> edges, points;
 };
 
-/// The derivative of a Gaussian that `value` gives, scaled so that its positive values sum to 1 and its negative ones
-/// to -1.
+/// The derivative of a Gaussian given by `value`, scaled so that its positive values sum to 1 and its negative ones to
+/// -1.
 std::vector<float> derivative_kernel(int radius, const std::function<double(double)>& value) {
   double positive = 0, negative = 0;
   for (const double v : sample_kernel<double>(radius, value)) (v > 0 ? positive : negative) += std::abs(v);

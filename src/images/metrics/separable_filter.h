@@ -1,6 +1,6 @@
 #pragma once
 
-// Convolution of a plane with a kernel that is a product of a horizontal and a vertical one.
+// Convolution of a plane with a kernel that is the product of a horizontal and a vertical one.
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace alhazen {
 
-/// One value a pixel, rows from the top down.
+/// One value per pixel, rows from the top down.
 template <class Real>
 struct Plane {
   size_t width = 0, height = 0;
@@ -28,7 +28,7 @@ std::vector<Real> sample_kernel(int radius, const std::function<double(double)>&
   return kernel;
 }
 
-/// sum over i of kernel[i] * in[x + i - radius], the ends of the row carried on outward.
+/// Sums kernel[i] * in[x + i - radius] over i, with the ends of the row repeated.
 template <class Real>
 void filter_row(const Real* in, size_t width, const std::vector<Real>& kernel, std::vector<Real>& padded, Real* out) {
   const size_t radius = kernel.size() / 2;
@@ -41,7 +41,7 @@ void filter_row(const Real* in, size_t width, const std::vector<Real>& kernel, s
     for (size_t x = 0; x < width; ++x) out[x] += kernel[i] * padded[x + i];
 }
 
-/// Kernels of odd sizes, centred. Pixels beyond the picture are those of its border.
+/// Kernels have odd sizes and are centred. Pixels beyond the image repeat its border.
 template <class Real>
 Plane<Real> convolve(const Plane<Real>& in, const std::vector<Real>& horizontal, const std::vector<Real>& vertical) {
   Plane<Real> rows(in.width, in.height), out(in.width, in.height);

@@ -6,12 +6,12 @@
 
 namespace alhazen {
 
-/// SSIM of each pixel, in [-1, 1], of values in [0, 1]: Wang et al. 2004, "Image Quality Assessment: From Error
+/// SSIM of each pixel, in [-1, 1], for values in [0, 1]: Wang et al. 2004, "Image Quality Assessment: From Error
 /// Visibility to Structural Similarity", with their window and constants.
 Plane<double> ssim_map(const Plane<double>& a, const Plane<double>& b);
 
-/// Pixels from each border whose window leaves the picture. Along an axis shorter than the window it is 0: every
-/// pixel counts there, with the border carried on outward.
+/// Number of pixels at each border whose window extends beyond the image. Along an axis shorter than the window it is
+/// 0: every pixel counts there, with the border repeated.
 size_t ssim_margin(size_t extent);
 
 }  // namespace alhazen

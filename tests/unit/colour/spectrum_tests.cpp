@@ -269,9 +269,9 @@ TEST(SpectrumFile, Malformed) {
   EXPECT_EQ(message_of("400 nan"), ":1:5: 'nan' is not a finite number");
   EXPECT_EQ(message_of("400 1e999"), ":1:5: '1e999' is not a finite number");
   EXPECT_EQ(message_of(std::string("400 1\0", 6)), ":1:5: '1\\x00' is not a finite number");
-  EXPECT_EQ(message_of("400 1\n500"), ":2:1: a wavelength without a value behind it");
-  EXPECT_EQ(message_of("400 1\n400 2"), ":2:1: wavelengths must ascend; this one is not above the one before");
-  EXPECT_EQ(message_of("400 1 # x\n 300 2"), ":2:2: wavelengths must ascend; this one is not above the one before");
+  EXPECT_EQ(message_of("400 1\n500"), ":2:1: a wavelength without a value after it");
+  EXPECT_EQ(message_of("400 1\n400 2"), ":2:1: wavelengths must ascend; this one is not above the previous one");
+  EXPECT_EQ(message_of("400 1 # x\n 300 2"), ":2:2: wavelengths must ascend; this one is not above the previous one");
   EXPECT_THROW(read_spectrum("no_such.spd"), InputError);
   EXPECT_THROW(read_spectrum(std::filesystem::temp_directory_path().string()), InputError);
 }

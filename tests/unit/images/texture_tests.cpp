@@ -212,7 +212,7 @@ TEST(Texture, MessagesSayWhatIsWrong) {
   EXPECT_THROW(read_texture(folder.file("none.png"), TextureEncoding::automatic), InputError);
   EXPECT_THROW(read_texture(folder.file(""), TextureEncoding::automatic), InputError);
   EXPECT_NE(error_of("empty.png", {}).find("empty"), std::string::npos);
-  EXPECT_NE(error_of("a.gif", text("GIF89a....")).find("known kind"), std::string::npos);
+  EXPECT_NE(error_of("a.gif", text("GIF89a....")).find("known format"), std::string::npos);
   EXPECT_NE(error_of("huge.pfm", pfm("PF", 65536, 65536, "-1", {})).find("2^30"), std::string::npos);
   EXPECT_NE(error_of("huge.png", png(40000, 40000, 8, 2, {})).find("2^30"), std::string::npos);
   EXPECT_NE(error_of("big.png", png(20000, 20000, 8, 2, {})).find("truncated"), std::string::npos);
