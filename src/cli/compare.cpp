@@ -1,4 +1,4 @@
-// `alhazen compare`: how far two pictures are apart.
+// `alhazen compare`: measures the difference of two images.
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ struct CompareOptions {
   int reduce = 1;
 };
 
-/// Numbers that are not finite (psnr of equal pictures) are null: JSON has no infinity.
+/// Numbers that are not finite (psnr of equal images) are null: JSON has no infinity.
 std::string json_text(const ImageDifference& d) {
   const nlohmann::ordered_json object{{"mse", d.mse},
                                       {"rmse", d.rmse},
@@ -49,13 +49,13 @@ std::string table_text(const ImageDifference& d) {
   line("RMSE", d.rmse, "its root");
   line("relMSE", d.relmse, "squared error over (B^2 + 0.01)");
   line("PSNR", d.psnr, "dB, sRGB-encoded");
-  line("SSIM", d.ssim, "1 for equal pictures, encoded luminance");
-  line("FLIP", d.flip, "0 for equal pictures, 67 pixels a degree");
+  line("SSIM", d.ssim, "1 for equal images, encoded luminance");
+  line("FLIP", d.flip, "0 for equal images, 67 pixels per degree");
   line("max", d.max_abs, "largest difference of a channel");
   line("mean A", d.mean_a, "luminance");
   line("mean B", d.mean_b, "luminance, of the reference");
   if (d.nonfinite_a + d.nonfinite_b > 0)
-    text += fmt::format("left out: pixels with NaN or infinity, {} in A and {} in B\n", d.nonfinite_a, d.nonfinite_b);
+    text += fmt::format("excluded: pixels with NaN or infinity, {} in A and {} in B\n", d.nonfinite_a, d.nonfinite_b);
   return text;
 }
 
@@ -72,7 +72,7 @@ void run_compare(const CompareOptions& options) {
   if (!options.diff.empty() && extension != "png" && extension != "exr")
     throw InputError("--diff " + options.diff + ": give a file name that ends in .png or .exr");
   if (!options.diff.empty()) check_target(options.diff);
-  refuse_same_file({options.diff, "the picture of --diff"}, {{options.a, "the picture"}, {options.b, "the reference"}});
+  refuse_same_file({options.diff, "the image of --diff"}, {{options.a, "the image"}, {options.b, "the reference"}});
   Image a = read_image(options.a), b = read_image(options.b);
   if (options.reduce > 1) a = reduced(a, options.reduce), b = reduced(b, options.reduce);
   const ImageDifference difference = compare_images(a, b);
@@ -83,18 +83,18 @@ void run_compare(const CompareOptions& options) {
 }  // namespace
 
 CLI::App* register_compare(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("compare", "How far two pictures are apart");
+  CLI::App* command = app.add_subcommand("compare", "Measure the difference of two images");
   const auto options = std::make_shared<CompareOptions>();
-  command->add_option("A", options->a, "the picture in question: EXR, PNG, JPEG, TGA, BMP, QOI, HDR, PFM or WebP")
+  command->add_option("A", options->a, "the image in question: EXR, PNG, JPEG, TGA, BMP, QOI, HDR, PFM or WebP")
       ->required()
       ->type_name("");
   command->add_option("B", options->b, "the reference, of the same size")->required()->type_name("");
   command->add_flag("--json", options->json, "print one JSON object");
-  command->add_option("--diff", options->diff, "write a picture of where they differ (FLIP), .png or .exr")
+  command->add_option("--diff", options->diff, "write an image of the differences (FLIP), .png or .exr")
       ->type_name("FILE");
   command
       ->add_option("--reduce", options->reduce,
-                   "compare means of N x N pixels: less noise, and FLIP as of the smaller pictures")
+                   "compare means of N x N pixels: less noise, and FLIP as for smaller images")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
   command->callback([options] { run_compare(*options); });

@@ -24,12 +24,11 @@ std::atomic<bool> stderr_is_stuck{false};
 std::string printed;
 int stdout_error = 0;  ///< errno of the first failure
 
-/// No bound, but for a program that was asked to end.
+/// Writes wait without limit, unless the program has been asked to end.
 constexpr int no_patience_limit = -1;
 constexpr int interrupted_patience = 1000, poll_interval = 100;  ///< milliseconds
 
-/// Writes all of `text`. Where the stream takes nothing for `patience` milliseconds: EAGAIN. Otherwise 0, or another
-/// errno.
+/// Writes all of `text`. Returns 0, EAGAIN if the stream accepts nothing for `patience` milliseconds, or another errno.
 int write_all(int descriptor, std::string_view text, int patience) {
   for (int waited = 0; !text.empty();) {
     pollfd room{descriptor, POLLOUT, 0};
@@ -41,7 +40,7 @@ int write_all(int descriptor, std::string_view text, int patience) {
       if (is_bounded && waited >= (patience == no_patience_limit ? interrupted_patience : patience)) return EAGAIN;
       continue;
     }
-    // A pipe that is ready takes PIPE_BUF bytes without blocking.
+    // A pipe that is ready accepts PIPE_BUF bytes without blocking.
     constexpr size_t piece = 4096;
     const ssize_t written = ::write(descriptor, text.data(), std::min(text.size(), piece));
     if (written < 0 && (errno == EINTR || errno == EAGAIN)) continue;
@@ -52,10 +51,10 @@ int write_all(int descriptor, std::string_view text, int patience) {
   return 0;
 }
 
-/// A descriptor that is closed would be the next that is opened: a picture would get the messages for stderr.
+/// The next file opened would get the number of a closed descriptor: messages for stderr would end up in an image.
 void fill_if_closed(int descriptor) {
   if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) return;
-  // For reading alone, so that what is written is an error. The lower ones are open, so this one is the next.
+  // Opened for reading only, so that writes fail. The lower descriptors are open, so this one is the next.
   if (::open("/dev/null", O_RDONLY) < 0) ::open("/", O_RDONLY);
 }
 
@@ -74,7 +73,7 @@ void prepare_streams() {
 }
 
 void tell_text(std::string_view text) {
-  write_printed();  // a terminal shows both streams, in this order
+  write_printed();  // a terminal shows both streams, so this keeps the order
   const int error = write_all(STDERR_FILENO, text, stderr_is_stuck ? 0 : stderr_patience);
   stderr_is_stuck = error == EAGAIN;
 }
@@ -85,8 +84,8 @@ void print_text(std::string_view text) { printed += text; }
 
 std::string flush_output() {
   write_printed();
-  // What the parser of the command line prints, --help, goes by std::cout.
-  errno = 0;  // streams that have failed before leave it as it is
+  // CLI11 prints its output, such as --help, to std::cout.
+  errno = 0;  // streams that have failed before do not set it
   std::cout.flush();
   const bool has_failed = !std::cout.good() || std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   if (has_failed && stdout_error == 0) stdout_error = errno ? errno : EIO;

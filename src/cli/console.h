@@ -1,7 +1,7 @@
 #pragma once
 
-// What the program says, on stdout and stderr. Nothing here throws: a stream that is closed, full or a pipe without a
-// reader must not end a render that may have taken days.
+// Output to stdout and stderr. Nothing here throws: a closed or full stream, or a pipe without a reader, must not end a
+// render that may have taken days.
 
 #include <fmt/format.h>
 
@@ -11,15 +11,14 @@
 
 namespace alhazen {
 
-/// To be called before anything is opened. Closed standard streams are opened where writing fails, so that no picture
-/// gets their numbers and with it what is meant for them. Writing to a pipe without a reader or beyond the limit on the
-/// size of files becomes an error of that write instead of the end of the program.
+/// Call this before any file is opened. It opens closed standard streams such that writing fails, so that no image gets
+/// their descriptors and the messages for them. Writing to a pipe without a reader or beyond the file size limit
+/// becomes an error of that write instead of ending the program.
 void prepare_streams();
 
-/// Writes to stderr. What it does not take is lost: where it takes nothing for two seconds, a reader that has stopped
-/// reading, nothing more is waited for.
+/// Writes to stderr. If it accepts nothing for two seconds, because its reader has stopped, the rest is dropped.
 void tell_text(std::string_view text);
-/// The same for what may as well be left out, progress: nothing is waited for.
+/// The same for dispensable text, such as progress: it never waits.
 void tell_progress(std::string_view text);
 
 template <class... Arguments>
@@ -27,7 +26,7 @@ void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   tell_text(fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
-/// Keeps text for stdout, which flush_output() writes.
+/// Stores text for stdout, which flush_output() writes.
 void print_text(std::string_view text);
 
 template <class... Arguments>
@@ -35,7 +34,7 @@ void print_out(fmt::format_string<Arguments...> format, Arguments&&... arguments
   print_text(fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
-/// Writes what was printed. Empty, or why not all of it was written.
+/// Writes the stored text. Returns why not all of it was written, or an empty string.
 std::string flush_output();
 
 }  // namespace alhazen

@@ -1,4 +1,4 @@
-// `alhazen devices`: every backend, and where one is not available, why and what to do.
+// `alhazen devices`: lists the backends, and for unavailable ones why and what to do.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -38,7 +38,7 @@ void print_json() {
 }  // namespace
 
 CLI::App* register_devices(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("devices", "List the backends and what they run on");
+  CLI::App* command = app.add_subcommand("devices", "List the backends and their devices");
   auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "One JSON array instead of the table");
   command->callback([json] { *json ? print_json() : print_table(); });

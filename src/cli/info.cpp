@@ -1,4 +1,4 @@
-// `alhazen info`: what a scene file holds, without rendering it.
+// `alhazen info`: describes the contents of a scene file without rendering it.
 
 #include <fmt/format.h>
 
@@ -87,7 +87,7 @@ void show(const InfoOptions& options) {
 }  // namespace
 
 CLI::App* register_info(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("info", "Read a scene and say what it holds");
+  CLI::App* command = app.add_subcommand("info", "Read a scene and describe its contents");
   auto options = std::make_shared<InfoOptions>();
   command->add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)")->required()->type_name("");
   command->add_flag("--json", options->json, "One JSON object instead of the list");

@@ -16,8 +16,8 @@ constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
 std::atomic<int64_t> interrupted_at{0};  ///< nanoseconds; 0: not yet
 static_assert(std::atomic<int64_t>::is_always_lock_free, "a signal handler takes no locks");
 
-/// SIGINT and SIGQUIT came ignored: a shell without job control has started the program beside others, and Ctrl-C is
-/// for the one in front.
+/// True if SIGINT and SIGQUIT were ignored at the start: a shell without job control has started the program in the
+/// background, and Ctrl-C is meant for the foreground.
 bool is_in_background = false;
 
 int64_t now() {
@@ -26,8 +26,8 @@ int64_t now() {
   return int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
-/// A terminal that closes sends SIGHUP by its shell and by the kernel, within moments; a limit on processor time sends
-/// SIGXCPU every second. Neither says that somebody has lost patience.
+/// When a terminal closes, both its shell and the kernel send SIGHUP; a limit on processor time sends SIGXCPU every
+/// second. Such repetitions do not mean that the user is impatient.
 bool is_repeated_by_itself(int signal_number) {
   return signal_number == SIGXCPU || (signal_number == SIGHUP && now() - interrupted_at.load() < 1'000'000'000);
 }

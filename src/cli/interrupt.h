@@ -1,12 +1,12 @@
 #pragma once
 
-// Signals that ask for an end, for subcommands that write what they have: Ctrl-C, SIGTERM, a lost terminal (SIGHUP), a
-// limit on processor time (SIGXCPU).
+// Signals that ask the program to end, for subcommands that then write their results so far: Ctrl-C, SIGTERM, a lost
+// terminal (SIGHUP), a limit on processor time (SIGXCPU).
 
 namespace alhazen {
 
-/// From here on the first such signal is remembered, and a second one ends the program at once. Those that the program
-/// was started with as ignored, as SIGHUP is by nohup, stay ignored.
+/// From now on the first such signal is recorded, and a second one ends the program at once. Signals that were ignored
+/// when the program started, such as SIGHUP by nohup, stay ignored.
 void catch_interrupts();
 bool is_interrupted();
 

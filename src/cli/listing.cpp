@@ -26,7 +26,7 @@ void print_listing(const std::string& scene, bool confine, bool as_json) {
     print_out("{}: {}\n", kind, names->size());
     for (size_t i = 0; i < names->size(); ++i) print_out("  {} {}\n", i, printable((*names)[i]));
   }
-  // Names are bytes of the file, which need not be valid UTF-8.
+  // Names are bytes of the file and need not be valid UTF-8.
   if (as_json) print_out("{}\n", json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
 }
 

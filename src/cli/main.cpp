@@ -1,4 +1,4 @@
-// The program `alhazen`: parses the command line, turns errors into one message and an exit code.
+// The program `alhazen`: parses the command line and turns errors into one message and an exit code.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 
 namespace {
 
-/// The subcommand that was asked for, or one of `study`, where there is none of that name; else empty.
+/// The name of a subcommand, also of `study`, that was given but does not exist; else empty.
 std::string unknown_subcommand(const CLI::App& app, int argc, char** argv) {
   const auto is_name = [&](int i) { return argc > i && argv[i][0] != '-'; };
   if (!is_name(1)) return {};
@@ -32,7 +32,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv, int& exit_code) {
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
     const std::string unknown = unknown_subcommand(app, argc, argv);
-    alhazen::tell("alhazen: {}\nRun 'alhazen --help' or 'alhazen SUBCOMMAND --help' for what may be given.\n",
+    alhazen::tell("alhazen: {}\nRun 'alhazen --help' or 'alhazen SUBCOMMAND --help' for the options.\n",
                   alhazen::printable(unknown.empty() ? error.what() : "there is no subcommand '" + unknown + "'"));
     return alhazen::exit_bad_input;
   }
@@ -45,10 +45,9 @@ int run_guarded(CLI::App& app, int argc, char** argv, int& exit_code) {
     alhazen::tell("{}\n", error.what());
     return alhazen::exit_bad_input;
   } catch (const std::bad_alloc&) {
-    alhazen::tell(
-        "alhazen: out of memory: what was asked for needs more than this machine, or a limit set on it, allows\n");
+    alhazen::tell("alhazen: out of memory: the task needs more than this machine, or a limit set on it, allows\n");
     return alhazen::exit_failed;
-  } catch (const alhazen::RenderError& error) {  // perhaps of several lines
+  } catch (const alhazen::RenderError& error) {  // may have several lines
     alhazen::tell("alhazen: {}\n", error.what());
     return alhazen::exit_failed;
   } catch (const std::exception& error) {
@@ -57,7 +56,7 @@ int run_guarded(CLI::App& app, int argc, char** argv, int& exit_code) {
   }
 }
 
-/// A report that does not arrive, on a full disk for one, is a failure.
+/// It is a failure if output cannot be written, for example to a full disk.
 int after_flushing(int exit_code) {
   const std::string problem = alhazen::flush_output();
   if (problem.empty()) return exit_code;
@@ -72,7 +71,7 @@ int run_program(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 failed while rendering or writing, 2 bad usage or bad input, 130 interrupted by Ctrl-C, "
-      "SIGTERM, SIGHUP or SIGXCPU (the picture so far is written).");
+      "SIGTERM, SIGHUP or SIGXCPU (the image so far is written).");
   int exit_code = alhazen::exit_done;
   alhazen::register_render(app, exit_code);
   alhazen::register_compare(app);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 void check_output(const std::string& path) {
   const std::string extension = extension_of(path);
   if (extension != "exr" && extension != "png")
-    throw InputError({path}, "pictures are written as .exr or .png: give a name that ends in one of them");
+    throw InputError({path}, "images are written as .exr or .png: give a name that ends in one of them");
   check_target(path);
 }
 
@@ -107,7 +107,7 @@ void write_output(const std::string& path, const OutputOptions& options, const R
   write_exr(path, source, exr);
 }
 
-/// A pipe may wait for its reader for long: the files are written before it.
+/// Pipes may wait for their reader for long, so files are written before them.
 bool is_file(const std::string& path) {
   std::error_code ignored;
   return fs::status(path, ignored).type() != fs::file_type::fifo;

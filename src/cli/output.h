@@ -1,6 +1,6 @@
 #pragma once
 
-// Where a render's pictures go.
+// Writes the images of a render.
 
 #include <string>
 #include <vector>
@@ -18,14 +18,14 @@ struct OutputOptions {
   PngOptions png;
 };
 
-/// The paths that were asked for, else the scene's own file name in the current folder, else the scene's name with
-/// .exr. Throws InputError for what cannot be written: an unknown extension, a folder that is not there or not
-/// writable, links that lead in a circle - before anything is rendered.
+/// Returns the requested paths, else the scene's own file name in the current folder, else the scene's name with .exr.
+/// Throws InputError before rendering if a path cannot be written: an unknown extension, a folder that does not exist
+/// or is not writable, cyclic links.
 std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, const std::string& film_filename,
                                         const std::string& scene_path);
 
-/// Throws InputError where two of these files are one, by whatever names: written twice, or written over what is read,
-/// `inputs` and those of `record`. `checkpoint` may be empty.
+/// Throws InputError if two of these files are the same, by any names: written twice, or overwriting an input, which is
+/// one of `inputs` or of those in `record`. `checkpoint` may be empty.
 void check_files(const std::vector<std::string>& outputs, const std::string& checkpoint,
                  const std::vector<NamedFile>& inputs, const InputRecord& record);
 
@@ -34,11 +34,11 @@ struct OutputReport {
   std::vector<std::string> failures;  ///< sentences
 };
 
-/// Writes every picture, whichever of the others fail.
+/// Writes every image, even if others fail.
 OutputReport write_outputs(const OutputOptions& options, const Rendering& rendering);
 
-/// The exposure in stops, 0 or less, that makes a picture of which most would be white a good one: in about half of
-/// what is not black the strongest channel comes to less than 0.6.
+/// The exposure in stops, 0 or less, that keeps an image from being mostly white: about half of the pixels that are not
+/// black get a strongest channel below 0.6.
 double fitting_exposure(const ImageSource& source);
 
 }  // namespace alhazen

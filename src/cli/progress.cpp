@@ -19,7 +19,7 @@ double samples_per_second(const Progress& p) {
 
 double seconds_left(const Progress& p) { return p.fraction > 0 ? p.seconds / p.fraction * (1 - p.fraction) : 0; }
 
-/// The bar must not wrap, so that it can be drawn over itself.
+/// The bar must not wrap, so that it can be overwritten.
 constexpr int bar_width = 30;
 
 }  // namespace
@@ -78,7 +78,7 @@ void ProgressPrinter::show_bar(const Progress& p) {
   bar_open_ = true;
 }
 
-/// Lines become rarer as the render goes on, so that a long one does not fill a log.
+/// Lines become less frequent as the render proceeds, so that a long one does not fill a log.
 void ProgressPrinter::show_line(const Progress& p) {
   if (p.seconds < last_shown_ + interval_ && !(p.fraction >= 1 && last_shown_ >= 0)) return;
   if (p.seconds < 1 && p.fraction < 1) return;

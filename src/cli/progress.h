@@ -1,6 +1,6 @@
 #pragma once
 
-// How a render shows itself while it runs, on stderr: a bar on a terminal, lines elsewhere, JSON for programs.
+// Shows the progress of a render on stderr: a bar on a terminal, lines elsewhere, JSON for programs.
 
 #include <mutex>
 #include <string>
@@ -17,11 +17,11 @@ ProgressStyle parse_progress_style(const std::string& name);
 class ProgressPrinter {
  public:
   explicit ProgressPrinter(ProgressStyle style) : style_(style) {}
-  /// Prints where the style says it is time.
+  /// Prints the progress when the style requires it.
   void show(const Progress& progress);
   /// Ends the bar's line.
   void finish();
-  /// Other lines, from any thread, while progress is shown.
+  /// Prints other lines, from any thread, while progress is shown.
   void tell_lines(const std::string& lines);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Numbers of the command line that must lie in a range.
+// Range checks for numbers on the command line.
 
 #include <CLI/CLI.hpp>
 #include <sstream>
@@ -8,8 +8,8 @@
 
 namespace alhazen {
 
-/// A check whose limits, `low` and `high` included, are told when they are broken, not in the help. Unlike CLI::Range
-/// it takes no NaN, which is neither below nor above anything.
+/// A check with inclusive limits `low` and `high`, which appear in the error but not in the help. Unlike CLI::Range it
+/// rejects NaN.
 template <class Number>
 CLI::Validator within(Number low, Number high) {
   const auto check = [low, high](std::string& text) {

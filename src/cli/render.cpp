@@ -1,4 +1,4 @@
-// `alhazen render`: a scene file to pictures.
+// `alhazen render`: renders a scene file to images.
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ struct RenderOptions {
   std::string tone_map = "none", exr_type = "half";
   std::string progress = "auto", stats;
   bool quiet = false, verbose = false, list = false;
-  std::optional<double> exposure;  ///< absent: the picture may choose it
+  std::optional<double> exposure;  ///< absent: may be chosen by the image's brightness
 };
 
 void parse_output_options(RenderOptions& o) {
@@ -50,7 +50,7 @@ void parse_output_options(RenderOptions& o) {
     throw InputError("unknown statistics '" + o.stats + "': it may be text, json");
 }
 
-/// Tells the warnings that were not told yet, once, whenever it is called.
+/// Prints new warnings each time it is called.
 class WarningPrinter {
  public:
   WarningPrinter(const Diagnostics& diagnostics, ProgressPrinter& printer)
@@ -87,8 +87,9 @@ void print_start(const RenderStatistics& s) {
 
 std::string text_statistics(const RenderStatistics& s) {
   return fmt::format(
-      "load    {:.3f} s\nbuild   {:.3f} s\nrender  {:.3f} s\nsamples {} ({:.3f} million a second)\n"
-      "rays    {} and {} shadow rays ({:.3f} million a second)\nbounces {:.3f} segments a path\nmemory  {:.1f} MB at "
+      "load    {:.3f} s\nbuild   {:.3f} s\nrender  {:.3f} s\nsamples {} ({:.3f} million per second)\n"
+      "rays    {} and {} shadow rays ({:.3f} million per second)\nbounces {:.3f} segments per path\nmemory  {:.1f} MB "
+      "at "
       "most, {:.1f} MB of it the scene\n",
       s.load_seconds, s.build_seconds, s.render_seconds, s.camera_samples, s.msamples_per_second(), s.rays,
       s.shadow_rays, s.mrays_per_second(), s.mean_segments(), static_cast<double>(s.peak_rss_bytes) * 1e-6,
@@ -98,7 +99,7 @@ std::string text_statistics(const RenderStatistics& s) {
 void print_end(const RenderOptions& options, const OutputReport& outputs, const RenderStatistics& statistics) {
   for (const std::string& failure : outputs.failures) tell("alhazen: {}\n", failure);
   if (!options.quiet) {
-    std::string line = fmt::format("{} samples a pixel in {}", statistics.samples_per_pixel,
+    std::string line = fmt::format("{} samples per pixel in {}", statistics.samples_per_pixel,
                                    format_seconds(statistics.render_seconds));
     for (const std::string& path : outputs.written)
       line += (&path == &outputs.written[0] ? "; wrote " : ", ") + printable(path);
@@ -110,7 +111,7 @@ void print_end(const RenderOptions& options, const OutputReport& outputs, const 
   if (options.stats == "text") print_out("{}", text_statistics(statistics));
 }
 
-/// Writes the pictures and says how it went. A picture without a sample is black, and an older one better than it.
+/// Writes the images and reports the result. An image without samples is not written, since an older one is better.
 int finish(RenderOptions& options, const Rendering& rendering, bool fits_exposure) {
   const bool is_empty = is_interrupted() && !rendering.has_samples();
   const auto is_png = [](const std::string& path) { return extension_of(path) == "png"; };
@@ -120,9 +121,9 @@ int finish(RenderOptions& options, const Rendering& rendering, bool fits_exposur
   print_end(options, outputs, rendering.statistics);
   if (!outputs.failures.empty()) return exit_failed;
   if (!is_interrupted()) return exit_done;
-  tell("interrupted{}\n", is_empty                        ? " before the first sample: no picture is written"
-                          : rendering.statistics.complete ? ", but the picture is whole"
-                                                          : ": the picture is of the samples so far");
+  tell("interrupted{}\n", is_empty                        ? " before the first sample: no image is written"
+                          : rendering.statistics.complete ? ", but the image is complete"
+                                                          : ": the image has the samples so far");
   return exit_interrupted;
 }
 
@@ -137,7 +138,7 @@ int run(RenderOptions& options) {
   Diagnostics diagnostics;
   const auto start = std::chrono::steady_clock::now();
   const Settings& s = options.settings;
-  // Before the scene is read, which may take long; the rest of the outputs' names are known after it.
+  // Checked before the scene is read, which may take long; the names of the outputs are known only after it.
   refuse_same_file({s.checkpoint, "the checkpoint"},
                    {{options.scene, "the scene"}, {s.environment, "the environment map"}});
   const auto record = std::make_shared<InputRecord>();
@@ -174,7 +175,7 @@ int run(RenderOptions& options) {
 void add_output_options(CLI::App& command, RenderOptions& o, const char* group) {
   command
       .add_option("-o,--output,--outfile", o.output.paths,
-                  "Picture to write, .exr or .png; may be given more than once. Default: as the scene says")
+                  "Image to write, .exr or .png; may be given more than once. Default: as the scene says")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("FILE")
@@ -196,7 +197,7 @@ void add_running_options(CLI::App& command, RenderOptions& o, const char* group)
 }  // namespace
 
 CLI::App* register_render(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("render", "Render a scene to pictures");
+  CLI::App* command = app.add_subcommand("render", "Render a scene to images");
   auto options = std::make_shared<RenderOptions>();
   command->add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)")->required()->type_name("");
   Settings& settings = options->settings;

@@ -1,13 +1,13 @@
 #pragma once
 
-// The stack that the program runs on.
+// The stack of the program.
 
 #include <functional>
 
 namespace alhazen {
 
-/// Calls `body` and returns what it returns: here where the stack may grow to what the program needs, else (ulimit -s)
-/// on a thread that has it. An exception must not leave `body`.
+/// Calls `body` and returns its result: on this thread if the stack may grow enough (ulimit -s), else on a thread with
+/// enough stack. `body` must not throw.
 int run_on_enough_stack(const std::function<int()>& body);
 
 }  // namespace alhazen

@@ -1,11 +1,11 @@
-// `alhazen study`: what each way of accelerating the same path tracer brings here, and why.
+// `alhazen study`: measures what each method of accelerating the path tracer gains on this machine, and why.
 
 #include "cli/subcommands.h"
 
 namespace alhazen {
 
 CLI::App* register_study(CLI::App& app, int& exit_code) {
-  CLI::App* study = app.add_subcommand("study", "Measure what each way of accelerating the path tracer brings here");
+  CLI::App* study = app.add_subcommand("study", "Measure what each method of acceleration gains on this machine");
   study->require_subcommand(1);
   register_study_report(*study, exit_code);
   register_study_tune(*study, exit_code);

@@ -1,4 +1,4 @@
-// `alhazen study compare`: what changed between two studies, beyond noise.
+// `alhazen study compare`: reports differences of two studies beyond noise.
 
 #include <fmt/format.h>
 
@@ -41,7 +41,7 @@ void print_json(const study::StudyComparison& c) {
 }
 
 void print_list(const study::StudyComparison& c) {
-  for (const std::string& difference : c.differences) print_out("of another {}\n", difference);
+  for (const std::string& difference : c.differences) print_out("different {}\n", difference);
   for (const study::Change& change : c.changes) {
     const double ratio = change.ratio();
     print_out("{:<10} {:<28} {:<24} {:>9} {}, {} to {} ns", change.table, change.row, change.column,
@@ -65,11 +65,11 @@ void run(const StudyCompareOptions& o) {
 }  // namespace
 
 void register_study_compare(CLI::App& study) {
-  CLI::App* command = study.add_subcommand("compare", "What changed between two studies, beyond noise");
+  CLI::App* command = study.add_subcommand("compare", "Report differences of two studies beyond noise");
   auto o = std::make_shared<StudyCompareOptions>();
   command->add_option("A", o->a, "a study.json, or the folder that holds it")->required()->type_name("");
   command->add_option("B", o->b, "a later one")->required()->type_name("");
-  command->add_option("--threshold", o->threshold, "Changes of less are not told (5)")
+  command->add_option("--threshold", o->threshold, "Ignore smaller changes (5)")
       ->check(within(0.0, 1000.0))
       ->type_name("PERCENT");
   command->add_flag("--json", o->json, "One JSON object instead of the list");

@@ -1,4 +1,4 @@
-// `alhazen study report`: every table and figure of the report, for what this machine has.
+// `alhazen study report`: measures every table and figure of the report on this machine.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -28,7 +28,7 @@ struct StudyReportOptions {
   int64_t samples = 0, size = 0;
 };
 
-/// scenes/spheres.pbrt of the repository that the program was built in, or of where it was installed.
+/// scenes/spheres.pbrt in the repository of the build, or where the program was installed.
 std::string find_spheres() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -51,7 +51,7 @@ void choose_scale(StudyReportOptions& o) {
   if (o.repeats > 0 || o.samples > 0 || o.size > 0) scale.name += ", changed";
 }
 
-/// Lines on stderr: on a terminal one that is written over, elsewhere one every few seconds.
+/// Progress on stderr: a line that is overwritten on a terminal, elsewhere one every few seconds.
 class ReportPrinter {
  public:
   explicit ReportPrinter(bool quiet) : quiet_(quiet), is_terminal_(isatty(STDERR_FILENO) != 0) {}
@@ -96,7 +96,7 @@ int run(StudyReportOptions& o) {
   for (const std::string& file : outcome.files) files += (files.empty() ? "" : ", ") + file;
   printer.say(fmt::format("wrote {}: {}", printable(o.report.output), files));
   if (outcome.is_complete) return exit_done;
-  printer.tell("interrupted: what was measured is written; the same command with --resume goes on");
+  printer.tell("interrupted: the measurements so far are written; the same command with --resume continues");
   return exit_interrupted;
 }
 
@@ -106,14 +106,14 @@ void register_study_report(CLI::App& study, int& exit_code) {
   CLI::App* command = study.add_subcommand("report", "Run the report's experiments and more; write tables and a page");
   auto o = std::make_shared<StudyReportOptions>();
   command->add_option("-o,--output", o->report.output, "Folder to write to (study)")->type_name("DIR");
-  command->add_option("--scene", o->report.scene, "Another scene than the report's")->type_name("FILE");
-  command->add_flag("--quick", o->quick, "About 3 minutes on 2 cores; without it about 15");
+  command->add_option("--scene", o->report.scene, "A scene other than the report's")->type_name("FILE");
+  command->add_flag("--quick", o->quick, "Takes about 3 minutes on 2 cores; without it about 15");
   command->add_flag("--full", o->full, "S = 1,000 and the scene's own size, as in the report: hours");
   command->add_option("--repeats", o->repeats, "Runs of each cell")->check(within(1, 1000))->type_name("N");
   command
       ->add_option(
           "--only", o->report.only,
-          "These parts alone, with commas: " +
+          "Only these parts, separated by commas: " +
               [] {
                 std::string parts;
                 for (const std::string& part : study::report_parts()) parts += (parts.empty() ? "" : ", ") + part;
@@ -123,15 +123,15 @@ void register_study_report(CLI::App& study, int& exit_code) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("PARTS");
-  command->add_option("--size", o->size, "Edge of the square pictures that the CPU is timed with, pixels")
+  command->add_option("--size", o->size, "Edge of the square images for timing the CPU, pixels")
       ->check(within(1, 10000))
       ->type_name("N");
-  command->add_option("--spp", o->samples, "S of the pictures that the CPU is timed with")
+  command->add_option("--spp", o->samples, "S of the images for timing the CPU")
       ->check(within(1, 1 << 24))
       ->type_name("S");
-  command->add_flag("--resume", o->report.resume, "Go on with the study in the folder");
-  command->add_flag("--overwrite", o->report.overwrite, "Put this study in the place of the one in the folder");
-  command->add_flag("-q,--quiet", o->quiet, "Say nothing but warnings and errors");
+  command->add_flag("--resume", o->report.resume, "Continue the study in the folder");
+  command->add_flag("--overwrite", o->report.overwrite, "Replace the study in the folder");
+  command->add_flag("-q,--quiet", o->quiet, "Print only warnings and errors");
   command->callback([o, &exit_code] { exit_code = run(*o); });
 }
 

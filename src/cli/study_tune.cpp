@@ -1,4 +1,4 @@
-// `alhazen study tune`: the fastest engine for a scene, here.
+// `alhazen study tune`: finds the fastest engine for a scene on this machine.
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ struct TuneOptions {
   bool store = false, store_default = false, quiet = false;
 };
 
-/// What `alhazen render` is to be given for that engine.
+/// The options of `alhazen render` for that engine.
 std::string engine_options(const Settings& s) {
   study::Work work;
   work.settings = s;
@@ -69,7 +69,7 @@ void store(const TuneOptions& o, const study::TuneOutcome& outcome, const std::s
 
 int run(TuneOptions& o) {
   if (o.store && o.store_default) throw InputError("give --store or --store-default, not both");
-  if (o.store || o.store_default) study::read_tuned(study::tuned_path());  // a damaged file is told of before the work
+  if (o.store || o.store_default) study::read_tuned(study::tuned_path());  // reports a damaged file before the work
   Diagnostics diagnostics;
   const Scene scene = read_scene(o.scene, diagnostics);
   const RenderSettings settings = resolve_settings(o.settings, scene);
@@ -77,14 +77,14 @@ int run(TuneOptions& o) {
   study::TuneEvents events;
   events.go_on = [] { return !is_interrupted(); };
   events.round = [&](int round, size_t candidates, int64_t samples) {
-    if (!o.quiet) tell("round {}: {} engines, {} samples a pixel\n", round, candidates, samples);
+    if (!o.quiet) tell("round {}: {} engines, {} samples per pixel\n", round, candidates, samples);
   };
   catch_interrupts();
   const study::TuneOutcome outcome = study::tune(scene, o.settings, o.budget, events);
   const bool has_costs = outcome.candidates[outcome.winner].rounds > 0;
   if (!o.quiet && has_costs)
-    tell("pictures of {} x {} pixels, {} in all{}\n", outcome.width, outcome.height, format_seconds(outcome.seconds),
-         outcome.is_complete ? "" : "; ended before two engines were left: a larger --budget tells more");
+    tell("images of {} x {} pixels, {} in all{}\n", outcome.width, outcome.height, format_seconds(outcome.seconds),
+         outcome.is_complete ? "" : "; ended before two engines were left: a larger --budget is more reliable");
   if (has_costs) print_outcome(o, outcome);
   if (is_interrupted()) {
     tell("interrupted: nothing is stored\n");
@@ -101,10 +101,10 @@ void register_study_tune(CLI::App& study, int& exit_code) {
   auto o = std::make_shared<TuneOptions>();
   command->add_option("SCENE", o->scene, "Scene (.pbrt) or mesh (.ply), also as .gz")->required()->type_name("");
   command->add_option("--budget", o->budget, "Time to spend (60)")->check(within(1.0, 1e6))->type_name("SECONDS");
-  command->add_flag("--store", o->store, "Keep the answer, for --backend auto and this scene");
-  command->add_flag("--store-default", o->store_default, "Keep it for every scene that has no entry of its own");
+  command->add_flag("--store", o->store, "Store the result, for --backend auto and this scene");
+  command->add_flag("--store-default", o->store_default, "Store it for every scene that has no entry of its own");
   for (const char* name : {"precision", "integrator", "max-depth"}) add_setting_option(*command, o->settings, name);
-  command->add_flag("-q,--quiet", o->quiet, "Say nothing but the answer, warnings and errors");
+  command->add_flag("-q,--quiet", o->quiet, "Print only the result, warnings and errors");
   command->callback([o, &exit_code] { exit_code = run(*o); });
 }
 

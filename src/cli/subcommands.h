@@ -1,6 +1,6 @@
 #pragma once
 
-// The subcommands. Each adds its options to the program and runs when it is the one that was called.
+// The subcommands. Each adds its options to the program and runs if it is selected.
 
 #include <CLI/CLI.hpp>
 
@@ -12,12 +12,12 @@ inline constexpr int exit_failed = 1;
 inline constexpr int exit_bad_input = 2;
 inline constexpr int exit_interrupted = 130;
 
-/// `exit_code` is what the program ends with where the subcommand has more to say than done.
+/// `exit_code` receives the program's exit code if it is not that of success.
 CLI::App* register_render(CLI::App& app, int& exit_code);
 CLI::App* register_compare(CLI::App& app);
 CLI::App* register_devices(CLI::App& app);
 CLI::App* register_info(CLI::App& app);
-/// `study` and the subcommands below it.
+/// `study` and its subcommands.
 CLI::App* register_study(CLI::App& app, int& exit_code);
 void register_study_report(CLI::App& study, int& exit_code);
 void register_study_tune(CLI::App& study, int& exit_code);

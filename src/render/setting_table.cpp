@@ -156,9 +156,9 @@ std::vector<SettingEntry> output_settings() {
   constexpr SettingGroup group = SettingGroup::output;
   return {
       entry(group, "aov", "", "NAMES",
-            "Layers to add to the EXR, with commas: albedo, normal, depth, bounces, samples, variance", layers(), true),
+            "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance", layers(), true),
       entry(group, "denoise", "", "NAME",
-            "none, or optix: on a GPU, whatever rendered; adds the layers albedo and normal",
+            "none, or optix: runs on a GPU, with any backend; adds the layers albedo and normal",
             name(&Settings::denoiser)),
   };
 }
@@ -176,16 +176,16 @@ std::vector<SettingEntry> image_settings() {
       entry(group, "pixelbounds", "", "X0,X1,Y0,Y1", "Render these pixels only",
             bounds("pixelbounds", &Settings::pixel_bounds, "x0,x1,y0,y1, in pixels")),
       entry(group, "integrator", "", "NAME",
-            "path (next-event estimation), or emission by chance: iterative, recursive, branching",
+            "path (next-event estimation), or BSDF sampling alone: iterative, recursive, branching",
             name(&Settings::integrator)),
       entry(group, "environment", "", "FILE",
-            "Light the scene by this map (EXR, HDR, ...) instead of by its infinite lights: 2:1 (equirectangular) or "
-            "square (octahedral), +y up, its middle towards -z",
+            "Light the scene by this map (EXR, HDR, ...) instead of its infinite lights: 2:1 (equirectangular) or "
+            "square (octahedral), +y up, its centre towards -z",
             name(&Settings::environment)),
       entry(group, "coats", "", "NAME",
             "pbrt: lossless coats (the default), or ones that lose as much light as in pbrt-v4: pbrt",
             name(&Settings::coats)),
-      entry(group, "camera", "", "NAME", "glTF: the camera of this name or number; --list has them",
+      entry(group, "camera", "", "NAME", "glTF: the camera of this name or number; see --list",
             name(&Settings::camera)),
       entry(group, "time", "", "SECONDS", "glTF: the scene at this time of its animation",
             optional_number("time", &Settings::animation_time, -1e9, 1e9)),
@@ -195,10 +195,10 @@ std::vector<SettingEntry> image_settings() {
             "glTF: the materials of this variant, by name or number; without it each mesh's own",
             name(&Settings::variant)),
       entry(group, "confine", "", "",
-            "Read nothing outside the folder of the scene, whatever the scene names: for scenes of strangers",
+            "Read no files outside the folder of the scene: for untrusted scenes",
             flag(&Settings::confine)),
       entry(group, "sampler", "", "NAME", "sobol or independent", name(&Settings::sampler)),
-      entry(group, "seed", "", "N", "Another number, other noise",
+      entry(group, "seed", "", "N", "Seed of the random numbers",
             optional_number("seed", &Settings::seed, uint32_t{0}, ~uint32_t{0})),
   };
 }
@@ -207,7 +207,7 @@ std::vector<SettingEntry> engine_settings() {
   constexpr SettingGroup group = SettingGroup::engine;
   return {
       entry(group, "backend", "", "NAME",
-            "auto (what 'alhazen study tune' stored, else the CPU), serial, openmp, embree, cuda or optix; 'alhazen "
+            "auto (the result of 'alhazen study tune', else the CPU), serial, openmp, embree, cuda or optix; 'alhazen "
             "devices' lists them",
             name(&Settings::backend)),
       entry(group, "strategy", "", "NAME",
@@ -216,9 +216,9 @@ std::vector<SettingEntry> engine_settings() {
             name(&Settings::strategy)),
       entry(group, "schedule", "", "KIND[,CHUNK]", "openmp, embree: static, dynamic or guided, and a chunk: dynamic,4",
             name(&Settings::schedule)),
-      entry(group, "device", "", "N", "cuda, optix: number of the GPU, or all; cuda: host, the kernels on the CPU",
+      entry(group, "device", "", "N", "cuda, optix: number of the GPU, or all; cuda: host runs the kernels on the CPU",
             name(&Settings::device)),
-      entry(group, "block", "", "WxH", "cuda, pixel and chunk: threads of a block (16x16)", name(&Settings::block)),
+      entry(group, "block", "", "WxH", "cuda, pixel and chunk: threads per block (16x16)", name(&Settings::block)),
       entry(group, "chunk", "", "WxH", "cuda, chunk: chunks in each direction (4x4)", name(&Settings::chunk)),
       entry(group, "threads", "-t,--nthreads", "N", "Threads; 0 for all",
             number("threads", &Settings::threads, 0, 0, 4096)),
@@ -229,14 +229,14 @@ std::vector<SettingEntry> engine_settings() {
 std::vector<SettingEntry> running_settings() {
   constexpr SettingGroup group = SettingGroup::running;
   return {
-      entry(group, "time-limit", "", "SECONDS", "Stop after the last whole pass within them",
+      entry(group, "time-limit", "", "SECONDS", "Stop after the last complete pass within this time",
             number("time-limit", &Settings::time_limit, 0.0, 0.0, 1e9)),
       entry(group, "texture-budget", "", "MIB",
-            "Halve the largest images of textures until all fit; 0: no limit (16384)",
+            "Halve the largest texture images until all fit; 0: no limit (16384)",
             number<int64_t>("texture-budget", &Settings::texture_budget, -1, 0, 1 << 30)),
-      entry(group, "checkpoint", "", "FILE[,SECONDS]", "Save the state every so many seconds (60)", checkpoint()),
-      entry(group, "resume", "", "", "Go on from the checkpoint file", flag(&Settings::resume)),
-      entry(group, "overwrite", "", "", "Replace the file that --checkpoint names, whatever is in it",
+      entry(group, "checkpoint", "", "FILE[,SECONDS]", "Save the state at this interval (60)", checkpoint()),
+      entry(group, "resume", "", "", "Continue from the checkpoint file", flag(&Settings::resume)),
+      entry(group, "overwrite", "", "", "Replace the file of --checkpoint, whatever it contains",
             flag(&Settings::overwrite)),
   };
 }

@@ -78,10 +78,10 @@ CellText text_of(const Study& study, const Table& table, const Cell& cell) {
   const auto add_note = [&](const std::string& note) { text.note += (text.note.empty() ? "" : "; ") + note; };
   if (trial.seconds.size() < static_cast<size_t>(study.scale.repeats))
     add_note(fmt::format("measured {} of {} times", trial.seconds.size(), study.scale.repeats));
-  const auto disturbed = std::count_if(trial.processor_shares.begin(), trial.processor_shares.end(),
-                                       [](double share) { return share < least_share; });
+  const auto disturbed = std::count_if(trial.processor_fractions.begin(), trial.processor_fractions.end(),
+                                       [](double fraction) { return fraction < min_processor_fraction; });
   if (disturbed > 0)
-    add_note(fmt::format("in {} of {} runs other programs took processors", disturbed, trial.seconds.size()));
+    add_note(fmt::format("in {} of {} runs other programs used processors", disturbed, trial.seconds.size()));
   if (const double speedup = speedup_of(study, table, cell); speedup > 0) text.speedup = times_text(speedup);
   return text;
 }

@@ -32,7 +32,7 @@ std::map<std::string, Measured> cells_of(const Json& study) {
                  cell.value("reason", ""),
                  cell,
                  table.at("measure") == "nanoseconds per ray"};
-      // Without seconds nothing was measured, whatever the status says.
+      // Without seconds there is no measurement, whatever the status says.
       if (m.status == "ok" && !cell.contains("seconds")) m.status = "not run";
       cells.emplace(m.table + "\n" + m.row + "\n" + m.column, std::move(m));
     }
@@ -54,7 +54,7 @@ void note_differences(const Json& a, const Json& b, StudyComparison& comparison)
   }
 }
 
-/// Seconds to nanoseconds a sample, or a ray.
+/// Factor from seconds to nanoseconds per sample, or per ray.
 double unit_of(const Measured& m) {
   return m.cell.at(m.by_ray ? "nanoseconds_per_ray" : "nanoseconds_per_sample").get<double>() /
          m.cell.at("seconds").at("median").get<double>();
@@ -69,8 +69,8 @@ bool is_beyond_noise(const Measured& a, const Measured& b, double threshold) {
   return (min_b > max_a || max_b < min_a) && std::abs(std::log(ratio)) > std::log1p(threshold);
 }
 
-/// How likely all of one are above all of the other where nothing changed: two orders of all that there are.
-double chance_of(const Measured& a, const Measured& b) {
+/// Probability that all repeats of one are above all of the other by chance: two orders of all permutations.
+double probability_by_chance(const Measured& a, const Measured& b) {
   const double n = static_cast<double>(a.cell.at("seconds").at("samples").size());
   const double m = static_cast<double>(b.cell.at("seconds").at("samples").size());
   return 2 * std::exp(std::lgamma(n + 1) + std::lgamma(m + 1) - std::lgamma(n + m + 1));
@@ -78,7 +78,7 @@ double chance_of(const Measured& a, const Measured& b) {
 
 void compare_cells(const Json& a, const Json& b, double threshold, StudyComparison& comparison) {
   const std::map<std::string, Measured> in_a = cells_of(a), in_b = cells_of(b);
-  double chances = 0;
+  double probabilities = 0;
   for (const auto& [key, cell_a] : in_a) {
     const auto at = in_b.find(key);
     const std::string name = fmt::format("{}, {}, {}", cell_a.table, cell_a.row, cell_a.column);
@@ -93,7 +93,7 @@ void compare_cells(const Json& a, const Json& b, double threshold, StudyComparis
     }
     if (cell_a.status != "ok" || cell_b.status != "ok") continue;
     ++comparison.compared;
-    chances += chance_of(cell_a, cell_b);
+    probabilities += probability_by_chance(cell_a, cell_b);
     if (!is_beyond_noise(cell_a, cell_b, threshold)) continue;
     const auto median = [](const Measured& m) { return m.cell.at("seconds").at("median").get<double>() * unit_of(m); };
     comparison.changes.push_back({cell_a.table, cell_a.row, cell_a.column, median(cell_a), median(cell_b),
@@ -103,7 +103,7 @@ void compare_cells(const Json& a, const Json& b, double threshold, StudyComparis
     if (!in_a.contains(key))
       comparison.states.push_back(
           fmt::format("{}, {}, {}: in the second alone", cell_b.table, cell_b.row, cell_b.column));
-  comparison.by_chance = static_cast<size_t>(std::ceil(chances));
+  comparison.by_chance = static_cast<size_t>(std::ceil(probabilities));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ double speedup_at(const Study& study, const std::string& table_id, const std::st
   return cell ? speedup_of(study, *table, *cell) : 0;
 }
 
-/// The row of a table that is fastest in a column, and its speedup.
+/// The fastest row of a table in a column, and its speedup.
 std::pair<std::string, double> fastest_row(const Study& study, const std::string& table_id, const std::string& column) {
   std::pair<std::string, double> best;
   const Table* table = study.table(table_id);
@@ -39,7 +39,7 @@ std::pair<std::string, double> fastest_row(const Study& study, const std::string
   return best;
 }
 
-/// a over b in words that hold for any size of the ratio.
+/// Words for a / b that are correct whether the ratio is above or below 1.
 std::string compared(double ratio, const std::string& faster, const std::string& slower) {
   return ratio >= 1 ? fmt::format("{} times {}", short_number(ratio), faster)
                     : fmt::format("{} times {}", short_number(1 / ratio), slower);
@@ -65,7 +65,7 @@ class Conclusions {
   }
 
  private:
-  /// What is concluded from disturbed runs says so.
+  /// Adds a conclusion, with a remark if its runs were disturbed.
   void add(const std::string& title, const std::string& text, const char* table_id = "") {
     const bool is_disturbed = has_disturbed_runs(table_id);
     list_.push_back({title, text + (is_disturbed ? " (Other programs disturbed some of these runs.)" : "")});
@@ -75,8 +75,8 @@ class Conclusions {
     const Table* table = study_.table(table_id);
     if (!table) return false;
     for (const Cell& cell : table->cells)
-      for (const double share : study_.find(cell.trial)->processor_shares)
-        if (share < least_share) return true;
+      for (const double fraction : study_.find(cell.trial)->processor_fractions)
+        if (fraction < min_processor_fraction) return true;
     return false;
   }
 
@@ -131,7 +131,7 @@ class Conclusions {
     add("Threads.",
         fmt::format(
             "12 threads on {} processors: static goes from {} to {}, since each thread's part is smaller and the "
-            "system shares out the processors; dynamic from {} to {}.",
+            "system divides the processors among them; dynamic from {} to {}.",
             processors, times_text(own), times_text(more), times_text(own_dynamic), times_text(more_dynamic)),
         "table3");
   }
@@ -141,11 +141,11 @@ class Conclusions {
     const auto [chunks, chunked] = fastest_row(study_, "table5", "float");
     if (pixel > 0 && chunked > 0) {
       std::string text =
-          fmt::format("One thread a pixel is fastest in blocks of {} ({} over one core, float), chunks in {} ({}).",
+          fmt::format("One thread per pixel is fastest in blocks of {} ({} over one core, float), chunks in {} ({}).",
                       block, times_text(pixel), chunks, times_text(chunked));
       const double persistent = speedup_at(study_, "engines", "CUDA persistent", "float");
       if (persistent > 0)
-        text += fmt::format(" Threads that stay and take work from a queue: {}.", times_text(persistent));
+        text += fmt::format(" Persistent threads that take work from a queue: {}.", times_text(persistent));
       const double optix = speedup_at(study_, "optix", "OptiX", "float");
       if (optix > 0) text += fmt::format(" OptiX: {}.", times_text(optix));
       add("GPU.", text);
@@ -197,8 +197,8 @@ class Conclusions {
     if (!branching || !iterative) return;
     const auto rays = [](const Trial& t) { return static_cast<double>(t.rays) / static_cast<double>(t.samples); };
     add("Depth.",
-        fmt::format("At D = 12 branching takes {} rays a camera sample and {} times as long as iterative with "
-                    "{}. Only paths that meet glass branch, so the growth is below the 2^D of the worst case.",
+        fmt::format("At D = 12 branching takes {} rays per camera sample and {} times as long as iterative with "
+                    "{}. Only paths that hit glass branch, so the growth is below the 2^D of the worst case.",
                     short_number(rays(*branching)),
                     short_number(cost_of(*branching, Measure::seconds) / cost_of(*iterative, Measure::seconds)),
                     short_number(rays(*iterative))));
@@ -212,15 +212,15 @@ class Conclusions {
     const auto rays = [](const Trial& t) { return static_cast<double>(t.rays) / static_cast<double>(t.samples); };
     add("Glass.",
         fmt::format(
-            "In a cloud of nothing but glass branching takes {} rays a camera sample at D = 12, {:.2f} times as many "
+            "In a cloud of nothing but glass branching takes {} rays per camera sample at D = 12, {:.2f} times as many "
             "as at D = 11, and {} times as long as iterative with {} rays.",
             short_number(rays(*branching)), rays(*branching) / rays(*before),
             short_number(cost_of(*branching, Measure::seconds) / cost_of(*iterative, Measure::seconds)),
             short_number(rays(*iterative))));
   }
 
-  /// The time that `path` takes for the error that `iterative` has at its most samples: between two measured points on
-  /// a straight line of logarithms.
+  /// The time that `path` takes to reach the error that `iterative` has with most samples, interpolated linearly
+  /// between two measured points in logarithmic axes.
   void error() {
     const Table* table = study_.table("error");
     if (!table || table->rows().empty()) return;
@@ -275,14 +275,14 @@ Disturbance disturbance_of(const Study& study) {
   for (const Trial& trial : study.trials) {
     d.made_again += trial.disturbed_seconds.size();
     d.runs += trial.seconds.size();
-    for (const double share : trial.processor_shares) d.kept += share < least_share;
+    for (const double fraction : trial.processor_fractions) d.kept += fraction < min_processor_fraction;
   }
   return d;
 }
 
 std::string text_of(const Disturbance& d) {
   if (d.made_again + d.kept == 0) return "no run had less than nine tenths of the processors that it could use";
-  return fmt::format("runs that other programs disturbed: {} made again, {} among the figures and marked", d.made_again,
+  return fmt::format("runs that other programs disturbed: {} repeated, {} among the figures and marked", d.made_again,
                      d.kept);
 }
 
@@ -318,7 +318,8 @@ std::vector<Conclusion> conclusions_of(const Study& study) { return Conclusions(
 std::string figure3_text(const Study& study) {
   const WorkPerThread& w = study.work_per_thread;
   return fmt::format(
-      "With a thread a pixel the threads' paths have from {:.2f} to {:.2f} segments on average (mean {:.2f}); with {} "
+      "With one thread per pixel the threads' paths have from {:.2f} to {:.2f} segments on average (mean {:.2f}); with "
+      "{} "
       "x {} "
       "chunks from {:.2f} to {:.2f}, of the same total. The largest falls by a factor of {:.2f}; in the report by "
       "about "
@@ -341,12 +342,12 @@ std::string disturbance_warning(const Study& study) {
   const Disturbance d = disturbance_of(study);
   if (d.kept * 20 < d.runs || d.runs == 0) return {};
   return fmt::format(
-      "in {} of {} runs other programs took processors of this machine: what is marked is too slow, and so "
-      "are the speedups made of it; the same command with --resume measures those runs again",
+      "in {} of {} runs other programs used processors of this machine: the marked times are too long, and so "
+      "are speedups computed from them; the same command with --resume repeats those runs",
       d.kept, d.runs);
 }
 
-std::string pictures_of(const Study& study, const Table& table) {
+std::string image_sizes_of(const Study& study, const Table& table) {
   std::vector<std::string> sizes;
   for (const Cell& cell : table.cells) {
     const Trial* t = study.find(cell.trial);
@@ -376,7 +377,7 @@ std::vector<std::string> facts_of(const Study& study) {
           study.date, study.scale.name, study.scale.width ? study.scale.width : s.width,
           study.scale.height ? study.scale.height : s.height, study.scale.samples, s.width, s.height,
           study.scale.gpu_samples, study.scale.repeats, study.seconds,
-          study.is_complete ? "" : "; interrupted: what is missing is marked")};
+          study.is_complete ? "" : "; interrupted: missing cells are marked")};
   if (const double noise = usual_noise(study); noise > 0)
     lines.push_back(fmt::format(
         "Half the spread of a usual cell over its repeats is {:.1f} % of its median; load average {:.1f} to "

@@ -42,7 +42,7 @@ Json trial_json(const Trial& t) {
   if (t.seconds.empty()) return j;
   j["seconds"] = seconds_json(t.seconds);
   j["busy_seconds"] = t.busy_seconds;
-  j["processor_shares"] = t.processor_shares;
+  j["processor_shares"] = t.processor_fractions;
   if (!t.disturbed_seconds.empty()) j["disturbed_seconds"] = t.disturbed_seconds;
   j["build_seconds"] = t.build_seconds;
   j["width"] = t.width;
@@ -174,22 +174,22 @@ nlohmann::json read_study_json(const std::string& given) {
   nlohmann::json j = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
   if (j.is_discarded()) throw InputError({path}, "this is not JSON: give the study.json of 'alhazen study report'");
   if (!j.is_object() || j.value("schema", nlohmann::json()) != schema_name)
-    throw InputError({path}, std::string("this is no study of the schema ") + schema_name +
+    throw InputError({path}, std::string("this is not a study of the schema ") + schema_name +
                                  ": give the study.json that this version of 'alhazen study report' wrote");
   return j;
 }
 
 namespace {
 
-/// Runs that were disturbed are made again.
+/// Takes only undisturbed runs; disturbed ones are repeated.
 void take_undisturbed(const nlohmann::json& j, Trial& trial) {
   const auto& seconds = j.at("seconds").at("samples");
-  const auto &busy = j.at("busy_seconds"), &shares = j.at("processor_shares");
+  const auto &busy = j.at("busy_seconds"), &fractions = j.at("processor_shares");
   for (size_t i = 0; i < seconds.size(); ++i) {
-    if (shares.at(i).get<double>() < least_share) continue;
+    if (fractions.at(i).get<double>() < min_processor_fraction) continue;
     trial.seconds.push_back(seconds.at(i));
     trial.busy_seconds.push_back(busy.at(i).get<std::vector<double>>());
-    trial.processor_shares.push_back(shares.at(i));
+    trial.processor_fractions.push_back(fractions.at(i));
   }
 }
 
@@ -203,12 +203,12 @@ void resume_from(const nlohmann::json& earlier, const std::string& path, Study& 
       earlier.at("machine").at("processors") != study.machine.processors ||
       earlier.at("version") != study.machine.version)
     throw InputError({path},
-                     "this study is of another scene, scale, machine or version, and cannot be gone on with: give the "
+                     "this study is of another scene, scale, machine or version, and cannot be continued: give the "
                      "same ones, or another --output");
   for (const auto& j : earlier.at("trials")) {
     const std::string key = j.at("key");
     for (Trial& trial : study.trials) {
-      // Without seconds nothing was measured, whatever the status says.
+      // Without seconds there is no measurement, whatever the status says.
       if (trial.key != key || j.at("status") != "ok" || !j.contains("seconds")) continue;
       take_undisturbed(j, trial);
       if (trial.seconds.empty()) continue;

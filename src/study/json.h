@@ -1,6 +1,6 @@
 #pragma once
 
-// study.json: docs/study.md says what is in it.
+// study.json, which docs/study.md describes.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,14 +13,14 @@ inline constexpr const char* schema_name = "alhazen-study-1";
 
 nlohmann::ordered_json to_json(const Study& study);
 
-/// Reads a study.json of this schema, or that of a folder. Throws InputError.
+/// Reads a study.json of this schema, given as a file or its folder. Throws InputError.
 nlohmann::json read_study_json(const std::string& path);
 
-/// Takes the measurements of an earlier, unfinished run into the trials of `study`, which was planned anew. Throws
-/// InputError where that run was of something else.
+/// Copies the measurements of an earlier, unfinished run to the trials of `study`. Throws InputError if that run had
+/// another scene, scale, machine or version.
 void resume_from(const nlohmann::json& earlier, const std::string& path, Study& study);
 
-/// A number as JSON has it: null where it is not finite.
+/// A number for JSON: null if it is not finite.
 nlohmann::ordered_json number(double value);
 
 }  // namespace alhazen::study

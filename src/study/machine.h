@@ -1,6 +1,6 @@
 #pragma once
 
-// Where a study was measured and with what: nothing in it names the machine or its owner.
+// The machine and the build of a study, without anything that identifies the machine or its owner.
 
 #include <string>
 #include <vector>
@@ -16,22 +16,22 @@ struct Engine {
 
 struct Machine {
   std::string processor;
-  int processors = 1;  ///< that a program may use
+  int processors = 1;  ///< available to this process
   std::string instructions;
   double memory_gib = 0;
   std::string system;
-  std::string governor;  ///< of the frequency; empty: not known
+  std::string governor;  ///< frequency governor; empty: unknown
   std::string compiler, flags, version;
   std::vector<Engine> engines;
 };
 
 Machine this_machine();
 
-/// Processes that run or wait, averaged over a minute; 0 where that is not known.
+/// Number of running or waiting processes, averaged over a minute; 0 if unknown.
 double load_average();
-/// The mean frequency of the processors now; 0 where that is not known.
+/// The current mean frequency of the processors; 0 if unknown.
 double megahertz();
-/// Today, as 2026-01-31.
+/// The date, as 2026-01-31.
 std::string today();
 
 }  // namespace alhazen::study

@@ -13,11 +13,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What is measured is written at least so often, seconds.
+/// Maximum time between saves of the measurements, seconds.
 constexpr double save_interval = 20;
 
-/// Runs of a trial that may be made again since something else took the processors.
-size_t most_disturbed(const Scale& scale) { return (static_cast<size_t>(scale.repeats) + 2) / 3; }
+/// Maximum number of runs of a trial that are repeated because other programs used the processors.
+size_t max_disturbed(const Scale& scale) { return (static_cast<size_t>(scale.repeats) + 2) / 3; }
 
 bool is_wanted(const Trial& trial, const Scale& scale) {
   return (trial.status == TrialStatus::not_run || trial.status == TrialStatus::ok) &&
@@ -25,12 +25,12 @@ bool is_wanted(const Trial& trial, const Scale& scale) {
 }
 
 /// Over R, G, B; pixels that are not finite count as black.
-double rmse_of(const Image& picture, const Image& reference) {
+double rmse_of(const Image& image, const Image& reference) {
   double sum = 0;
   size_t count = 0;
   for (size_t channel = 0; channel < 3; ++channel)
     for (size_t i = 0; i < reference.planes[channel].size(); ++i) {
-      const double value = static_cast<double>(picture.planes[channel][i]);
+      const double value = static_cast<double>(image.planes[channel][i]);
       const double difference = (std::isfinite(value) ? value : 0) - static_cast<double>(reference.planes[channel][i]);
       sum += difference * difference;
       ++count;
@@ -38,7 +38,7 @@ double rmse_of(const Image& picture, const Image& reference) {
   return std::sqrt(sum / static_cast<double>(count));
 }
 
-/// False: the run was disturbed and is to be made again.
+/// Returns false if the run was disturbed and must be repeated.
 bool record(const Outcome& outcome, const Image* reference, const Study& study, Trial& trial) {
   if (outcome.status != TrialStatus::ok) {
     trial.status = outcome.status;
@@ -48,19 +48,19 @@ bool record(const Outcome& outcome, const Image* reference, const Study& study, 
   const RenderStatistics& s = outcome.statistics;
   std::vector<double> busy;
   for (const ThreadStatistics& thread : s.threads) busy.push_back(thread.busy_seconds);
-  const double share = s.settings.runs_on_device ? 1
-                                                 : processor_share(outcome.processor_seconds, s.render_seconds, busy,
-                                                                   study.machine.processors);
-  if (share < least_share && trial.disturbed_seconds.size() < most_disturbed(study.scale)) {
+  const double fraction = s.settings.runs_on_device ? 1
+                                                    : processor_fraction(outcome.processor_seconds, s.render_seconds,
+                                                                         busy, study.machine.processors);
+  if (fraction < min_processor_fraction && trial.disturbed_seconds.size() < max_disturbed(study.scale)) {
     trial.disturbed_seconds.push_back(s.render_seconds);
     return false;
   }
-  // Only now: a trial that is ok has times, whenever the study is interrupted.
+  // Set only now: a trial that is ok has times, even if the study is interrupted.
   trial.status = TrialStatus::ok;
   trial.reason.clear();
   trial.seconds.push_back(s.render_seconds);
   trial.busy_seconds.push_back(std::move(busy));
-  trial.processor_shares.push_back(share);
+  trial.processor_fractions.push_back(fraction);
   trial.build_seconds = s.build_seconds;
   trial.width = s.settings.window.width();
   trial.height = s.settings.window.height();
@@ -68,7 +68,7 @@ bool record(const Outcome& outcome, const Image* reference, const Study& study, 
   trial.samples = s.camera_samples;
   trial.rays = s.rays;
   trial.shadow_rays = s.shadow_rays;
-  if (outcome.picture && reference) trial.rmse = rmse_of(*outcome.picture, *reference);
+  if (outcome.image && reference) trial.rmse = rmse_of(*outcome.image, *reference);
   return true;
 }
 
@@ -82,9 +82,9 @@ class Rounds {
   }
 
   bool run() {
-    // Rounds beyond those asked for are of what was disturbed.
-    const int most = now_.rounds + static_cast<int>(most_disturbed(study_.scale));
-    for (now_.round = 1; now_.round <= most; ++now_.round) {
+    // Further rounds repeat disturbed runs.
+    const int max_rounds = now_.rounds + static_cast<int>(max_disturbed(study_.scale));
+    for (now_.round = 1; now_.round <= max_rounds; ++now_.round) {
       if (!run_round()) return false;
       events_.save();
     }
@@ -112,8 +112,7 @@ class Rounds {
   bool run_trial(Trial& trial) {
     now_.trial = trial.key;
     now_.seconds = elapsed();
-    // The first runs of a trial have a warm-up, so they say too much: once the second round is under way, its own
-    // count.
+    // The first runs include a warm-up and overestimate the time left, so the second round uses its own times.
     if (now_.done > 0)
       now_.seconds_left = now_.seconds / static_cast<double>(now_.done) *
                           static_cast<double>(now_.total - std::min(now_.done, now_.total));
@@ -130,7 +129,7 @@ class Rounds {
     return true;
   }
 
-  /// The same order for the same round of every study.
+  /// The order of a round, the same in every study.
   std::vector<size_t> order_of_round() const {
     std::vector<size_t> order(study_.trials.size());
     std::iota(order.begin(), order.end(), size_t{0});

@@ -1,7 +1,7 @@
 #pragma once
 
-// Measures the trials of a study in rounds: each round runs every trial once, in another order, so that whatever
-// changes on the machine meanwhile meets all of them alike.
+// Measures the trials of a study in rounds: each round runs every trial once, in a different order, so that changes on
+// the machine affect all of them alike.
 
 #include <functional>
 
@@ -12,20 +12,20 @@ namespace alhazen::study {
 
 struct Measuring {
   int round = 1, rounds = 1;
-  size_t done = 0, total = 0;  ///< runs, over all rounds; those that cannot be made are not counted
-  std::string trial;           ///< the key of the one that is next
+  size_t done = 0, total = 0;  ///< runs over all rounds, without those that are impossible
+  std::string trial;           ///< key of the next trial
   double seconds = 0;          ///< since the start
-  double seconds_left = -1;    ///< by what the runs so far took; negative: not known yet
+  double seconds_left = -1;    ///< estimated from the runs so far; negative: unknown
 };
 
 struct MeasureEvents {
-  GoOn go_on;                                      ///< false stops at the next row
+  GoOn go_on;                                      ///< returns false to stop at the next row
   std::function<void(const Measuring&)> progress;  ///< before every run
-  std::function<void()> save;                      ///< now and then: what there is may be written
+  std::function<void()> save;                      ///< called from time to time to write the measurements so far
 };
 
-/// Adds repeats to every trial that has fewer than the scale asks for. `reference`, where there is one, is what
-/// pictures of trials with is_compared are compared with. False: it was stopped.
+/// Adds repeats to every trial that has fewer than the scale requires. Images of trials with is_compared are compared
+/// with `reference` if it is given. Returns false if stopped.
 bool measure(Study& study, const Scene& scene, const Image* reference, const MeasureEvents& events);
 
 }  // namespace alhazen::study

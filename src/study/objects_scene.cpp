@@ -7,8 +7,8 @@ namespace alhazen::study {
 
 namespace {
 
-/// Radius of a single sphere in the cube from -1 to 1, by which the mean free path is about its edge, or a twelfth of
-/// it.
+/// Radius of a single sphere in the cube from -1 to 1, for which the mean free path is about the cube's edge, or a
+/// twelfth of it for dense clouds.
 constexpr double radius_of_one = 1.2, dense_radius_of_one = 4;
 
 }  // namespace

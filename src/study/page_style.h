@@ -1,6 +1,6 @@
 #pragma once
 
-// The look of the page, for screens light and dark and for paper.
+// The style sheet of the page, for light and dark screens and for paper.
 
 namespace alhazen::study {
 
@@ -34,7 +34,7 @@ td b { font-weight: 600; white-space: nowrap; }
 td small, .notes { color: var(--soft); font-size: 12.5px; }
 td small { display: block; }
 td .speedup { display: inline-block; min-width: 4.2em; padding: 1px 6px; border-radius: 4px;
-  background: linear-gradient(90deg, var(--bar) var(--share), transparent var(--share)); }
+  background: linear-gradient(90deg, var(--bar) var(--filled), transparent var(--filled)); }
 td.none b { color: var(--soft); font-weight: 400; }
 td.best b, td.best .speedup { color: var(--accent); font-weight: 700; }
 .notes { margin: 10px 0 0; padding-left: 1.6em; }

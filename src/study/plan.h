@@ -1,17 +1,17 @@
 #pragma once
 
-// Which trials a study has and which tables they are laid out in.
+// Plans the trials of a study and the tables that show them.
 
 #include "study/study.h"
 
 namespace alhazen::study {
 
-/// Collects trials and tables. The same work is one trial, however many cells show it.
+/// Collects trials and tables. Equal work is one trial, however many cells show it.
 class Plan {
  public:
   explicit Plan(Study& study) : study_(study) {}
 
-  /// The key of the trial of that work.
+  /// Returns the key of the trial of that work.
   std::string add(const Work& work);
   Table& add(Table table);
   const Scale& scale() const { return study_.scale; }
@@ -19,27 +19,27 @@ class Plan {
   int processors() const { return study_.machine.processors; }
   std::vector<int> thread_counts() const;
 
-  /// Settings of a CPU at the scale, in `iterative` and D of the scene.
+  /// CPU settings at the study's scale, with `iterative` and the scene's D.
   Work on_cpu(const std::string& backend, const std::string& precision, int threads) const;
   Work on_gpu(const std::string& backend, const std::string& precision) const;
-  /// Serial and `iterative`: what speedups are over.
+  /// Serial and `iterative`: the baseline of speedups.
   std::string serial(const std::string& precision) { return add(on_cpu("serial", precision, 1)); }
-  /// The edge of a square picture of 4 samples a pixel that a linear scan over so many objects is given.
+  /// The edge of a square image with 4 samples per pixel for a linear scan over that many objects.
   int64_t linear_size(uint64_t objects, int64_t largest) const;
 
  private:
   Study& study_;
 };
 
-/// A cell in a row of one of the report's tables, with the report's own figures beside it.
+/// Adds a cell to a row of one of the report's tables, with the report's own figures.
 void add_cell(Table& table, const std::string& row, const std::string& column, const std::string& trial,
               const std::string& baseline, const std::string& note = {});
 
 /// Tables 1 to 5 and OptiX.
 void plan_report(Plan& plan);
-/// What the report lacks.
+/// Measurements beyond the report.
 void plan_beyond(Plan& plan);
-/// Sets trials and tables of the study, for its machine, scene and scale.
+/// Makes the trials and tables of the study, for its machine, scene and scale.
 void plan_study(Study& study);
 
 }  // namespace alhazen::study

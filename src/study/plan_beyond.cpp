@@ -1,4 +1,4 @@
-// What the report lacks: other schedules and engines, what answers rays, depth, objects, load balance, error.
+// Measurements beyond the report: other schedules and engines, ray queries, depth, objects, load balance, error.
 
 #include <fmt/format.h>
 
@@ -14,9 +14,9 @@ void plan_engines(Plan& plan) {
   Table& table =
       plan.add(Table{"engines",
                      "Engines and schedules that the report does not have",
-                     "Tiles of 16 x 16 pixels, Embree, and two schedules of CUDA: threads that stay and take "
-                     "samples from a queue (persistent), and a kernel a stage over queues (wavefront). "
-                     "Embree traces in float alone.",
+                     "Tiles of 16 x 16 pixels, Embree, and two schedules of CUDA: persistent threads that take "
+                     "samples from a queue, and a wavefront with one kernel per stage over queues. "
+                     "Embree supports float only.",
                      "engine",
                      Measure::seconds,
                      {"double", "float"},
@@ -47,10 +47,10 @@ void plan_engines(Plan& plan) {
 void plan_queries(Plan& plan) {
   Table& table =
       plan.add(Table{"queries",
-                     "What answers the rays",
-                     "One thread, the same paths, the time of a whole render over its rays. The linear scan is "
-                     "the report's Algorithm 5; the binary BVH is walked a ray at a time; the wide one has 8 "
-                     "children a node, all tested at once by SIMD, and is what the backends of CPUs walk. "
+                     "Ray queries",
+                     "One thread, the same paths; the time of a whole render divided by its rays. The linear scan is "
+                     "the report's Algorithm 5; the binary BVH is traversed by single rays; the wide one has 8 "
+                     "children per node, which SIMD tests at once, and is the one that the CPU backends use. "
                      "All are compiled for the same instruction set.",
                      "by",
                      Measure::nanoseconds_per_ray,
@@ -82,8 +82,8 @@ void plan_balance(Plan& plan) {
   Table& table = plan.add(Table{
       "balance",
       fmt::format("Load balance, {} threads", plan.processors()),
-      "Time that each thread is busy, from its start to the end of its own last row or tile: the busiest over the "
-      "mean (1: all end together), and the Gini coefficient (0: all the same). Medians over the repeats.",
+      "Time that each thread is busy, from its start to the end of its last row or tile: the maximum over the mean (1: "
+      "all end together), and the Gini coefficient (0: all equal). Medians over the repeats.",
       "strategy, schedule",
       Measure::load_balance,
       {"double", "float"},
@@ -99,16 +99,15 @@ void plan_balance(Plan& plan) {
 }
 
 void plan_depth(Plan& plan) {
-  Table& table =
-      plan.add(Table{"depth",
-                     "Cost against depth: O(2^D) against O(D)",
-                     "Algorithm 2 follows both rays at glass, so the rays of a path may double with every "
-                     "segment; Algorithms 3 and 5 choose one of them. One thread, float. Rays are those of a "
-                     "camera sample.",
-                     "D",
-                     Measure::seconds,
-                     {"branching (Algorithm 2)", "recursive (Algorithm 3)", "iterative (Algorithm 5)"},
-                     {}});
+  Table& table = plan.add(Table{"depth",
+                                "Cost against depth: O(2^D) against O(D)",
+                                "Algorithm 2 follows both rays at glass, so the rays of a path may double with every "
+                                "segment; Algorithms 3 and 5 choose one of them. One thread, float. Rays are per "
+                                "camera sample.",
+                                "D",
+                                Measure::seconds,
+                                {"branching (Algorithm 2)", "recursive (Algorithm 3)", "iterative (Algorithm 5)"},
+                                {}});
   table.shows_rays = true;
   for (int depth = 1; depth <= 12; ++depth) {
     std::string baseline;
@@ -129,7 +128,7 @@ void plan_glass(Plan& plan) {
   Table& table =
       plan.add(Table{"glass",
                      "The worst case of depth: nothing but glass",
-                     "A dense cloud of 1000 spheres of glass, from which hardly a path gets out: every segment "
+                     "A dense cloud of 1000 glass spheres, from which hardly any path escapes: every segment "
                      "of Algorithm 2 branches. One thread, float.",
                      "D",
                      Measure::seconds,
@@ -151,16 +150,16 @@ void plan_glass(Plan& plan) {
 }
 
 void plan_objects(Plan& plan) {
-  Table& table =
-      plan.add(Table{"objects",
-                     "Cost against the number of objects: O(n) against O(log n)",
-                     "A cloud of n spheres under a white sky, radii falling with the root of n, so that paths "
-                     "stay as long. One thread, float; the time of a whole render over its rays. The linear "
-                     "scan takes smaller pictures the more objects there are, as said in its cells.",
-                     "spheres",
-                     Measure::nanoseconds_per_ray,
-                     {"linear scan", "wide BVH, SIMD", "Embree"},
-                     {}});
+  Table& table = plan.add(
+      Table{"objects",
+            "Cost against the number of objects: O(n) against O(log n)",
+            "A cloud of n spheres under a white sky, with radii proportional to 1 / sqrt(n), so that path "
+            "length is constant. One thread, float; the time of a whole render divided by its rays. The linear "
+            "scan renders smaller images for more objects, as stated in its cells.",
+            "spheres",
+            Measure::nanoseconds_per_ray,
+            {"linear scan", "wide BVH, SIMD", "Embree"},
+            {}});
   for (uint64_t count = 10; count <= 1'000'000; count *= 10) {
     const std::string row = std::to_string(count);
     Work work = plan.on_cpu("serial", "float", 1);
@@ -183,18 +182,18 @@ void plan_objects(Plan& plan) {
 }
 
 void plan_error(Plan& plan) {
-  Table& table =
-      plan.add(Table{"error",
-                     "Time to equal error",
-                     fmt::format("The report's algorithms meet light by chance; `path` also samples lights "
-                                 "(next-event estimation, weighed by multiple importance sampling). RMSE over "
-                                 "red, green and blue against {} samples a pixel of `path` with another seed; "
-                                 "{} x {} pixels, all threads, float.",
-                                 plan.scale().reference_samples, plan.scale().error_size, plan.scale().error_size),
-                     "S",
-                     Measure::error,
-                     {"iterative", "path"},
-                     {}});
+  Table& table = plan.add(
+      Table{"error",
+            "Time to equal error",
+            fmt::format("The report's algorithms find light by BSDF sampling alone; `path` also samples lights "
+                        "(next-event estimation with multiple importance sampling). RMSE over "
+                        "red, green and blue against {} samples per pixel of `path` with another seed; "
+                        "{} x {} pixels, all threads, float.",
+                        plan.scale().reference_samples, plan.scale().error_size, plan.scale().error_size),
+            "S",
+            Measure::error,
+            {"iterative", "path"},
+            {}});
   for (int64_t samples = 4; samples <= 256; samples *= 4)
     for (const std::string& integrator : table.columns) {
       Work work = plan.on_cpu("openmp", "float", plan.processors());

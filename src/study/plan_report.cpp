@@ -1,4 +1,4 @@
-// Tables 1 to 5 of the report and its measurement of OptiX.
+// Tables 1 to 5 of the report and its OptiX measurement.
 
 #include <fmt/format.h>
 
@@ -15,16 +15,17 @@ const char* const comparable =
     "scene file and S = 1,000.";
 
 void plan_table1(Plan& plan) {
-  Table& table = plan.add(Table{"table1",
-                                "Table 1: one core",
-                                "The serial algorithm. The report's serial program calls itself (Algorithm 3); "
-                                "speedups of all tables are over the loop of Algorithm 5 in the same precision, which "
-                                "every engine here runs, so that they are those of the engine alone. What compares "
-                                "with the report is double against float.",
-                                "algorithm",
-                                Measure::seconds,
-                                {"double", "float"},
-                                {}});
+  Table& table =
+      plan.add(Table{"table1",
+                     "Table 1: one core",
+                     "The serial algorithm. The report's serial program is recursive (Algorithm 3); "
+                     "speedups of all tables are relative to the loop of Algorithm 5 in the same precision, which "
+                     "every engine here runs, so that they compare engines alone. Only double against float is "
+                     "comparable with the report.",
+                     "algorithm",
+                     Measure::seconds,
+                     {"double", "float"},
+                     {}});
   for (const char* integrator : {"iterative", "recursive"})
     for (const char* precision : precisions) {
       Work work = plan.on_cpu("serial", precision, 1);
@@ -36,15 +37,16 @@ void plan_table1(Plan& plan) {
 }
 
 void plan_table2(Plan& plan) {
-  Table& table = plan.add(Table{
-      "table2",
-      fmt::format("Table 2: four forms of OpenMP, {} threads", plan.processors()),
-      "Which loops run in parallel: rows, rows and columns joined, rows and the sum over samples, that sum alone. "
-      "Schedule: dynamic. The report ran 8 threads on cuda2; what compares is the order of the four.",
-      "form",
-      Measure::seconds,
-      {"float"},
-      {}});
+  Table& table =
+      plan.add(Table{"table2",
+                     fmt::format("Table 2: four forms of OpenMP, {} threads", plan.processors()),
+                     "The loops that run in parallel: rows, rows and columns collapsed, rows and the sum over samples, "
+                     "that sum alone. "
+                     "Schedule: dynamic. The report used 8 threads on cuda2; the order of the four is comparable.",
+                     "form",
+                     Measure::seconds,
+                     {"float"},
+                     {}});
   const std::pair<const char*, const char*> forms[] = {{"rows", "rows (simple)"},
                                                        {"collapse", "collapse"},
                                                        {"rows+reduction", "rows+reduction"},
@@ -80,7 +82,7 @@ void plan_table3(Plan& plan) {
 
 void plan_table4(Plan& plan) {
   Table& table = plan.add(Table{"table4",
-                                "Table 4: CUDA, one thread a pixel",
+                                "Table 4: CUDA, one thread per pixel",
                                 std::string("Algorithm 6 by size of block. ") + comparable,
                                 "block",
                                 Measure::seconds,

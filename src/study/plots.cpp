@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs a program of PATH and waits for it; its exit code, or -1 where there is no such program. Its output goes to
-/// `log`, which is a file.
+/// Runs a program of PATH and waits for it. Returns its exit code, or -1 if there is no such program. Its output goes
+/// to the file `log`.
 int run_program(std::vector<std::string> words, const std::string& log) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -32,7 +32,7 @@ int run_program(std::vector<std::string> words, const std::string& log) {
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  // What this program ignores, its child need not.
+  // The child does not inherit ignored signals.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t usual;
@@ -64,7 +64,7 @@ std::string last_line_of(const fs::path& path) {
   return last;
 }
 
-/// A folder of its own for the script and what it says, gone at the end.
+/// A temporary folder for the script and its output, removed at the end.
 class WorkFolder {
  public:
   WorkFolder() {

@@ -22,7 +22,7 @@ namespace study {
 
 namespace {
 
-/// Looks between passes whether to go on: a pass of a linear scan may be long, so it is kept small.
+/// Whether to continue is checked between passes. They are small, since a pass of a linear scan may take long.
 constexpr uint32_t pass_samples = samples_per_block;
 
 template <class Real>

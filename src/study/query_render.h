@@ -1,6 +1,6 @@
 #pragma once
 
-// Renders in which rays are answered by something that no backend uses: by one thread, with `iterative` and `sobol`.
+// Renders with ray queries that no backend uses: on one thread, with `iterative` and `sobol`.
 
 #include <functional>
 
@@ -9,8 +9,8 @@
 
 namespace alhazen::study {
 
-/// As render_scene. `settings` are those of the serial backend; of the statistics, times and counts are filled in.
-/// `processor_seconds` receives the processor time of the samples.
+/// As render_scene. `settings` are those of the serial backend; only times and counts of the statistics are set.
+/// `processor_seconds` receives the processor time of taking samples.
 RenderStatistics render_by_queries(Scene&& scene, const RenderSettings& settings, Queries queries,
                                    const std::function<bool()>& go_on, double& processor_seconds,
                                    Diagnostics& diagnostics);

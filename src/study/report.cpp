@@ -40,14 +40,14 @@ void check_options(const ReportOptions& options) {
       throw InputError(fmt::format("the report has no part '{}': it may be {}", part, fmt::join(parts, ", ")));
   if (options.resume && options.overwrite) throw InputError("give --resume or --overwrite, not both");
   if (fs::exists(options.output) && !fs::is_directory(options.output))
-    throw InputError({options.output}, "this is no folder: give --output the name of a folder");
+    throw InputError({options.output}, "this is not a folder: give --output the name of a folder");
   const bool is_there = fs::exists(json_path(options));
   if (is_there && !options.resume && !options.overwrite)
     throw InputError({options.output},
-                     "there is a study in this folder: give --resume to go on with it, --overwrite to put another in "
-                     "its place, or another --output");
+                     "there is a study in this folder: give --resume to continue it, --overwrite to replace it, "
+                     "or another --output");
   if (!is_there && options.resume)
-    throw InputError({json_path(options)}, "there is no study here to go on with: leave out --resume");
+    throw InputError({json_path(options)}, "there is no study here to continue: leave out --resume");
 }
 
 SceneFacts facts_of(const Scene& scene, const std::string& path) {
@@ -67,7 +67,7 @@ SceneFacts facts_of(const Scene& scene, const std::string& path) {
   return facts;
 }
 
-/// Leaves the parts that are wanted, and of the trials those that a cell shows or is compared with.
+/// Keeps only the requested parts, and the trials that their cells show or use as baseline.
 void keep_wanted(const ReportOptions& options, Study& study) {
   std::erase_if(study.tables, [&](const Table& table) { return !is_wanted(options, table.id); });
   std::erase_if(study.trials, [&](const Trial& trial) {
@@ -93,12 +93,12 @@ class Report {
     if (error) throw InputError({options_.output}, "the folder cannot be made: " + error.message());
     check_target(json_path(options_));
     earlier_seconds_ = study_.seconds;
-    study_.is_complete = take_pictures() && measure_trials();
+    study_.is_complete = render_images() && measure_trials();
     save_seconds();
     if (const std::string warning = disturbance_warning(study_); !warning.empty()) events_.warning(warning);
     events_.stage("writing tables, plots and the page");
     std::vector<std::string> files = write_study(study_, options_.output, events_.warning);
-    if (has_lost_figure_) throw RenderError("the study is written without figures that could not be: see the warnings");
+    if (has_lost_figure_) throw RenderError("the study is written, but some figures could not be: see the warnings");
     return {study_.is_complete, std::move(files)};
   }
 
@@ -113,26 +113,26 @@ class Report {
     if (options_.resume) resume_from(read_study_json(json_path(options_)), json_path(options_), study_);
   }
 
-  /// Figures 2 and 3 and the reference of the errors: pictures, no measurements.
-  bool take_pictures() {
+  /// Renders Figures 2 and 3 and the reference of the errors, which are not timed.
+  bool render_images() {
     if (is_wanted(options_, figure2)) {
-      events_.stage("Figure 2: the picture");
+      events_.stage("Figure 2: the image");
       Work work;
-      work.settings.samples_per_pixel = options_.scale.picture_samples;
-      const std::optional<Outcome> outcome = picture_of(work, scene_);
+      work.settings.samples_per_pixel = options_.scale.image_samples;
+      const std::optional<Outcome> outcome = render_image(work, scene_);
       if (!outcome) return false;
-      has_lost_figure_ |= !attempt([&] { write_png(file("figure2.png"), source_of(*outcome->picture), {}); });
+      has_lost_figure_ |= !attempt([&] { write_png(file("figure2.png"), source_of(*outcome->image), {}); });
     }
     if (is_wanted(options_, figure3) && !take_figure3()) return false;
     if (!study_.table("error")) return true;
-    events_.stage("the reference that errors are measured against");
+    events_.stage("the reference for errors");
     Work work;
     work.settings.integrator = "path";
     work.settings.width = work.settings.height = options_.scale.error_size;
     work.settings.samples_per_pixel = options_.scale.reference_samples;
     work.settings.seed = scene_.seed + 1;
-    std::optional<Outcome> outcome = picture_of(work, scene_);
-    if (outcome) reference_ = std::move(outcome->picture);
+    std::optional<Outcome> outcome = render_image(work, scene_);
+    if (outcome) reference_ = std::move(outcome->image);
     return outcome.has_value();
   }
 
@@ -142,25 +142,25 @@ class Report {
     work.settings.integrator = "iterative";
     work.settings.samples_per_pixel = options_.scale.bounces_samples;
     work.settings.aovs = {"bounces"};
-    const std::optional<Outcome> outcome = picture_of(work, scene_);
+    const std::optional<Outcome> outcome = render_image(work, scene_);
     if (!outcome) return false;
-    const Image& picture = *outcome->picture;
-    const std::vector<float>& bounces = picture.planes[static_cast<size_t>(picture.channel("bounces.Y"))];
+    const Image& image = *outcome->image;
+    const std::vector<float>& bounces = image.planes[static_cast<size_t>(image.channel("bounces.Y"))];
     WorkPerThread& w = study_.work_per_thread;
-    w.width = picture.width;
-    w.height = picture.height;
+    w.width = image.width;
+    w.height = image.height;
     w.samples_per_pixel = outcome->statistics.samples_per_pixel;
     w.statistic_mean = outcome->statistics.mean_segments();
-    w.naive = threads_of(bounces, picture.width, picture.height, 1, 1);
-    w.chunked = threads_of(bounces, picture.width, picture.height, w.chunks_x, w.chunks_y);
+    w.naive = threads_of(bounces, image.width, image.height, 1, 1);
+    w.chunked = threads_of(bounces, image.width, image.height, w.chunks_x, w.chunks_y);
     for (const auto& [name, threads] : {std::pair{"figure3-naive.pfm", &w.naive}, {"figure3-chunked.pfm", &w.chunked}})
       has_lost_figure_ |=
           !attempt([&] { write_grey_pfm(file(name), threads->width, threads->height, threads->mean_segments); });
     return true;
   }
 
-  /// A picture by all threads of the CPU; nothing where it was stopped.
-  std::optional<Outcome> picture_of(Work work, const Scene& scene) {
+  /// Renders an image with all CPU threads; nothing if stopped.
+  std::optional<Outcome> render_image(Work work, const Scene& scene) {
     work.settings.backend = study_.machine.processors > 1 ? "openmp" : "serial";
     Outcome outcome = run_work(work, scene, true, events_.go_on);
     if (outcome.status == TrialStatus::not_run) return std::nullopt;
@@ -176,8 +176,8 @@ class Report {
     return measure(study_, scene_, reference_ ? &*reference_ : nullptr, events);
   }
 
-  /// Writes a file while measuring. One that cannot be written is told of, once, and measuring goes on, since that
-  /// takes longest. Returns whether it was written.
+  /// Writes a file while measuring. A failure is reported once, and measuring continues, since that takes longest.
+  /// Returns whether the file was written.
   template <class Write>
   bool attempt(const Write& write) {
     try {
@@ -201,7 +201,7 @@ class Report {
   Scene scene_;
   std::optional<Image> reference_;
   Study study_;
-  std::set<std::string> told_;  ///< failures of attempt
+  std::set<std::string> told_;  ///< failures of `attempt` that were reported
   bool has_lost_figure_ = false;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// `alhazen study report`: everything from a scene file to a study and the folder that it is written to.
+// `alhazen study report`: from a scene file to a study and its folder.
 
 #include <functional>
 #include <string>
@@ -16,28 +16,27 @@ struct ReportOptions {
   std::string output = "study";  ///< a folder
   Scale scale;
   std::vector<std::string> only;  ///< ids of tables and figures; empty: all
-  bool resume = false;            ///< goes on with the study that is in the folder
-  bool overwrite = false;         ///< puts another one in its place
-  std::string command;            ///< as it was given, for the page
+  bool resume = false;            ///< continues the study in the folder
+  bool overwrite = false;         ///< replaces it by another
+  std::string command;            ///< the command line, for the page
 };
 
 struct ReportEvents {
   GoOn go_on;
-  std::function<void(const std::string&)> stage;  ///< what is done next, for a person
+  std::function<void(const std::string&)> stage;  ///< receives a description of the next step
   std::function<void(const Measuring&)> progress;
   std::function<void(const std::string&)> warning;
 };
 
 struct ReportOutcome {
-  bool is_complete = false;  ///< false: it was stopped, and what there was is written
+  bool is_complete = false;  ///< false if stopped; the measurements so far are written
   std::vector<std::string> files;
 };
 
-/// The ids that `only` may hold.
+/// The ids that `only` may contain.
 std::vector<std::string> report_parts();
 
-/// Runs the study and writes it. Throws InputError before anything is measured, RenderError where nothing can be
-/// written.
+/// Runs the study and writes it. Throws InputError before measuring, and RenderError if nothing can be written.
 ReportOutcome run_report(const ReportOptions& options, const ReportEvents& events);
 
 }  // namespace alhazen::study

@@ -4,7 +4,7 @@ namespace alhazen::study {
 
 namespace {
 
-/// Seconds and speedup.
+/// Seconds and speedup as printed.
 struct Printed {
   double seconds, speedup;
 };
@@ -14,7 +14,7 @@ struct Row {
   Printed cuda2_double, cuda2_float, cuda3_double, cuda3_float;
 };
 
-/// Of a row that is for one machine and precision alone.
+/// For rows that have only one machine or precision.
 constexpr Printed absent{-1, 0};
 constexpr Printed not_launched{0, 0};
 

@@ -15,7 +15,7 @@ namespace {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// User and system time of the process so far.
+/// User and system time of the process.
 double processor_time() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -25,7 +25,7 @@ double processor_time() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-Outcome render(const Work& work, Scene&& scene, const RenderSettings& settings, bool keep_picture, const GoOn& go_on) {
+Outcome render(const Work& work, Scene&& scene, const RenderSettings& settings, bool keep_image, const GoOn& go_on) {
   Outcome outcome;
   Diagnostics diagnostics;
   if (work.queries != Queries::of_backend) {
@@ -39,7 +39,7 @@ Outcome render(const Work& work, Scene&& scene, const RenderSettings& settings, 
     const Rendering rendering = render_scene(std::move(scene), settings, 0, events, diagnostics);
     outcome.processor_seconds = processor_time() - start;
     outcome.statistics = rendering.statistics;
-    if (keep_picture) outcome.picture = image_of(rendering.source());
+    if (keep_image) outcome.image = image_of(rendering.source());
   }
   outcome.status = outcome.statistics.complete ? TrialStatus::ok : TrialStatus::not_run;
   return outcome;
@@ -61,12 +61,12 @@ Image image_of(const ImageSource& source) {
   return image;
 }
 
-Outcome run_work(const Work& work, const Scene& scene, bool keep_picture, const GoOn& go_on) {
+Outcome run_work(const Work& work, const Scene& scene, bool keep_image, const GoOn& go_on) {
   Outcome outcome;
   try {
     Scene own = work.objects > 0 ? cloud_of_spheres(work.objects, work.is_glass) : scene;
     const RenderSettings settings = resolve_settings(work.settings, own);
-    return render(work, std::move(own), settings, keep_picture, go_on);
+    return render(work, std::move(own), settings, keep_image, go_on);
   } catch (const InputError& error) {
     outcome.status = TrialStatus::unavailable;
     outcome.reason = first_line(error.what());

@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs a work once: from the scene that it is about to what came out.
+// Runs a work once, from the scene to its results.
 
 #include <functional>
 #include <optional>
@@ -17,20 +17,20 @@ struct Outcome {
   std::string reason;
   RenderStatistics statistics;
   double processor_seconds = 0;  ///< of all threads of this process, while it rendered
-  std::optional<Image> picture;
+  std::optional<Image> image;
 };
 
-/// False asks for an end as soon as may be.
+/// Returns false to ask for an early end.
 using GoOn = std::function<bool()>;
 
-/// `scene` is the study's. What cannot be done is no exception but a status and its reason; only memory that runs out
-/// on the way here is thrown.
-Outcome run_work(const Work& work, const Scene& scene, bool keep_picture, const GoOn& go_on);
+/// `scene` is the study's. Failures are not thrown but returned as status and reason, except running out of memory
+/// before rendering.
+Outcome run_work(const Work& work, const Scene& scene, bool keep_image, const GoOn& go_on);
 
-/// The same with a few samples a pixel, so that what takes its time only once has taken it.
+/// The same with a few samples per pixel, to exclude one-time costs from the measurement.
 void warm_up(const Work& work, const Scene& scene, const GoOn& go_on);
 
-/// The whole picture of a rendering.
+/// The whole image of a rendering.
 Image image_of(const ImageSource& source);
 
 }  // namespace alhazen::study

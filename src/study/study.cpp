@@ -43,7 +43,7 @@ Scale quick_scale() {
   s.linear_tests = 200'000'000;
   s.error_size = 120;
   s.reference_samples = 1024;
-  s.picture_samples = 32;
+  s.image_samples = 32;
   s.bounces_samples = 16;
   s.repeats = 3;
   return s;
@@ -55,7 +55,7 @@ Scale full_scale() {
   Scale s;
   s.name = "full";
   s.width = s.height = 0;
-  s.samples = s.gpu_samples = s.picture_samples = 1000;
+  s.samples = s.gpu_samples = s.image_samples = 1000;
   s.depth_size = 400;
   s.depth_samples = 16;
   s.objects_size = 400;
@@ -91,7 +91,7 @@ double speedup_of(const Study& study, const Table& table, const Cell& cell) {
 
 namespace {
 
-/// The median over the repeats of a number that is made of the threads' busy seconds.
+/// The median over the repeats of a number computed from the threads' busy seconds.
 template <class Number>
 double median_over_repeats(const Trial& trial, const Number& number) {
   std::vector<double> values;

@@ -1,7 +1,7 @@
 #pragma once
 
-// A study: what was measured, the tables that it is laid out in, where and when. Everything that is written
-// (study.json, tables, the page) comes from this.
+// A study: measurements, the tables that show them, and their circumstances. All output (study.json, tables, the page)
+// is made from it.
 
 #include <string>
 #include <vector>
@@ -12,50 +12,50 @@
 
 namespace alhazen::study {
 
-/// What the report has in the same place. Seconds of its machines; speedups over serial in the same precision.
+/// The report's figures for a cell: seconds on its machines; speedups over serial in the same precision.
 struct ReportFigure {
   std::string machine;  ///< cuda2 or cuda3
-  double seconds = 0;   ///< 0: it could not be run
+  double seconds = 0;   ///< 0: it could not run
   double speedup = 0;   ///< 0: none given
 };
 
-/// A place in a table. Trials are known by their keys.
+/// A cell of a table. Trials are referred to by their keys.
 struct Cell {
   std::string row, column;
   std::string trial;
-  std::string baseline;  ///< the trial that the speedup is over; empty: no speedup
+  std::string baseline;  ///< the trial to which the speedup is relative; empty: no speedup
   std::vector<ReportFigure> report;
-  std::string note;  ///< what the reader must know about this cell alone
+  std::string note;  ///< a remark about this cell alone
 };
 
-/// What a cell shows: seconds, time per ray, ... ; speedups are ratios of time per sample, or per ray.
+/// The quantity in a cell: seconds, time per ray, ... Speedups are ratios of time per sample, or per ray.
 enum class Measure { seconds, nanoseconds_per_ray, load_balance, error };
 std::string to_string(Measure measure);
 
 struct Table {
   std::string id;     ///< table1, ...
   std::string title;  ///< a line
-  std::string text;   ///< what was run, and what may be compared with the report
+  std::string text;   ///< what was run, and what is comparable with the report
   std::string row_title;
   Measure measure = Measure::seconds;
   std::vector<std::string> columns;
   std::vector<Cell> cells;
-  bool shows_rays = false;  ///< whether cells also tell the rays of a camera sample
+  bool shows_rays = false;  ///< whether cells also show rays per camera sample
 
   std::vector<std::string> rows() const;
   const Cell* find(const std::string& row, const std::string& column) const;
 };
 
-/// How much is run; the same on every machine.
+/// The amount of work; the same on every machine.
 struct Scale {
   std::string name = "default";
-  int64_t width = 400, height = 400, samples = 20;      ///< CPU, on the study's scene; 0: as the scene says
-  int64_t gpu_samples = 256;                            ///< GPUs render the scene's own size
-  int64_t depth_size = 128, depth_samples = 4;          ///< depth against cost
-  int64_t objects_size = 128, objects_samples = 16;     ///< cost against objects
-  uint64_t linear_tests = 1'000'000'000;                ///< of objects by rays, that a linear scan is given
-  int64_t error_size = 200, reference_samples = 2048;   ///< time to equal error
-  int64_t picture_samples = 256, bounces_samples = 64;  ///< Figures 2 and 3, at the scene's own size
+  int64_t width = 400, height = 400, samples = 20;     ///< CPU, on the study's scene; 0: as in the scene
+  int64_t gpu_samples = 256;                           ///< GPUs render the scene's own size
+  int64_t depth_size = 128, depth_samples = 4;         ///< depth against cost
+  int64_t objects_size = 128, objects_samples = 16;    ///< cost against objects
+  uint64_t linear_tests = 1'000'000'000;               ///< number of objects times rays for a linear scan
+  int64_t error_size = 200, reference_samples = 2048;  ///< time to equal error
+  int64_t image_samples = 256, bounces_samples = 64;   ///< Figures 2 and 3, at the scene's own size
   int repeats = 5;
 };
 
@@ -65,16 +65,16 @@ Scale full_scale();
 
 struct SceneFacts {
   std::string name;  ///< of the file, without its folder
-  std::string hash;  ///< of what it holds, once compiled
+  std::string hash;  ///< of the compiled scene
   int64_t width = 0, height = 0;
   int64_t segments = 0;  ///< D
   uint64_t spheres = 0, triangles = 0, lights = 0;
 };
 
-/// How the machine was while a round was measured.
+/// The state of the machine while a round was measured.
 struct Conditions {
   double seconds = 0;  ///< since the start
-  double load = 0;     ///< processes that run or wait, over a minute; the study's own threads among them
+  double load = 0;     ///< running or waiting processes over a minute, including the study's own threads
   double megahertz = 0;
 };
 
@@ -87,16 +87,16 @@ struct Study {
   std::vector<Table> tables;
   WorkPerThread work_per_thread;
   std::vector<Conditions> conditions;
-  double seconds = 0;  ///< that the study took, all in all
+  double seconds = 0;  ///< total time of the study
   bool is_complete = false;
 
   const Trial* find(const std::string& key) const;
   const Table* table(const std::string& id) const;
 };
 
-/// Time per camera sample, or per ray, by the median. Of a trial that has times.
+/// Median time per camera sample, or per ray. The trial must have times.
 double cost_of(const Trial& trial, Measure measure);
-/// How many times as fast as its baseline a cell is; 0 where there is nothing to compare.
+/// Speedup of a cell over its baseline; 0 if there is nothing to compare.
 double speedup_of(const Study& study, const Table& table, const Cell& cell);
 /// The busiest thread's time over the mean, and the Gini coefficient; medians over the repeats.
 double busiest_over_mean(const Trial& trial);

@@ -38,8 +38,8 @@ std::string to_string(TrialStatus status) {
   return "failed";
 }
 
-double processor_share(double processor_seconds, double seconds, const std::vector<double>& busy_seconds,
-                       int processors) {
+double processor_fraction(double processor_seconds, double seconds, const std::vector<double>& busy_seconds,
+                          int processors) {
   double busy = 0;
   for (const double thread : busy_seconds) busy += thread;
   const double possible = std::min(busy, seconds * processors);

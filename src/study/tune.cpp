@@ -14,22 +14,22 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Runs of each candidate in a round, in turn.
+/// Runs of each candidate per round.
 constexpr int runs_a_round = 3;
-/// Another engine must be faster than the default by so much.
-constexpr double least_gain = 0.02;
-/// Pictures are not made smaller than this, pixels of the shorter side.
-constexpr double smallest_side = 64;
+/// Minimum relative gain over the default for another engine to win.
+constexpr double min_gain = 0.02;
+/// Minimum size of the images: pixels of the shorter side.
+constexpr double min_side = 64;
 
 void add_cpu(const Settings& asked, const std::string& backend, std::vector<Candidate>& list) {
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const std::pair<const char*, const char*> ways[] = {
+  const std::pair<const char*, const char*> strategies[] = {
       {"tiles", "dynamic"}, {"tiles", "dynamic,4"}, {"tiles", "guided"},        {"tiles", "static"},
       {"rows", "dynamic"},  {"rows", "guided"},     {"collapse", "dynamic,64"}, {"collapse", "guided"}};
   std::vector<int> counts{processors};
   if (processors >= 4) counts.push_back(processors / 2);  // processors may be two threads of one core
   for (const int threads : counts)
-    for (const auto& [strategy, schedule] : ways) {
+    for (const auto& [strategy, schedule] : strategies) {
       Candidate candidate;
       candidate.work.settings = asked;
       candidate.work.settings.backend = backend;
@@ -84,11 +84,11 @@ class Tuning {
   }
 
  private:
-  /// The size of the pictures: the scene's own where all candidates can take a first round in a quarter of the budget.
+  /// Chooses the image size: the scene's own if all candidates can run a first round in a quarter of the budget.
   void choose_size() {
     const RenderSettings settings = resolve_settings(asked_, scene_);
     const double width = settings.width, height = settings.height;
-    const double least = std::min(1.0, smallest_side / std::min(width, height));
+    const double least = std::min(1.0, min_side / std::min(width, height));
     set_size(width, height, least);
     Work first = outcome_.candidates.front().work;
     first.settings.samples_per_pixel = samples_per_block;
@@ -98,8 +98,8 @@ class Tuning {
     if (small.status != TrialStatus::ok) return;
     const double rendering = small.statistics.render_seconds, beside = whole - rendering;
     const double runs = static_cast<double>(outcome_.candidates.size()) * (runs_a_round + 1);
-    const double share = std::max(0.0, budget_ / 4 / runs - beside) / std::max(rendering, 1e-6);
-    set_size(width, height, std::clamp(least * std::sqrt(share), least, 1.0));
+    const double fraction = std::max(0.0, budget_ / 4 / runs - beside) / std::max(rendering, 1e-6);
+    set_size(width, height, std::clamp(least * std::sqrt(fraction), least, 1.0));
   }
 
   void set_size(double width, double height, double scale) {
@@ -111,7 +111,7 @@ class Tuning {
     }
   }
 
-  /// False: the budget or the user ended it.
+  /// Returns false if the budget or the user ended it.
   bool run_round(const std::vector<size_t>& running, int64_t samples) {
     std::vector<std::vector<double>> costs(outcome_.candidates.size());
     for (int run = 0; run < runs_a_round; ++run)
@@ -133,7 +133,8 @@ class Tuning {
     return true;
   }
 
-  /// A round counts where all have been run at least once. Always false, for the caller to hand on.
+  /// Keeps the costs of a round if all candidates have run at least once. Always returns false, for the caller to
+  /// return.
   bool keep_round(const std::vector<std::vector<double>>& costs, bool counts) {
     if (!counts) return false;
     for (size_t i = 0; i < costs.size(); ++i)
@@ -155,7 +156,7 @@ class Tuning {
               [&](size_t a, size_t b) { return outcome_.candidates[a].cost() < outcome_.candidates[b].cost(); });
   }
 
-  /// The default stays to the end: it is what others must beat.
+  /// The default is never eliminated, since others must beat it.
   void keep_default(std::vector<size_t>& running) const {
     for (size_t i = 0; i < outcome_.candidates.size(); ++i)
       if (outcome_.candidates[i].is_default && outcome_.candidates[i].problem.empty() &&
@@ -174,12 +175,12 @@ class Tuning {
     outcome_.winner = 0;
     for (size_t i = 0; i < list.size(); ++i)
       if (list[i].is_default && list[i].problem.empty() && list[i].rounds > 0 &&
-          list[i].cost() * (1 - least_gain) <= list[0].cost())
+          list[i].cost() * (1 - min_gain) <= list[0].cost())
         outcome_.winner = i;
     if (list.empty() || !list[0].problem.empty())
       throw InputError("no engine can render this scene here: " + (list.empty() ? "there is none" : list[0].problem));
     if (list[0].rounds == 0 && events_.go_on())
-      throw InputError("the budget was over before every engine had a turn: give a larger --budget");
+      throw InputError("the budget was over before every engine had run: give a larger --budget");
   }
 
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -218,7 +219,7 @@ std::vector<Candidate> tune_candidates(const Settings& asked) {
       list.push_back(candidate);
     }
   }
-  // What choose_backend takes for `auto`: the first of the list is made to be that.
+  // The candidate that choose_backend selects for `auto` is the first of the list.
   if (!list.empty()) list.front().is_default = true;
   return list;
 }

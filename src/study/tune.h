@@ -1,7 +1,8 @@
 #pragma once
 
-// `alhazen study tune`: the fastest engine for a scene, here. All that there are take a few samples; the slower half
-// drops out, the others take twice as many, and so on (successive halving; Jamieson, Talwalkar 2016), within a budget.
+// `alhazen study tune`: finds the fastest engine for a scene on this machine. All available engines take a few samples;
+// the slower half is eliminated, the others take twice as many, and so on (successive halving; Jamieson, Talwalkar
+// 2016), within a budget.
 
 #include <functional>
 #include <string>
@@ -14,20 +15,20 @@ namespace alhazen::study {
 
 struct Candidate {
   Work work;
-  std::string problem;        ///< why it is out of the running; empty: it is not
-  std::vector<double> costs;  ///< nanoseconds a sample, of the last round that it was in
-  int rounds = 0;             ///< that it was in
-  bool is_default = false;    ///< what `--backend auto` takes of itself
+  std::string problem;        ///< why it cannot compete; empty if it can
+  std::vector<double> costs;  ///< nanoseconds per sample, in its last round
+  int rounds = 0;             ///< number of its rounds
+  bool is_default = false;    ///< selected by `--backend auto` without tuning
 
   double cost() const;  ///< the median
 };
 
 struct TuneOutcome {
-  std::vector<Candidate> candidates;  ///< the longer in the running, then the faster, first
+  std::vector<Candidate> candidates;  ///< sorted by number of rounds, then by speed
   size_t winner = 0;                  ///< the default unless another is faster beyond noise
-  int64_t width = 0, height = 0;      ///< of the pictures that were timed
+  int64_t width = 0, height = 0;      ///< of the timed images
   double seconds = 0;
-  bool is_complete = false;  ///< false: the budget ended it before two were left
+  bool is_complete = false;  ///< false if the budget ended before two were left
 };
 
 struct TuneEvents {
@@ -35,11 +36,11 @@ struct TuneEvents {
   std::function<void(int round, size_t candidates, int64_t samples)> round;
 };
 
-/// What could be tried here, for the precision and integrator of `asked`.
+/// The candidates on this machine, for the precision and integrator of `asked`.
 std::vector<Candidate> tune_candidates(const Settings& asked);
 
-/// `budget` in seconds. Throws InputError where nothing can render the scene, or not within the budget. Where the user
-/// ended it before every engine had a turn, no candidate has a cost.
+/// `budget` in seconds. Throws InputError if nothing can render the scene, or not within the budget. If the user ended
+/// it before every engine had run, no candidate has a cost.
 TuneOutcome tune(const Scene& scene, const Settings& asked, double budget, const TuneEvents& events);
 
 }  // namespace alhazen::study

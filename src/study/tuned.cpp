@@ -74,7 +74,7 @@ bool is_for_the_same(const TunedEntry& a, const TunedEntry& b) {
   return a.machine == b.machine && a.scene == b.scene && a.precision == b.precision && a.integrator == b.integrator;
 }
 
-/// Whether the user left the whole choice of an engine open.
+/// Returns whether the user has left the choice of an engine entirely open.
 bool is_open(const Settings& s) {
   for (const SettingEntry& entry : setting_table()) {
     if (entry.group != SettingGroup::engine || entry.name == std::string("precision")) continue;
@@ -140,7 +140,7 @@ std::vector<TunedEntry> read_tuned(const std::string& path) {
 
 void store_tuned(const std::string& path, const TunedEntry& entry) {
   if (path.empty())
-    throw InputError("there is no place for the file of tuned engines: name one in the variable ALHAZEN_TUNED");
+    throw InputError("there is no location for the file of tuned engines: name one in the variable ALHAZEN_TUNED");
   std::vector<TunedEntry> entries = read_tuned(path);
   std::erase_if(entries, [&](const TunedEntry& other) { return is_for_the_same(other, entry); });
   entries.push_back(entry);
@@ -148,7 +148,8 @@ void store_tuned(const std::string& path, const TunedEntry& entry) {
   for (const TunedEntry& each : entries) list.push_back(entry_json(each));
   std::error_code error;
   if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, error);
-  if (error) throw RenderError(path + ": the folder of the file of tuned engines cannot be made: " + error.message());
+  if (error)
+    throw RenderError(path + ": the folder of the file of tuned engines cannot be created: " + error.message());
   write_text(
       path,
       Json{{"schema", tuned_schema}, {"entries", list}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -1,7 +1,7 @@
 #pragma once
 
-// What `alhazen study tune --store` found, kept in a file of the user's, and used by `--backend auto`. It says how fast
-// a picture comes about, never what is in it, so whatever is wrong with the file is a warning and no more.
+// The results of `alhazen study tune --store`, kept in a file of the user and used by `--backend auto`. They affect the
+// speed of a render but never its image, so any problem with the file is only a warning.
 
 #include <optional>
 #include <string>
@@ -23,20 +23,19 @@ struct TunedEntry {
 
 inline constexpr const char* any_scene = "default";
 
-/// $ALHAZEN_TUNED where that is set (empty: there is no file), else alhazen/tuned.json in $XDG_CONFIG_HOME or
-/// ~/.config.
+/// $ALHAZEN_TUNED if it is set (empty: no file), else alhazen/tuned.json in $XDG_CONFIG_HOME or ~/.config.
 std::string tuned_path();
-/// The processor and how many there are of it.
+/// The model and number of processors.
 std::string machine_key();
-/// A hash of the scene file as it lies there; what it includes is not looked at. Empty where it cannot be read.
+/// A hash of the scene file itself, without the files that it includes. Empty if it cannot be read.
 std::string scene_key(const std::string& path);
 
-/// The entries of the file; none where there is no file. Throws InputError where it cannot be understood.
+/// The entries of the file; none if there is no file. Throws InputError if it is malformed.
 std::vector<TunedEntry> read_tuned(const std::string& path);
-/// Puts `entry` in the place of one for the same and writes the file. Throws InputError, RenderError.
+/// Adds `entry`, replacing one for the same key, and writes the file. Throws InputError, RenderError.
 void store_tuned(const std::string& path, const TunedEntry& entry);
 
-/// As resolve_settings, by the stored engine where none was asked for and there is one.
+/// As resolve_settings, with the stored engine if the user requested none and there is one.
 RenderSettings resolve_with_tuned(const Settings& asked, const Scene& scene, const std::string& scene_path,
                                   Diagnostics& diagnostics);
 

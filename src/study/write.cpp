@@ -43,7 +43,7 @@ std::vector<std::string> write_study(const Study& study, const std::string& fold
                                      const std::function<void(const std::string&)>& warning) {
   std::vector<std::string> files;
   std::string failures;
-  // A file that cannot be written is no reason to lose the others.
+  // If one file cannot be written, the others still are.
   const auto attempt = [&](const std::string& name, const auto& write) {
     try {
       write(in_folder(folder, name));

@@ -11,20 +11,20 @@
 
 namespace alhazen::study {
 
-/// Writes whole or not at all. Throws RenderError.
+/// Writes a file completely or not at all. Throws RenderError.
 void write_text(const std::string& path, const std::string& text);
-/// One value a pixel, rows from the top down, as PFM.
+/// Writes one value per pixel, rows from the top down, as PFM.
 void write_grey_pfm(const std::string& path, int width, int height, const std::vector<float>& values);
 
-/// study.json alone.
+/// Writes study.json alone.
 void write_json(const Study& study, const std::string& folder);
-/// study.json, tables.csv, tables.md, plots where they can be drawn, index.html. The names of the files.
+/// Writes study.json, tables.csv, tables.md, index.html, and plots if possible. Returns the names of the files.
 std::vector<std::string> write_study(const Study& study, const std::string& folder,
                                      const std::function<void(const std::string&)>& warning);
 
 std::string csv_of(const Study& study);
 std::string markdown_of(const Study& study);
-/// The page; `folder` holds the pictures that it is to contain.
+/// The page; `folder` holds the images that it embeds.
 std::string html_of(const Study& study, const std::string& folder);
 
 }  // namespace alhazen::study

@@ -1,4 +1,4 @@
-// The page: one HTML file that holds everything, pictures included, and asks for nothing from elsewhere.
+// The page: one self-contained HTML file, images included.
 
 #include <fmt/format.h>
 
@@ -54,8 +54,8 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-/// A picture of the folder within the page; nothing where it is not there.
-std::string picture(const fs::path& file, const char* type, const std::string& title) {
+/// An image of the folder, embedded in the page; nothing if the file does not exist.
+std::string embedded_image(const fs::path& file, const char* type, const std::string& title) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return {};
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
@@ -63,27 +63,27 @@ std::string picture(const fs::path& file, const char* type, const std::string& t
                      escaped(title), type, base64(bytes));
 }
 
-/// The plots of a section. Heat maps have a picture element a thread: those as PNG, others as drawings.
+/// The plots of a section. Heat maps, which have an element per thread, are PNG; others are SVG.
 std::string plots_of(const std::string& section, const std::string& folder) {
   std::string html;
   for (const Plot& plot : all_plots()) {
     if (section != plot.section) continue;
     const bool is_heat_map = section == "figure3";
     const fs::path file = fs::path(folder) / (std::string(plot.name) + (is_heat_map ? ".png" : ".svg"));
-    html += picture(file, is_heat_map ? "image/png" : "image/svg+xml", plot.title);
+    html += embedded_image(file, is_heat_map ? "image/png" : "image/svg+xml", plot.title);
   }
   return html;
 }
 
-/// The largest speedup of a table's column, to draw bars by.
-double largest_speedup(const Study& study, const Table& table, const std::string& column) {
+/// The largest speedup in a column of a table, to scale bars.
+double max_speedup(const Study& study, const Table& table, const std::string& column) {
   double largest = 0;
   for (const Cell& cell : table.cells)
     if (cell.column == column) largest = std::max(largest, speedup_of(study, table, cell));
   return largest;
 }
 
-/// Whether the speedups of a column are over the same, so that one of them is the best.
+/// Returns whether the speedups of a column have the same baseline, so that one of them is the best.
 bool has_one_baseline(const Table& table, const std::string& column) {
   std::string baseline;
   for (const Cell& cell : table.cells) {
@@ -107,7 +107,7 @@ std::string html_cell(const Study& study, const Table& table, const Cell& cell, 
   if (const size_t note = notes.number_of(text.note)) html += fmt::format("<sup>{}</sup>", note);
   html += "</b>";
   if (!text.speedup.empty())
-    html += fmt::format(" <span class=\"speedup\" style=\"--share:{:.0f}%\">{}</span>", 100 * speedup / largest,
+    html += fmt::format(" <span class=\"speedup\" style=\"--filled:{:.0f}%\">{}</span>", 100 * speedup / largest,
                         escaped(text.speedup));
   if (!text.spread.empty()) html += fmt::format("<small>{}</small>", escaped(text.spread));
   return html + "</td>";
@@ -138,7 +138,7 @@ std::string html_table(const Study& study, const Table& table) {
     html += fmt::format("<tr><td class=\"row\">{}</td>", escaped(row));
     for (const std::string& column : table.columns) {
       const Cell* cell = table.find(row, column);
-      html += cell ? html_cell(study, table, *cell, largest_speedup(study, table, column), notes) : "<td>-</td>";
+      html += cell ? html_cell(study, table, *cell, max_speedup(study, table, column), notes) : "<td>-</td>";
     }
     html += (has_report(table) ? report_cell(study, table, row) : "") + "</tr>\n";
   }
@@ -153,7 +153,7 @@ std::string card(const std::string& number, const std::string& text) {
   return fmt::format("<div class=\"card\"><b>{}</b><span>{}</span></div>\n", escaped(number), escaped(text));
 }
 
-/// The numbers that a reader should see first.
+/// The most important numbers.
 std::string cards(const Study& study, const Headline& headline) {
   std::string html;
   if (headline.speedup > 0)
@@ -169,7 +169,7 @@ std::string cards(const Study& study, const Headline& headline) {
     html += card(times_text(million), "the same with a million spheres");
   if (study.work_per_thread.is_there())
     html += card(times_text(study.work_per_thread.naive.largest_mean() / study.work_per_thread.chunked.largest_mean()),
-                 "lower: the most bounces that a thread has on average, by 4 x 4 chunks");
+                 "lower: the maximum over threads of their mean bounces, by 4 x 4 chunks");
   return html.empty() ? html : "<div class=\"cards\">\n" + html + "</div>\n";
 }
 
@@ -179,16 +179,17 @@ std::string section(const std::string& id, const std::string& title, const std::
 
 std::string figures(const Study& study, const std::string& folder) {
   std::string html;
-  const std::string figure2 = picture(fs::path(folder) / "figure2.png", "image/png",
-                                      fmt::format("{}, S = {}", study.scene.name, study.scale.picture_samples));
-  if (!figure2.empty()) html += section("figure2", "Figure 2: the picture", figure2);
+  const std::string figure2 = embedded_image(fs::path(folder) / "figure2.png", "image/png",
+                                             fmt::format("{}, S = {}", study.scene.name, study.scale.image_samples));
+  if (!figure2.empty()) html += section("figure2", "Figure 2: the image", figure2);
   if (study.work_per_thread.is_there())
-    html += section("figure3", "Figure 3: mean number of bounces of every thread",
-                    "<p>" + escaped(figure3_text(study)) +
-                        "</p><p>A bounce counts as in the report: a segment of a path, so that a path that leaves the "
-                        "scene at once has 1. No GPU is needed to know this: which pixels a thread has is what the "
-                        "schedule says.</p>\n" +
-                        plots_of("figure3", folder));
+    html +=
+        section("figure3", "Figure 3: mean number of bounces of every thread",
+                "<p>" + escaped(figure3_text(study)) +
+                    "</p><p>Bounces are counted as in the report: as segments of a path, so that a path that escapes "
+                    "at once has 1. No GPU is needed to compute this: the schedule determines which pixels a thread "
+                    "has.</p>\n" +
+                    plots_of("figure3", folder));
   return html;
 }
 
@@ -218,21 +219,21 @@ std::string html_of(const Study& study, const std::string& folder) {
   html += figures(study, folder);
   for (const Table& table : study.tables)
     html += section(table.id, table.title,
-                    fmt::format("<p>{} {}</p>\n{}{}", escaped(table.text), escaped(pictures_of(study, table)),
+                    fmt::format("<p>{} {}</p>\n{}{}", escaped(table.text), escaped(image_sizes_of(study, table)),
                                 html_table(study, table), plots_of(table.id, folder)));
   html += section(
       "method", "How it was measured",
-      "<p>Times are those of the render phase alone: no reading, no building of trees. Every cell was warmed up with a "
-      "few samples, then all cells were run in turn, in another order each round, so that whatever else the machine "
-      "did "
-      "met all alike. A run in which other programs took more than a tenth of the processors that it could use was "
-      "made again, a few times at most. Shown are medians, with the smallest and the largest. A speedup is a ratio of "
-      "medians of time "
-      "per "
-      "camera sample, or per ray where the table says so. Nothing is extrapolated: what a cell does not say was not "
-      "run.</p><p>The report is &quot;Accelerating Ray Tracing&quot; by Huang, Kuanyshbay and Long. All numbers of "
-      "this "
-      "page are in <code>study.json</code> beside it; <code>alhazen study compare</code> compares two of them.</p>");
+      "<p>Times are those of the render phase alone, without reading and building trees. Every cell was warmed up with "
+      "a "
+      "few samples, then all cells were run in rounds, in a different order each, so that other activity on the "
+      "machine "
+      "affected all alike. A run in which other programs used more than a tenth of the processors available to it was "
+      "repeated, a few times at most. The figures are medians, with minimum and maximum. A speedup is a ratio of "
+      "median times per camera sample, or per ray if the table says so. Nothing is extrapolated: only what a cell "
+      "states "
+      "was run.</p><p>The report is &quot;Accelerating Ray Tracing&quot; by Huang, Kuanyshbay and Long. All numbers of "
+      "this page are in <code>study.json</code> beside it; <code>alhazen study compare</code> compares two of "
+      "them.</p>");
   return html + "</main></body></html>\n";
 }
 

@@ -1,4 +1,4 @@
-// The tables as CSV, a line a cell, and as Markdown.
+// The tables as CSV, one line per cell, and as Markdown.
 
 #include <fmt/format.h>
 
@@ -110,7 +110,7 @@ std::string markdown_of(const Study& study) {
   for (const Conclusion& conclusion : conclusions_of(study))
     text += fmt::format("- **{}** {}\n", conclusion.title, conclusion.text);
   for (const Table& table : study.tables)
-    text += fmt::format("\n## {}\n\n{} {}\n\n{}", table.title, table.text, pictures_of(study, table),
+    text += fmt::format("\n## {}\n\n{} {}\n\n{}", table.title, table.text, image_sizes_of(study, table),
                         markdown_table(study, table));
   if (study.work_per_thread.is_there()) {
     const WorkPerThread& w = study.work_per_thread;

@@ -57,7 +57,7 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
     named.insert(help.out.substr(at, end - at));
   }
   EXPECT_EQ(named, tested);
-  for (const char* group : {"Output:", "Picture:", "Engine:", "While it runs:", "SCENE"})
+  for (const char* group : {"Output:", "Image:", "Engine:", "While it runs:", "SCENE"})
     EXPECT_NE(help.out.find(group), std::string::npos) << group;
 }
 

@@ -1,5 +1,5 @@
-// Kernels of `iterative` over what the study measures the BVH of CPUs against: the report's linear scan, and a binary
-// BVH walked a ray at a time. Compiled once an instruction set, in its namespace, as those in render/kernels are.
+// Kernels of `iterative` with slower ray queries, with which the study compares the CPU's BVH: the report's linear
+// scan, and single-ray traversal of a binary BVH. Compiled once per instruction set, like those in render/kernels.
 
 #include "core/bvh/brute_force/linear.h"
 #include "render/kernels/instances.h"
@@ -13,7 +13,7 @@ class BinaryBvhQueries : public BvhIntersector<Real> {
  public:
   explicit BinaryBvhQueries(const SceneView<Real>& scene, const void*) : BvhIntersector<Real>(scene) {}
 
-  /// Many queries, one after the other (core/bvh/bvh8/traversal.h).
+  /// Answers many queries one after the other (core/bvh/bvh8/traversal.h).
   template <bool any_hit, class RayOf, class Limit, class Answer>
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     for (uint32_t i = 0; i < count; ++i) {

@@ -31,7 +31,7 @@ Trial trial_of(const std::string& key, std::vector<double> seconds, uint64_t sam
   trial.status = TrialStatus::ok;
   trial.seconds = std::move(seconds);
   trial.busy_seconds.assign(trial.seconds.size(), {1.0, 3.0});
-  trial.processor_shares.assign(trial.seconds.size(), 1.0);
+  trial.processor_fractions.assign(trial.seconds.size(), 1.0);
   trial.width = trial.height = 10;
   trial.samples_per_pixel = samples / 100;
   trial.samples = samples;
@@ -86,10 +86,10 @@ TEST(StudyBalance, OfThreads) {
 }
 
 TEST(StudyProcessors, ShareIsOfWhatThreadsCouldHaveHad) {
-  EXPECT_NEAR(processor_share(2, 1, {1, 1}, 2), 1, 1e-12);
-  EXPECT_NEAR(processor_share(1, 1, {1, 1}, 2), 0.5, 1e-12);
-  EXPECT_NEAR(processor_share(1.5, 1, {0.5, 1}, 2), 1, 1e-12);    // a static schedule: one is done early
-  EXPECT_NEAR(processor_share(2, 1, {1, 1, 1, 1}, 2), 1, 1e-12);  // more threads than processors
+  EXPECT_NEAR(processor_fraction(2, 1, {1, 1}, 2), 1, 1e-12);
+  EXPECT_NEAR(processor_fraction(1, 1, {1, 1}, 2), 0.5, 1e-12);
+  EXPECT_NEAR(processor_fraction(1.5, 1, {0.5, 1}, 2), 1, 1e-12);    // a static schedule: one is done early
+  EXPECT_NEAR(processor_fraction(2, 1, {1, 1, 1, 1}, 2), 1, 1e-12);  // more threads than processors
 }
 
 TEST(StudyWorkPerThread, IsTheSameInAllForAnyChunks) {
@@ -215,7 +215,7 @@ TEST(StudyWork, SaysWhyItCannotBeDone) {
 
 TEST(StudyResume, KeepsWhatWasMeasuredAndNotWhatWasDisturbed) {
   Study earlier = small_study();
-  earlier.trials[1].processor_shares = {1, 0.5, 1};
+  earlier.trials[1].processor_fractions = {1, 0.5, 1};
   Study study = small_study();
   for (Trial& trial : study.trials) {
     const std::string key = trial.key;
@@ -259,7 +259,7 @@ TEST(StudyResume, MeasuresAgainWhatHasNoTimes) {
   EXPECT_EQ(study.trials[1].status, TrialStatus::not_run);
   // Where all runs were disturbed, none is left, and the trial has not been run either.
   Study earlier = small_study();
-  earlier.trials[0].processor_shares = {0.5, 0.5, 0.5};
+  earlier.trials[0].processor_fractions = {0.5, 0.5, 0.5};
   study.trials[0] = {};
   study.trials[0].key = earlier.trials[0].key;
   resume_from(nlohmann::json::parse(to_json(earlier).dump()), "study.json", study);
