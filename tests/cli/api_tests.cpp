@@ -1,4 +1,4 @@
-// The public header: a scene file into memory, with progress, cancel, layers and warnings.
+// The public header: renders a scene file into memory, with progress, cancellation, layers and warnings.
 
 #include <alhazen/alhazen.h>
 
@@ -136,7 +136,7 @@ TEST_F(Api, ProgressCanCancel) {
   }
 }
 
-/// An exception that left the thread of the progress would end the process.
+/// An exception that left the progress thread would end the process.
 TEST_F(Api, ExceptionsOfTheProgressReachTheCaller) {
   struct NoException {};
   Settings settings;
@@ -234,7 +234,7 @@ TEST_F(Api, ErrorsAreOneMessage) {
 }
 
 TEST_F(Api, RendersSideBySide) {
-  // Two at once in one process, as a program that embeds it may do.
+  // Two renders at once in one process, as in programs that embed the library.
   const Picture expected = render(scene_, quick());
   Picture inside;
   Settings settings = quick();

@@ -1,5 +1,5 @@
-// What the program says to bad input: one error with the place, the exit code that is documented, and nothing that was
-// there before is touched.
+// How the program reacts to bad input: it prints one error with the location, returns the documented exit code and
+// leaves existing files unchanged.
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@ namespace alhazen::test {
 
 namespace {
 
-/// Lines that begin an error: excerpts below one are indented, warnings are marked.
+/// Lines that begin an error: excerpts below it are indented, warnings are marked.
 std::vector<std::string> errors_of(const std::string& err) {
   std::vector<std::string> errors;
   for (const std::string& line : lines_of(err))
@@ -22,10 +22,10 @@ std::vector<std::string> errors_of(const std::string& err) {
   return errors;
 }
 
-/// What stands before the message.
+/// The location before the message.
 enum class Place { none, file, line_and_column };
 
-/// Whether `error` is `file: ...`, or `file:line:column: ...`.
+/// Returns whether `error` is `file: ...` or `file:line:column: ...`.
 bool names_place(const std::string& error, Place place) {
   if (place == Place::none) return true;
   const size_t message = error.find(": ");
@@ -43,7 +43,7 @@ bool names_place(const std::string& error, Place place) {
 
 class BadInput : public Command {
  protected:
-  /// Expects that the arguments fail with `exit_code` and one error that holds `words`.
+  /// Expects that the arguments fail with `exit_code` and one error that contains `words`.
   void expect_error(const std::vector<std::string>& arguments, int exit_code, const std::vector<std::string>& words,
                     Place place = Place::none) {
     folder_.write_text("target.exr", target);
@@ -69,7 +69,7 @@ class BadInput : public Command {
       EXPECT_EQ(entry.path().filename().string().find(".tmp"), std::string::npos) << "left behind: " << entry.path();
   }
 
-  /// A file `name` with `text`, rendered onto the target.
+  /// Writes `text` to the file `name` and renders it to the target.
   void expect_bad_scene(const std::string& name, const std::string& text, const std::vector<std::string>& words,
                         Place place = Place::line_and_column) {
     SCOPED_TRACE(text.substr(0, 200));
@@ -81,7 +81,7 @@ class BadInput : public Command {
     expect_bad_scene("bad.pbrt", "WorldBegin\n" + text, words);
   }
 
-  /// `render scene.pbrt -o target.exr` with `arguments` after it.
+  /// Runs `render scene.pbrt -o target.exr` with `arguments` appended.
   void expect_bad_usage(const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
     std::vector<std::string> all{"render", "scene.pbrt", "-o", "target.exr", "--spp", "1"};
     if (std::find(arguments.begin(), arguments.end(), "--spp") != arguments.end()) all.resize(4);
@@ -90,7 +90,7 @@ class BadInput : public Command {
     expect_error(all, 2, words);
   }
 
-  /// Expects success with warnings that hold `words`, and returns the picture.
+  /// Expects success with warnings that contain `words`, and returns the image.
   Image expect_warning(const std::string& scene, const std::vector<std::string>& words) {
     folder_.write_text("odd.pbrt", scene);
     const CommandResult result =
@@ -155,7 +155,7 @@ TEST_F(BadInput, TruncatedPbrtAtAnyPlaceIsAnErrorOrAScene) {
     const CommandResult result =
         run({"render", "cut.pbrt", "-o", "target.exr", "--spp", "1", "--progress", "none", "-q"});
     SCOPED_TRACE("after " + std::to_string(size) + " bytes: " + result.everything());
-    if (result.exit_code == 0) continue;  // the rest was not missed: what is there is a scene
+    if (result.exit_code == 0) continue;  // nothing essential was cut off: the rest is a scene
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_EQ(errors_of(result.err).size(), 1u);
     EXPECT_EQ(result.err.rfind("cut.pbrt:", 0), 0u);
@@ -265,7 +265,7 @@ TEST_F(BadInput, MoreMemoryThanThereIs) {
   folder_.write_text("target.exr", target);
   CommandOptions options;
   options.address_space = size_t{3} << 30;
-  // 108 bytes a pixel: more than is allowed here, and than some machines have.
+  // 108 bytes per pixel: more than is allowed here, and more than some machines have.
   const CommandResult result = render({"-o", "target.exr", "--size", "12000x12000", "--precision", "double", "-t", "1",
                                        "--aov", "albedo,normal,depth,bounces,samples,variance", "--progress", "none"},
                                       options);
@@ -362,7 +362,7 @@ TEST_F(BadInput, Targets) {
   expect_bad_usage({"--checkpoint", std::string(300, 'a')}, {"shorter name"});
 }
 
-/// Two names of one file: one of the two would be lost.
+/// Two names of one file: one of the two contents would be lost.
 TEST_F(BadInput, TheSameFileTwice) {
   folder_.write_text("a.exr", "an older picture");
   std::filesystem::create_symlink("a.exr", folder_.file("link.exr"));
@@ -406,7 +406,8 @@ TEST_F(BadInput, OverWhatIsRead) {
   EXPECT_EQ(read_file(folder_.file("sky.exr")), map);
 }
 
-/// Textures, meshes, included files and what else the scene names, by whatever name; of glTF pictures and buffers.
+/// Textures, meshes, included files and everything else that the scene refers to, by any name; images and buffers of
+/// glTF.
 TEST_F(BadInput, OverWhatTheSceneNames) {
   const Image grey{2, 2, {"R", "G", "B"}, std::vector(3, std::vector<float>(4, 0.5f))};
   write_png(folder_.file("tex.png"), source_of(grey), {});

@@ -1,4 +1,4 @@
-// Light that no path finds is told of on the command line, once, with both places.
+// Light that no path finds causes one warning on the command line, with both locations.
 
 #include "cli/fixture.h"
 
@@ -43,7 +43,7 @@ TEST_F(Caustics, LightAndGlassAreNamed) {
   }
 }
 
-/// The others do not find such lights at all, and say that.
+/// The other integrators do not find such lights at all, and warn of that.
 TEST_F(Caustics, OtherIntegratorsSayWhatTheyDo) {
   const CommandResult result = run({"render", "spot.pbrt", "--spp", "1", "-o", "a.exr", "--integrator", "iterative"});
   EXPECT_EQ(result.exit_code, 0) << result.everything();

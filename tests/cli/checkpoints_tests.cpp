@@ -1,4 +1,4 @@
-// Checkpoints and what is in their place: nothing is lost by them, and a render does not end by them.
+// Checkpoints and existing files in their place: nothing is lost, and a failed save does not end a render.
 
 #include "cli/fixture.h"
 
@@ -8,7 +8,7 @@ namespace {
 
 class Checkpoints : public Command {
  protected:
-  /// Renders 16 samples a pixel, quietly, into `name`.
+  /// Renders 16 samples per pixel, quietly, into `name`.
   CommandResult small(const std::string& name, std::vector<std::string> arguments, CommandOptions options = {}) const {
     arguments.insert(arguments.end(), {"-o", name, "--exr-type", "float", "-q"});
     if (std::find(arguments.begin(), arguments.end(), "--spp") == arguments.end())
@@ -62,7 +62,7 @@ TEST_F(Checkpoints, ALinkIsFollowed) {
   EXPECT_EQ(image("a.exr").planes, image("b.exr").planes);
 }
 
-/// The limit lets the picture through and not the state, which is eight times as large.
+/// The limit admits the image but not the state, which is eight times as large.
 TEST_F(Checkpoints, ASaveThatFailsIsAWarning) {
   CommandOptions options;
   options.file_size = 24 * 1024;

@@ -1,5 +1,4 @@
-// A closed room under a bright sky is black inside, wherever it stands, in the world or as an instance, by every
-// engine.
+// A closed room under a bright sky is black inside, at any position, in the world or as an instance, with every engine.
 
 #include <alhazen/alhazen.h>
 
@@ -17,14 +16,14 @@ class ClosedRoom : public Command {
   "integer indices" [ 0 1 3 0 3 2  4 6 7 4 7 5  0 4 5 0 5 1  2 3 7 2 7 6  0 2 6 0 6 4  1 5 7 1 7 3 ]
 )";
 
-  /// The room about `place`, in its middle a camera that looks everywhere.
+  /// The room about `place`, with a camera at its centre that looks in all directions.
   void write_room(const Vec3d& place, const std::string& turn, bool is_instance) const {
     const auto translate = [](const Vec3d& to) {
       return "Translate " + std::to_string(to.x) + " " + std::to_string(to.y) + " " + std::to_string(to.z) + "\n";
     };
     std::string room = "AttributeBegin\n" + translate(place) + turn +
                        (is_instance ? "ObjectInstance \"room\"\n" : cube) + "AttributeEnd\n";
-    // One that moves makes an object of it, and instances of all that stand anywhere.
+    // Motion makes an object of it, and makes all others instances.
     if (is_instance)
       room = std::string("ObjectBegin \"room\"\n") + cube + "ObjectEnd\n" + room +
              "AttributeBegin\nActiveTransform StartTime\nTranslate 0 9000 0\nActiveTransform EndTime\n"

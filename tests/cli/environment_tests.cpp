@@ -1,4 +1,4 @@
-// `--environment` and infinite lights with pictures, by the pictures that the program makes of them.
+// `--environment` and infinite lights with images, tested by rendered images.
 
 #include <alhazen/alhazen.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 class Environment : public Command {
  protected:
-  /// Red to the left of the middle, green to the right of it, and blue in the upper third.
+  /// Red to the left of the centre, green to the right of it, and blue in the upper third.
   Environment() {
     Image map{96, 48, {"R", "G", "B"}, std::vector(3, std::vector<float>(96 * 48))};
     for (size_t i = 0; i < 96 * 48; ++i) map.planes[i / 96 < 16 ? 2 : i % 96 < 48 ? 0 : 1][i] = 1;
@@ -20,7 +20,7 @@ class Environment : public Command {
     write_exr(folder_.file("odd.exr"), source_of(map), {});
   }
 
-  /// The view along -z, y up, at a scene with a sky of its own.
+  /// The view along -z, y up, of a scene with a sky of its own.
   static std::string view(const std::string& before) {
     return before + R"( LookAt 0 0 0  0 0 -1  0 1 0
 Camera "perspective" "float fov" 120
@@ -46,7 +46,7 @@ LightSource "infinite" "rgb L" [ 5 5 5 ]
 };
 
 TEST_F(Environment, ReplacesTheSkyUprightAndNotMirrored) {
-  // Scenes for cameras of either handedness.
+  // Scenes for cameras of both handednesses.
   for (const char* before : {"", "Scale -1 1 1"}) {
     SCOPED_TRACE(before);
     folder_.write_text("view.pbrt", view(before));
@@ -91,7 +91,7 @@ TEST_F(Environment, LightsMeshesAlone) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
   const Image picture = image("mesh.exr");
-  const size_t corner = 8 * 9;  // behind the mesh, below: not the white sky that meshes have otherwise
+  const size_t corner = 8 * 9;  // behind and below the mesh: not the white sky that meshes get otherwise
   EXPECT_LT(picture.planes[0][corner] + picture.planes[1][corner] + picture.planes[2][corner], 1.01f);
 }
 

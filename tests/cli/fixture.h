@@ -1,6 +1,6 @@
 #pragma once
 
-// A folder with a small scene in it, and the program run there.
+// A folder with a small scene, and the program run there.
 
 #include <nlohmann/json.hpp>
 
@@ -20,7 +20,7 @@ class Command : public ::testing::Test {
     return run_alhazen(arguments, options);
   }
 
-  /// `alhazen render scene.pbrt`, quickly and quietly, with `arguments` after it.
+  /// Runs `alhazen render scene.pbrt` quickly and quietly, with `arguments` appended.
   CommandResult render(const std::vector<std::string>& arguments, const CommandOptions& options = {}) const {
     std::vector<std::string> all{"render", "scene.pbrt"};
     all.insert(all.end(), arguments.begin(), arguments.end());
@@ -33,8 +33,8 @@ class Command : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-/// A function for scripts of /bin/sh: waits for the first report, in the file err, of the render $p. Where that ends
-/// without one, or has none after a minute, the script ends and says so.
+/// A function for scripts of /bin/sh: waits for the first report of the render $p in the file err. If the render ends
+/// without one, or has none after a minute, the script ends with a message.
 inline const std::string wait_for_samples = R"(wait_for_samples() {
   for i in $(seq 1200); do
     is_running=1; kill -0 $p 2>/dev/null || is_running=0
@@ -46,7 +46,7 @@ inline const std::string wait_for_samples = R"(wait_for_samples() {
 }
 )";
 
-/// The only line of `text`, parsed; fails where there is another one.
+/// Parses the only line of `text`; fails if there is another one.
 inline nlohmann::json only_json(const std::string& text) {
   EXPECT_FALSE(text.empty());
   EXPECT_EQ(text.find('\n'), text.size() - 1) << text;

@@ -1,4 +1,4 @@
-// glTF files from the command line: what may be chosen, and what is said of bad choices and bad files.
+// glTF files from the command line: the choices that they offer, and the messages for bad choices and bad files.
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@ namespace alhazen::test {
 
 namespace {
 
-/// A triangle that moves to the right, before two cameras, green but for its two variants, under a light.
+/// A triangle that moves to the right, in front of two cameras, green except in its two variants, under a light.
 const char* const scene = R"({
   "asset": {"version": "2.0"},
   "extensionsUsed": ["KHR_materials_variants", "KHR_lights_punctual"],
@@ -39,7 +39,7 @@ class Gltf : public Command {
  protected:
   Gltf() { folder_.write_text("scene.gltf", scene); }
 
-  /// The sums of red, green and blue of a small picture.
+  /// The sums of red, green and blue of a small image.
   std::array<double, 3> colours(const std::vector<std::string>& arguments) {
     std::vector<std::string> all{"render", "scene.gltf", "--size", "16x16", "--spp", "4", "-q", "-o", "out.exr"};
     all.insert(all.end(), arguments.begin(), arguments.end());

@@ -1,5 +1,5 @@
-// Scenes of strangers: what is no file, files outside the folder, names that a terminal acts upon, and limits of the
-// system. The program says one sentence of its own and ends with 2, at once.
+// Untrusted scenes: references to things that are not files, files outside the folder, names with control characters,
+// and limits of the system. The program prints one sentence of its own and ends with exit code 2, at once.
 
 #include <sys/stat.h>
 #include <zlib.h>
@@ -13,15 +13,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What must not reach a terminal, whatever the input: C0 but line feeds, DEL, and bytes over 0x7f in these tests,
-/// where nothing is written in them.
+/// Characters that must not reach a terminal, whatever the input: C0 except line feeds, DEL, and, since these tests use
+/// ASCII only, bytes over 0x7f.
 bool is_plain(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });
 }
 
 class Hostile : public Command {
  protected:
-  /// `bash -c line` in the folder, with the program as $A.
+  /// Runs `bash -c line` in the folder, with the program as $A.
   CommandResult shell(const std::string& line) const {
     CommandOptions options;
     options.folder = folder_.path();
@@ -29,7 +29,7 @@ class Hostile : public Command {
     return run_command({"/bin/bash", "-c", std::string("A='") + ALHAZEN_BINARY + "'; ulimit -c 0; " + line}, options);
   }
 
-  /// Of a scene that is refused: exit code 2 soon, one error that names `file`, and nothing of `secret`.
+  /// Expects that a scene is refused: exit code 2 soon, one error that names `file`, and nothing of `secret`.
   void expect_refused(const std::vector<std::string>& arguments, const std::string& words) const {
     CommandOptions options;
     options.timeout = 20;
@@ -119,13 +119,13 @@ TEST_F(Hostile, ConfinedToItsFolderASceneReachesNothingElse) {
                                   std::string("sub/../../secret.spd"), folder_.file("secret.spd"),
                                   std::string("/etc/passwd.x"), std::string("../not-there.x")})
     for (const std::string& text : scenes_that_name(file)) {
-      // A spectrum without an extension is one of those that have names.
+      // A spectrum without an extension is looked up by name.
       if (text.find("spectrum reflectance") != std::string::npos && file == "up/secret") continue;
       expect(text, true);
     }
   expect("WorldBegin Include \"part.pbrt\" Import \"sub/../part.pbrt\"", false);
   expect("WorldBegin Include \"" + folder_.file("in/part.pbrt") + "\"", false);
-  // Links within the folder are followed where they are relative; absolute ones would lead through what is outside.
+  // Links within the folder are followed if they are relative; absolute ones lead outside.
   fs::create_symlink("../part.pbrt", folder_.file("in/sub/relative.pbrt"));
   expect("WorldBegin Include \"sub/relative.pbrt\"", false);
   // Without --confine files may be anywhere, as in pbrt.
@@ -133,7 +133,7 @@ TEST_F(Hostile, ConfinedToItsFolderASceneReachesNothingElse) {
   folder_.write_text("in/a.pbrt", "WorldBegin Include \"../part.pbrt\"");
   EXPECT_EQ(run({"info", "in/a.pbrt"}).exit_code, 0);
   EXPECT_EQ(run({"info", "in/a.pbrt", "--confine"}).exit_code, 2);
-  // The scene itself, and what the command line adds to it.
+  // The scene itself, and files given on the command line.
   fs::create_symlink("../secret", folder_.file("in/link.pbrt"));
   expect_refused({"info", "in/link.pbrt", "--confine"}, "outside the scene's folder");
   folder_.write_text("in/a.pbrt", "WorldBegin Shape \"sphere\"");
@@ -257,7 +257,7 @@ TEST_F(Hostile, TextOfGigabytesInASmallFile) {
   EXPECT_NE(result.err.find(" 4 | Shap\n   | ^"), std::string::npos) << result.err;
 }
 
-/// Whatever the limits, the program ends by itself and says one sentence of its own.
+/// Whatever the limits, the program ends by itself with one sentence of its own.
 TEST_F(Hostile, ThreadsThatTheSystemRefuses) {
   if (test::is_sanitized) GTEST_SKIP() << "the address sanitizer needs more address space than the test allows";
   const CommandResult refused =
@@ -295,7 +295,7 @@ TEST_F(Hostile, SmallStacks) {
   EXPECT_NE(nested.err.find("deep.pbrt:4098:1"), std::string::npos) << nested.err;
 }
 
-/// The message tells what is too large.
+/// The message says what is too large.
 TEST_F(Hostile, ScenesTooLargeForMemory) {
   if (test::is_sanitized) GTEST_SKIP() << "the address sanitizer needs more address space than the test allows";
   std::string text = "WorldBegin\nObjectBegin \"o\"\n";
@@ -328,7 +328,7 @@ TEST_F(Hostile, MatricesBeyondAllMeasure) {
   expect("{\"children\": [1], \"scale\": [1e30, 1, 1]}", true);
   expect("{\"mesh\": 0, \"matrix\": [1e30, 0, 0, 0, 0, 1e30, 0, 0, 0, 0, 1e30, 0, 0, 0, 0, 1]}", true);
   expect("{\"mesh\": 0, \"matrix\": [1e308, 1e308, 0, 0, -1e308, 1e308, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}", true);
-  // A quaternion may have any length.
+  // Quaternions may have any length.
   expect("{\"mesh\": 0, \"rotation\": [0, 1e200, 0, 1e200]}", false);
   expect("{\"mesh\": 0, \"rotation\": [0, 1e-200, 0, 1e-200]}", false);
   expect("{\"mesh\": 0, \"scale\": [0, 0, 0]}", false);

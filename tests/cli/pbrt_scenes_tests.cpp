@@ -1,4 +1,4 @@
-// What pbrt scenes show, from the command line.
+// Rendered images of pbrt scenes, from the command line.
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ namespace {
 
 class PbrtScenes : public Command {
  protected:
-  /// The mean of green over the rendered scene.
+  /// The mean of green over the rendered image.
   double mean_of(const std::string& scene, const std::string& samples) {
     const CommandResult result = run({"render", scene, "-o", "out.exr", "--spp", samples});
     EXPECT_EQ(result.exit_code, 0) << result.everything();
@@ -23,10 +23,10 @@ class PbrtScenes : public Command {
     return sum / static_cast<double>(green.size());
   }
 
-  std::string errors_;  ///< what the last render wrote to stderr
+  std::string errors_;  ///< stderr of the last render
 };
 
-/// A leaf in the alpha of an RGBA picture: what it cuts out lets the sky behind a black square through.
+/// The alpha of an RGBA image cuts holes into a black square, through which the sky is visible.
 TEST_F(PbrtScenes, AlphaOfAPictureCutsOut) {
   const auto sky_through = [&](const Bytes& picture, const std::string& name, const std::string& use) {
     folder_.write(name, picture);
@@ -41,7 +41,7 @@ Shape "trianglemesh" "point3 P" [ -2 -2 1  2 -2 1  2 2 1  -2 2 1 ] "integer indi
                                         use + "\"");
     return mean_of("leaf.pbrt", "256");
   };
-  // White, of which one texel in four is opaque, and the same of 16 bits; a mask without alpha.
+  // White, with one texel in four opaque, and the same with 16 bits; a mask without alpha.
   const Bytes leaf = png(2, 2, 8, 6, {0, 255, 255, 255, 0, 255, 255, 255, 0, 0, 255, 255, 255, 255, 255, 255, 255, 0});
   EXPECT_NEAR(sky_through(leaf, "leaf.png", "t"), 0.75, 0.02);
   EXPECT_NEAR(sky_through(leaf, "leaf.png", "half"), 0.875, 0.02);
@@ -50,7 +50,7 @@ Shape "trianglemesh" "point3 P" [ -2 -2 1  2 -2 1  2 2 1  -2 2 1 ] "integer indi
   EXPECT_NEAR(sky_through(tga(2, 2, 1, 32, 0x28, {255, 255, 255, 0, 255, 255, 255, 51}), "leaf.tga", "t"), 0.9, 0.02);
 }
 
-/// A mesh that moves within an object, and one that moves in the world where the object stands, are the same picture.
+/// A mesh that moves within an object, and one that moves in the world at the same position, give the same image.
 TEST_F(PbrtScenes, MeshesMoveWithinObjects) {
   const std::string head = R"(Camera "orthographic" "float shutterclose" 1 Film "rgb" "integer xresolution" 16
 "integer yresolution" 16 WorldBegin LightSource "infinite" "rgb L" [ 1 1 1 ]

@@ -1,4 +1,4 @@
-// Every option of `alhazen render`, by what it does to the picture and to the report.
+// Every option of `alhazen render`, tested by its effect on the image and the report.
 
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
@@ -45,9 +45,9 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--backend", "--strategy", "--schedule", "--threads", "--nthreads", "--precision", "--progress", "--quiet",
       "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--overwrite", "--device", "--block",
       "--chunk", "--denoise", "--environment", "--texture-budget", "--coats",
-      // In gltf_tests.cpp:
+      // Tested in gltf_tests.cpp:
       "--camera", "--time", "--animation", "--variant", "--list",
-      // In hostile_input_tests.cpp:
+      // Tested in hostile_input_tests.cpp:
       "--confine"};
   const CommandResult help = run({"render", "--help"});
   EXPECT_EQ(help.exit_code, 0);
@@ -80,7 +80,7 @@ Material "diffuse" "texture reflectance" "t" Shape "sphere")");
   EXPECT_EQ(run(fitted).err.find("budget"), std::string::npos) << "0 is none";
 }
 
-/// A rough coat over white in a white furnace: it loses nothing, or what pbrt-v4's does.
+/// A rough coat over white in a white furnace: it loses nothing, or as much as in pbrt-v4.
 TEST_F(RenderOptions, CoatsLoseLightOnlyWherePbrtsAreAskedFor) {
   folder_.write_text("coat.pbrt", R"(LookAt 0 0 3  0 0 0  0 1 0 Camera "perspective" "float fov" 20
 Film "rgb" "integer xresolution" 8 "integer yresolution" 8

@@ -1,4 +1,4 @@
-// What happens while a render runs: progress, interruption, limits, checkpoints.
+// Behaviour during a render: progress, interruption, limits, checkpoints.
 
 #include "cli/fixture.h"
 
@@ -8,7 +8,7 @@ namespace {
 
 using Running = Command;
 
-/// More than any machine takes before the test interferes.
+/// More samples than any machine takes before the test interferes.
 const std::string endless = "10000000";
 
 bool is_same(const Image& a, const Image& b) {

@@ -1,4 +1,4 @@
-// Signals beyond the first Ctrl-C, and limits of the system that are told by signals.
+// Signals other than the first Ctrl-C, and system limits that are reported by signals.
 
 #include "cli/fixture.h"
 
@@ -8,7 +8,7 @@ namespace {
 
 class Signals : public Command {
  protected:
-  /// A script in the folder. $RENDER renders for ever, after which wait_for_samples waits for its first report in err.
+  /// A script in the folder. $RENDER renders for ever; wait_for_samples waits for its first report in err.
   CommandResult script(const std::string& text) const {
     CommandOptions options;
     options.folder = folder_.path();
@@ -20,7 +20,7 @@ class Signals : public Command {
   }
 };
 
-/// As nohup does it, and a script that protects what it starts. (SIGINT has a test of its own below.)
+/// As nohup does, and scripts that protect their children. (SIGINT has a test of its own below.)
 TEST_F(Signals, ThoseThatCameIgnoredStayIgnored) {
   for (const std::string name : {"HUP", "TERM", "XCPU"}) {
     const CommandResult result = script("(trap '' " + name +
@@ -31,7 +31,7 @@ TEST_F(Signals, ThoseThatCameIgnoredStayIgnored) {
   }
 }
 
-/// A shell without job control starts what is behind an & with SIGINT ignored; who sends it one by kill means it.
+/// A shell without job control starts commands after & with SIGINT ignored; a SIGINT by kill is meant for the program.
 TEST_F(Signals, InterruptByKillReachesWhatRunsInTheBackground) {
   const CommandResult result =
       script("$RENDER -o a.exr 2>err & p=$!\nwait_for_samples; kill -INT $p; wait $p; echo $?");
@@ -39,7 +39,7 @@ TEST_F(Signals, InterruptByKillReachesWhatRunsInTheBackground) {
   EXPECT_TRUE(exists("a.exr"));
 }
 
-/// A pipe without a reader is given up a second after the first signal; the second comes before that.
+/// A pipe without a reader is abandoned a second after the first signal; the second signal arrives before that.
 TEST_F(Signals, ASecondOneEndsAtOnce) {
   for (const auto& [first, second, code] :
        {std::tuple{"TERM", "TERM", 128 + SIGTERM}, {"INT", "TERM", 128 + SIGTERM}, {"HUP", "INT", 128 + SIGINT}}) {
@@ -50,7 +50,7 @@ TEST_F(Signals, ASecondOneEndsAtOnce) {
   }
 }
 
-/// A shell and the kernel both send it where a terminal closes, and a session's manager after its SIGTERM.
+/// Both the shell and the kernel send it when a terminal closes, and a session manager does after its SIGTERM.
 TEST_F(Signals, HangUpAfterAnotherIsNoSecondOne) {
   for (const std::string first : {"HUP", "TERM"}) {
     const CommandResult result = script("rm -f a.exr; $RENDER -o a.exr 2>err & p=$!\nwait_for_samples; kill -" + first +

@@ -1,4 +1,4 @@
-// Standard streams that are full, closed, or read by nobody: they lose what is written to them, and nothing else.
+// Standard streams that are full, closed, or without a reader: only their own output is lost.
 
 #include "cli/fixture.h"
 
@@ -15,7 +15,7 @@ class Streams : public Command {
     return run_script("RENDER=\"$ALHAZEN render scene.pbrt --size 16x16 -t 1 --exr-type float\"\n" + text, options);
   }
 
-  /// The bits that every render of these tests ends in.
+  /// The bits of the image of every render in these tests.
   Image expected() const {
     EXPECT_EQ(script("$RENDER --spp 8 -q -o expected.exr").exit_code, 0);
     return image("expected.exr");
@@ -46,7 +46,7 @@ TEST_F(Streams, ReaderOfStderrThatLeavesKeepsThePicture) {
   EXPECT_EQ(image("a.exr").planes, whole.planes);
 }
 
-/// The read end of the pipe stays open, and nobody reads from it.
+/// The read end of the pipe stays open, but nobody reads from it.
 TEST_F(Streams, ReaderOfStderrThatStopsKeepsThePicture) {
   const CommandResult result = script(
       "mkfifo pipe && exec 3<>pipe && head -c 65536 /dev/zero >&3\n"
@@ -72,7 +72,7 @@ TEST_F(Streams, ErrorsKeepTheirExitCodes) {
   }
 }
 
-/// Where stdout is what was asked for, it is a failure that it was not written; a picture is kept all the same.
+/// If stdout is the requested output, failing to write it is an error; the image is kept all the same.
 TEST_F(Streams, ReportsThatCannotBeWrittenAreFailures) {
   ASSERT_EQ(script("$RENDER --spp 1 -q -o a.exr").exit_code, 0);
   for (const std::string stream : {">&-", ">/dev/full"}) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Small studies, run as a person would; the user's own files are left alone.
+// Small studies, run as a user would; the user's own files are not touched.
 
 #include <cstdlib>
 
@@ -23,7 +23,7 @@ class StudyCommand : public Command {
   static void set(const char* name, const std::string& value) { setenv(name, value.c_str(), 1); }
   static void without_plots() { set("ALHAZEN_PYTHON", "/nonexistent/python"); }
 
-  /// `alhazen study report` of the small scene, in pictures of `size`, with `arguments` after it.
+  /// Runs `alhazen study report` on the small scene, in images of `size`, with `arguments` appended.
   CommandResult report(const std::vector<std::string>& arguments, const CommandOptions& options = {},
                        const std::string& size = "16") const {
     std::vector<std::string> all{"study", "report", "--quick", "--scene",   "scene.pbrt", "--size",

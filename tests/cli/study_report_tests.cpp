@@ -27,7 +27,7 @@ double cost_of(const nlohmann::json& trial, const char* unit) {
   return (n % 2 == 1 ? seconds[n / 2] : (seconds[n / 2 - 1] + seconds[n / 2]) / 2) / units;
 }
 
-/// 0.0123, 0.512, 12.3, 4533: three digits that count, as tables have them.
+/// Three significant digits, as in tables: 0.0123, 0.512, 12.3, 4533.
 std::string three_digits(double value) {
   const int digits = value >= 100  ? 0
                      : value >= 10 ? 1
@@ -109,7 +109,7 @@ TEST_F(StudyReport, Figure3KeepsTheWorkAndLevelsIt) {
   EXPECT_GT(figure["naive"]["gini"].get<double>(), figure["chunked"]["gini"].get<double>());
 }
 
-/// The report's own scene: the finding of its Figure 3, in small.
+/// The report's own scene: the result of its Figure 3, at a small size.
 TEST_F(StudyReport, Figure3OfTheSpheres) {
   without_plots();
   const CommandResult result = run({"study", "report", "--quick", "--scene", ALHAZEN_SOURCE_DIR "/scenes/spheres.pbrt",
@@ -126,11 +126,11 @@ TEST_F(StudyReport, RefusesWhatItCannotDo) {
   ASSERT_EQ(report({"--output", "out", "--only", "table1", "-q"}).exit_code, 0);
   const std::string before = text("out/study.json");
   const std::vector<std::vector<std::string>> cases{
-      {"--output", "out", "--only", "table1"},                            // there is a study
+      {"--output", "out", "--only", "table1"},                            // a study exists
       {"--output", "out", "--resume", "--overwrite"},                     //
-      {"--output", "other", "--resume"},                                  // there is none
+      {"--output", "other", "--resume"},                                  // no study exists
       {"--output", "other", "--only", "table9"},                          //
-      {"--output", "scene.pbrt"},                                         // no folder
+      {"--output", "scene.pbrt"},                                         // not a folder
       {"--output", "other", "--full"},                                    // with --quick
       {"--output", "other", "--scene", "missing.pbrt"},                   //
       {"--output", "other", "--repeats", "0"},                            //
@@ -183,7 +183,7 @@ TEST_F(StudyReport, WithoutPythonThereIsAllButPlots) {
     EXPECT_TRUE(exists(std::string("out/") + file)) << file;
 }
 
-/// As on a disk that is full: no file gets longer than this.
+/// As on a full disk: no file can grow beyond this size.
 TEST_F(StudyReport, WhatCannotBeWrittenIsToldInLines) {
   without_plots();
   CommandOptions options;
@@ -214,7 +214,7 @@ size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-/// Plots of every kind are drawn and within the page, which asks for nothing from elsewhere.
+/// Plots of every kind are drawn and embedded in the page, which loads nothing from elsewhere.
 TEST_F(StudyReport, ThePageHoldsItsPlots) {
   if (!has_matplotlib()) GTEST_SKIP() << "there is no Python with matplotlib here";
   const CommandResult result =
@@ -231,7 +231,7 @@ TEST_F(StudyReport, ThePageHoldsItsPlots) {
 
   const std::string browser = chromium();
   if (browser.empty()) GTEST_SKIP() << "there is no Chromium here to open the page with";
-  // A script that says of every picture whether it could be shown.
+  // A script that reports for every image whether it could be shown.
   folder_.write_text("out/checked.html", page +
                                              "<script>addEventListener('load', () => document.title = 'shown ' + "
                                              "[...document.images].filter(i => i.naturalWidth > 0).length)</script>");

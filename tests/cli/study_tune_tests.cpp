@@ -1,4 +1,4 @@
-// alhazen study tune, and what --backend auto makes of it.
+// alhazen study tune, and its effect on --backend auto.
 
 #include "cli/study_fixture.h"
 
@@ -18,7 +18,7 @@ class StudyTune : public StudyCommand {
     return only_json(result.out);
   }
 
-  /// Puts another engine in the place of the one that was found.
+  /// Replaces the engine that was found by another one.
   void store_engine(const nlohmann::json& engine) const {
     nlohmann::json file = json("config/tuned.json");
     file["entries"][0]["engine"].update(engine);
@@ -73,7 +73,7 @@ TEST_F(StudyTune, ADefaultIsForEveryScene) {
   EXPECT_NE(read_file(folder_.file("config/tuned.json")), before);
 }
 
-/// What is wrong with the file never keeps a picture from being made: there is one warning.
+/// A bad file never prevents a render: there is one warning.
 TEST_F(StudyTune, ABrokenOrStaleFileIsOneWarning) {
   ASSERT_EQ(run({"study", "tune", "scene.pbrt", "--budget", "2", "--store", "-q"}).exit_code, 0);
   const std::string good = text("config/tuned.json");
@@ -109,7 +109,7 @@ TEST_F(StudyTune, TheFileLiesWhereTheVariablesSay) {
   EXPECT_EQ(run({"study", "tune", "scene.pbrt", "--budget", "2", "--store", "-q"}).exit_code, 2);
 }
 
-/// In the first round, before every engine had a turn, too.
+/// Also in the first round, before every engine has run.
 TEST_F(StudyTune, InterruptedItStoresNothing) {
   CommandOptions options;
   options.signal_when = [](const std::string& err) { return err.find("round 1") == std::string::npos ? 0 : SIGINT; };

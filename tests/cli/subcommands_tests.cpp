@@ -144,7 +144,7 @@ TEST_F(Subcommands, HelpAndVersion) {
   EXPECT_EQ(run({"--version"}).out.rfind("alhazen ", 0), 0u);
 }
 
-/// What they measured is told even where their picture cannot be written.
+/// The result is printed even if the image cannot be written.
 TEST_F(Subcommands, CompareTellsWhatItMeasuredWithoutThePicture) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
   write_image("a.exr", 20, 14, 0.5f);

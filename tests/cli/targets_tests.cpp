@@ -1,4 +1,4 @@
-// Where pictures go: links, pipes, several at once, and what is in their place before.
+// Targets of images: links, pipes, several at once, and existing files.
 
 #include <algorithm>
 
@@ -82,7 +82,7 @@ TEST_F(OutputTargets, APipeWithoutAReaderEndsWithASignal) {
     }
 }
 
-/// Whether there are samples when the signal comes depends on the machine; a black picture is never written.
+/// Whether there are samples when the signal arrives depends on the machine; a black image is never written.
 TEST_F(OutputTargets, InterruptAtTheStartKeepsTheOlderPictureOrShowsSomething) {
   const Bytes older = read_file(folder_.write_text("a.exr", "an older picture"));
   for (const char* threads : {"1", "64"}) {
@@ -107,7 +107,7 @@ TEST_F(OutputTargets, InterruptAtTheStartKeepsTheOlderPictureOrShowsSomething) {
 TEST_F(OutputTargets, KilledItLeavesNothing) {
   folder_.write_text("a.exr", "an older picture");
   const size_t files = folder_.count();
-  // A pipe in the place of the second picture keeps it where it writes.
+  // A pipe instead of the second image keeps the program writing.
   const CommandResult result = script(
       "mkfifo p.exr; $RENDER --spp 1 --progress json -o p.exr -o b.exr --checkpoint state,0 2>err & p=$!\n"
       "wait_for_samples; sleep 0.3; kill -9 $p; wait $p; ls -A | grep -c tmp");

@@ -1,4 +1,4 @@
-// Any bytes as an EXR file: planes of the size that the image declares, or an InputError.
+// Reads any bytes as an EXR file: gives planes of the declared size, or an InputError.
 
 #include "fuzz/memory_file.h"
 #include "fuzz/sound_texels.h"

@@ -1,4 +1,4 @@
-// Any bytes as a glTF file: a scene that holds together, or an InputError.
+// Reads any bytes as a glTF file: gives a consistent scene, or an InputError.
 
 #include <cstddef>
 #include <cstdint>
@@ -37,7 +37,7 @@ void require_sound(const alhazen::Scene& scene) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   alhazen::Diagnostics diagnostics;
   alhazen::ReadOptions options;
-  // The last byte chooses, so that animations are run too.
+  // The last byte selects options, so that animations are tested too.
   if (size > 0 && data[size - 1] % 2 == 1) options.time = 0.3;
   try {
     require_sound(alhazen::parse_gltf({data, size}, "fuzz.gltf", "/no-such-folder", options, diagnostics));

@@ -1,4 +1,4 @@
-// Any bytes as a Radiance HDR file: as many texels as the image declares, or an InputError.
+// Reads any bytes as a Radiance HDR file: gives as many texels as declared, or an InputError.
 
 #include "fuzz/sound_texels.h"
 #include "images/codecs/decoders.h"

@@ -1,5 +1,5 @@
-// Any bytes as a file of one of the formats without a target of their own (JPEG, TGA, BMP, PFM), by the last byte: as
-// many texels as the image declares, or an InputError.
+// Reads any bytes as a file of one of the formats without a target of their own (JPEG, TGA, BMP, PFM), selected by the
+// last byte: gives as many texels as declared, or an InputError.
 
 #include "fuzz/sound_texels.h"
 #include "images/codecs/decoders.h"

@@ -1,5 +1,5 @@
-// libFuzzer target: any bytes as a scene text. Errors are what the reader must give for almost all of them; a scene
-// that it does give must be sound.
+// Reads any bytes as a scene text. Almost all of them must give errors; a scene that the reader returns must be
+// consistent.
 
 #include <algorithm>
 #include <cstddef>
@@ -40,7 +40,7 @@ void require_sound(const alhazen::Scene& scene) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   std::string text(reinterpret_cast<const char*>(data), size);
-  // Without slashes, and in a folder that does not exist, no name can lead to a file.
+  // Without slashes and in a folder that does not exist, no name refers to a file.
   std::replace(text.begin(), text.end(), '/', '_');
   alhazen::Diagnostics diagnostics;
   try {

@@ -1,4 +1,4 @@
-// Any bytes as a PLY file: a mesh that holds together, or an InputError.
+// Reads any bytes as a PLY file: gives a consistent mesh, or an InputError.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Any bytes as a PNG file, for its colours and for its alpha: as many texels as the image declares, or an InputError.
+// Reads colours and alpha of any bytes as a PNG file: gives as many texels as declared, or an InputError.
 
 #include <zlib.h>
 
@@ -14,9 +14,9 @@ uint32_t big_endian(const uint8_t* bytes) {
          static_cast<uint32_t>(bytes[2]) << 8 | bytes[3];
 }
 
-/// The checksum of every chunk put right, without which nearly all that a fuzzer tries is refused for its checksum.
+/// Corrects the checksum of every chunk; otherwise nearly all inputs of a fuzzer are refused for their checksums.
 std::vector<uint8_t> with_right_checksums(std::vector<uint8_t> file) {
-  constexpr size_t signature = 8, around = 12;  // length and type before the data of a chunk, checksum behind it
+  constexpr size_t signature = 8, around = 12;  // length and type before the data of a chunk, checksum after it
   for (size_t at = signature; at + around <= file.size();) {
     const size_t length = big_endian(&file[at]);
     if (length > file.size() - at - around) break;
@@ -32,7 +32,7 @@ std::vector<uint8_t> with_right_checksums(std::vector<uint8_t> file) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace alhazen;
   std::vector<uint8_t> bytes(data, data + size);
-  // The last byte, which is that of a checksum in a whole file, chooses.
+  // The last byte, which is part of a checksum in a whole file, selects the option.
   if (size > 0 && data[size - 1] % 4 != 0) bytes = with_right_checksums(std::move(bytes));
   try {
     fuzzing::require_sound(decode_png("fuzz.png", bytes, size % 2 == 1));

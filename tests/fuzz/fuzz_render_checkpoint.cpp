@@ -1,5 +1,5 @@
-// A checkpoint as any bytes, or one that was saved with some of its bytes changed, and a render that goes on from it:
-// an InputError, or all samples.
+// Resumes a render from any bytes as a checkpoint, or from a saved one with some bytes changed: gives an InputError, or
+// all samples.
 
 #include <stdlib.h>
 
@@ -25,7 +25,7 @@ Shape "sphere" "float radius" 0.5
 
 constexpr int samples = 8;
 
-/// A folder that is removed when the fuzzer ends by itself.
+/// A folder that is removed when the fuzzer ends normally.
 class Folder {
  public:
   Folder() {
@@ -59,7 +59,7 @@ std::string saved_checkpoint(const std::string& path) {
   return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-/// Triples of a place (two bytes) and a value that is put there.
+/// Triples of an offset (two bytes) and a value to store there.
 std::string changed(std::string state, std::span<const uint8_t> changes) {
   for (; changes.size() >= 3; changes = changes.subspan(3))
     state[(changes[0] * 256u + changes[1]) % state.size()] = static_cast<char>(changes[2]);

@@ -1,4 +1,4 @@
-// Any bytes as a glTF file, read, compiled and rendered at a few pixels; what it cannot say must be refused.
+// Reads any bytes as a glTF file, compiles the scene and renders a few pixels; invalid files must be refused.
 
 #include "fuzz/render_few_pixels.h"
 #include "io/gltf/gltf.h"

@@ -1,4 +1,4 @@
-// Any bytes as an image of whatever format they begin as, in all the places that a scene has for images: an environment
+// Uses any bytes as an image of whatever format they begin with, for all purposes of images in a scene: an environment
 // map, a goniometric light, textures of colour, roughness, alpha and displacement.
 
 #include <string>
@@ -29,7 +29,7 @@ Shape "bilinearmesh" "point3 P" [ -4 -4 -1  4 -4 -1  -4 4 -1  4 4 -1 ]
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace alhazen;
   const fuzzing::MemoryFile file(data, size);
-  // Where one place refuses the image, as lights do those that are not square, the others are still tried.
+  // If the image is refused for one purpose, such as a light's if it is not square, the others are still tried.
   for (const std::string kept : {"infinite", "goniometric", "projection", "none"}) {
     std::string text;
     for (std::string rest = scene_text; !rest.empty();) {

@@ -1,4 +1,4 @@
-// Any bytes as a scene text, read, compiled and rendered at a few pixels; what the text cannot say must be refused.
+// Reads any bytes as a scene text, compiles the scene and renders a few pixels; invalid texts must be refused.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace alhazen;
   std::string text(reinterpret_cast<const char*>(data), size);
-  // Without slashes, and in a folder that does not exist, no name can lead to a file.
+  // Without slashes and in a folder that does not exist, no name refers to a file.
   std::replace(text.begin(), text.end(), '/', '_');
   Diagnostics diagnostics;
   try {

@@ -1,4 +1,4 @@
-// Any bytes as a WebP file, for its colours and for its alpha: as many texels as the image declares, or an InputError.
+// Reads colours and alpha of any bytes as a WebP file: gives as many texels as declared, or an InputError.
 
 #include "fuzz/sound_texels.h"
 #include "images/codecs/decoders.h"

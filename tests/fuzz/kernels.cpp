@@ -1,5 +1,5 @@
-// The sample kernels of the fuzz targets: of all integrators and samplers the default ones, which go through most of
-// the core. The others take as long to compile, each.
+// The sample kernels of the fuzz targets: only those of the default integrator and sampler, which execute most of the
+// core. Each of the others would take as long to compile.
 
 #include "render/kernels/instances.h"
 

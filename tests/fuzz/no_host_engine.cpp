@@ -1,4 +1,4 @@
-// The fuzz targets render by the serial backend; the kernels of GPUs, as loops on the host, take long to compile.
+// The fuzz targets render by the serial backend; the CPU-emulated GPU kernels take long to compile.
 
 #include "backends/cuda/device.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// A scene that a reader has given, rendered at 4 x 4 pixels with one sample each: what a file reaches after it was
-// read. Scenes that would take seconds are left out, so that a fuzzer comes to many others.
+// Renders a scene from a reader at 4 x 4 pixels with one sample each, to test what happens after reading. Scenes that
+// would take seconds are skipped, so that a fuzzer gets to many others.
 
 #include <omp.h>
 
@@ -20,7 +20,7 @@ namespace alhazen::fuzzing {
 inline constexpr uint64_t max_triangles = 20'000, max_texels = 1u << 20;
 inline constexpr size_t max_places = 2000, max_coats = 2;
 
-/// Triangles and spheres as they will be placed, with each instance.
+/// Number of triangles and spheres to be placed, counted per instance.
 inline uint64_t count_primitives(const Scene& scene) {
   std::vector<uint64_t> of_group;
   for (const ShapeGroup& group : scene.groups) {
@@ -41,7 +41,7 @@ inline uint64_t count_texels(const Scene& scene) {
   return count;
 }
 
-/// Layered materials have tables of albedo computed for them, a tenth of a second and more each.
+/// Layered materials have albedo tables computed for them, which takes a tenth of a second and more each.
 inline size_t count_coats(const Scene& scene) {
   return static_cast<size_t>(std::count_if(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
     return m.type == MaterialType::coated_diffuse || m.type == MaterialType::coated_conductor ||
@@ -54,7 +54,7 @@ inline bool is_quickly_rendered(const Scene& scene) {
          scene.textures.size() <= max_places && scene.lights.size() <= max_places && count_coats(scene) <= max_coats;
 }
 
-/// Every value of the film is a number, though it may be too large for one: what a scene says may be.
+/// Every value of the film is a number, but may be infinite, since the values of a scene may be that large.
 inline void require_numbers(const Rendering& rendering) {
   const ImageSource source = rendering.source();
   std::vector<float> row(static_cast<size_t>(source.width) * source.channels.size());
@@ -65,7 +65,7 @@ inline void require_numbers(const Rendering& rendering) {
   }
 }
 
-/// `choice` picks the precision. InputError is what a scene that cannot be rendered must end in.
+/// `choice` selects the precision. Scenes that cannot be rendered must throw InputError.
 inline void render_few_pixels(Scene&& scene, uint8_t choice, Diagnostics& diagnostics) {
   if (!is_quickly_rendered(scene)) return;
   omp_set_num_threads(1);
@@ -83,7 +83,7 @@ inline void render_few_pixels(Scene&& scene, uint8_t choice, Diagnostics& diagno
   require_numbers(render_scene(std::move(scene), settings, 0, {}, diagnostics));
 }
 
-/// The last byte of an input, which most formats end without.
+/// The last byte of an input, which most formats ignore.
 inline uint8_t last_of(std::span<const uint8_t> bytes) { return bytes.empty() ? uint8_t{0} : bytes.back(); }
 
 }  // namespace alhazen::fuzzing

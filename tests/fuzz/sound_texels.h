@@ -1,6 +1,6 @@
 #pragma once
 
-// What must hold of every image that a decoder returns, whatever the file was.
+// The conditions that every image from a decoder must satisfy, whatever the file.
 
 #include <cstdlib>
 

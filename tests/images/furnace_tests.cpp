@@ -1,4 +1,4 @@
-// A furnace: under a sky of radiance 1, things that lose no light cannot be seen.
+// White furnace: under a sky of radiance 1, objects that lose no light are invisible.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace alhazen::test {
 
 namespace {
 
-/// A mirror, rough and smooth glass and white clay, seen by a camera in the sky.
+/// A mirror, rough and smooth glass, and white clay, seen by a camera in the sky.
 const std::string furnace = R"(LookAt 0 0 6  0 0 0  0 1 0
 Camera "perspective" "float fov" 40
 Film "rgb" "integer xresolution" 48 "integer yresolution" 48
@@ -64,11 +64,11 @@ void expect_nothing_to_be_seen(const Scene& scene) {
       settings.integrator = integrator;
       settings.samples_per_pixel = 64;
       const Moments m = moments_of(render_bits(scene, settings));
-      // Three channels of a pixel are the same number, so the error of the mean is sqrt(3) times as large.
+      // The three channels of a pixel are equal, so the error of the mean is sqrt(3) times as large.
       EXPECT_NEAR(m.mean, 1, 4 * std::sqrt(3.0) * m.error + 1e-4);
       EXPECT_NEAR(m.mean, 1, 2e-3);
       if (std::string(integrator) == "path") continue;
-      // What is met by chance has no noise here: every path ends in the sky.
+      // BSDF sampling has no noise here: every path ends in the sky.
       EXPECT_GT(m.smallest, 1 - 2e-3);
       EXPECT_LT(m.largest, 1 + 1e-4);
     }
@@ -76,7 +76,7 @@ void expect_nothing_to_be_seen(const Scene& scene) {
 
 TEST(Furnace, NothingCanBeSeen) { expect_nothing_to_be_seen(scene_of(furnace)); }
 
-/// A map that is 1 everywhere is the sky that is.
+/// A map that is 1 everywhere equals the constant sky.
 TEST(Furnace, NothingCanBeSeenUnderAMap) {
   for (const int width : {8, 16}) {
     Scene scene = scene_of(furnace);
@@ -86,7 +86,7 @@ TEST(Furnace, NothingCanBeSeenUnderAMap) {
 }
 
 TEST(Furnace, GreyClayIsAsBrightAsItsAlbedo) {
-  // A ball alone: what it sends out was reflected once.
+  // A single ball: the light that it sends out was reflected once.
   const Scene scene = scene_of(R"(LookAt 0 0 6  0 0 0  0 1 0
 Camera "perspective" "float fov" 10
 Film "rgb" "integer xresolution" 16 "integer yresolution" 16

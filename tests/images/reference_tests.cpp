@@ -1,5 +1,4 @@
-// Pictures that other renderers made of the same scenes (../shared beside the source folder; see the MANIFEST.md
-// there).
+// Images that other renderers made of the same scenes (../shared beside the source folder; see the MANIFEST.md there).
 
 #include <gtest/gtest.h>
 
@@ -23,7 +22,7 @@ const std::string shared = ALHAZEN_SOURCE_DIR "/../shared";
 #define SKIP_WITHOUT(path) \
   if (!fs::exists(path)) GTEST_SKIP() << "the reference is not here: " << (path)
 
-/// Renders a file with `change` applied to what it describes.
+/// Renders a file after applying `change` to its description.
 template <class Change>
 Image render_image(const std::string& path, const Settings& settings, const Change& change) {
   Diagnostics diagnostics;
@@ -48,7 +47,7 @@ Image render_image(const std::string& path, const Settings& settings) {
   return render_image(path, settings, [](Scene&) {});
 }
 
-/// R, G, B of another picture with each `factor` x `factor` pixels made one.
+/// R, G, B of another image, downsampled by `factor`.
 Image box_downsampled(const Image& image, int factor) {
   Image small{image.width / factor, image.height / factor, {"R", "G", "B"}, {}};
   for (const std::string& channel : small.channels) {
@@ -76,7 +75,7 @@ double mean_luminance(const Image& image) {
   return sum / static_cast<double>(pixels);
 }
 
-/// A reference and the variance of each of its pixels, from two independent halves.
+/// A reference and the variance of each of its pixels, estimated from two independent halves.
 struct Reference {
   Image mean, variance;
 
@@ -89,7 +88,7 @@ struct Reference {
       }
   }
 
-  /// Relative squared error of `image`, less the part of it that is the noise of the reference.
+  /// Relative squared error of `image`, minus the contribution of the reference's noise.
   double relmse(const Image& image) const {
     double sum = 0;
     for (size_t c = 0; c < 3; ++c)
@@ -118,8 +117,8 @@ TEST(References, WeekendByPbrt) {
     EXPECT_NEAR(mean_luminance(image) / mean, 1, 0.01) << samples << " samples";
     RecordProperty("relmse_" + std::to_string(samples), std::to_string(errors.back()));
   }
-  // The sampler of the scene is `independent`: four times the samples, a quarter of the error. What differs otherwise
-  // (the reference is spectral) must be well below the noise of the most samples.
+  // The scene's sampler is `independent`: four times the samples, a quarter of the error. Other differences (the
+  // reference is spectral) must be well below the noise with most samples.
   EXPECT_NEAR(errors[0] / errors[1], 4, 1);
   EXPECT_NEAR(errors[1] / errors[2], 4, 1);
 }
@@ -153,12 +152,12 @@ TEST(References, CornellBoxByTungsten) {
         EXPECT_NEAR(ours / theirs, 1, 0.04 * noise) << "region " << column << ", " << row << " channel " << c;
         squares += (ours / theirs - 1) * (ours / theirs - 1);
       }
-  // Of all regions together: the noise of one is under a hundredth.
+  // For all regions together; the noise of one is below a hundredth.
   EXPECT_LT(std::sqrt(squares / (3 * regions * regions)), 0.01 * noise);
 }
 
-/// Under an octahedral map. The ball's coat is not there, but the floor is, whose light tells how the map stands:
-/// mirrored or turned by 90 degrees it varies by 0.045 from region to region.
+/// Under an octahedral map. The ball's coat is missing, but the light on the floor shows the map's orientation: if it
+/// were mirrored or rotated by 90 degrees, regions would differ by 0.045.
 TEST(References, MaterialTestballByTungsten) {
   const std::string folder = shared + "/scenes/pbrt/material-testball";
   SKIP_WITHOUT(folder + "/TungstenRender.exr");
@@ -197,7 +196,7 @@ TEST(References, EveryPbrtSceneHasAPicture) {
   settings.samples_per_pixel = 4;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string path = entry.path().string();
-    // Those in folders of geometry are parts of scenes.
+    // Files in folders named geometry are parts of scenes.
     if (entry.path().extension() != ".pbrt" || path.find("/geometry/") != std::string::npos) continue;
     SCOPED_TRACE(path);
     try {

@@ -1,4 +1,4 @@
-// Compiled once an instruction set, in its namespace.
+// Compiled once per instruction set, in its namespace.
 
 #include "core/bvh/bvh8/traversal.h"
 #include "isa/request.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Ray queries answered by the BVH of CPUs as it was compiled for one of the instruction sets (queries.cpp).
+// Ray queries to the CPU's BVH, as compiled for each instruction set (queries.cpp).
 
 #include "isa/request.h"
 #include "render/sample_kernel.h"
@@ -20,7 +20,7 @@ ALHAZEN_DECLARE_ANSWERS(avx512)
 
 namespace test {
 
-/// By the instruction set that is asked for, or the best below it that this processor has.
+/// Uses the requested instruction set, or the best one below it that this processor supports.
 template <class Real>
 void answer_queries(const SceneView<Real>& scene, InstructionSet set, Way way, bool any_hit, uint32_t count,
                     const Ray<Real>* rays, const Real* limits, Hit<Real>* hits, bool* found) {

@@ -1,17 +1,16 @@
 #pragma once
 
-// What the loops over queries are handed. Nothing here depends on the instruction set that they are compiled for.
+// The arguments of the query loops. Nothing here depends on the instruction set for which they are compiled.
 
 #include <cstdint>
 
 namespace alhazen::test {
 
-/// One ray a call, all in turns, all in one call as renders do it, or all in one as rays of which neighbours go much
-/// the same way.
+/// One ray per call, interleaved, all in one call as in renders, or all in one call as coherent packets.
 enum class Way : uint32_t { one, in_turns, many, coherent };
 inline constexpr Way ways[] = {Way::one, Way::in_turns, Way::many, Way::coherent};
 
-/// Arrays of `count` elements of the precision asked for: rays and limits, and what comes of them.
+/// Arrays of `count` elements in the requested precision: rays and limits, and the results.
 struct QueryRequest {
   const void* scene;
   const void* rays;

@@ -1,6 +1,6 @@
-// GPUs give the pictures of the CPU: in double to 1e-9, in float the same picture but for noise, and all four schedules
-// alike. The same comparisons run over the kernels on the host, which shows that they can be met; without a GPU those
-// alone.
+// GPUs give the images of the CPU: in double to 1e-9, in float the same image up to noise, with all four schedules. The
+// same comparisons run for the CPU-emulated kernels, which shows that they can be satisfied; without a GPU only those
+// run.
 
 #include "backends/cuda/device.h"
 #include "parity/scenes.h"
@@ -40,7 +40,7 @@ FilmPointer<Real> film_of(const std::string& scene_name, const Settings& setting
   return std::move(std::get<FilmPointer<Real>>(rendering.film));
 }
 
-/// Part of the pixels whose radiance is within `tolerance`, relative to its largest channel.
+/// Fraction of the pixels whose radiance is within `tolerance`, relative to the largest channel.
 template <class Real>
 double part_alike(const Film<Real>& a, const Film<Real>& b, double tolerance) {
   size_t alike = 0;
@@ -54,7 +54,7 @@ double part_alike(const Film<Real>& a, const Film<Real>& b, double tolerance) {
   return static_cast<double>(alike) / static_cast<double>(pixels);
 }
 
-/// Pictures that are black would be alike as well.
+/// Black images would also be equal.
 template <class Real>
 bool is_black(const Film<Real>& film) {
   const Vec3<Real>* radiance = film.view().radiance;
@@ -62,7 +62,7 @@ bool is_black(const Film<Real>& film) {
                      [](const Vec3<Real>& v) { return v.x == 0 && v.y == 0 && v.z == 0; });
 }
 
-/// Moments of the luminance of the pixels of each of 4x4 parts of the picture, by rows.
+/// Moments of the pixel luminance in each of 4x4 parts of the image, by rows.
 template <class Real>
 std::vector<Moments> moments_of(const Film<Real>& film) {
   constexpr size_t parts = 4;
@@ -92,7 +92,7 @@ class CudaOnDevice : public ::testing::TestWithParam<Case> {
     return settings;
   }
 
-  /// Every schedule's picture against the serial one: so large a part of the pixels is within `tolerance`.
+  /// Every schedule's image against the serial one: at least this fraction of the pixels is within `tolerance`.
   template <class Real>
   void expect_alike(const std::string& precision, double tolerance, double part) const {
     const auto serial = film_of<Real>(scene_, settings_of("serial", precision, integrator_));
@@ -108,11 +108,11 @@ class CudaOnDevice : public ::testing::TestWithParam<Case> {
 
 TEST_P(CudaOnDevice, InDoubleGivesTheSerialPicture) { expect_alike<double>("double", 1e-9, 0.999); }
 
-/// Fused operations and the other tree move a ray by an ulp; few paths then take another turn, and 1 of the 64 samples
-/// of a pixel is seen.
+/// Fused operations and the other tree move a ray by an ulp; few paths then diverge, which affects 1 of the 64 samples
+/// of a pixel.
 TEST_P(CudaOnDevice, InFloatGivesTheSamePictureByEverySchedule) { expect_alike<float>("float", 1e-3, 0.9); }
 
-/// A picture in double, with a seed of its own.
+/// An image in double, with a seed of its own.
 std::vector<Moments> reference_of(const std::string& scene, const std::string& integrator) {
   Settings settings = settings_of("serial", "double", integrator);
   settings.sampler = "independent";
@@ -121,7 +121,7 @@ std::vector<Moments> reference_of(const std::string& scene, const std::string& i
   return moments_of(*film_of<double>(scene, settings));
 }
 
-/// Z-test of a picture in float, part by part. All such tests of this file hold at 0.01 together.
+/// Z-test of an image in float, part by part. All such tests of this file hold at 0.01 together.
 void expect_unbiased(const std::vector<Moments>& reference, const std::string& scene, Settings settings) {
   constexpr size_t pictures = 2 * 2 * (2 * 4 + 1);  // scenes, integrators; devices and schedules, OptiX
   settings.sampler = "independent";

@@ -1,4 +1,4 @@
-// Embree answers ray queries as our own BVH does, and so the pictures are alike. Skipped where Embree is not built in.
+// Embree answers ray queries like our own BVH, so the images are alike. Skipped if Embree is not built in.
 
 #include "parity/scenes.h"
 
@@ -38,7 +38,7 @@ void expect_what_looking_at_every_primitive_finds(const CompiledScene<float>& sc
     const bool found = intersector.closest_hit(ray, infinity<float>, hit);
     const bool expect_found = linear.closest_hit(ray, infinity<float>, expected);
     met += found;
-    // Rays that graze an edge may go either way: the triangle tests round differently.
+    // Rays that graze an edge may differ: the triangle tests round differently.
     if (found != expect_found ||
         (found && (!(hit.primitive == expected.primitive) || hit.instance != expected.instance))) {
       ++different;
@@ -49,7 +49,7 @@ void expect_what_looking_at_every_primitive_finds(const CompiledScene<float>& sc
       EXPECT_NEAR(hit.t, expected.t, 1e-4f * expected.t + 1e-5f);
     }
     if (found && hit.primitive.kind() != PrimitiveKind::triangle) {
-      EXPECT_EQ(hit.t, expected.t);  // the very same test of spheres
+      EXPECT_EQ(hit.t, expected.t);  // both use the same sphere test
     }
     if (found && expected.t > 1e-3f) {
       EXPECT_FALSE(intersector.occluded(ray, expected.t * 0.999f));
@@ -100,7 +100,7 @@ TEST(Embree, IsNotAskedAboutRaysOutOfItsRange) {
 }
 
 TEST(Embree, RefusesWhatItWouldLeaveOut) {
-  // Objects of 10^8 units made small: what is far off in the world is out of range in their space.
+  // Objects of 10^8 units, scaled down: points far away in the world are out of range in their space.
   for (const double distance : {1.0, 1e11}) {
     const Transform small = Transform::scale(Vec3d{1e-8, 1e-8, 1e-8}),
                     placed = Transform::translate({distance, 0, 0}) * small;
@@ -132,7 +132,7 @@ Settings settings_of(const std::string& backend) {
   return settings;
 }
 
-/// The same samples: but for the few paths that take another turn where a hit differs by its rounding, the same values.
+/// The same samples have the same values, except for few paths that diverge because a hit is rounded differently.
 class EmbreePicture : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EmbreePicture, IsThatOfTheSerialBackend) {

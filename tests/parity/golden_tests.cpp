@@ -1,5 +1,5 @@
-// The bits of images of scenes of all kinds, by every integrator, precision and engine of the CPU, against checksums
-// that were written down in golden.txt. Where images are meant to change, write them anew and say so in the commit:
+// The bits of images of scenes of all kinds, by every integrator, precision and CPU engine, against the checksums in
+// golden.txt. If images are meant to change, write it anew and say so in the commit:
 //   ALHAZEN_WRITE_GOLDEN=1 build/release/tests/parity_tests --gtest_filter='Scenes/GoldenImages*'
 
 #include <gtest/gtest.h>

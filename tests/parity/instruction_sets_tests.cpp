@@ -1,4 +1,4 @@
-// The sample kernels give the same bits whatever the instruction set that they were compiled for.
+// The sample kernels give the same bits for every instruction set.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-// The host part of the OptiX backend over a driver that is not there: a function table that notes what it is given,
-// looks at it, and runs launches on the host, with our own BVH in the place of optixTrace. The picture has the serial
-// bits.
+// The host part of the OptiX backend over a mock driver: a function table that records and checks its arguments, and
+// runs launches on the host, with our own BVH instead of optixTrace. The image has the serial bits.
 
 #ifdef ALHAZEN_WITH_OPTIX
 
@@ -19,17 +18,17 @@ namespace {
 using namespace alhazen::test;
 using cuda::HostExecutor;
 
-/// What the driver was asked for, in the order of the calls.
+/// The calls to the driver, in order.
 struct Calls {
   std::vector<OptixBuildInput> inputs;
   std::vector<OptixAccelBuildOptions> builds;
   std::vector<OptixInstance> instances;
-  std::vector<Vec3<float>> first_centres, last_centres;  ///< of the spheres that move
+  std::vector<Vec3<float>> first_centres, last_centres;  ///< of the moving spheres
   std::vector<std::string> groups;                       ///< names of the programs
   std::vector<bool> sphere_modules_move;
   OptixPipelineCompileOptions pipeline{};
   std::vector<unsigned> payload_words;
-  std::vector<Vec3<float>> corners;  ///< of all triangles, by vertex and index buffers
+  std::vector<Vec3<float>> corners;  ///< of all triangles, from vertex and index buffers
   int modules = 0, failures = 0, made = 0, destroyed = 0, launches = 0;
   OptixResult module_result = OPTIX_SUCCESS, build_result = OPTIX_SUCCESS, context_result = OPTIX_SUCCESS;
 };
@@ -46,7 +45,7 @@ T* pointer(CUdeviceptr address) {
   return reinterpret_cast<T*>(address);
 }
 
-/// An element of an array with a stride, wherever it lies.
+/// An element of an array with a stride, at any address.
 template <class T>
 T element(CUdeviceptr base, unsigned stride, uint32_t index) {
   T value;
@@ -120,7 +119,7 @@ OptixResult create_group(OptixDeviceContext, const OptixProgramGroupDesc* group,
   return OPTIX_SUCCESS;
 }
 
-/// The header is the number of the group.
+/// The header is the number of the program group.
 OptixResult pack_header(OptixProgramGroup group, void* header) {
   const size_t number = reinterpret_cast<size_t>(group);
   std::memcpy(header, &number, sizeof(number));
@@ -267,7 +266,7 @@ class MockExecutor : public HostExecutor {
 const unsigned char one_byte[] = {1}, two_bytes[] = {1, 2};
 const DeviceCode code{one_byte, two_bytes};
 
-/// Renders by the mock; what came out and what was asked for.
+/// Renders with the mock; the result and the recorded calls.
 Outcome render(const OptixFunctionTable& table, Scene scene, Settings asked) {
   asked.backend = "serial";
   const RenderSettings settings = resolve_settings(asked, scene);

@@ -1,4 +1,4 @@
-// The picture does not depend on how its samples are cut into passes, nor on which part of it is rendered.
+// The image depends neither on how its samples are divided into passes nor on which part of it is rendered.
 
 #include "compile/compile_scene.h"
 #include "parity/scenes.h"
@@ -41,7 +41,7 @@ TEST_P(Passes, AnyNumberOfSamplesIsTheSameByAllStrategies) {
   }
 }
 
-/// Renders by passes of the sizes given.
+/// Renders with passes of the given sizes.
 template <class Real>
 Outcome render_in_passes(Scene scene, const Settings& asked, const std::vector<uint32_t>& sizes) {
   Diagnostics diagnostics;

@@ -1,4 +1,4 @@
-// A render that stops and goes on ends in the bits of one that was never stopped.
+// A render that is stopped and resumed has the bits of one that was never stopped.
 
 #include "parity/scenes.h"
 
@@ -72,7 +72,7 @@ TEST_P(Resume, AfterBeingStoppedGivesTheBitsOfOneRender) {
   const auto stop_when_begun = [](const Progress& progress) { return progress.samples_done == 0; };
   Outcome outcome = render_bits(scene(), stopped, stop_when_begun);
   ASSERT_FALSE(outcome.statistics.complete) << "the machine is too fast for this test: give it more samples";
-  // Once more, from where the first one was.
+  // Resumed once more, from the same checkpoint.
   stopped.resume = true;
   stopped.overwrite = false;
   int calls = 0;

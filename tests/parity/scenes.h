@@ -11,7 +11,7 @@
 
 namespace alhazen::test {
 
-/// Wider than a tile and not a multiple of one in either direction.
+/// Wider than a tile, and not a multiple of one in either direction.
 inline constexpr int parity_width = 20, parity_height = 17;
 
 inline Scene read_spheres() {
@@ -21,7 +21,7 @@ inline Scene read_spheres() {
   return scene_of(many_spheres(parity_width, parity_height, folder.file("photo.png")));
 }
 
-/// Under two maps and a constant light, in a picture of the same size.
+/// Under two maps and a constant light, in an image of the same size.
 inline Scene read_environments() {
   Scene scene = scene_of(R"(LookAt 0 -5 2  0 0 0.4  0 0 1
 Camera "perspective" "float fov" 40
@@ -38,7 +38,7 @@ AttributeBegin Translate 0.7 0 0.6 Shape "sphere" "float radius" 0.6 AttributeEn
   return test::lit_by(std::move(scene), test::lamps_map(16, 16), test::map_askew());
 }
 
-/// Lights of every kind, textured ones and pictures among them, chosen by a light tree.
+/// Lights of every kind, including textured ones and ones with images, chosen by a light tree.
 inline Scene read_lights() {
   Scene scene = test::with_emission_texture(scene_of(R"(Film "rgb" "integer xresolution" 20 "integer yresolution" 17
 )" + test::room_of_lights(40, true, 0.4) + R"(LightSource "infinite" "rgb L" [ 0.1 0.2 0.3 ]
@@ -99,7 +99,7 @@ AttributeBegin Translate 0 0 1.5 Shape "trianglemesh" "point3 P" [ -2 -2 0  2 -2
   return scene;
 }
 
-/// Eight balls of 20,480 triangles each, too many to be copied, one of them squeezed and mirrored, one of glass inside
+/// Eight balls of 20,480 triangles each, too many to be copied, one of them squashed and mirrored, one of glass inside
 /// out, and a lamp.
 inline Scene read_instances() {
   std::string text = R"(LookAt 0 -6 3  0 0 0.4  0 0 1
@@ -128,8 +128,8 @@ ObjectEnd
   return scene_of(text);
 }
 
-/// Triangles of every sort, most of them diffuse: with and without normals of their own, turned inside out, bumped,
-/// textured, and shining on one side, on both, or by a mesh's normals; through a lens.
+/// Triangles of every sort, most of them diffuse: with and without shading normals, flipped, bumped, textured, and
+/// emissive on one side, on both, or by a mesh's normals; seen through a lens.
 inline Scene read_meshes() {
   const std::string indices = R"( "integer indices" [ 0 1 2 0 2 3 ] )";
   const std::string tent = R"(Shape "trianglemesh" "point3 P" [ -1 -1 0  1 -1 0  1 1 0.6  -1 1 0.6 ]

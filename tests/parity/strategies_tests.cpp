@@ -1,5 +1,5 @@
-// The picture does not depend on who renders which part of it: serial, every OpenMP strategy, schedule and thread count
-// give the same bits.
+// The image does not depend on who renders which part of it: serial, and every OpenMP strategy, schedule and thread
+// count, give the same bits.
 
 #include "parity/scenes.h"
 
@@ -15,8 +15,8 @@ const std::vector<int> thread_counts{1, 2, 3, 8};
 /// Two passes, the second of which ends within a block.
 constexpr int64_t samples = 18;
 
-/// A serial render of the whole picture, and of a part of it for the strategies that start a team of threads for every
-/// pixel, which takes long where there are more threads than processors.
+/// A serial render of the whole image, and of a part of it for the strategies that start a team of threads for every
+/// pixel, which takes long if there are more threads than processors.
 struct Expected {
   Settings settings, part_settings;
   Outcome whole, part;
@@ -111,7 +111,7 @@ TEST(Parity, MaterialsByEveryStrategy) { expect_same_by_every_strategy("material
 TEST(Parity, ManyLightsByEveryStrategy) { expect_same_by_every_strategy("lights"); }
 
 TEST(Parity, TheSceneShowsEverythingThatItIsMadeFor) {
-  // Pictures that are black would be the same bits as well.
+  // Black images would also have the same bits.
   for (const std::string scene : {"cornell", "spheres", "environments", "lights", "materials", "instances"}) {
     const Outcome outcome = render_bits(parity_scene(scene), serial_settings("float"));
     const size_t width = static_cast<size_t>(outcome.width), row = width * outcome.channels.size();

@@ -1,4 +1,4 @@
-// Surfaces that let rays through: what arrives behind them, and that light sampled and light met by chance agree.
+// Transparent surfaces: the light that arrives behind them, and the agreement of light sampling and BSDF sampling.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ void expect_mean(const CompiledScene<Real>& scene, double expected, double toler
   }
 }
 
-/// A black card of alpha 0.5 before a light, two of them, and one that a checkerboard cuts holes in.
+/// A black card of alpha 0.5 in front of a light, two of them, and one in which a checkerboard cuts holes.
 TYPED_TEST(Alpha, CardsBeforeALight) {
   const std::string light =
       camera + "WorldBegin" + black +
@@ -49,7 +49,7 @@ TYPED_TEST(Alpha, CardsBeforeALight) {
               0.5, 0.05, 1);
 }
 
-/// A floor lit by a lamp through a card: by sampling the lamp, through two surfaces, and by meeting it.
+/// A floor lit by a lamp through a card: by light sampling, through two surfaces, and by BSDF sampling.
 TYPED_TEST(Alpha, IntegratorsAgreeBehindACard) {
   const std::string text =
       film_of(side, side) + "LookAt 0 -4 2  0 0 0  0 0 1 Camera \"perspective\" \"float fov\" 30\n" +
@@ -72,7 +72,7 @@ TYPED_TEST(Alpha, IntegratorsAgreeBehindACard) {
       << by[0].mean() << " +- " << by[0].standard_error() << ", " << by[1].mean() << " +- " << by[1].standard_error();
 }
 
-/// What has one side is not there from behind.
+/// One-sided surfaces are absent from behind.
 TYPED_TEST(Alpha, OneSidedOnesAreSeenFromTheFront) {
   for (const bool from_behind : {false, true}) {
     Scene scene = described_scene(camera + "WorldBegin LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]" + black +
@@ -90,7 +90,7 @@ TYPED_TEST(Alpha, OneSidedOnesAreSeenFromTheFront) {
   }
 }
 
-/// Beer and Lambert: a slab of thickness 2 whose index is that of what surrounds it.
+/// Beer-Lambert: a slab of thickness 2 with the index of its surroundings.
 TYPED_TEST(Alpha, AbsorptionFollowsTheWay) {
   Scene scene = described_scene(camera +
                                 "WorldBegin LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]"

@@ -1,4 +1,4 @@
-// What sample_bsdf returns against the density that evaluate_bsdf states: a chi-squared test over bins of the sphere.
+// Samples of sample_bsdf against the density of evaluate_bsdf: a chi-squared test over bins of the sphere.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// pbrt's coats against a random walk between their interface and their base, as pbrt-v4's LayeredBxDF takes it.
+// pbrt's coats against a random walk between interface and base, as in pbrt-v4's LayeredBxDF.
 
 #include "core/materials/conductor.h"
 #include "support/density_check.h"
@@ -12,7 +12,7 @@ struct Coat {
   MaterialType type = MaterialType::coated_diffuse;
   double alpha = 0, metal_alpha = 0;
   double reflectance = 0.5, thickness = 0;
-  int bounces = 0;  ///< 0: for ever
+  int bounces = 0;  ///< 0: no limit
   CoatModel model = CoatModel::pbrt;
 
   template <class Real>
@@ -38,7 +38,7 @@ struct Coat {
   }
 };
 
-/// What is left of light from `way` that meets the base, on its way up; 0: nothing.
+/// Light from `way` that remains after hitting the base, on its way up; 0 if none does.
 double meet_base(const Coat& coat, Vec3d& way, Random& random) {
   const Vec3d up{-way.x, -way.y, -way.z};
   if (coat.type == MaterialType::coated_diffuse) {
@@ -137,7 +137,7 @@ TEST(CoatedConductor, HasAboutTheAlbedoOfARandomWalk) {
         coat.type = MaterialType::coated_conductor;
         coat.alpha = alpha, coat.metal_alpha = metal_alpha, coat.reflectance = reflectance;
         coat.thickness = 0.01, coat.bounces = 5;
-        // One lobe stands for all, and its Fresnel term is that of a coat which is smooth.
+        // One lobe represents all, and its Fresnel term is that of a smooth coat.
         expect_albedo_of_walk(coat, alpha > 0.2 && metal_alpha < 0.2 ? 0.1 : 0.04, random);
       }
 }
@@ -183,7 +183,7 @@ TYPED_TEST(Coats, Reciprocity) {
   }
 }
 
-/// Where roughness varies the tables have a grid of it: at its points and between them about what constants give.
+/// For varying roughness the tables are a grid over it, whose values at and between the nodes match those of constants.
 TEST(CoatedConductor, TexturedRoughnessLooksLikeConstantOnes) {
   Random random(13);
   for (const double alpha : {0.0816, 0.25}) {

@@ -1,5 +1,5 @@
-// Direct light on a point of a plane, against irradiance in closed form. The plane is y = 0, seen from close by through
-// a view so narrow that it is one point; its albedo is 1, so that radiance is irradiance / pi.
+// Direct light on a point of a plane, against irradiance in closed form. The plane is y = 0, seen from close by with so
+// narrow a field of view that it is one point; its albedo is 1, so that radiance is irradiance / pi.
 
 #include <gtest/gtest.h>
 
@@ -33,12 +33,12 @@ void expect_irradiance(const CompiledScene<Real>& scene, IntegratorKind integrat
     const double radiance = expected / pi<double>;
     EXPECT_GT(mean_p_value(pixels, radiance, radiance * relative_rounding), sidak(0.01, cases))
         << take.name() << ": " << pixels.mean() << " +- " << pixels.standard_error() << " instead of " << radiance;
-    // A sixteenth of the samples leaves four times the error.
+    // A sixteenth of the samples has four times the error.
     EXPECT_LT(pixels.standard_error(), (is_sanitized ? 0.08 : 0.02) * radiance) << take.name() << ": the test is blunt";
   }
 }
 
-/// The view's width moves the point by about 1e-5; with float a few roundings come on top.
+/// The width of the view moves the point by about 1e-5; in float rounding adds to that.
 template <class Real>
 constexpr double tolerance = by_precision<Real>(1e-4, 2e-5);
 
@@ -55,7 +55,7 @@ TYPED_TEST(DirectLight, PointSpotDistant) {
   // I cos / d^2 with d^2 = 14 and cos = 3 / sqrt(14).
   const double at_point = 3 / std::pow(14, 1.5);
   expect("LightSource \"point\" \"rgb I\" [20 20 20] \"point3 from\" [1 3 -2]", 20 * at_point);
-  // Within the cone of full intensity, and outside of the cone.
+  // Inside the cone of full intensity, and outside of the cone.
   const std::string spot = "LightSource \"spot\" \"rgb I\" [20 20 20] \"point3 from\" [1 3 -2] ";
   expect(spot + "\"point3 to\" [0.1 0 0] \"float coneangle\" 20 \"float conedeltaangle\" 5", 20 * at_point);
   // 45 degrees off the axis, halfway in cosine between falloff and edge, where the smooth step is 1/2:
@@ -67,7 +67,7 @@ TYPED_TEST(DirectLight, PointSpotDistant) {
          0.5 * 8 / 4);
   expect("LightSource \"distant\" \"rgb L\" [2 2 2] \"point3 from\" [0 1 1] \"point3 to\" [0 0 0]", 2 * std::sqrt(0.5));
   expect("LightSource \"infinite\" \"rgb L\" [0.5 0.5 0.5]", 0.5 * pi<double>);
-  // All the light of several lights arrives, whichever is chosen.
+  // The light of all lights arrives, whichever is chosen.
   expect(
       "LightSource \"point\" \"rgb I\" [20 20 20] \"point3 from\" [1 3 -2]\n"
       "LightSource \"distant\" \"rgb L\" [2 2 2] \"point3 from\" [0 1 1] \"point3 to\" [0 0 0]\n"
@@ -93,11 +93,11 @@ TYPED_TEST(DirectLight, Sphere) {
   check_sphere<TypeParam>({0.5, 2, 0.5}, 1.5, IntegratorKind::iterative);
 }
 
-/// A sphere so small and far that float cannot tell its centre from its surface.
+/// A sphere so small and far away that float cannot tell its centre from its surface.
 TYPED_TEST(DirectLight, TinyFarSphere) { check_sphere<TypeParam>({1000, 3000, -2000}, 0.0001, IntegratorKind::path); }
 
-/// Irradiance at the origin on a plane with normal +y by a polygon that lies above it (Lambert 1760): the sum over its
-/// edges of the angle that the edge subtends times the cosine of the plane that it spans.
+/// Irradiance at the origin on a plane with normal +y from a polygon above it (Lambert 1760): the sum over its edges of
+/// the angle that the edge subtends times the cosine of the plane that it spans.
 double polygon_irradiance(const std::vector<Vec3d>& corners, double radiance) {
   double sum = 0;
   for (size_t i = 0; i < corners.size(); ++i) {
@@ -137,7 +137,7 @@ TYPED_TEST(DirectLight, Disk) {
       AreaLightSource "diffuse" "rgb L" [3 3 3]
       Shape "disk" "float radius" 1.2
   )");
-  // The disk is a polygon of 128 corners and the same area here; L pi r^2 / (r^2 + h^2) is what it stands for.
+  // The disk is a polygon of 128 corners with the same area here; L pi r^2 / (r^2 + h^2) is the value for a disk.
   const double r = 1.2 * std::sqrt(2 * pi<double> / 128 / std::sin(2 * pi<double> / 128));
   std::vector<Vec3d> corners;
   for (int i = 0; i < 128; ++i) {

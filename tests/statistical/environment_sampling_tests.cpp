@@ -1,5 +1,5 @@
 // Environment maps: sampled directions against the density, the density against 1, radiance over density against the
-// integral of the map, and pictures with and without sampling it.
+// integral of the map, and images with and without light sampling.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ TYPED_TEST(EnvironmentSampling, DirectionsFollowTheDensity) {
   for (const MapCase& c : cases) {
     const CompiledScene<Real> scene = compiled_scene<Real>(map_alone(c.map, c.axes));
     const EnvironmentRecord<Real>& map = scene.view.environments[0];
-    // Lamps stand at the poles, where the density is too steep for bins that are not those of the map.
+    // There are lamps at the poles, where the density is too steep for bins other than the map's.
     const bool has_lamps = c.name.find("lamps") != std::string::npos;
     DirectionHistogram histogram(has_lamps ? c.axes : map_as_world, pi<double>);
     Random random(1);
@@ -71,7 +71,7 @@ TYPED_TEST(EnvironmentSampling, WhatIsSampledIsWhatARayFinds) {
       const EnvironmentSample<Real> s = sample_environment(scene.view, map, random.uniform_2d<Real>());
       ASSERT_GT(s.pdf, Real(0)) << c.name;
       ASSERT_NEAR(static_cast<double>(length(s.direction)), 1, 1e-6) << c.name;
-      // Near the poles of the one mapping rounding turns directions far.
+      // Near the poles of one mapping rounding changes directions a lot.
       if (map.mapping == SphereMapping::equirectangular && abs_dot(map.axes.normal, s.direction) > Real(0.9999))
         continue;
       const Vec3<Real> found = evaluate_environment(scene.view, map, s.direction);
@@ -101,7 +101,7 @@ TYPED_TEST(EnvironmentSampling, RadianceOverDensityIsTheIntegral) {
     }
     EXPECT_GT(mean_p_value(moments, expected, 2e-4 * expected), sidak(0.01, 2 * cases.size()))
         << c.name << ": " << moments.mean() << " +- " << moments.standard_error() << " instead of " << expected;
-    // A constant over texels cannot follow the slopes between them, but hardly anything else is noise.
+    // A density constant over texels cannot follow the slopes between them, but other noise is negligible.
     EXPECT_LT(moments.variance(), 1.5 * expected * expected) << c.name << ": the sampler does not follow the map";
   }
 }
@@ -109,7 +109,7 @@ TYPED_TEST(EnvironmentSampling, RadianceOverDensityIsTheIntegral) {
 TYPED_TEST(EnvironmentSampling, NoLightIsOutOfReach) {
   using Real = TypeParam;
   for (MapCase& c : map_cases()) {
-    if (c.name.find("sun") != std::string::npos)  // so bright that float keeps nothing of the rest beside it
+    if (c.name.find("sun") != std::string::npos)  // so bright that the rest is lost in float
       for (size_t k = 0; k < 3; ++k) channel_of(c.map, c.map.width * 5 / 8, c.map.height * 3 / 8, k) = 1e12f;
     const CompiledScene<Real> scene = compiled_scene<Real>(map_alone(c.map, c.axes));
     const EnvironmentRecord<Real>& map = scene.view.environments[0];
@@ -119,7 +119,7 @@ TYPED_TEST(EnvironmentSampling, NoLightIsOutOfReach) {
       const Vec3<Real> d = convert<Real>(random.on_sphere());
       if (is_zero(evaluate_environment(scene.view, map, d))) continue;
       ++lit;
-      // Beside an edge rounding may look up the next texel.
+      // Near an edge rounding may select the next texel.
       const Vec3<Real> beside = convert<Real>(normalize(convert<double>(d) + random.on_sphere() * 1e-5));
       if (is_zero(evaluate_environment(scene.view, map, beside))) continue;
       ASSERT_GT(pdf_environment(scene.view, map, d), Real(0)) << c.name;
@@ -130,7 +130,7 @@ TYPED_TEST(EnvironmentSampling, NoLightIsOutOfReach) {
 
 TYPED_TEST(EnvironmentSampling, ChosenByPower) {
   using Real = TypeParam;
-  // Of mean 1 and 3, and a constant light of 2.
+  // Maps of mean 1 and 3, and a constant light of 2.
   Scene scene = described_scene("WorldBegin LightSource \"infinite\" \"rgb L\" [2 2 2]");
   scene = lit_by(lit_by(std::move(scene), even_map(4, 4, 1)), even_map(8, 4, 0.5f), map_askew(), 6);
   const CompiledScene<Real> flat = compiled_scene<Real>(std::move(scene));
@@ -140,14 +140,14 @@ TYPED_TEST(EnvironmentSampling, ChosenByPower) {
   EXPECT_NEAR(pmf(flat.view.environments[0].light), 1.0 / 6, 1e-6);
   EXPECT_NEAR(pmf(flat.view.environments[1].light), 3.0 / 6, 1e-6);
   EXPECT_NEAR(pmf(flat.view.background_light), 2.0 / 6, 1e-6);
-  // All of them count where a ray leaves the scene.
+  // All of them contribute when a ray escapes.
   const Vec3<Real> radiance = background_radiance(flat.view, Vec3<Real>{0, 0, 1});
   EXPECT_NEAR(static_cast<double>(radiance.x), 6, 1e-5);
 }
 
 constexpr uint32_t side = 16;
 
-/// What lies on a plane and around it meets the map in all ways.
+/// Objects on and above a plane see the map in all directions.
 const std::string objects = film_of(side, side) + R"(
     LookAt 0 -5 2.5  0 0 0.4  0 0 1
     Camera "perspective" "float fov" 40
@@ -163,7 +163,7 @@ const std::string objects = film_of(side, side) + R"(
 
 TYPED_TEST(EnvironmentSampling, IntegratorsAgree) {
   using Real = TypeParam;
-  // A second map and a constant light beside the one with a sun, so that weights are those of each light.
+  // A second map and a constant light in addition to the one with a sun, so that weights are those of each light.
   for (const int width : {32, 16}) {
     Scene described = described_scene(objects + "LightSource \"infinite\" \"rgb L\" [0.2 0.2 0.2]");
     described = lit_by(lit_by(std::move(described), sun_map(width, 16, 60)), lamps_map(8, 8), map_askew());
@@ -180,13 +180,13 @@ TYPED_TEST(EnvironmentSampling, IntegratorsAgree) {
             << to_string(all_integrators[i]) << " " << moments[i].mean() << " +- " << moments[i].standard_error()
             << ", " << to_string(all_integrators[j]) << " " << moments[j].mean() << " +- "
             << moments[j].standard_error();
-    // Next-event estimation is what finds a sun.
+    // Only next-event estimation finds a sun.
     EXPECT_LT(moments[3].standard_error(), 0.7 * moments[2].standard_error());
     EXPECT_LT(moments[2].standard_error(), (is_sanitized ? 0.06 : 0.01) * moments[2].mean()) << "the test is blunt";
   }
 }
 
-/// The irradiance of a plane, by sampling and by chance, against the integral over the map.
+/// The irradiance of a plane, by light sampling and by BSDF sampling, against the integral over the map.
 TYPED_TEST(EnvironmentSampling, IrradianceOfAPlane) {
   using Real = TypeParam;
   const std::string plane = film_of(side, side) + R"(

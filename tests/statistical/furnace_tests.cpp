@@ -1,4 +1,4 @@
-// The furnace: inside a closed surface of albedo a that emits radiance 1, D segments bring 1 + a + ... + a^(D-1).
+// The furnace: in a closed surface of albedo a that emits radiance 1, D segments give 1 + a + ... + a^(D-1).
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// All integrators make the same picture: every pair, on every block of pixels, by Welch's test over pictures of
-// different seeds. Three of them find light by chance only, the fourth samples lights.
+// All integrators give the same image: every pair, on every block of pixels, by Welch's test over images with different
+// seeds. Three of them find light by BSDF sampling alone, the fourth samples lights.
 
 #include <gtest/gtest.h>
 
@@ -20,10 +20,10 @@ constexpr uint32_t side = 24, block_side = 4, blocks_a_side = side / block_side;
 constexpr size_t blocks = blocks_a_side * blocks_a_side;
 constexpr size_t integrators = std::size(all_integrators);
 constexpr size_t pairs = integrators * (integrators - 1) / 2;
-/// Scenes, samplers, precisions, pairs; every block and the whole picture.
+/// Scenes, samplers, precisions, pairs; every block and the whole image.
 constexpr size_t cases = 4 * 2 * 2 * pairs * (blocks + 1);
 
-/// Over pictures of different seeds, the moments of each block's mean, and in the end of the picture's.
+/// Moments of each block's mean over images with different seeds, and at the end of the whole image's.
 using BlockMoments = std::array<Moments, blocks + 1>;
 
 template <class Real>
@@ -43,7 +43,7 @@ void check_agreement(const CompiledScene<Real>& scene, SamplerType sampler) {
   std::array<BlockMoments, integrators> moments;
   for (size_t i = 0; i < integrators; ++i)
     for (uint32_t picture = 0; picture < effort(32); ++picture) {
-      // Seeds of their own for each integrator: the same numbers would make the same paths.
+      // Each integrator has seeds of its own: the same random numbers would give the same paths.
       const uint32_t seed = static_cast<uint32_t>(1000 * i) + picture;
       add_picture(scene.view, Take{all_integrators[i], sampler, 6, 8, seed}, moments[i]);
     }
@@ -75,7 +75,7 @@ TYPED_TEST(IntegratorsAgree, GlassIndependent) {
   check_agreement<TypeParam>(furnace_of_glass, SamplerType::independent);
 }
 
-/// Lights that are textured, by power (two of them) and by the tree.
+/// Textured lights, chosen by power (two of them) and by the tree.
 TYPED_TEST(IntegratorsAgree, TexturedLamp) {
   check_agreement(compiled_scene<TypeParam>(with_emission_texture(described_scene(film_of(side, side) + cornell_box))),
                   SamplerType::sobol);

@@ -1,5 +1,5 @@
-// Furnaces at a point: what the layered materials send on of a uniform light, over the ranges of their parameters.
-// Where nothing absorbs it is all of it.
+// Furnaces at a point: the fraction of uniform light that the layered materials scatter, over the ranges of their
+// parameters. Without absorption it is all of it.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,8 @@
 namespace alhazen::test {
 namespace {
 
-/// Share of the light that goes on in each channel, the change of radiance by refraction undone, and its error.
+/// Fraction of the light that is scattered in each channel, without the change of radiance by refraction, and its
+/// error.
 struct Albedo {
   Vec3d mean{}, error{};
 };
@@ -59,7 +60,7 @@ std::string name_of(const PrincipledValues& v) {
   return name;
 }
 
-/// All light goes on, within a hundredth, in each channel and from either side.
+/// All light is scattered, within a hundredth, in each channel and from either side.
 void expect_all_light(const PrincipledValues& v, Random& random, double slack = 0.01, size_t samples = 2048) {
   const FlatMaterial<float> material = principled_of<float>(v);
   for (const double cosine : {0.95, 0.5, 0.15, -0.3, -0.8}) {
@@ -107,7 +108,7 @@ TEST(PrincipledFurnace, FilmsLoseNothing) {
         }
 }
 
-/// Any mixture of lobes; sheen along the horizon is found by few samples, so its roughness is not the least.
+/// Any mixture of lobes; few samples find sheen at the horizon, so its roughness is not minimal.
 TEST(PrincipledFurnace, MixturesOfAllLobesLoseNothing) {
   Random random(24);
   const auto any = [&] { return random.uniform<double>(); };
@@ -123,7 +124,7 @@ TEST(PrincipledFurnace, MixturesOfAllLobesLoseNothing) {
   }
 }
 
-/// A body that lets light in by refraction and diffusely: radiance within is scaled alike on both ways.
+/// A body that transmits light by refraction and diffusely: radiance inside is scaled alike for both.
 TEST(PrincipledFurnace, BodiesScaleDiffuseLightAsTheyRefract) {
   PrincipledValues v;
   v.transmission = 0.5, v.diffuse_transmission = 1, v.thin = false, v.roughness = 0.5;
@@ -145,7 +146,7 @@ TEST(PrincipledFurnace, BodiesScaleDiffuseLightAsTheyRefract) {
   }
 }
 
-/// A sheet blurs by its microfacets' refraction: not at all where its index is 1, as glTF's default of 1.5 from there.
+/// A sheet blurs by refraction at its microfacets: not at all if its index is 1, and like glTF's default from 1.5 on.
 TEST(ThinTransmission, IsSharpWhereTheIndexIsOne) {
   Random random(26);
   for (const bool thin : {true, false})
@@ -216,7 +217,7 @@ TEST(CoatFurnace, MetalBelowAnyIndexGainsNothing) {
     }
 }
 
-/// What a file can hold and nobody means: numbers come out all the same.
+/// Values that a file may contain though nobody intends them: results are still numbers.
 TEST(CoatFurnace, NoParameterMakesNumbersThatAreNone) {
   Random random(29);
   for (const MaterialType type : {MaterialType::coated_diffuse, MaterialType::coated_conductor, MaterialType::conductor,
@@ -240,11 +241,11 @@ TEST(CoatFurnace, NoParameterMakesNumbersThatAreNone) {
         }
 }
 
-/// The densities that part transmission, films and cones of an index below 1 add.
+/// The densities added by diffuse transmission, films, and cones for an index below 1.
 TEST(LayeredEnergy, SamplesFollowTheirDensity) {
   Random random(30);
   std::vector<std::pair<std::string, FlatMaterial<float>>> all;
-  all.reserve(4);  // their views point into them
+  all.reserve(4);  // their views point into the elements
   PrincipledValues v;
   v.transmission = 0.5, v.thin = false, v.roughness = 0.6;
   all.emplace_back("part glass", principled_of<float>(v));

@@ -87,7 +87,7 @@ TYPED_TEST(Layered, AnisotropyIridescenceAndIndicesGainNothing) {
         }
 }
 
-/// What a film lets into glass is what it does not reflect, in each channel.
+/// A film on glass transmits what it does not reflect, in each channel.
 TYPED_TEST(Layered, FilmsOnGlassGainNothing) {
   using Real = TypeParam;
   Random random(8);
@@ -128,7 +128,7 @@ TYPED_TEST(Layered, DiffuseTransmissionNeitherGainsNorLoses) {
       }
 }
 
-/// White metal of any roughness, and white dielectric, give (nearly) all light back.
+/// White metal of any roughness, and white dielectric, reflect (nearly) all light.
 TYPED_TEST(Layered, WhiteOpaqueLosesLittle) {
   using Real = TypeParam;
   Random random(3);
@@ -187,7 +187,7 @@ TYPED_TEST(Layered, SheetsAndAnisotropicOnesFollowTheirDensity) {
     }
 }
 
-/// Of what reflects without coat and sheen: f(wo, wi) = f(wi, wo).
+/// f(wo, wi) = f(wi, wo) for reflection without coat and sheen.
 TYPED_TEST(Layered, Reciprocity) {
   using Real = TypeParam;
   Random random(6);
@@ -219,7 +219,7 @@ TEST(Mix, OfItselfIsRefused) {
   EXPECT_THROW(check_mixes(scene), InputError);
 }
 
-/// A pane lets through and sends back all light.
+/// A pane transmits and reflects all light.
 TEST(ThinDielectric, LosesNothing) {
   Random random(9);
   Bsdf<double> bsdf{};

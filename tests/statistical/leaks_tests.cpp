@@ -1,6 +1,6 @@
-// No ray gets out of a closed mesh, nor hits what it has just left: by any tree, by any number of rays at a time, in
-// the world and in instances, at the origin and 10^5 radii from it. Most points are so near to edges and vertices that
-// their distance is lost in rounding. ALHAZEN_LEAK_RAYS sets how many rays leave each mesh.
+// No ray escapes from a closed mesh, nor hits the surface that it leaves: with any tree, with any number of rays at a
+// time, in the world and in instances, at the origin and 10^5 radii from it. Most points are so close to edges and
+// vertices that their distance is lost in rounding. ALHAZEN_LEAK_RAYS sets how many rays start in each mesh.
 
 #include <gtest/gtest.h>
 
@@ -28,18 +28,18 @@ size_t rays_per_mesh() {
   return set ? static_cast<size_t>(std::atof(set)) : effort(10'000);
 }
 
-/// Where a mesh stands while the shutter is open; one that moves is always an instance.
+/// The position of a mesh while the shutter is open; a moving one is always an instance.
 struct Place {
   std::string name;
   Transform start, end;
-  Vec3d baked{};  ///< where the mesh lies in its own space
+  Vec3d baked{};  ///< position of the mesh in its own space
 
   Vec3d point(const Vec3d& p) const { return lerp(start.point(p), end.point(p), time); }
 
   static constexpr double time = 0.5;  ///< of all rays
 };
 
-/// A mesh, in the world once or twice as an object.
+/// A mesh, once in the world or twice as an object.
 struct ClosedMesh {
   Mesh mesh;
   Place place;
@@ -67,8 +67,8 @@ struct ClosedMesh {
   }
 };
 
-/// A point of the surface, half of the time so near to an edge, a quarter so near to a vertex, that rounding blurs the
-/// distance.
+/// A point of the surface, half of the time so close to an edge, a quarter of the time so close to a vertex, that
+/// rounding blurs the distance.
 Vec3d point_near_edge(const Mesh& mesh, Random& random) {
   const size_t triangle = 3 * random.below(static_cast<uint32_t>(mesh.triangle_count()));
   const uint32_t first = random.below(3);
@@ -80,7 +80,7 @@ Vec3d point_near_edge(const Mesh& mesh, Random& random) {
   return corner(0) * (1 - a - b) + corner(1) * a + corner(2) * b;
 }
 
-/// On the side of `normal`: uniform, by the cosine, or grazing.
+/// A direction on the side of `normal`: uniform, cosine-weighted, or grazing.
 Vec3d leaving_direction(const Vec3d& normal, Random& random) {
   const Vec3d uniform = random.on_hemisphere(normal);
   const uint32_t way = random.below(3);
@@ -89,7 +89,7 @@ Vec3d leaving_direction(const Vec3d& normal, Random& random) {
   return normalize(uniform - normal * dot(uniform, normal) + normal * random.magnitude_between(1e-6, 0.1));
 }
 
-/// Rays that leave the surface on the inside, and, of convex meshes, others that leave the same points outwards.
+/// Rays that start inside, and, for convex meshes, others that start from the same points outwards.
 template <class Real>
 struct LeavingRays {
   std::vector<Ray<Real>> inwards, outwards;
@@ -111,7 +111,7 @@ struct LeavingRays {
       const SurfaceInteraction<Real> si = surface_interaction(view, ray, hit);
       const Vec3<Real> inner = face_forward(si.normal, -ray.direction);
       const Vec3<Real> direction = normalize(convert<Real>(leaving_direction(convert<double>(inner), random)));
-      if (!(dot(direction, inner) > 0)) continue;  // turned over by rounding
+      if (!(dot(direction, inner) > 0)) continue;  // flipped by rounding
       inwards.push_back(spawn_ray(si, direction));
       const Vec3<Real> mirrored = direction - inner * (2 * dot(direction, inner));
       if (closed.is_convex && dot(mirrored, inner) < 0) outwards.push_back(spawn_ray(si, mirrored));
@@ -179,7 +179,7 @@ void check(const ClosedMesh& closed) {
   for (size_t left = all; left > 0 && !::testing::Test::HasFailure(); left -= std::min(left, at_once))
     count(scene.view, LeavingRays<Real>(closed, scene.view, std::min(left, at_once), random), tallies);
   for (const auto& [engine, tally] : tallies) {
-    // Embree's own rounding shows so close to edges, in some 30 of a million rays.
+    // Embree's own rounding is visible so close to edges, in some 30 of a million rays.
     const size_t bearable = engine == "Embree" ? 2 + all / 20'000 : 0;
     EXPECT_LE(tally.got_out, bearable) << engine << ": rays get out";
     EXPECT_LE(tally.hit_again, bearable) << engine << ": rays hit what they leave";

@@ -1,5 +1,5 @@
-// sample_light against pdf_light: for every kind of light that has a density, from several points, the directions that
-// are sampled against the density that a ray finds along them; and what a ray finds is what was said.
+// sample_light against pdf_light: for every kind of light with a density, from several points, the sampled directions
+// against the density of rays along them; and the radiance of samples against that of rays.
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ struct LightCase {
   std::string name, text;
   Vec3d reference;
   double time;
-  Vec3d axis;        ///< of the cap that holds the light
-  double theta_max;  ///< its half angle
+  Vec3d axis;        ///< of the cap that contains the light
+  double theta_max;  ///< half angle of the cap
 };
 
 const std::string triangle = R"(WorldBegin AreaLightSource "diffuse" "rgb L" [1 1 1] "bool twosided" true
@@ -29,14 +29,14 @@ const std::string sphere = R"(WorldBegin Translate 0 0 3 AreaLightSource "diffus
 const std::string moving_sphere = R"(WorldBegin ActiveTransform EndTime Translate 2 0 0 ActiveTransform All
     Translate 0 0 3 AreaLightSource "diffuse" "rgb L" [1 1 1] "bool twosided" true Shape "sphere" "float radius" 1)";
 const std::string sky = R"(WorldBegin LightSource "infinite" "rgb L" [1 1 1])";
-/// None of them in front of another, as seen from the origin.
+/// No light occludes another as seen from the origin.
 const std::string several = R"(WorldBegin LightSource "infinite" "rgb L" [0.1 0.1 0.1]
     AreaLightSource "diffuse" "rgb L" [2 1 1] "bool twosided" true
     Shape "trianglemesh" "point3 P" [-1 -1 3  2 -1 4  0 1 3] "integer indices" [0 1 2]
     Translate -4 0 0 AreaLightSource "diffuse" "rgb L" [3 4 5] "bool twosided" true
     Shape "sphere" "float radius" 1)";
 
-/// Enough of them for a light tree, and none in front of another.
+/// Enough lights for a light tree; none occludes another.
 const std::string many = R"(WorldBegin LightSource "infinite" "rgb L" [0.1 0.1 0.1]
     AreaLightSource "diffuse" "rgb L" [2 1 1] "bool twosided" true
     Shape "trianglemesh" "point3 P" [-1 -1 3  2 -1 4  0 1 3] "integer indices" [0 1 2]
@@ -62,8 +62,8 @@ const LightCase light_cases[] = {
 };
 constexpr size_t cases = 2 * std::size(light_cases);
 
-/// The density with which any of the lights gives this direction: that of the surface which the ray meets, and that of
-/// what is behind all surfaces.
+/// The density with which any of the lights gives this direction: that of the surface that the ray hits, and that of
+/// the lights behind all surfaces.
 template <class Real>
 Real pdf_of_direction(const SceneView<Real>& scene, const Ray<Real>& ray) {
   Hit<Real> hit;
@@ -121,7 +121,7 @@ TYPED_TEST(LightSampling, RayFindsWhatWasSampled) {
           sample_light(scene.view, reference, Vec3<Real>{}, time, Real(0.5), random.uniform_2d<Real>());
       EXPECT_FALSE(s.is_delta);
       EXPECT_NEAR(static_cast<double>(s.radiance.y), 1, 1e-6);
-      // Where the light is seen from its edge rounding decides whether it is met, and where.
+      // If the light is seen edge-on, rounding decides whether and where it is hit.
       if (s.is_finite && abs_dot(s.normal, s.direction) < Real(0.2)) continue;
       const Real pdf = pdf_of_direction(scene.view, Ray<Real>{reference, s.direction, time});
       ASSERT_NEAR(static_cast<double>(pdf / s.pdf), 1, by_precision<Real>(5e-3, 1e-9)) << c.name;
@@ -143,7 +143,7 @@ TYPED_TEST(LightSampling, LightsWithoutSizeAreSampledSurely) {
   }
 }
 
-/// Probabilities sum to 1, the cumulative ones agree with them, and each light comes up as often as it should.
+/// Probabilities sum to 1, the cumulative ones agree with them, and lights are chosen as often as they say.
 TYPED_TEST(LightSampling, Probabilities) {
   using Real = TypeParam;
   const CompiledScene<Real> scene =

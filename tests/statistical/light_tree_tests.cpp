@@ -1,5 +1,5 @@
-// The choice of one of many lights: its probabilities add up, it comes up as often as they say, and no light that
-// reaches a point is left out.
+// The choice of one of many lights: its probabilities sum to 1, lights are chosen as often as they say, and no light
+// that reaches a point is omitted.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ template <class Real>
 class LightTree : public ::testing::Test {};
 TYPED_TEST_SUITE(LightTree, Reals);
 
-/// Points inside, at the edge of and far outside the box of lights; every other with the normal of a surface.
+/// Points inside, at the edge of and far outside the bounding box of the lights; every other with a surface normal.
 template <class Real, class Check>
 void for_points(int count, const Check& check) {
   Random random(23);
@@ -35,7 +35,7 @@ double pmf_of(const SceneView<Real>& scene, uint32_t light, const Vec3<Real>& po
   return static_cast<double>(pmf_of_light_tree(scene, scene.lights[light].trail, point, normal));
 }
 
-/// The probability that the walk from `node` ends where neither child can matter, so that nothing is chosen.
+/// The probability that the descent from `node` ends where neither child can contribute, so that none is chosen.
 template <class Real>
 double pmf_of_nothing(const SceneView<Real>& scene, const LightTreeNode& node, const Vec3<Real>& point,
                       const Vec3<Real>& normal) {
@@ -102,7 +102,7 @@ TYPED_TEST(LightTree, LightsComeUpAsOftenAsTheyShould) {
   });
 }
 
-/// What reaches the front of a surface has a chance of being chosen.
+/// Light that reaches the front of a surface has a chance of being chosen.
 TYPED_TEST(LightTree, NoLightThatMattersIsLeftOut) {
   using Real = TypeParam;
   const CompiledScene<Real> scene = compiled_scene_of<Real>("WorldBegin " + small_lights(200, 5, true));
@@ -125,7 +125,7 @@ TYPED_TEST(LightTree, NoLightThatMattersIsLeftOut) {
   EXPECT_GT(reaching, 1000);
 }
 
-/// All in one place, and each ten times as far away as the one before: the deepest trees that there may be.
+/// All at one point, and each ten times as far away as the previous one: the deepest trees possible.
 TYPED_TEST(LightTree, LightsThatNoPlaneParts) {
   using Real = TypeParam;
   std::string same, line;
@@ -141,7 +141,7 @@ TYPED_TEST(LightTree, LightsThatNoPlaneParts) {
   }
 }
 
-/// Few lights are chosen by power, unless the scene asks for the tree, and many by the tree, unless it asks for power.
+/// Few lights are chosen by power, unless the scene requests the tree, and many by the tree, unless it requests power.
 TYPED_TEST(LightTree, IsBuiltWhereItIsOfUse) {
   using Real = TypeParam;
   const auto nodes = [](int count, const std::string& sampler) {
@@ -156,7 +156,7 @@ TYPED_TEST(LightTree, IsBuiltWhereItIsOfUse) {
   EXPECT_EQ(nodes(50, "power"), 0u);
 }
 
-/// A lamp that is black all over is never sampled, and its share goes to the others; half of one is worth half.
+/// A lamp that is black all over is never sampled, and the others get its probability; a half-black one counts half.
 TYPED_TEST(LightTree, TexturesCountForThePower) {
   using Real = TypeParam;
   const std::string lamp =

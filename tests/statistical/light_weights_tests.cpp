@@ -1,6 +1,6 @@
-// The density of a light is that which its sampler used, so that the weights of both ways to find it sum to 1: measured
-// in furnaces, where every surface of albedo a shines with (1 - a) L under a sky of radiance L, so that whatever is
-// seen has the radiance L. Wherever the scene is, however large, seen from inside, outside and on the lights.
+// The density of a light is that of its sampler, so that the MIS weights of both techniques sum to 1: measured in
+// furnaces, where every surface of albedo a emits (1 - a) L under a sky of radiance L, so that everything has the
+// radiance L. Tested for scenes at any position and of any size, seen from inside, outside and on the lights.
 
 #include <gtest/gtest.h>
 
@@ -30,13 +30,13 @@ std::string camera_at(const Vec3d& eye, const Vec3d& target) {
          "0 1 0 Camera \"perspective\" \"float fov\" 90\n";
 }
 
-/// Emission and reflectance that come to the level of the furnace.
+/// Emission and reflectance that add up to the level of the furnace.
 std::string surface(double albedo, const std::string& emission = "\"bool twosided\" true") {
   return "AreaLightSource \"diffuse\" \"rgb L\" [ " + numbers(splat((1 - albedo) * level)) + "] " + emission +
          " Material \"diffuse\" \"rgb reflectance\" [ " + numbers(splat(albedo)) + "] ";
 }
 
-/// `tolerance`: of what float makes of the place.
+/// `tolerance`: of the position's rounding in float.
 template <class Real>
 void expect_level(const CompiledScene<Real>& scene, double tolerance, uint32_t samples = 64) {
   const Take take{IntegratorKind::path, SamplerType::independent, 40, static_cast<uint32_t>(effort(samples)), 3};
@@ -46,7 +46,7 @@ void expect_level(const CompiledScene<Real>& scene, double tolerance, uint32_t s
   EXPECT_LT(pixels.standard_error(), widened(0.02) * level) << "the test is blunt";
 }
 
-/// Places: how far away, in radii.
+/// Positions: distances in radii.
 const Vec3d places[] = {{0, 0, 0}, {30, -50, 40}, {300, -250, 340}, {1000, 900, -1000}, {9000, -5000, 7000}};
 constexpr double scales[] = {1e-6, 1, 1e5};
 
@@ -54,7 +54,7 @@ template <class Real>
 class LightWeights : public ::testing::Test {};
 TYPED_TEST_SUITE(LightWeights, Reals);
 
-/// From within a sphere that shines inwards: on it, all that is seen is the light itself.
+/// Inside a sphere that emits inwards: points on it see only the light itself.
 TYPED_TEST(LightWeights, WithinAShiningSphere) {
   using Real = TypeParam;
   const std::string moving = "ActiveTransform EndTime Translate ";
@@ -71,7 +71,7 @@ TYPED_TEST(LightWeights, WithinAShiningSphere) {
       }
 }
 
-/// The same for a sphere that shines by a texture.
+/// The same for a sphere with an emission texture.
 TYPED_TEST(LightWeights, WithinASphereThatShinesByATexture) {
   using Real = TypeParam;
   for (const Vec3d& place : places) {
@@ -89,8 +89,8 @@ TYPED_TEST(LightWeights, WithinASphereThatShinesByATexture) {
   }
 }
 
-/// Spheres that touch, cut and hold each other, triangles within and across them, all of them lights; seen from outside
-/// and from within.
+/// Spheres that touch, intersect and contain each other, triangles inside and across them, all of them lights; seen
+/// from outside and from inside.
 std::string crowd(const Vec3d& place, double scale) {
   std::string text;
   Random random(4);
@@ -109,7 +109,7 @@ std::string crowd(const Vec3d& place, double scale) {
               number(random.between(0.2, 0.8) * scale);
     text += " AttributeEnd\n";
   }
-  // One that holds most of the others, and shares its middle with the tree's.
+  // One that contains most of the others and has the same centre as the tree.
   return text + "AttributeBegin " + surface(0.6) + "Translate " + numbers(place * scale) +
          "Shape \"sphere\" \"float radius\" " + number(2 * scale) + " AttributeEnd\n";
 }
@@ -131,12 +131,12 @@ TYPED_TEST(LightWeights, AmongManyLights) {
         }
 }
 
-/// A plane below a sphere, so close that it nearly touches, and far: E = pi L (r / d)^2 below its middle.
+/// A plane below a sphere, so close that it nearly touches, and far away: E = pi L (r / d)^2 below its centre.
 TYPED_TEST(LightWeights, SphereAboveAPlane) {
   using Real = TypeParam;
   for (const Vec3d& place : places)
     for (const double gap : {0.01, 0.1, 1.0, 30.0}) {
-      // Where float still tells the gap from nothing.
+      // The smallest gaps that float resolves.
       if (sizeof(Real) == sizeof(float) && gap < length(place) * 2e-5) continue;
       SCOPED_TRACE(numbers(place) + " gap " + number(gap));
       const std::string text =

@@ -1,5 +1,5 @@
-// Samplers: uniform in one and two dimensions, over samples of one pixel and over pixels, and without correlation
-// between dimensions, samples, pixels, branches.
+// Samplers: uniform in one and two dimensions, over samples of one pixel and over pixels, and uncorrelated between
+// dimensions, samples, pixels, branches.
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TYPED_TEST(SamplerUniformity, OverPixels) {
   check_uniform<double, TypeParam>([](uint32_t i) { return TypeParam(2, i % side, i / side, 0); }, "pixels");
 }
 
-/// Numbers of two dimensions, or of two neighbours, as coordinates of a point: uniform over the square too.
+/// Numbers of two dimensions, or of two neighbours, as coordinates of a point are uniform over the square too.
 template <class Sampler, class At>
 void check_uncorrelated(const At& at, const std::string& what) {
   for (const uint32_t last : last_dimensions) {
@@ -66,7 +66,7 @@ void check_uncorrelated(const At& at, const std::string& what) {
 }
 
 /// Not for Sobol' points: those of one pixel are not independent, and nested shuffles, however random, pair dimensions
-/// so that the statistic spreads wider than chi-squared does.
+/// so that the statistic varies more than chi-squared.
 TEST(IndependentUniformity, DimensionsOfOnePixel) {
   check_uncorrelated<IndependentSampler>([](uint32_t i) { return IndependentSampler(3, 5, 8, i); },
                                          "samples of one pixel");

@@ -1,5 +1,5 @@
-// The maps from the unit square against the densities that they state: disks, triangles, spheres of directions, visible
-// normals, pixel filters.
+// The mappings from the unit square against their densities: disks, triangles, spheres of directions, visible normals,
+// pixel filters.
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TYPED_TEST(WarpOf, Disks) {
   check_disk<Real>([](Random& r) { return sample_disk_polar(r.uniform_2d<Real>()); }, "polar disk");
 }
 
-/// Uniform over a triangle: 1 - sqrt(1 - b0) is the way along, b1 / (1 - b0) the way across, both uniform.
+/// Uniform over a triangle: 1 - sqrt(1 - b0) is the position along, b1 / (1 - b0) the position across, both uniform.
 TYPED_TEST(WarpOf, Triangle) {
   using Real = TypeParam;
   UniformGrid grid(64, 64);
@@ -93,7 +93,7 @@ TYPED_TEST(WarpOf, Directions) {
       [](const Vec3<Real>& w) { return pdf_cosine_hemisphere(w.z); }, "cosine hemisphere, from askew");
 }
 
-/// pdf_sphere along a direction, from where the direction meets the sphere.
+/// pdf_sphere along a direction, at the point where the direction hits the sphere.
 template <class Real>
 Real pdf_towards(const Vec3<Real>& center, Real radius, const Vec3<Real>& point, const Vec3<Real>& w) {
   Real t;
@@ -108,7 +108,7 @@ TYPED_TEST(WarpOf, Spheres) {
     Vec3d center;
     double radius;
   };
-  // Far, near, just outside of the surface, inside off the centre, inside near the surface.
+  // Far, near, just outside the surface, inside off the centre, inside near the surface.
   for (const Case& c : {Case{{5, 1, 9}, 0.1}, Case{{2, -1, 2}, 1}, Case{{1, -1, 0.5}, 0.999}, Case{{1.5, -2, 1}, 2},
                         Case{{1, -2, 1.4}, 1}}) {
     const double distance = length(c.center - point);
@@ -126,14 +126,14 @@ TYPED_TEST(WarpOf, Spheres) {
           return w;
         },
         [&](const Vec3<Real>& w) {
-          // The last ring of the cone may lie beside it by rounding.
+          // The last ring of the cone may be outside it by rounding.
           return outside ? pdf_sphere(center, radius, from, w, Real(1), -w) : pdf_towards(center, radius, from, w);
         },
         "sphere at distance " + std::to_string(distance) + ", radius " + std::to_string(c.radius));
   }
 }
 
-/// What sample_sphere says of a direction is what the ray along it meets.
+/// The sample of sample_sphere agrees with the hit of the ray along its direction.
 TYPED_TEST(WarpOf, SampledSphereNormalIsThatOfTheHit) {
   using Real = TypeParam;
   Random random(4);
@@ -143,7 +143,7 @@ TYPED_TEST(WarpOf, SampledSphereNormalIsThatOfTheHit) {
     Vec3<Real> normal;
     Real pdf, t;
     const Vec3<Real> w = sample_sphere(center, radius, point, false, random.uniform_2d<Real>(), normal, pdf);
-    // At the rim and at the surface rounding decides.
+    // At the silhouette and at the surface rounding decides.
     if (abs_dot(w, normal) < Real(0.05) || std::abs(length(center - point) - radius) < Real(0.05)) continue;
     ASSERT_TRUE(intersect_sphere(Ray<Real>{point, w}, center, radius, infinity<Real>, t));
     const Vec3<Real> met = normalize(point + w * t - center);
@@ -189,7 +189,7 @@ TYPED_TEST(WarpOf, Filters) {
     scene.filter = {type, 2, 1.5};
     const Filter filter = scene.filter;
     const CompiledScene<Real> flat = compiled_scene<Real>(std::move(scene));
-    // Bins of the table's cells: within a cell the filter is taken as constant.
+    // Bins are cells of the table, within which the filter is constant.
     constexpr size_t bins = 128;
     std::vector<double> x_counts(bins), y_counts(bins);
     Random random(5);

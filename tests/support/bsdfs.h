@@ -1,6 +1,6 @@
 #pragma once
 
-// Scattering functions for the tests, and directions to see them from.
+// Scattering functions for the tests, and directions for evaluating them.
 
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace alhazen::test {
 
-/// A normal along no axis, so that the shading frame has to do its part.
+/// A normal along no axis, so that the shading frame matters.
 template <class Real>
 Frame<Real> tilted_frame() {
   return frame_about(normalize(Vec3<Real>{Real(0.36), Real(-0.48), Real(0.8)}));
@@ -38,7 +38,7 @@ NamedBsdf<Real> metal_bsdf(double alpha) {
            1}};
 }
 
-/// A conductor that reflects (nearly) everything, whatever the angle.
+/// A conductor that reflects (nearly) everything at every angle.
 template <class Real>
 NamedBsdf<Real> white_metal_bsdf(double alpha) {
   NamedBsdf<Real> white = metal_bsdf<Real>(alpha);
@@ -54,14 +54,14 @@ NamedBsdf<Real> glass_bsdf(double alpha, double ior = 1.5) {
           {MaterialKind::dielectric, tilted_frame<Real>(), {}, {}, static_cast<Real>(alpha), static_cast<Real>(ior)}};
 }
 
-/// The direction in the frame's space with that cosine to the normal; in world space.
+/// The direction in frame space with that cosine to the normal; in world space.
 template <class Real>
 Vec3<Real> direction_at(const Frame<Real>& frame, double cosine, double azimuth) {
   const double sine = safe_sqrt(1 - cosine * cosine);
   return normalize(frame.to_world(convert<Real>(Vec3d{sine * std::cos(azimuth), sine * std::sin(azimuth), cosine})));
 }
 
-/// From straight down to grazing.
+/// From normal to grazing incidence.
 inline constexpr double cosines[] = {1, 0.8, 0.5, 0.2, 0.05, 0.01};
 
 }  // namespace alhazen::test

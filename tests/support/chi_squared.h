@@ -1,6 +1,6 @@
 #pragma once
 
-// Pearson's chi-squared test of counts against what was expected, with small bins pooled.
+// Pearson's chi-squared test of counts against expected counts, with small bins pooled.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace alhazen::test {
 
-/// The regularised upper incomplete gamma function Q(a, x): by its series below a + 1, by Lentz's continued fraction
+/// The regularized upper incomplete gamma function Q(a, x): by its series below a + 1, by Lentz's continued fraction
 /// above (Press et al., Numerical Recipes 3rd ed., 6.2).
 inline double incomplete_gamma_q(double a, double x) {
   if (x <= 0) return 1;
@@ -35,7 +35,7 @@ inline double incomplete_gamma_q(double a, double x) {
   return front * fraction;
 }
 
-/// Probability of a statistic at least as large, for that many degrees of freedom.
+/// Probability of a statistic at least as large, for that number of degrees of freedom.
 inline double chi_squared_p_value(double statistic, double degrees_of_freedom) {
   return incomplete_gamma_q(degrees_of_freedom / 2, statistic / 2);
 }
@@ -44,14 +44,14 @@ struct ChiSquared {
   double statistic = 0;
   double degrees_of_freedom = 0;
   double p_value = 1;
-  size_t pooled = 0;  ///< bins that went into the pool
+  size_t pooled = 0;  ///< number of pooled bins
 };
 
 inline constexpr double least_expected = 5;
 
-/// Bins of fewer than `least_expected` are put together, the smallest first, into pools of at least that many. What is
-/// left over in the end joins the last pool; a pool that expects nothing must hold nothing. The counts must sum to the
-/// same number, so that one degree of freedom is lost.
+/// Bins with fewer than `least_expected` are merged, the smallest first, into pools of at least that many. The
+/// remainder joins the last pool; a pool with expectation 0 must be empty. The counts must have the same sum, which
+/// removes one degree of freedom.
 inline ChiSquared chi_squared_test(const std::vector<double>& observed, const std::vector<double>& expected) {
   std::vector<size_t> order(expected.size());
   std::iota(order.begin(), order.end(), size_t{0});
@@ -69,7 +69,7 @@ inline ChiSquared chi_squared_test(const std::vector<double>& observed, const st
     pool_expected += std::max(expected[i], 0.0);
     if (pool_expected >= least_expected) close_pool();
   }
-  // The largest bin closes a pool unless all of them together are too few.
+  // The largest bin completes a pool unless all of them together are too few.
   if (pool_observed > 0) {
     test.p_value = 0;
     return test;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Chi-squared of numbers that should be uniform, over equal cells of the unit interval or square.
+// Chi-squared test of numbers that should be uniform, over equal cells of the unit interval or square.
 
 #include <cstddef>
 #include <vector>

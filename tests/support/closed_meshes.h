@@ -11,8 +11,8 @@
 
 namespace alhazen::test {
 
-/// The icosahedron, each triangle quartered `subdivisions` times, vertices on the unit sphere. Counter-clockwise seen
-/// from outside.
+/// The icosahedron, with each triangle split into four `subdivisions` times, vertices on the unit sphere.
+/// Counter-clockwise seen from outside.
 inline Mesh icosphere(int subdivisions) {
   const double g = (1 + std::sqrt(5.0)) / 2;
   Mesh mesh;
@@ -39,7 +39,7 @@ inline Mesh icosphere(int subdivisions) {
   return mesh;
 }
 
-/// [-1, 1]^3, two triangles a side.
+/// [-1, 1]^3, two triangles per side.
 inline Mesh cube() {
   Mesh mesh;
   for (const double x : {-1.0, 1.0})
@@ -50,7 +50,7 @@ inline Mesh cube() {
   return mesh;
 }
 
-/// Vertices moved in and out by up to `amount` of their distance from the origin, which stays inside.
+/// Moves vertices in and out by up to `amount` of their distance from the origin, which stays inside.
 inline void jitter_radii(Mesh& mesh, double amount, Random& random) {
   for (Vec3d& p : mesh.positions) p *= 1 + random.between(-amount, amount);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Flat scenes from a text in pbrt's format, or from a description. A warning on the way fails the test.
+// Compiles scenes from a text in pbrt's format or from a description. Any warning fails the test.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ inline void expect_no_warnings(const Diagnostics& diagnostics) {
   for (const Diagnostics::Warning& warning : diagnostics.warnings()) ADD_FAILURE() << warning.to_string();
 }
 
-/// In world space, wherever that is, since the tests make rays there.
+/// In world space, wherever the scene is, since the tests construct rays there.
 template <class Real>
 CompiledScene<Real> compiled_scene(Scene scene, int threads = 1) {
   Diagnostics diagnostics;
@@ -41,8 +41,8 @@ CompiledScene<Real> compiled_scene_of(const std::string& text) {
   return compiled_scene<Real>(described_scene(text));
 }
 
-/// Radiance as the reader scales it is not what these tests are about: with this film the numbers of lights are the
-/// numbers on the film.
+/// These tests do not concern the reader's scaling of radiance: with this film the values of lights are the values on
+/// the film.
 inline std::string film_of(int width, int height) {
   return "Film \"rgb\" \"integer xresolution\" " + std::to_string(width) + " \"integer yresolution\" " +
          std::to_string(height) + "\nPixelFilter \"box\"\n";

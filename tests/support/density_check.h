@@ -1,6 +1,6 @@
 #pragma once
 
-// That the directions which a BSDF samples follow the density that it states.
+// Tests that the directions sampled by a BSDF follow its density.
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,7 @@
 
 namespace alhazen::test {
 
-/// A chi-squared test, one of `cases`; the density may integrate to `slack` above 1, which the bins' quadrature errs
-/// by.
+/// A chi-squared test, one of `cases`; the density may integrate to `slack` above 1, the error of the quadrature.
 template <class Real>
 void check_density(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, Random& random, size_t cases, const std::string& name,
                    size_t samples = 200'000, double slack = 2e-3) {

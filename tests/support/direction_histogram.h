@@ -1,6 +1,6 @@
 #pragma once
 
-// Directions counted in bins of polar angle and azimuth, and a density over solid angle integrated over the same bins.
+// Counts directions in bins of polar angle and azimuth, and integrates a density over solid angle over the same bins.
 
 #include <algorithm>
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace alhazen::test {
 
-/// Bins over the cap of half angle `theta_max` about `frame.normal`, equal in angle. What falls beside the cap, and
-/// what was not sampled at all, is counted in a bin of its own.
+/// Bins over the cap of half angle `theta_max` about `frame.normal`, equal in angle. Directions outside the cap, and
+/// failed samples, are counted in a bin of their own.
 class DirectionHistogram {
  public:
   static constexpr size_t theta_bins = 64, phi_bins = 64;
@@ -36,7 +36,7 @@ class DirectionHistogram {
     ++count_;
   }
 
-  /// Tests what was counted against `pdf(direction)`; `integral` receives the integral of pdf over the cap.
+  /// Tests the counts against `pdf(direction)`; `integral` receives the integral of pdf over the cap.
   template <class Pdf>
   ChiSquared test(const Pdf& pdf, double& integral) const {
     std::vector<double> expected;
@@ -60,7 +60,7 @@ class DirectionHistogram {
     double theta0, theta1, phi0, phi1;
   };
 
-  /// Gauss and Legendre's rule of five points along each angle.
+  /// Five-point Gauss-Legendre quadrature along each angle.
   template <class Pdf>
   double quadrature(const Pdf& pdf, const Cell& cell) const {
     static constexpr std::array<double, 5> nodes{-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831,
@@ -81,7 +81,7 @@ class DirectionHistogram {
     return sum * half_theta * half_phi;
   }
 
-  /// The integral over the cell, of which `whole` is an estimate: quarters it until the estimates agree.
+  /// The integral over the cell, of which `whole` is an estimate: subdivides it until the estimates agree.
   template <class Pdf>
   double refine(const Pdf& pdf, const Cell& cell, double whole, int depth) const {
     const double theta = (cell.theta0 + cell.theta1) / 2, phi = (cell.phi0 + cell.phi1) / 2;
@@ -91,7 +91,7 @@ class DirectionHistogram {
     std::array<double, 4> parts{};
     double sum = 0;
     for (size_t i = 0; i < 4; ++i) sum += parts[i] = quadrature(pdf, quarters[i]);
-    // A fifth of a count among a million; and not below what float resolves.
+    // A fifth of a count among a million, but not below the resolution of float.
     const double tolerance = 2e-7 + 1e-6 * sum;
     if (std::abs(sum - whole) <= tolerance || depth == 6) return sum;
     sum = 0;

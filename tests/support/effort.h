@@ -1,6 +1,6 @@
 #pragma once
 
-// How much work a test does: all of it in plain builds, a part of it under sanitizers, which make it slow.
+// Reduces the work of tests under sanitizers, which make them slow.
 
 #include <cstddef>
 
@@ -17,7 +17,7 @@ inline constexpr bool is_sanitized = false;
 /// `full`, or a sixteenth of it under sanitizers.
 constexpr size_t effort(size_t full) { return is_sanitized ? full / 16 : full; }
 
-/// A bound on a mean over `effort(n)` samples, of which a sixteenth errs by four times as much.
+/// A bound on the error of a mean over `effort(n)` samples; a sixteenth of them has four times the error.
 constexpr double widened(double bound) { return is_sanitized ? 4 * bound : bound; }
 
 }  // namespace alhazen::test

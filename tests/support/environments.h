@@ -1,6 +1,6 @@
 #pragma once
 
-// Environment maps made by numbers, and scenes that they light.
+// Procedural environment maps, and scenes that they light.
 
 #include <string>
 #include <utility>
@@ -20,7 +20,7 @@ inline ImageTexels even_map(int width, int height, float value) {
   return {width, height, {}, std::vector<float>(3 * static_cast<size_t>(width * height), value), false, "even"};
 }
 
-/// A sky of noise around 0.5, and one texel above the horizon that is `sun` as bright.
+/// A sky of noise around 0.5, and one texel above the horizon with the value `sun`.
 inline ImageTexels sun_map(int width, int height, float sun) {
   ImageTexels map = even_map(width, height, 0);
   Random random(11);
@@ -29,7 +29,7 @@ inline ImageTexels sun_map(int width, int height, float sun) {
   return map;
 }
 
-/// Black, but for a texel in the middle and one in each corner.
+/// Black, except for a texel at the centre and one in each corner.
 inline ImageTexels lamps_map(int width, int height) {
   ImageTexels map = even_map(width, height, 0);
   for (const auto& [x, y] :
@@ -38,7 +38,7 @@ inline ImageTexels lamps_map(int width, int height) {
   return map;
 }
 
-/// The texels as a picture that can be written.
+/// The texels as an image that can be written.
 inline Image image_of(const ImageTexels& map) {
   Image image{map.width, map.height, {"R", "G", "B"}, std::vector<std::vector<float>>(3)};
   for (size_t i = 0; i < map.floats.size(); ++i) image.planes[i % 3].push_back(map.floats[i]);
@@ -46,7 +46,7 @@ inline Image image_of(const ImageTexels& map) {
 }
 
 inline const Frame<double> map_as_world{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-/// A map that stands askew and is mirrored.
+/// A map with rotated and mirrored axes.
 inline Frame<double> map_askew() {
   const Frame<double> frame = frame_about(normalize(Vec3d{0.3, -0.8, 0.4}));
   return {frame.bitangent, frame.tangent, frame.normal};
@@ -64,13 +64,13 @@ inline Scene lit_by(Scene scene, ImageTexels map, const Frame<double>& axes = ma
   return scene;
 }
 
-/// Nothing but a map.
+/// A scene with only a map.
 inline Scene map_alone(ImageTexels map, const Frame<double>& axes = map_as_world, double scale = 1) {
   Scene scene;
   return lit_by(std::move(scene), std::move(map), axes, scale);
 }
 
-/// Integral over the sphere of `value(direction)` by the midpoints of side x side equal areas.
+/// Integral of `value(direction)` over the sphere by the midpoints of side x side equal areas.
 template <class Value>
 double integral_over_sphere(int side, const Value& value) {
   double sum = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Scenes that are no part of the repository, for their licences or their size.
+// Scenes that are not part of the repository because of their licences or size.
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,8 +10,7 @@
 
 namespace alhazen::test {
 
-/// The folder that ALHAZEN_SCENES names, else `shared/scenes` in the repository or beside it; empty where there is
-/// none.
+/// The folder in ALHAZEN_SCENES, else `shared/scenes` in the repository or beside it; empty if there is none.
 inline std::filesystem::path external_scenes() {
   std::vector<std::filesystem::path> candidates;
   if (const char* folder = std::getenv("ALHAZEN_SCENES")) candidates.emplace_back(folder);
@@ -23,7 +22,7 @@ inline std::filesystem::path external_scenes() {
   return {};
 }
 
-/// The files below a folder of them that end in one of `extensions`, sorted.
+/// The files in its subfolders that end in one of `extensions`, sorted.
 inline std::vector<std::filesystem::path> external_files(const std::string& folder,
                                                          const std::vector<std::string>& extensions) {
   std::vector<std::filesystem::path> files;

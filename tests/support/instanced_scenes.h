@@ -1,6 +1,6 @@
 #pragma once
 
-// Scenes whose groups stand in several places, turned, stretched and mirrored.
+// Scenes with instances that are rotated, stretched and mirrored.
 
 #include <utility>
 
@@ -10,7 +10,7 @@
 
 namespace alhazen::test {
 
-/// Any affine transform that is not too flat, about a place of the box [-reach, reach]^3.
+/// A random well-conditioned affine transform about a point of the box [-reach, reach]^3.
 inline Transform random_placement(Random& random, double reach) {
   const auto factor = [&] { return random.magnitude_between(0.3, 2) * (random.below(2) == 0 ? -1 : 1); };
   return Transform::translate(random.in_box(-reach, reach)) *
@@ -19,14 +19,14 @@ inline Transform random_placement(Random& random, double reach) {
          Transform::rotate(360 * random.uniform<double>(), random.on_sphere());
 }
 
-/// A group of a rough ball, of a ball without shading normals beside it, and `instances` of both; a ball of the world
-/// stands among them. With `moving`, one in three goes and turns while the shutter is open.
+/// A group of a rough ball and a ball without shading normals, `instances` of it, and a ball in the world among them.
+/// With `moving`, one instance in three moves and rotates while the shutter is open.
 inline Scene instanced_scene(uint64_t seed, int instances, double reach, bool moving = false) {
   Random random(seed);
   Scene scene;
   for (const int level : {2, 1}) {
     Mesh mesh = icosphere(level);
-    // So little that stretching turns no face away from its shading normals.
+    // So little that stretching flips no face against its shading normals.
     jitter_radii(mesh, 0.02, random);
     if (level == 2)
       for (const Vec3d& p : mesh.positions) mesh.normals.push_back(convert<float>(normalize(p)));
@@ -57,7 +57,7 @@ inline Scene instanced_scene(uint64_t seed, int instances, double reach, bool mo
   return scene;
 }
 
-/// Instances as such, or copied into the world.
+/// With instances, or copied into the world.
 template <class Real>
 CompiledScene<Real> flat_instanced_scene(const Scene& scene, bool as_copies) {
   Diagnostics diagnostics;

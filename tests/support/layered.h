@@ -13,7 +13,7 @@
 
 namespace alhazen::test {
 
-/// Inputs by name; what is not named has its default.
+/// Inputs by name; others have their defaults.
 struct PrincipledValues {
   double metallic = 0, roughness = 0.5, transmission = 0, clearcoat = 0, clearcoat_roughness = 0;
   double sheen = 0, sheen_roughness = 0.5, anisotropy = 0, iridescence = 0, specular = 1, ior = 1.5, dispersion = 0;
@@ -64,7 +64,7 @@ class FlatMaterial {
     view_.albedo_tables = arrays_.albedo_tables.data();
   }
 
-  /// As it is seen at that cosine, its frame tilted.
+  /// The material seen at that cosine, in a tilted frame.
   Bsdf<Real> bsdf(double cosine, Real u_channel = 0) const {
     Bsdf<Real> bsdf{};
     bsdf.frame = tilted_frame<Real>();

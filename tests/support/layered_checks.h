@@ -1,6 +1,6 @@
 #pragma once
 
-// What the tests of layered materials share: how much light they send on.
+// Common to the tests of layered materials: how much light they scatter.
 
 #include <gtest/gtest.h>
 
@@ -16,10 +16,10 @@ struct Energy {
   double mean, error;
 };
 
-/// Share of the light that goes on, in the strongest channel, the change of radiance by refraction undone.
+/// Fraction of the light that is scattered, in the strongest channel, without the change of radiance by refraction.
 template <class Real>
 Energy energy_of(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, int samples, Random& random) {
-  // Channel by channel: lobes of complementary colours have weights above 1 each in a channel of its own.
+  // Per channel: lobes of complementary colours each have weights above 1 in a channel of their own.
   Vec3d sum{}, squares{};
   for (int i = 0; i < samples; ++i) {
     const Real u_lobe = random.uniform<Real>();

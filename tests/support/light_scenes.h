@@ -1,6 +1,6 @@
 #pragma once
 
-// Scenes of many lights, and of lights that shine by a texture.
+// Scenes of many lights, and of lights with emission textures.
 
 #include <string>
 #include <utility>
@@ -14,8 +14,8 @@ inline std::string text_of(const Vec3d& v) {
   return std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z) + " ";
 }
 
-/// `count` small lights in a box of half side 2 about (0, 0, 0): triangles of one side and of both, spheres, and, where
-/// `with_delta` says so, points and spots; some are a hundred times as bright as others.
+/// `count` small lights in a box of half side 2 about (0, 0, 0): one-sided and two-sided triangles, spheres, and, if
+/// `with_delta`, points and spots; some are a hundred times as bright as others.
 inline std::string small_lights(int count, uint64_t seed, bool with_delta, double size = 0.1) {
   Random random(seed);
   std::string text;
@@ -43,7 +43,7 @@ inline std::string small_lights(int count, uint64_t seed, bool with_delta, doubl
   return text;
 }
 
-/// Every emission of `scene` is multiplied with a picture of 4 x 4 colours, half of them black.
+/// Multiplies every emission of `scene` by an image of 4 x 4 colours, half of them black.
 inline Scene with_emission_texture(Scene scene) {
   ImageTexels picture;
   picture.width = picture.height = 4;

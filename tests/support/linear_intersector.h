@@ -1,6 +1,6 @@
 #pragma once
 
-// The linear scan, under the name that tests know it by.
+// The linear scan, under its name in the tests.
 
 #include "core/bvh/brute_force/linear.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Scenes of loose primitives, without materials or lights of note: something to shoot rays at.
+// Scenes of loose primitives with default materials and lights, as targets for rays.
 
 #include <utility>
 #include <vector>
@@ -29,7 +29,7 @@ class PrimitiveScene {
     scene_.groups[0].shapes.push_back(shape);
   }
 
-  /// `motion` is its way from the opening of the shutter to its closing.
+  /// `motion` is the displacement from shutter open to shutter close.
   void add_sphere(const Vec3d& center, double radius, const Vec3d& motion = {}) {
     Shape shape;
     shape.type = ShapeType::sphere;

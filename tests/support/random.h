@@ -1,6 +1,6 @@
 #pragma once
 
-// Random numbers for the tests, from a generator that is not one of those under test, the same on every platform.
+// Random numbers for the tests, from a generator that is not under test and is the same on every platform.
 
 #include <cmath>
 #include <random>
@@ -14,7 +14,7 @@ class Random {
  public:
   explicit Random(uint64_t seed) : engine_(seed) {}
 
-  /// In [0, 1), with all the bits that Real has.
+  /// A number in [0, 1) with all the bits of Real.
   template <class Real>
   Real uniform() {
     if constexpr (sizeof(Real) == sizeof(float))
@@ -30,7 +30,7 @@ class Random {
   }
 
   double between(double low, double high) { return low + (high - low) * uniform<double>(); }
-  /// Uniform in its logarithm: every magnitude between the two is as likely as the others.
+  /// Log-uniform: every magnitude between the two is equally likely.
   double magnitude_between(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
   uint32_t below(uint32_t count) { return static_cast<uint32_t>(uniform<double>() * count); }
 
@@ -44,7 +44,7 @@ class Random {
     return {r * std::cos(phi), r * std::sin(phi), z};
   }
 
-  /// On the side of `normal`.
+  /// A direction on the side of `normal`.
   Vec3d on_hemisphere(const Vec3d& normal) { return face_forward(on_sphere(), normal); }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures by the sample kernel that all CPU backends share, pixel by pixel.
+// Renders images pixel by pixel with the sample kernel of the CPU backends.
 
 #include <algorithm>
 #include <string>
@@ -15,12 +15,12 @@ inline constexpr IntegratorKind all_integrators[] = {IntegratorKind::branching, 
                                                      IntegratorKind::iterative, IntegratorKind::path};
 inline constexpr SamplerType all_samplers[] = {SamplerType::sobol, SamplerType::independent};
 
-/// What a picture is made with.
+/// The settings of an image.
 struct Take {
   IntegratorKind integrator = IntegratorKind::path;
   SamplerType sampler = SamplerType::sobol;
   uint32_t max_segments = 6;
-  uint32_t samples = 16;  ///< a pixel
+  uint32_t samples = 16;  ///< per pixel
   uint32_t seed = 0;
 
   std::string name() const {

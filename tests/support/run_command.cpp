@@ -52,7 +52,7 @@ struct Pipe {
   _exit(127);
 }
 
-/// Appends what is there to read; false at the end of the stream.
+/// Appends the available data; returns false at the end of the stream.
 bool drain(int descriptor, std::string& text) {
   char buffer[65536];
   const ssize_t count = read(descriptor, buffer, sizeof(buffer));

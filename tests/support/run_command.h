@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs a program as a person would: its output, its errors, its exit code, and signals sent to it.
+// Runs a program as a user would, with its output, errors and exit code, and signals sent to it.
 
 #include <csignal>
 #include <functional>
@@ -10,7 +10,7 @@
 namespace alhazen::test {
 
 struct CommandResult {
-  int exit_code = -1;  ///< 128 + the signal where one ended it
+  int exit_code = -1;  ///< 128 + the signal if one ended it
   std::string out, err;
   double seconds = 0;
   bool timed_out = false;
@@ -22,15 +22,15 @@ struct CommandResult {
 };
 
 struct CommandOptions {
-  std::string folder;        ///< to run in; empty: here
-  double timeout = 120;      ///< seconds, then it is killed
-  size_t address_space = 0;  ///< bytes it may map; 0: any number
-  size_t file_size = 0;      ///< bytes that a file may get; 0: any number
-  /// Called with all that stderr holds each time it grows. A number above 0 is sent as a signal, once.
+  std::string folder;        ///< working folder; empty: the current one
+  double timeout = 120;      ///< seconds until it is killed
+  size_t address_space = 0;  ///< limit in bytes; 0: none
+  size_t file_size = 0;      ///< limit on the size of a file in bytes; 0: none
+  /// Called with the whole of stderr each time it grows. A number above 0 is sent as a signal, once.
   std::function<int(const std::string& err)> signal_when;
 };
 
-/// `command` is the program and its arguments; nothing of it is seen by a shell.
+/// `command` is the program and its arguments; no shell interprets it.
 CommandResult run_command(const std::vector<std::string>& command, const CommandOptions& options = {});
 
 /// Runs a script of /bin/sh in which $ALHAZEN is the program under test.

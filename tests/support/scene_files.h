@@ -1,6 +1,6 @@
 #pragma once
 
-// Whole scene files as texts, which between them use most of what can be rendered.
+// Complete scene files as texts, which together use most features of the renderer.
 
 #include <string>
 
@@ -49,8 +49,8 @@ AttributeEnd
 )";
 }
 
-/// Glass, metal, rough metal and rough glass, noise, checks and a picture on spheres, one of them moving and one of
-/// them a light, before a thin lens and under a filter with negative weights. `image` is the name of a picture file.
+/// Glass, metal, rough metal and rough glass, noise, checks and an image on spheres, one of them moving and one of them
+/// a light, with a thin lens and a filter with negative weights. `image` is the name of an image file.
 inline std::string many_spheres(int width, int height, const std::string& image) {
   return R"(LookAt 0 1.5 6  0 0.6 0  0 1 0
 Camera "perspective" "float fov" 38 "float lensradius" 0.06 "float focaldistance" 6

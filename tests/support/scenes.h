@@ -1,12 +1,12 @@
 #pragma once
 
-// Scene texts that more than one test renders, without a film: put film_of(width, height) in front.
+// Scene texts that several tests render, without a film: put film_of(width, height) in front.
 
 #include <string>
 
 namespace alhazen::test {
 
-/// A Cornell box of two boxes' worth of bounces in small: coloured walls, a large lamp, a diffuse and a metal block.
+/// A small Cornell box: coloured walls, a large lamp, a diffuse and a metal block.
 inline const std::string cornell_box = R"(
     LookAt 0 1 -3.4  0 1 0  0 1 0
     Camera "perspective" "float fov" 36
@@ -37,8 +37,8 @@ inline const std::string cornell_box = R"(
       "integer indices" [0 1 2 0 2 3]
 )";
 
-/// A diffuse sphere that glows and holds a mirror, a smooth and a rough ball of glass. What glows is brighter above, so
-/// that what is seen depends on every bounce.
+/// A diffuse emissive sphere around a mirror, a smooth and a rough glass ball. Its emission is brighter above, so that
+/// the image depends on every bounce.
 inline const std::string furnace_of_glass = R"(
     LookAt 0 0.2 -1.8  0 0 0  0 1 0
     Camera "perspective" "float fov" 50

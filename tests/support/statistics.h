@@ -1,6 +1,6 @@
 #pragma once
 
-// Means, variances and the tests on them: normal, Student's t, Welch, and Sidak's correction for many tests at once.
+// Means, variances and tests of them: normal, Student's t, Welch, and Sidak's correction for many tests at once.
 
 #include <cmath>
 #include <cstddef>
@@ -20,7 +20,7 @@ class Moments {
 
   size_t count() const { return count_; }
   double mean() const { return mean_; }
-  /// Of the population, without bias.
+  /// Unbiased estimate for the population.
   double variance() const { return count_ > 1 ? m2_ / static_cast<double>(count_ - 1) : 0; }
   /// Of the mean.
   double variance_of_mean() const { return count_ > 0 ? variance() / static_cast<double>(count_) : 0; }
@@ -31,13 +31,13 @@ class Moments {
   double mean_ = 0, m2_ = 0;
 };
 
-/// The level for each of `cases` independent tests for which all of them hold at `alpha` together.
+/// The level for each of `cases` independent tests such that all of them together have the level `alpha`.
 inline double sidak(double alpha, size_t cases) { return -std::expm1(std::log1p(-alpha) / static_cast<double>(cases)); }
 
 /// Probability that a standard normal variable is at least as far from 0 as z.
 inline double normal_p_value(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
 
-/// The regularised incomplete beta function I_x(a, b), by Lentz's continued fraction (Press et al., Numerical Recipes
+/// The regularized incomplete beta function I_x(a, b), by Lentz's continued fraction (Press et al., Numerical Recipes
 /// 3rd ed., 6.4).
 inline double incomplete_beta(double a, double b, double x) {
   if (x <= 0) return 0;
@@ -62,13 +62,13 @@ inline double incomplete_beta(double a, double b, double x) {
   return front * fraction;
 }
 
-/// Probability that a variable of Student's distribution is at least as far from 0 as t.
+/// Probability that a variable with Student's distribution is at least as far from 0 as t.
 inline double student_p_value(double t, double degrees_of_freedom) {
   return incomplete_beta(degrees_of_freedom / 2, 0.5, degrees_of_freedom / (degrees_of_freedom + t * t));
 }
 
-/// Two-sided test that the samples have the mean `expected`. `rounding` is what arithmetic alone may move the mean by:
-/// samples without variance are compared by it.
+/// Two-sided test that the samples have the mean `expected`. `rounding` bounds the effect of arithmetic on the mean: it
+/// is the tolerance for samples without variance.
 inline double mean_p_value(const Moments& samples, double expected, double rounding) {
   const double distance = std::abs(samples.mean() - expected) - rounding;
   if (distance <= 0) return 1;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Files of tests: a folder that is gone afterwards, and whole files in and out.
+// Temporary folders for tests, and functions that read and write whole files.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@ namespace alhazen::test {
 
 using Bytes = std::vector<uint8_t>;
 
-/// A folder of its own, gone at the end of the scope.
+/// A temporary folder, removed at the end of the scope.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -25,7 +25,7 @@ class TemporaryFolder {
     static int folders = 0;
     std::string name = std::string("alhazen-") + test->test_suite_name() + "-" + test->name() + "-" +
                        std::to_string(::getpid()) + "-" + std::to_string(folders++);
-    std::replace(name.begin(), name.end(), '/', '-');  // in the names of parameterised tests
+    std::replace(name.begin(), name.end(), '/', '-');  // in the names of parameterized tests
     path_ = std::filesystem::path(::testing::TempDir()) / name;
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
@@ -40,7 +40,7 @@ class TemporaryFolder {
   std::string path() const { return path_.string(); }
   std::string file(const std::string& name) const { return (path_ / name).string(); }
   std::string write(const std::string& name, const Bytes& bytes) const {
-    std::filesystem::remove(file(name));  // some filesystems wait for the disk where a file is cut and written anew
+    std::filesystem::remove(file(name));  // some filesystems wait for the disk if a file is truncated and rewritten
     std::ofstream(file(name), std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     return file(name);

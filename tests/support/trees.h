@@ -1,6 +1,6 @@
 #pragma once
 
-// The trees that answer ray queries, for tests that hold for each of them.
+// The acceleration structures, for tests that hold for each of them.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ struct SimdTree {
   using Intersector = SimdBvhIntersector<Any>;
 };
 
-/// The same as it was compiled for one of the instruction sets.
+/// The same as compiled for one of the instruction sets.
 template <class Any, InstructionSet set>
 struct IsaTree {
   using Real = Any;

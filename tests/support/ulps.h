@@ -1,6 +1,6 @@
 #pragma once
 
-// Distance between numbers, counted in the numbers of their precision that lie between them.
+// Distance of numbers, counted in representable numbers between them.
 
 #include <bit>
 #include <cstdint>
