@@ -1,4 +1,4 @@
-// Spectra against published colours: white points, metals, glasses, lamps; and the files they are read from.
+// Spectra against published colours: white points, metals, glasses, lamps; and reading spectrum files.
 
 #include "colour/spectrum.h"
 
@@ -22,7 +22,7 @@ void expect_near(const Vec3d& actual, const Vec3d& expected, double tolerance, c
     EXPECT_NEAR(actual[channel], expected[channel], tolerance) << what << ", channel " << channel;
 }
 
-/// Linear sRGB of luminance 1 with this chromaticity.
+/// Linear sRGB with luminance 1 and this chromaticity.
 Vec3d srgb_of(double x, double y) { return xyz_to_srgb({x / y, 1, (1 - x - y) / y}); }
 
 const Spectrum& named(const std::string& name) {
@@ -48,7 +48,7 @@ TEST(Spectrum, IsLinearBetweenItsValuesAndZeroBeyond) {
 TEST(Cie1931, Observer) {
   Vec3d sum;
   for (int nanometres = first_visible; nanometres <= last_visible; ++nanometres) sum += cie_1931(nanometres);
-  // The sums of the table at 1 nm as published (CIE 018.2).
+  // The sums of the 1 nm table as published (CIE 018.2).
   expect_near(sum, {106.865, 106.857, 106.892}, 1e-3, "integrals of the matching functions");
   EXPECT_NEAR(cie_1931(555).y, 1, 1e-9);
   EXPECT_EQ(cie_1931(359.9), Vec3d());
@@ -99,7 +99,7 @@ TEST(Illuminant, ChromaticitiesOfTheStandardIlluminants) {
 }
 
 TEST(Blackbody, ColoursOfTemperature) {
-  // Chromaticities of the Planckian locus.
+  // Chromaticities on the Planckian locus.
   expect_near(illuminant_rgb(blackbody_spectrum(6500)), srgb_of(0.3135, 0.3237), 2e-3, "6500 K");
   expect_near(illuminant_rgb(blackbody_spectrum(6500)), {1, 1, 1}, 0.07, "6500 K is near white");
   expect_near(illuminant_rgb(blackbody_spectrum(2700)), srgb_of(0.4599, 0.4106), 2e-3, "2700 K");
@@ -171,7 +171,7 @@ TEST(Conductor, ConstantSpectraComeBack) {
   expect_near(rgb.k, splat(3.0), 1e-9, "k");
   const ConductorRgb transparent = conductor_rgb(constant_spectrum(1.5), constant_spectrum(0));
   expect_near(reflectance_of(transparent), splat(0.04), 1e-12, "glass");
-  // Narrow: values beyond the measurement are held, not zero.
+  // Narrow spectra: values beyond the measurement repeat the last one and are not zero.
   const Spectrum eta{{500, 600}, {0.2, 0.2}}, k{{550, 560}, {3, 3}};
   expect_near(conductor_rgb(eta, k).k, splat(3.0), 1e-9, "k of a narrow measurement");
 }
@@ -179,7 +179,7 @@ TEST(Conductor, ConstantSpectraComeBack) {
 TEST(NamedSpectrum, Glasses) {
   struct Glass {
     const char* name;
-    double n_d;  ///< at 587.6 nm, from the catalogue of Schott
+    double n_d;  ///< at 587.6 nm, from Schott's catalogue
   };
   for (const Glass& glass : {Glass{"BK7", 1.51680},
                              {"BAF10", 1.67003},
@@ -225,7 +225,7 @@ TEST(RgbSpace, LuminanceIsY) {
     EXPECT_NEAR(luminance(xyz_to_srgb(xyz)), xyz.y, 1e-9);
 }
 
-/// A file that is removed when the test is over.
+/// A file that is removed at the end of the test.
 class SpectrumFile {
  public:
   explicit SpectrumFile(const std::string& text)
@@ -239,7 +239,7 @@ class SpectrumFile {
   std::filesystem::path path_;
 };
 
-/// The message about a file of this text, without the path.
+/// The message for a file with this text, without the path.
 std::string message_of(const std::string& text) {
   const SpectrumFile file(text);
   try {
@@ -285,7 +285,7 @@ TEST(SpectrumFile, GoldOfTheSharedScenes) {
     ++found;
     const Spectrum eta = read_spectrum((folder / "Au.eta.spd").string());
     const Spectrum k = read_spectrum((folder / "Au.k.spd").string());
-    // The file holds the measurement that also has a name.
+    // The file has the same measurement as a named spectrum.
     for (const double nanometres : {400.0, 500.0, 600.0, 700.0}) {
       EXPECT_NEAR(eta.at(nanometres), named("metal-Au-eta").at(nanometres), 1e-4);
       EXPECT_NEAR(k.at(nanometres), named("metal-Au-k").at(nanometres), 1e-4);

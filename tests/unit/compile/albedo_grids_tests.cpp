@@ -1,4 +1,4 @@
-// Grids of albedo: those of alphas that vary hold the constant ones, whichever alpha is the larger.
+// Grids of albedo: those of varying alphas contain the constant ones, whichever alpha is larger.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ TEST(AlbedoGrids, AreComputedOnce) {
   EXPECT_NE(values_of(grid), values_of({.alpha_u = 0.4, .alpha_v = 0.4}));
 }
 
-// Beyond the critical angle a nearly smooth interface goes over to total reflection within its alpha.
+// Beyond the critical angle a nearly smooth interface changes to total reflection within its alpha.
 TEST(AlbedoTables, FollowTheEdgeOfTotalReflection) {
   const VisibleNormals seen(4096, Density::even);
   for (const double ior : {0.1, 0.5, 0.9}) {

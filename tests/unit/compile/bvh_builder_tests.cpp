@@ -1,4 +1,4 @@
-// The tree that the builder makes: whole, nested, not too deep, and the same for any number of threads.
+// The tree that the builder makes: complete, nested, of limited depth, and the same for any number of threads.
 
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ void check_tree(const Boxes<Real>& boxes, const BvhTree<Real>& tree) {
   for (const int times : visits) ASSERT_EQ(times, 1);
 }
 
-/// The tree as it is built, and after its subtrees are moved.
+/// The tree as built, and after reinsertion of its subtrees.
 template <class Real>
 void build_and_check(const Boxes<Real>& boxes) {
   BvhTree<Real> tree = build_bvh<Real>(boxes, {.threads = 1});
@@ -80,7 +80,7 @@ void build_and_check(const Boxes<Real>& boxes) {
   check_tree(boxes, tree);
 }
 
-/// The sum of the half areas of inner nodes, in units of the root's: how many of them a random ray visits.
+/// The sum of the half areas of inner nodes relative to the root's: the expected number that a random ray visits.
 template <class Real>
 double inner_cost(const BvhTree<Real>& tree) {
   double sum = 0;
@@ -146,7 +146,8 @@ TYPED_TEST(BvhBuilderOf, FlatGrid) {
   build_and_check<Real>(boxes);
 }
 
-/// Each box twice as large and twice as far as the one before: every split takes one away. The deepest tree there is.
+/// Each box twice as large and twice as far away as the previous one: every split separates one. The deepest tree
+/// possible.
 TYPED_TEST(BvhBuilderOf, GeometricRow) {
   using Real = TypeParam;
   Boxes<Real> boxes;
@@ -160,7 +161,7 @@ TYPED_TEST(BvhBuilderOf, GeometricRow) {
   build_and_check<Real>(boxes);
 }
 
-/// As large as numbers go: areas overflow.
+/// Boxes of maximum size: areas overflow.
 TYPED_TEST(BvhBuilderOf, LargestNumbers) {
   using Real = TypeParam;
   Random random(3);
@@ -173,7 +174,7 @@ TYPED_TEST(BvhBuilderOf, LargestNumbers) {
   build_and_check<Real>(boxes);
 }
 
-/// Large enough for the parts that are done by all threads.
+/// Large enough for the phases that use all threads.
 TYPED_TEST(BvhBuilderOf, SameTreeForAnyThreads) {
   using Real = TypeParam;
   const Boxes<Real> boxes = random_boxes<Real>(200'000, 5);
@@ -196,7 +197,7 @@ TYPED_TEST(BvhBuilderOf, SameMovesForAnyThreads) {
   }
 }
 
-/// Small things on large ones, as on floors and walls: splits from above enlarge many boxes by the large ones.
+/// Small objects on large ones, as on floors and walls: top-down splits enlarge many boxes by the large ones.
 TYPED_TEST(BvhBuilderOf, MovesMakeTheTreeCheaper) {
   using Real = TypeParam;
   Boxes<Real> boxes = random_boxes<Real>(20'000, 7);
@@ -212,7 +213,7 @@ TYPED_TEST(BvhBuilderOf, MovesMakeTheTreeCheaper) {
   EXPECT_LT(inner_cost(tree), 0.9 * before);
 }
 
-/// A tree that halves the order as it is given.
+/// A tree that halves the given order.
 template <class Real>
 BvhTree<Real> halved(const Boxes<Real>& boxes, std::vector<uint32_t> order) {
   BvhTree<Real> tree;
@@ -235,7 +236,7 @@ BvhTree<Real> halved(const Boxes<Real>& boxes, std::vector<uint32_t> order) {
   return tree;
 }
 
-/// A row of boxes of which two have changed their places in the tree go back to their neighbours.
+/// In a row of boxes two have been exchanged in the tree; they return to their neighbours.
 TYPED_TEST(BvhBuilderOf, MovesBringBackWhatLiesFarOff) {
   using Real = TypeParam;
   Boxes<Real> boxes(64);

@@ -1,5 +1,5 @@
-// Light that `path` does not find is warned of, by the places of the light and of the glass; where nothing is lost
-// nothing is said.
+// Light that `path` does not find causes a warning with the locations of the light and the glass; if nothing is lost
+// there is no warning.
 
 #include <gtest/gtest.h>
 
@@ -33,10 +33,10 @@ std::vector<Diagnostics::Warning> warnings_of(const std::string& text, uint32_t 
   CompileOptions options;
   options.threads = 1;
   options.path_segments = path_segments;
-  options.max_copied_triangles = 0;  // instances stay instances
+  options.max_copied_triangles = 0;  // instances are not copied
   options.trees = {.binary = false, .wide = false, .simd = true};
   const CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
-  EXPECT_EQ(flat.view.nodes_count, 0u);  // what was not asked for is not kept
+  EXPECT_EQ(flat.view.nodes_count, 0u);  // trees that were not requested are not kept
   return diagnostics.warnings();
 }
 
@@ -127,7 +127,7 @@ TYPED_TEST(LostLightOf, LightsThatWereNotLookedAtMayBeMore) {
   }
 }
 
-/// A pane that stands in two places, among many instances of another object.
+/// A pane with two instances, among many instances of another object.
 TYPED_TEST(LostLightOf, AnyInstanceOfGlassIsFound) {
   const std::string square = "Shape \"bilinearmesh\" \"point3 P\" [-.1 0 -.1  .1 0 -.1  -.1 0 .1  .1 0 .1]\n";
   const std::string panes =
@@ -177,7 +177,7 @@ TYPED_TEST(LostLightOf, NothingIsSaidWhereNothingIsLost) {
     SCOPED_TRACE(c.name);
     for (const Diagnostics::Warning& warning : warnings_of<TypeParam>(c.text)) ADD_FAILURE() << warning.to_string();
   }
-  // Paths that are too short for any light through glass, and integrators that do not ask.
+  // Paths that are too short for any light through glass, and integrators without the check.
   EXPECT_TRUE(warnings_of<TypeParam>("WorldBegin\n" + point + glass + ball + floor_of, 2).empty());
   EXPECT_TRUE(warnings_of<TypeParam>("WorldBegin\n" + point + glass + ball + floor_of, 0).empty());
 }

@@ -1,5 +1,5 @@
-// Values that a file may hold and the precision of the render may not: refused, or left out with a warning, in float,
-// and rendered in double.
+// Values that a file may contain but the render's precision cannot represent: refused, or omitted with a warning, in
+// float, and rendered in double.
 
 #include "core/textures/image.h"
 #include "core/textures/noise.h"
@@ -9,8 +9,8 @@ namespace alhazen::test {
 namespace {
 
 struct Compiled {
-  std::string error;     ///< empty: there was none
-  std::string warnings;  ///< of compiling, joined
+  std::string error;     ///< empty if there was none
+  std::string warnings;  ///< of the scene compiler, joined
   size_t spheres = 0;
 };
 
@@ -28,7 +28,7 @@ Compiled compiled(const std::string& text) {
   return result;
 }
 
-/// Refused in float at its place in the file, and rendered in double.
+/// Refused in float at its location in the file, and rendered in double.
 void expect_for_double_alone(const std::string& text, const std::string& message) {
   SCOPED_TRACE(text);
   const std::string error = compiled<float>(text).error;
@@ -59,7 +59,7 @@ TEST(PrecisionRange, CamerasAreFinite) {
 TEST(PrecisionRange, SpheresAreFinite) {
   expect_for_double_alone("WorldBegin LightSource \"infinite\"\nShape \"sphere\" \"float radius\" 1e20\n",
                           "the sphere is too large or too far away");
-  // Two, since a scene that is far away as a whole is moved (compile/render_space.h).
+  // Two shapes, since a scene that is far away as a whole is moved (compile/render_space.h).
   expect_for_double_alone(
       "WorldBegin LightSource \"infinite\"\nShape \"sphere\"\n"
       "Scale 1e20 1e20 1e20 Translate 1e20 0 0\nShape \"sphere\" \"float radius\" 1e-20\n",

@@ -1,4 +1,4 @@
-// Scenes far from the origin are moved to it with everything that has a place; others stay as they are.
+// Scenes far from the origin are moved to it with everything that has a position; others remain unchanged.
 
 #include "compile/render_space.h"
 
@@ -7,7 +7,7 @@
 namespace alhazen::test {
 namespace {
 
-/// Something of every kind that has a place, about the world's origin moved by `to`, seen by a camera 5 away.
+/// One thing of every kind that has a position, about the world's origin moved by `to`, seen by a camera 5 away.
 Scene scene_at(const Vec3d& to) {
   const std::string place = std::to_string(to.x) + " " + std::to_string(to.y) + " " + std::to_string(to.z);
   return described_scene("LookAt 0 -5 0  0 0 0  0 0 1\nTranslate " + std::to_string(-to.x) + " " +
@@ -35,7 +35,7 @@ void expect_near(const Vec3d& a, const Vec3d& b) {
   EXPECT_NEAR(a.z, b.z, 1e-6);
 }
 
-/// Where everything is, each from the camera.
+/// The positions of everything relative to the camera.
 std::vector<Vec3d> places(const Scene& scene) {
   const Vec3d camera = scene.camera.world_from_camera.start.point({});
   std::vector<Vec3d> all;
@@ -73,7 +73,7 @@ TEST(RenderSpace, ScenesNearTheOriginStay) {
 
 TEST(RenderSpace, ASceneSeenFromFarAwayIsMovedByItsMiddle) {
   Scene scene = scene_at({3e6, 0, 0});
-  // As far from the scene as that is from the origin.
+  // As far from the scene as the scene is from the origin.
   scene.camera.world_from_camera.start = scene.camera.world_from_camera.end = Transform::translate({6e6, 0, 0});
   move_to_render_space(scene);
   EXPECT_LT(length(scene.groups[0].shapes[0].world_from_object.start.point({})), 10);
@@ -84,7 +84,7 @@ TEST(RenderSpace, ASceneSeenFromFarAwayIsMovedByItsMiddle) {
   expect_near(at_the_origin.groups[0].shapes[0].world_from_object.start.point({}), {});
 }
 
-/// In float the vertices of a triangle of a metre survive 3,000 km from the origin.
+/// In float the vertices of a triangle of one metre survive 3,000 km from the origin.
 TEST(RenderSpace, CompilingKeepsDetail) {
   Diagnostics diagnostics;
   const CompiledScene<float> flat = compile_scene<float>(scene_at({3e6, -2e6, 1e6}), {}, diagnostics);

@@ -1,4 +1,4 @@
-// Pyramids of pictures: means are kept, sharp where magnified, grey where seen from afar; the budget of textures.
+// Image pyramids: means are preserved, sharp where magnified, grey from afar; the texture budget.
 
 #include <gtest/gtest.h>
 
@@ -88,7 +88,7 @@ TEST(Pyramid, BudgetHalvesTheLargestAndWarnsOnce) {
   for (const ImageTexels& image : scene.images) EXPECT_EQ(image.width * image.height, 1);
 }
 
-/// A floor of size 2 about the origin in the plane z = 0, seen from the height `distance`, with a picture over it.
+/// A floor of size 2 about the origin in the plane z = 0, seen from the height `distance`, with an image on it.
 template <class Real>
 CompiledScene<Real> floor_seen_from(double distance, const ImageTexels& image,
                                     const std::string& camera = "perspective", bool nearest = false) {
@@ -109,12 +109,12 @@ CompiledScene<Real> floor_seen_from(double distance, const ImageTexels& image,
   return compiled_scene<Real>(std::move(scene));
 }
 
-/// What the ray through the raster position finds of the texture.
+/// The texture value that the ray through the raster position finds.
 template <class Real>
 Real seen_at(const CompiledScene<Real>& scene, double x, double y) {
   const Ray<Real> ray =
       camera_ray(scene.view.camera, Vec2<Real>{static_cast<Real>(x), static_cast<Real>(y)}, Vec2<Real>{}, Real(0));
-  // The plane z = 0, by the triangle that the point lies in.
+  // The plane z = 0, with the triangle that contains the point.
   const Real t = -ray.origin.z / ray.direction.z;
   const Vec3<Real> p = ray.origin + ray.direction * t;
   for (uint32_t i = 0; i < scene.view.triangles_count; ++i) {
@@ -139,14 +139,14 @@ class PyramidLookup : public ::testing::Test {};
 TYPED_TEST_SUITE(PyramidLookup, Reals);
 
 TYPED_TEST(PyramidLookup, ChecksFarAwayAreGrey) {
-  // 256 checks a side over a pixel or so: all that is left is their mean.
+  // Over 256 checks per side within about one pixel only their mean is left.
   const auto scene = floor_seen_from<TypeParam>(16, checks(256, 256, true));
   for (double x = 15; x < 17; x += 0.037) EXPECT_NEAR(static_cast<double>(seen_at(scene, x, 16.01)), 0.5, 1e-5);
 }
 
 TYPED_TEST(PyramidLookup, MagnifiedPicturesAreSharp) {
   const auto scene = floor_seen_from<TypeParam>(0.05, checks(64, 64, true));
-  // Pixels are 0.1 / 32 of the plane: the centres of four texels, 1 / 32 wide, about the middle.
+  // Pixels are 0.1 / 32 of the plane: the centres of four texels, 1 / 32 wide, about the centre.
   std::set<double> values;
   for (const double x : {11.0, 21.0})
     for (const double y : {11.0, 21.0})
@@ -155,12 +155,12 @@ TYPED_TEST(PyramidLookup, MagnifiedPicturesAreSharp) {
 }
 
 TYPED_TEST(PyramidLookup, OrthographicCamerasFilterByTheirOwnPixels) {
-  // Pixels are a sixteenth wide, texels 1 / 128: 8 of them a pixel, however far away.
+  // Pixels are a sixteenth wide, texels 1 / 128: 8 texels per pixel, at any distance.
   for (const double distance : {0.01, 1000.0}) {
     const auto scene = floor_seen_from<TypeParam>(distance, checks(256, 256, true), "orthographic");
     for (double x = 10; x < 12; x += 0.093) EXPECT_NEAR(static_cast<double>(seen_at(scene, x, 16.01)), 0.5, 1e-5);
     const auto sharp = floor_seen_from<TypeParam>(distance, checks(8, 8, true), "orthographic");
-    // From this side x runs to the left: the corner of the picture is its last texel.
+    // From this side x runs to the left: the corner of the image is its last texel.
     EXPECT_NEAR(static_cast<double>(seen_at(sharp, 2, 2)), 1, 1e-4);
     EXPECT_NEAR(static_cast<double>(seen_at(sharp, 6, 2)), 0, 1e-4);
   }
@@ -184,7 +184,7 @@ TEST(PyramidLevels, LogarithmIsContinuousAndClose) {
   }
 }
 
-/// Grey pictures take a third of the memory and give the same values.
+/// Grey images take a third of the memory and give the same values.
 TEST(PyramidLevels, GreyPicturesTakeOneChannel) {
   const auto scene = floor_seen_from<float>(1, checks(4, 4, false));
   EXPECT_EQ(scene.view.images[0].channels, 1u);

@@ -1,4 +1,4 @@
-// Normals that maps and bumps have bent.
+// Normals bent by normal maps and bump maps.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ template <class Real>
 class BentNormal : public ::testing::Test {};
 TYPED_TEST_SUITE(BentNormal, Reals);
 
-/// The mirror direction stays on the side of the surface that is seen; normals that need no help are left alone.
+/// The mirror direction stays on the visible side of the surface; normals for which it is there already are unchanged.
 TYPED_TEST(BentNormal, ReflectsOutwards) {
   using Real = TypeParam;
   Random random(1);
@@ -36,7 +36,7 @@ TYPED_TEST(BentNormal, ReflectsOutwards) {
     } else {
       ++turned;
       EXPECT_LE(out(bent), Real(0.0101));
-      // No farther than needed: a little less would not do.
+      // The change is minimal: a little less would not suffice.
       const Vec3<Real> less = normalize(lerp(n, bent, Real(0.05)));
       EXPECT_LT(out(less), Real(0.1));
     }

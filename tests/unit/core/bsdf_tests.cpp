@@ -1,4 +1,4 @@
-// Scattering functions: weight, density and value fit together, energy, reciprocity.
+// Scattering functions: weight, density and value are consistent; energy, reciprocity.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ template <class Real>
 class BsdfOf : public ::testing::Test {};
 TYPED_TEST_SUITE(BsdfOf, Reals);
 
-/// weight * pdf = f |cos|, and evaluation gives the density that sampling did.
+/// weight * pdf = f |cos|, and evaluation gives the density of sampling.
 TYPED_TEST(BsdfOf, SamplesFitEvaluation) {
   using Real = TypeParam;
   Random random(1);
@@ -32,7 +32,7 @@ TYPED_TEST(BsdfOf, SamplesFitEvaluation) {
         for (int i = 0; i < 500; ++i) {
           const Real u_lobe = random.uniform<Real>();
           const BsdfSample<Real> s = sample_bsdf(named.bsdf, wo, u_lobe, random.uniform_2d<Real>());
-          // Where light leaves along the surface the cosine itself is lost in rounding.
+          // For grazing directions the cosine itself is lost in rounding.
           if (!(s.pdf > 0) || abs_dot(s.direction, named.bsdf.frame.normal) < Real(1e-3)) continue;
           EXPECT_NEAR(static_cast<double>(length(s.direction)), 1, by_precision<Real>(1e-6, 1e-14));
           const BsdfValue<Real> f = evaluate_bsdf(named.bsdf, wo, s.direction);
@@ -44,7 +44,7 @@ TYPED_TEST(BsdfOf, SamplesFitEvaluation) {
       }
 }
 
-/// Mean share of the light that goes on, the change of radiance by refraction undone.
+/// Mean fraction of the light that is scattered, without the change of radiance by refraction.
 template <class Real>
 double energy(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, Random& random) {
   double sum = 0;
@@ -96,7 +96,7 @@ TYPED_TEST(BsdfOf, Reciprocity) {
       const Vec3<Real> a = convert<Real>(random.on_sphere()), b = convert<Real>(random.on_sphere());
       const double forth = static_cast<double>(evaluate_bsdf(named.bsdf, a, b).value.y / abs_dot(b, n));
       const double back = static_cast<double>(evaluate_bsdf(named.bsdf, b, a).value.y / abs_dot(a, n));
-      // Cosines below this are mostly rounding in float, once they are in world space.
+      // In world space cosines below this are mostly rounding errors in float.
       if (abs_dot(a, n) < Real(0.02) || abs_dot(b, n) < Real(0.02) || forth < 1e-6) continue;
       const auto index = [&](const Vec3<Real>& w) {
         return named.bsdf.kind == MaterialKind::dielectric && dot(w, n) < 0 ? 1.5 : 1.0;
@@ -117,13 +117,13 @@ TYPED_TEST(BsdfOf, SmoothOnesHaveNoDensity) {
     EXPECT_TRUE(named.bsdf.is_specular());
     EXPECT_EQ(evaluate_bsdf(named.bsdf, wo, s.direction).pdf, 0);
     EXPECT_TRUE(is_zero(evaluate_bsdf(named.bsdf, wo, s.direction).value));
-    // The mirrored direction: the normal is the middle of the two.
+    // For the mirror direction the normal is the half vector.
     EXPECT_NEAR(static_cast<double>(length((s.direction + wo) * Real(0.5) - named.bsdf.frame.normal * Real(0.6))), 0,
                 by_precision<Real>(1e-6, 1e-14));
   }
 }
 
-/// Snell: sines are as the indices, and the three directions lie in a plane.
+/// Snell's law: sines are proportional to the indices, and the three directions are coplanar.
 TYPED_TEST(BsdfOf, SmoothRefractionFollowsSnell) {
   using Real = TypeParam;
   const NamedBsdf<Real> glass = glass_bsdf<Real>(0);

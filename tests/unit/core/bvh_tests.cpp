@@ -1,4 +1,4 @@
-// The BVHs find what looking at every primitive finds, whatever the scene and the ray.
+// The BVHs find the hits of a linear scan, for any scene and ray.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ Ray<Real> ray_from(const Vec3d& origin, const Vec3d& direction, double time = 0)
   return {convert<Real>(origin), normalize(convert<Real>(direction)), static_cast<Real>(time)};
 }
 
-/// Both intersectors say the same of the ray. Returns whether it met anything.
+/// Both intersectors agree on the ray. Returns whether it hit anything.
 template <class Tree, class Real = typename Tree::Real>
 bool expect_same(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max = infinity<Real>) {
   const typename Tree::Intersector bvh(scene);
@@ -39,7 +39,7 @@ bool expect_same(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max 
   return expect_met;
 }
 
-/// Rays from a box about the origin, half of them at something in the inner part of it.
+/// Rays from a box about the origin, half of them towards objects in the inner part of it.
 template <class Real>
 Ray<Real> random_ray(Random& random, double size) {
   const Vec3d origin = random.in_box(-size, size);
@@ -69,7 +69,7 @@ TYPED_TEST(BvhOf, LimitedDistance) {
                            static_cast<Real>(random.magnitude_between(0.1, 30)));
 }
 
-/// A hit just at t_max is none, one just before it is.
+/// A hit just at t_max does not count, one just before it does.
 TYPED_TEST(BvhOf, DistanceIsExclusive) {
   using Real = typename TypeParam::Real;
   PrimitiveScene primitives;
@@ -85,7 +85,7 @@ TYPED_TEST(BvhOf, DistanceIsExclusive) {
   EXPECT_TRUE(bvh.occluded(ray, std::nextafter(Real(5), Real(6))));
 }
 
-/// Directions along axes and within planes make zeros, whose reciprocals are infinite.
+/// Directions along axes and in planes have zeros, whose reciprocals are infinite.
 TYPED_TEST(BvhOf, RaysAlongAxes) {
   using Real = typename TypeParam::Real;
   PrimitiveScene primitives;
@@ -100,7 +100,7 @@ TYPED_TEST(BvhOf, RaysAlongAxes) {
   for (size_t i = 0; i < effort(20'000); ++i) {
     Vec3d origin{}, direction{};
     for (int axis = 0; axis < 3; ++axis) {
-      origin[axis] = random.below(13) * 0.5 - 3;  // often in a plane of the grid, on its lines and corners
+      origin[axis] = random.below(13) * 0.5 - 3;  // often in a plane of the grid, on its edges and vertices
       direction[axis] = random.below(3) - 1.0;
       if (direction[axis] == 0 && random.below(2)) direction[axis] = -0.0;
     }
@@ -144,8 +144,8 @@ TYPED_TEST(BvhOf, IdenticalBoxes) {
   EXPECT_FALSE(expect_same<TypeParam>(scene.view, ray_from<Real>({}, {0, 0, -1})));
 }
 
-/// Whether the next precision says the same of a hit. Triangles seen from the edge, and large ones close by, may seem
-/// to be hit out of their boxes.
+/// Returns whether the next precision agrees on a hit. Triangles seen edge-on, and large ones close by, may appear to
+/// be hit outside their boxes.
 template <class Real>
 bool is_sure(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>& hit) {
   using Wide = std::conditional_t<sizeof(Real) == sizeof(float), double, long double>;
@@ -159,12 +159,12 @@ bool is_sure(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>
          std::abs(static_cast<Wide>(hit.t) - t) < Wide(1e-3) * t;
 }
 
-/// From 1e-8 to 1e12 in one scene. (Triangles below 1e-11 have no area in float and are left out.)
+/// Sizes from 1e-8 to 1e12 in one scene. (Triangles below 1e-11 have no area in float and are omitted.)
 TYPED_TEST(BvhOf, HugeRangeOfSizes) {
   using Real = typename TypeParam::Real;
   PrimitiveScene primitives;
   Random random(13);
-  const double largest = sizeof(Real) == sizeof(float) ? 1e9 : 1e12;  // beyond, compiling refuses triangles
+  const double largest = sizeof(Real) == sizeof(float) ? 1e9 : 1e12;  // larger triangles are refused
   for (int i = 0; i < 300; ++i) {
     const double size = random.magnitude_between(1e-8, largest);
     const Vec3d p = random.on_sphere() * size;
@@ -185,7 +185,7 @@ TYPED_TEST(BvhOf, HugeRangeOfSizes) {
   EXPECT_GT(sure, effort(19'000));
 }
 
-/// Not numbers and infinities in every component: an answer comes, whatever it is.
+/// NaN and infinity in every component: traversal ends, with any result.
 TYPED_TEST(BvhOf, RaysThatAreNoRays) {
   using Real = typename TypeParam::Real;
   const CompiledScene<Real> scene = mixed_primitives(14, 50).flat<Real>();

@@ -1,4 +1,4 @@
-// Camera rays of known pixels, the thin lens, and pixel filters that keep a constant picture constant.
+// Camera rays of known pixels, the thin lens, and pixel filters that keep a constant image constant.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TYPED_TEST(CameraOf, PixelsOfAPlainCamera) {
   EXPECT_TRUE(is_zero(ray_through(scene, 3, 7).origin));
 }
 
-/// The field of view is that of the shorter side.
+/// The field of view is over the shorter side.
 TYPED_TEST(CameraOf, TallPicture) {
   const auto scene = compiled_scene_of<TypeParam>(film_of(50, 100) + "Camera \"perspective\" \"float fov\" 60\n" + sky);
   const double t = std::tan(pi<double> / 6);
@@ -62,7 +62,7 @@ TYPED_TEST(CameraOf, LookAtAndMirrored) {
   const std::string look = "LookAt 1 2 3  1 2 8  0 1 0\nCamera \"perspective\" \"float fov\" 90\n" + sky;
   const auto scene = compiled_scene_of<TypeParam>(film_of(100, 100) + look);
   EXPECT_TRUE(ray_through(scene, 50, 50).origin == (Vec3<TypeParam>{1, 2, 3}));
-  // Looking along +z with y up, +x is to the right in the left-handed space of the format.
+  // Looking along +z with y up, +x is to the right in the format's left-handed space.
   expect_along(ray_through(scene, 100, 0).direction, {1, 1, 1});
   const auto mirrored = compiled_scene_of<TypeParam>(film_of(100, 100) + "Scale -1 1 1\n" + look);
   expect_along(ray_through(mirrored, 100, 0).direction, {-1, 1, 1});
@@ -71,7 +71,7 @@ TYPED_TEST(CameraOf, LookAtAndMirrored) {
   EXPECT_NEAR(static_cast<double>(length(ray_through(scaled, 50, 50).origin - Vec3<TypeParam>{1, 2, 3})), 0, 1e-6);
 }
 
-/// All rays of one pixel cross on the plane of focus, wherever they pass the lens, and start within the lens.
+/// All rays of one pixel intersect on the plane of focus, wherever they pass the lens, and start within the lens.
 TYPED_TEST(CameraOf, LensFocuses) {
   using Real = TypeParam;
   const auto scene = compiled_scene_of<Real>(
@@ -91,7 +91,7 @@ TYPED_TEST(CameraOf, LensFocuses) {
   }
 }
 
-/// Parallel rays that start on the screen window; with a lens they cross on the plane of focus.
+/// Parallel rays that start on the screen window; with a lens they intersect on the plane of focus.
 TYPED_TEST(CameraOf, Orthographic) {
   using Real = TypeParam;
   const std::string camera = "LookAt 1 2 3  1 2 8  0 1 0\nCamera \"orthographic\" ";
@@ -116,7 +116,7 @@ TYPED_TEST(CameraOf, Orthographic) {
   }
 }
 
-/// y is up; the left edge and the right one look along +x, and a quarter of the width further along +z.
+/// y is up; the left and right edges look along +x, and a quarter of the width further along +z.
 TYPED_TEST(CameraOf, Equirectangular) {
   const auto scene = compiled_scene_of<TypeParam>(
       film_of(200, 100) + "Camera \"spherical\" \"string mapping\" \"equirectangular\"\n" + sky);
@@ -127,14 +127,14 @@ TYPED_TEST(CameraOf, Equirectangular) {
   expect_along(ray_through(scene, 50, 25).direction, {0, 1, 1});
 }
 
-/// The middle of the square looks up, the middles of its sides along the axes of the horizon, the corners down.
+/// The centre of the square looks up, the centres of its sides along the axes of the horizon, the corners down.
 TYPED_TEST(CameraOf, EqualArea) {
   const auto scene = compiled_scene_of<TypeParam>(film_of(100, 100) + "Camera \"spherical\"\n" + sky);
   expect_along(ray_through(scene, 50, 50).direction, {0, 1, 0});
   expect_along(ray_through(scene, 100, 50).direction, {1, 0, 0});
   expect_along(ray_through(scene, 50, 100).direction, {0, 0, 1});
   expect_along(ray_through(scene, 0, 0).direction, {0, -1, 0});
-  // Past an edge the square goes on, turned round.
+  // Past an edge the square continues rotated.
   expect_along(ray_through(scene, 103, 30).direction, convert<double>(ray_through(scene, 97, 70).direction));
   // Equal areas: half of the pixels look up, a quarter above 30 degrees.
   int above = 0, high = 0;
@@ -148,7 +148,7 @@ TYPED_TEST(CameraOf, EqualArea) {
   EXPECT_NEAR(high, 2500, 120);
 }
 
-/// A quarter of what lies between the rays of a pixel, whatever the scale of camera space.
+/// A quarter of the area between the rays of a pixel, whatever the scale of camera space.
 TYPED_TEST(CameraOf, FootprintOfAPixel) {
   for (const char* scale : {"", "Scale 3 3 3\n"}) {
     const auto scene =
@@ -157,7 +157,7 @@ TYPED_TEST(CameraOf, FootprintOfAPixel) {
       return static_cast<double>(
           pixel_footprint(scene.view.camera, convert<TypeParam>(at), convert<TypeParam>(normalize(normal))));
     };
-    // On the plane z = 10 pixels are 0.2 wide, in the middle and at the edge.
+    // On the plane z = 10 pixels are 0.2 wide, at the centre and at the edge.
     EXPECT_NEAR(footprint({0, 0, 10}, {0, 0, -1}), 0.01, 1e-6);
     EXPECT_NEAR(footprint({7, -4, 10}, {0, 0, 1}), 0.01, 1e-6);
     EXPECT_NEAR(footprint({0, 0, 10}, {0, 1, 1}), 0.01 * std::sqrt(2), 1e-6);
@@ -165,7 +165,7 @@ TYPED_TEST(CameraOf, FootprintOfAPixel) {
   }
 }
 
-/// Also where the filter has negative parts, whose samples count against the others.
+/// Also if the filter has negative parts, whose samples have negative weights.
 TYPED_TEST(CameraOf, EveryFilterKeepsAConstantPicture) {
   for (const char* filter : {"box", "triangle", "gaussian", "mitchell", "sinc"}) {
     const auto scene = compiled_scene_of<TypeParam>(film_of(4, 4) + "PixelFilter \"" + filter +

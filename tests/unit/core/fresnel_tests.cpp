@@ -1,4 +1,4 @@
-// Fresnel reflectance where it has a simple form.
+// Fresnel reflectance in cases with a simple form.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ TYPED_TEST(FresnelOf, NormalIncidence) {
   }
 }
 
-/// At Brewster's angle, tan = eta, nothing of the parallel polarisation is reflected: the other half is
+/// At Brewster's angle, tan = eta, none of the parallel polarization is reflected; the other half is
 /// ((1 - eta^2) / (1 + eta^2))^2.
 TYPED_TEST(FresnelOf, Brewster) {
   for (const double eta : {1.2, 1.5, 2.4, 1 / 1.5}) {
@@ -64,7 +64,7 @@ TYPED_TEST(FresnelOf, Grazing) {
   EXPECT_NEAR(conductor<TypeParam>(0, 1.5, 2), 1, tolerance<TypeParam>);
 }
 
-/// The same from both sides: the cosine of refraction turns the one into the other.
+/// The same from both sides: the cosine of refraction maps one to the other.
 TYPED_TEST(FresnelOf, SameFromBothSides) {
   using Real = TypeParam;
   for (const double cosine : {1.0, 0.7, 0.3, 0.05}) {

@@ -1,5 +1,5 @@
-// Objects that stand in several places are met where their copies would be, by every tree, and rays leave them without
-// meeting them again.
+// Objects with several instances are hit where their copies would be, with every tree, and rays leave them without
+// hitting them again.
 
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ TYPED_TEST(InstancesInTree, AreMetWhereTheyMove) {
   EXPECT_GT(met_moving, effort(5'000) / 100);
 }
 
-/// Two instances in the same place: the lower one counts, whichever is visited first.
+/// Two coincident instances: the lower one counts, whichever is visited first.
 TYPED_TEST(InstancesInTree, OfTwoInOnePlaceTheLowerCounts) {
   using Real = typename TypeParam::Real;
   Scene twice = instanced_scene(3, 20, reach);
@@ -91,7 +91,7 @@ TYPED_TEST(InstancesInTree, OfTwoInOnePlaceTheLowerCounts) {
     if (!tree.closest_hit(ray, infinity<Real>, hit) || hit.instance == no_instance) continue;
     ++met;
     ASSERT_LT(hit.instance, once.size());
-    // A limit of exactly that distance is not before it.
+    // A limit of exactly that distance excludes the hit.
     Hit<Real> before;
     if (tree.closest_hit(ray, hit.t, before)) {
       ASSERT_LT(before.t, hit.t);
@@ -104,14 +104,14 @@ template <class Real>
 class Instances : public ::testing::Test {};
 TYPED_TEST_SUITE(Instances, Reals);
 
-/// A mesh that moves within an object is an instance by itself wherever the object stands.
+/// A mesh that moves within an object becomes an instance of its own wherever the object is placed.
 TYPED_TEST(Instances, OfMeshesThatMoveWithinAnObject) {
   using Real = TypeParam;
   Scene described = instanced_scene(21, 6, reach, true);
   Random random(22);
   Shape& moving = described.groups[1].shapes[1];
   moving.world_from_object.end = Transform::translate({0.5, 1, -0.5}) * moving.world_from_object.start;
-  // The same by hand: the still mesh in the object, the moving one in a group of its own.
+  // The same made by hand: the still mesh in the object, the moving one in a group of its own.
   Scene expected = described;
   const Shape taken = expected.groups[1].shapes[1];
   expected.groups[1].shapes.pop_back();
@@ -161,7 +161,7 @@ TYPED_TEST(Instances, LookLikeCopies) {
     const bool found = BvhIntersector<Real>(instances.view).closest_hit(ray, infinity<Real>, a);
     if (BvhIntersector<Real>(copies.view).closest_hit(ray, infinity<Real>, b) != found ||
         (found && std::abs(static_cast<double>(a.t - b.t)) > tolerance)) {
-      ++apart;  // past an edge by rounding
+      ++apart;  // past an edge because of rounding
       continue;
     }
     if (!found) continue;
@@ -170,7 +170,7 @@ TYPED_TEST(Instances, LookLikeCopies) {
     const SurfaceInteraction<Real> of_copy = surface_interaction(copies.view, ray, b);
     const auto distance = [](const Vec3<Real>& x, const Vec3<Real>& y) { return static_cast<double>(length(x - y)); };
     ASSERT_LT(distance(of_instance.position, of_copy.position), tolerance);
-    // Across an edge normals may be another's, but never those of the other side.
+    // Across an edge normals may be those of the other triangle, but never of the other side.
     ASSERT_GT(dot(of_instance.normal, of_copy.normal), Real(0.5));
     ASSERT_LT(distance(of_instance.shading_normal, of_copy.shading_normal), 0.7);
     if (distance(of_instance.normal, of_copy.normal) > 1e-2) ++apart;
@@ -179,14 +179,14 @@ TYPED_TEST(Instances, LookLikeCopies) {
   EXPECT_LT(apart, met / 1000 + 3);
 }
 
-/// The error bound of a point of an instance holds what is lost on the way out of the object's space and back.
+/// The error bound of a point on an instance includes the errors of transforming it out of the object's space and back.
 TYPED_TEST(Instances, AreNotMetByRaysThatLeaveThem) {
   using Real = TypeParam;
   Random random(7);
   size_t left = 0, met_again = 0;
   while (left < effort(100'000)) {
     Scene described;
-    Mesh mesh = icosphere(0);  // convex: what leaves outwards meets nothing
+    Mesh mesh = icosphere(0);  // convex: outward rays hit nothing
     const double size = random.magnitude_between(1e-3, 1e3);
     const Vec3d place = random.on_sphere() * random.magnitude_between(1e-3, 1e2) * size;
     for (Vec3d& p : mesh.positions) p = p * size + place;
@@ -198,7 +198,7 @@ TYPED_TEST(Instances, AreNotMetByRaysThatLeaveThem) {
     for (int i = 0; i < 2; ++i) {
       Instance instance;
       instance.group = 1;
-      // The second one is far off.
+      // The second one is far away.
       const Transform placement =
           Transform::translate(random.on_sphere() * size * (i == 0 ? 1e2 : 1e6)) * random_placement(random, 1);
       instance.world_from_group = {placement, placement};
@@ -217,7 +217,7 @@ TYPED_TEST(Instances, AreNotMetByRaysThatLeaveThem) {
       Hit<Real> hit;
       if (!LinearIntersector<Real>(scene.view).closest_hit(ray, infinity<Real>, hit) || hit.instance != 0) continue;
       const SurfaceInteraction<Real> si = surface_interaction(scene.view, ray, hit);
-      // Outwards is where the ray came from.
+      // Outward is the side from which the ray came.
       const double side = dot(si.normal, ray.direction) < 0 ? 1 : -1;
       const Vec3<Real> direction = convert<Real>(random.on_hemisphere(convert<double>(si.normal) * side));
       const Ray<Real> leaving = spawn_ray(si, normalize(direction));
@@ -228,7 +228,7 @@ TYPED_TEST(Instances, AreNotMetByRaysThatLeaveThem) {
   EXPECT_EQ(met_again, 0u) << "of " << left;
 }
 
-/// At any time they are where an instance would stand whose matrix is between those of the opening and of the closing.
+/// At any time they are where an instance with the interpolated matrix of shutter open and close would be.
 TYPED_TEST(Instances, MoveAlongLines) {
   using Real = TypeParam;
   const Scene moving = instanced_scene(13, 30, reach, true);

@@ -1,5 +1,5 @@
-// Rays that are traced many at a time meet, to the last bit, what they meet alone, in turns as in packets, by every
-// instruction set; and that is what looking at every primitive finds.
+// Rays traced many at a time have, to the last bit, the same hits as alone, interleaved or in packets, with every
+// instruction set; and these are the hits of a linear scan.
 
 #include <gtest/gtest.h>
 
@@ -37,8 +37,8 @@ struct Answers {
   }
 };
 
-/// Bundles of 1 to 40 rays from about one place in about one direction, with and without limits: some as narrow as a
-/// pixel, some so wide that they do not stay together.
+/// Bundles of 1 to 40 rays from about one point in about one direction, with and without limits: some as narrow as a
+/// pixel, some so wide that they diverge.
 template <class Real>
 Queries<Real> bundles(Random& random, size_t rays, double size) {
   Queries<Real> queries;
@@ -54,7 +54,7 @@ Queries<Real> bundles(Random& random, size_t rays, double size) {
   return queries;
 }
 
-/// Along axes, from nowhere, to nowhere: whatever comes of them, the same comes of them together.
+/// Rays along axes, and with NaN and infinity: whatever the result, it is the same together.
 template <class Real>
 void add_odd_rays(Queries<Real>& queries) {
   for (const double x : {0.0, -0.0, 1.0, 1e30, infinity<double>, std::numeric_limits<double>::quiet_NaN()})
@@ -131,7 +131,7 @@ TYPED_TEST(ManyRays, FewPrimitives) {
   }
 }
 
-/// Triangles that share no vertices: as many as just go without a tree by some instruction set, and one more.
+/// Triangles that share no vertices: the maximum for brute force with some instruction set, and one more.
 TYPED_TEST(ManyRays, FewVertices) {
   Random random(29);
   for (const int count : {4, 5, 9, 10, 18, 19, 37, 38}) {
@@ -153,7 +153,7 @@ TYPED_TEST(ManyRays, EdgesOfASmallMesh) {
   PrimitiveScene primitives;
   primitives.add_mesh(mesh);
   const CompiledScene<TypeParam> scene = primitives.flat<TypeParam>();
-  // From the middle and from outside at corners and at points of edges, where triangles lie at one distance.
+  // From the centre and from outside towards vertices and points on edges, where triangles have equal distances.
   Queries<TypeParam> queries;
   while (queries.rays.size() < effort(5'000)) {
     const Vec3d& corner = mesh.positions[random.below(static_cast<uint32_t>(mesh.positions.size()))];

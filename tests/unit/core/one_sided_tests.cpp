@@ -1,5 +1,5 @@
-// Surfaces of one side, as glTF has them: the camera looks through their backs, and where it does, light comes in; all
-// others stop light from both sides, so that rooms are rooms from within and cards throw shadows.
+// One-sided surfaces, as in glTF: the camera looks through their backs, and light enters where it does; all others stop
+// light from both sides, so that rooms are dark inside and cards cast shadows.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ const std::string sky = "LightSource \"infinite\" \"rgb L\" [1 1 1] ";
 const std::string sun = "LightSource \"distant\" \"point3 from\" [0.2 1 0.3] \"point3 to\" [0 0 0] \"rgb L\" [3 3 3] ";
 
 /// The walls of a cube of half side 1, each of two triangles: left, right, floor, ceiling, back (z = -1) and front.
-/// Their fronts look inwards.
+/// Their fronts face inwards.
 std::string walls(const std::string& which) {
   const std::pair<char, std::string> all[] = {
       {'l', "-1 -1 -1  -1 1 -1  -1 1 1  -1 -1 1"}, {'r', "1 -1 -1  1 -1 1  1 1 1  1 1 -1"},
@@ -51,7 +51,7 @@ template <class Real>
 class OneSided : public ::testing::Test {};
 TYPED_TEST_SUITE(OneSided, Reals);
 
-/// Fronts look inwards: the two triangles of each wall are wound so.
+/// Fronts face inwards: the two triangles of each wall have that winding.
 TYPED_TEST(OneSided, WallsLookInwards) {
   const CompiledScene<TypeParam> scene =
       compiled_scene_of<TypeParam>(view("0 0 9", "0 0 0", narrow) + sky + walls("lrfcbn"));
@@ -62,12 +62,12 @@ TYPED_TEST(OneSided, WallsLookInwards) {
   }
 }
 
-/// A room seen from outside is the room without the walls that the camera looks through, by every integrator and
+/// A room seen from outside equals the room without the walls that the camera looks through, with every integrator and
 /// camera.
 TYPED_TEST(OneSided, RoomSeenFromOutsideIsOpenToTheSky) {
   using Real = TypeParam;
   struct View {
-    std::string text, open;  ///< the walls that are not looked through
+    std::string text, open;  ///< `open`: only the walls that the camera does not look through
   };
   const View views[] = {
       {view("0 0 5", "0 -0.4 -1", "\"perspective\" \"float fov\" 12"), "lrfcb"},
@@ -83,13 +83,13 @@ TYPED_TEST(OneSided, RoomSeenFromOutsideIsOpenToTheSky) {
       SCOPED_TRACE(v.text + to_string(integrator));
       const double room = mean_of<Real>(one_sided(v.text + sky + clay + walls("lrfcbn")), integrator, 4);
       const double open = mean_of<Real>(described_scene(v.text + sky + clay + walls(v.open)), integrator, 4);
-      // The random numbers are the same, but rays that go through a wall set out again behind it.
+      // The random numbers are the same, but rays that pass through a wall are restarted behind it.
       EXPECT_NEAR(room, open, 0.02 * open);
       EXPECT_GT(room, 0.15);
     }
 }
 
-/// So it is where no more is seen of the wall than a hole in a board before it shows.
+/// This also holds if only a part of the wall is visible through a hole in a board in front of it.
 TYPED_TEST(OneSided, RoomSeenThroughAHoleIsOpen) {
   using Real = TypeParam;
   const std::string clay = "Material \"diffuse\" \"rgb reflectance\" [0.7 0.7 0.7] ";
@@ -101,10 +101,10 @@ TYPED_TEST(OneSided, RoomSeenThroughAHoleIsOpen) {
   const double room = mean_of<Real>(one_sided(hole + sky + clay + board + walls("lrfcbn")));
   const double open = mean_of<Real>(described_scene(hole + sky + clay + board + walls("lrfcb")));
   EXPECT_GT(open, 0.05);
-  EXPECT_NEAR(room, open, 0.02 * open);  // the whole wall is gone
+  EXPECT_NEAR(room, open, 0.02 * open);  // the whole wall is absent
 }
 
-/// Where all lights are without size they come in through every back; what is solid stops them all the same.
+/// If all lights are delta lights, they enter through every back; solid objects stop them all the same.
 TYPED_TEST(OneSided, RoomSeenFromOutsideIsOpenToTheSun) {
   using Real = TypeParam;
   const std::string outside = view("0 0 5", "0 -1 0", "\"perspective\" \"float fov\" 2");
@@ -123,13 +123,13 @@ TYPED_TEST(OneSided, RoomSeenFromOutsideIsOpenToTheSun) {
   }
 }
 
-/// From within, walls of one side are walls: no light of the sky or the sun comes in, and that of a lamp stays.
+/// From inside one-sided walls are walls: no light of sky or sun enters, and that of a lamp stays.
 TYPED_TEST(OneSided, RoomSeenFromWithinIsClosed) {
   using Real = TypeParam;
   const std::string inside = view("0 0 0.9", "0 -0.2 -1", "\"perspective\" \"float fov\" 60");
   const std::string clay = "Material \"diffuse\" \"rgb reflectance\" [0.7 0.7 0.7] ";
   EXPECT_LT(mean_of<Real>(one_sided(inside + sky + sun + clay + walls("lrfcbn"))), 5e-3);
-  // Nor where the room has in it something whose back is seen, such as an open box.
+  // Nor if the room contains something whose back is visible, such as an open box.
   const std::string open_box =
       "AttributeBegin Translate 0 -0.6 -0.4 Scale 0.3 0.3 0.3 ReverseOrientation " + walls("lrfbn") + "AttributeEnd ";
   EXPECT_LT(mean_of<Real>(one_sided(inside + sun + clay + walls("lrfcbn") + open_box)), 5e-3);
@@ -140,8 +140,8 @@ TYPED_TEST(OneSided, RoomSeenFromWithinIsClosed) {
   EXPECT_NEAR(one, two, 1e-3 * two);
 }
 
-/// A card above a floor, of which the camera sees a spot below the card: its shadow falls whichever way its front
-/// looks, as long as the camera sees the front; where the camera sees its back, there is no card.
+/// A card above a floor, of which the camera sees a spot below the card: it casts a shadow whichever way its front
+/// faces, as long as the camera sees the front; if the camera sees its back, the card is absent.
 TYPED_TEST(OneSided, CardsThrowShadows) {
   using Real = TypeParam;
   const std::string floor =
@@ -159,9 +159,9 @@ TYPED_TEST(OneSided, CardsThrowShadows) {
     return mean_of<Real>(one_sided(eye + light + floor + (faces_up ? "" : "ReverseOrientation ") + up),
                          IntegratorKind::path, 2);
   };
-  EXPECT_EQ(with_card(above, true), 0);   // its back is to the floor, and stops the light
+  EXPECT_EQ(with_card(above, true), 0);   // its back faces the floor, and stops the light
   EXPECT_EQ(with_card(below, false), 0);  // so does its front
-  // Whatever the camera sees the back of elsewhere.
+  // Whatever other backs the camera sees.
   const std::string elsewhere =
       "AttributeBegin Translate 30 2 -9 Rotate 180 0 1 0 Shape \"trianglemesh\" \"point3 P\" [-1 -1 0  1 -1 0  1 1 0  "
       "-1 1 0] "
@@ -175,8 +175,8 @@ TYPED_TEST(OneSided, CardsThrowShadows) {
   EXPECT_NEAR(with_card(below, true), mean_of<Real>(described_scene(below + light + floor)), 0.01 * lit);
 }
 
-/// Two cards in one place, back to back, whichever comes first: from each side, and in a mirror, the one is seen whose
-/// front is there; both throw shadows.
+/// Two coincident cards, back to back, in any order: from each side, and in a mirror, the one facing the viewer is
+/// visible; both cast shadows.
 TYPED_TEST(OneSided, CardsBackToBack) {
   using Real = TypeParam;
   const auto card = [](const std::string& reflectance, const std::string& orientation) {
@@ -210,7 +210,7 @@ TYPED_TEST(OneSided, CardsBackToBack) {
     EXPECT_EQ(mean_of<Real>(one_sided(beside + lamp + wall + pair), IntegratorKind::path, 2), 0);
 }
 
-/// A card is lit on its front, from its front.
+/// A card is lit on its front, by light from that side.
 TYPED_TEST(OneSided, CardsAreLit) {
   using Real = TypeParam;
   const std::string card =
@@ -227,7 +227,7 @@ TYPED_TEST(OneSided, CardsAreLit) {
   EXPECT_NEAR(mean_of<Real>(one_sided(back + sky + card)), 1, 1e-6);
 }
 
-/// Solid bodies are what they are with two sides, to the last bit: their backs are seen by nobody.
+/// Solid bodies are the same as two-sided ones, to the last bit: nobody sees their backs.
 TYPED_TEST(OneSided, BodiesAreTheSameWithOneSideAndTwo) {
   using Real = TypeParam;
   const std::string text = view("2 3 6", "0 0.5 0", "\"perspective\" \"float fov\" 40") + sky + sun +
@@ -238,7 +238,7 @@ TYPED_TEST(OneSided, BodiesAreTheSameWithOneSideAndTwo) {
   EXPECT_EQ(mean_of<Real>(one_sided(text)), mean_of<Real>(described_scene(text)));
 }
 
-/// What shines on its front shines into a room whose wall it is, though the camera looks through its back.
+/// A wall that emits on its front illuminates its room, although the camera looks through its back.
 TYPED_TEST(OneSided, LampsInTheWallThatIsLookedThrough) {
   using Real = TypeParam;
   const std::string outside = view("0 4 5", "0 -1 0", "\"perspective\" \"float fov\" 8");
@@ -247,7 +247,7 @@ TYPED_TEST(OneSided, LampsInTheWallThatIsLookedThrough) {
   const auto room = [&](IntegratorKind integrator) {
     return mean_of<Real>(one_sided(outside + clay + walls("lrfb") + lamp + walls("c")), integrator, 3, 256);
   };
-  // The ceiling is seen from the middle of the floor under a form factor of 0.239, and the walls add to it.
+  // The ceiling seen from the centre of the floor has a form factor of 0.239, and the walls add to it.
   EXPECT_GT(room(IntegratorKind::path), 0.7 * 0.23);
   EXPECT_NEAR(room(IntegratorKind::path), room(IntegratorKind::iterative), 0.01);
 }

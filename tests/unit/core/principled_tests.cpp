@@ -1,4 +1,4 @@
-// The principled material at a point: what is decided while a scene is compiled is met there.
+// The principled material at a point: decisions made by the scene compiler agree with evaluation.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ template <class Real>
 class PrincipledOf : public ::testing::Test {};
 TYPED_TEST_SUITE(PrincipledOf, Reals);
 
-/// Bodies whose index is next to that of their surroundings, on either side of where they cease to refract: in float
+/// Bodies whose index is close to that of their surroundings, on either side of the limit for refraction: in float
 /// 1.001 - 1 is less than 0.001, in double it is more.
 TYPED_TEST(PrincipledOf, BodiesOfAnIndexNextToOneAreFinite) {
   using Real = TypeParam;
@@ -45,10 +45,10 @@ TYPED_TEST(PrincipledOf, BodiesOfAnIndexNextToOneAreFinite) {
         }
 }
 
-/// Over its greatest component.
+/// Divided by its greatest component.
 Vec3d hue_of(const Vec3d& colour) { return colour * (1 / max_component(colour)); }
 
-/// Hue of what smooth glass of a specular colour reflects to its mirror direction.
+/// Hue of the reflection of smooth glass with a specular colour in its mirror direction.
 template <class Real>
 Vec3d mirrored_hue(double iridescence, double cosine, const Vec3d& specular_colour) {
   Scene scene;
@@ -62,8 +62,8 @@ Vec3d mirrored_hue(double iridescence, double cosine, const Vec3d& specular_colo
   return hue_of(convert<double>(evaluate_bsdf(bsdf, wo, n * (2 * dot(wo, n)) - wo).value));
 }
 
-/// A film over coloured glass sends back colours of its own, which those of the glass are part of already
-/// (KHR_materials_iridescence: its reflectance takes the place of the interface's).
+/// A film over coloured glass reflects colours of its own, which already include those of the glass
+/// (KHR_materials_iridescence: its reflectance replaces the interface's).
 TYPED_TEST(PrincipledOf, FilmsOverColouredGlassAreNotTinted) {
   using Real = TypeParam;
   const Vec3d red{1, 0, 0};

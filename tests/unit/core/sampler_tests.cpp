@@ -21,7 +21,7 @@ TYPED_TEST_SUITE(SamplerOf, Samplers);
 TYPED_TEST(SamplerOf, SameNumbersForTheSameArguments) {
   const TypeParam a(1, 2, 3, 4), b(1, 2, 3, 4);
   EXPECT_EQ(a.template get_1d<double>(9), b.template get_1d<double>(9));
-  // The order of draws does not matter, and a float is the double cut short.
+  // The order of draws does not matter, and a float is the truncated double.
   const Vec2d first = a.template get_2d<double>(5);
   b.template get_2d<double>(6);
   EXPECT_EQ(first, b.template get_2d<double>(5));
@@ -38,8 +38,8 @@ TYPED_TEST(SamplerOf, BelowOne) {
   EXPECT_LT(unit_interval<double>(0xffffffffu), 1.0);
 }
 
-/// Every argument counts, and none may stand for another: pixels, samples, seeds and branches that share their numbers
-/// would share their errors.
+/// Every argument matters, and none is equivalent to another: pixels, samples, seeds and branches with the same numbers
+/// would have the same errors.
 TYPED_TEST(SamplerOf, NoTwoShareTheirNumbers) {
   std::vector<std::array<uint32_t, 4>> numbers;
   const auto draw = [&](const TypeParam& sampler) {
@@ -62,8 +62,8 @@ TYPED_TEST(SamplerOf, NoTwoShareTheirNumbers) {
   EXPECT_EQ(std::adjacent_find(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// Every elementary interval of area 2^-k holds exactly one of the first 2^k points: of any 2^k in a row that start at
-/// a multiple of 2^k, in every pair of numbers.
+/// Every elementary interval of area 2^-k contains exactly one of the first 2^k points, and of any 2^k consecutive ones
+/// that start at a multiple of 2^k, in every pair of dimensions.
 TEST(Sobol, PointsAreNets) {
   for (const uint32_t dimension : {0u, 1u, 4u, 5u, 29u})
     for (uint32_t k = 1; k <= 12; ++k)
@@ -109,8 +109,8 @@ TEST(Sobol, SecondDimensionByItsDefinition) {
   }
 }
 
-/// An Owen scrambling changes each bit by those above it alone: numbers that agree in their first k bits still do. Here
-/// the bits are reversed.
+/// Owen scrambling changes each bit by those above it only: numbers with equal first k bits still have them. Here the
+/// bits are reversed.
 TEST(Sobol, ScramblingIsNested) {
   for (uint32_t i = 0; i < 10'000; ++i) {
     const uint32_t x = mix32(i), seed = mix32(i + 77'777), k = i % 32;
@@ -125,7 +125,7 @@ TEST(Hash, ReverseBits) {
   EXPECT_EQ(reverse_bits(0x12345678u), 0x1e6a2c48u);
 }
 
-/// The draws of a path do not overlap: neither within a vertex, nor between vertices, nor with the camera's.
+/// The dimensions of a path do not overlap: neither within a vertex, nor between vertices, nor with the camera's.
 TEST(Dimensions, AreDistinct) {
   std::vector<uint32_t> used{CameraDimensions::film, CameraDimensions::lens, CameraDimensions::time};
   for (uint32_t vertex = 0; vertex < 20; ++vertex) {

@@ -1,5 +1,5 @@
-// A ray that leaves a surface does not meet it at once, over many magnitudes of size and distance. The hit point comes
-// from a ray, as it does in a render.
+// A ray that leaves a surface does not hit it at once, over many magnitudes of size and distance. The starting point is
+// the hit of a ray, as in a render.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace alhazen::test {
 namespace {
 
-/// One primitive, on the stack.
+/// A single primitive, on the stack.
 template <class Real>
 struct OnePrimitive {
   Vec3<Real> positions[3];
@@ -45,11 +45,11 @@ Vec3<Real> leaving_direction(const Vec3<Real>& normal, double side, Random& rand
     w = normalize(along + n * random.magnitude_between(1e-7, 1e-2));
   }
   Vec3<Real> direction = normalize(convert<Real>(w));
-  // Rounding may have turned it to the other side.
+  // Rounding may have moved it to the other side.
   return dot(direction, normal) * static_cast<Real>(side) < 0 ? -direction : direction;
 }
 
-/// Where a ray from `distance` away at about `target` meets the primitive, if it does.
+/// The hit of a ray from `distance` away towards about `target`, if there is one.
 template <class Real>
 std::optional<SurfaceInteraction<Real>> meet(const SceneView<Real>& scene, const Vec3d& target, double distance,
                                              Random& random) {
@@ -84,7 +84,7 @@ TYPED_TEST(SelfIntersectionOf, Triangles) {
     const Vec3d corners[3] = {p, p + random.on_sphere() * size, p + random.on_sphere() * size};
     for (int i = 0; i < 3; ++i) scene.positions[i] = convert<Real>(corners[i]);
     const SceneView<Real> view = scene.view();
-    if (!(length(triangle_cross(view, scene.triangle)) > 0)) continue;  // compiling leaves these out
+    if (!(length(triangle_cross(view, scene.triangle)) > 0)) continue;  // the scene compiler omits these
     for (int i = 0; i < 16; ++i) {
       const Vec2d b = sample_triangle(random.uniform_2d<double>());
       const Vec3d target = corners[0] * b.x + corners[1] * b.y + corners[2] * (1 - b.x - b.y);
@@ -124,8 +124,8 @@ TYPED_TEST(SelfIntersectionOf, SpheresFromOutside) {
   EXPECT_EQ(met_again, 0u) << "of " << left;
 }
 
-/// Inwards the ray meets the far side, after 2 r cos: not the near side again. Spheres must be larger than what
-/// positions resolve at their place, or there is no inside.
+/// An inward ray hits the far side, after 2 r cos, not the near side again. Spheres must be larger than the resolution
+/// of positions, or there is no inside.
 TYPED_TEST(SelfIntersectionOf, SpheresFromInside) {
   using Real = TypeParam;
   Random random(3);
@@ -152,7 +152,7 @@ TYPED_TEST(SelfIntersectionOf, SpheresFromInside) {
   EXPECT_EQ(met_again, 0u) << "of " << left;
 }
 
-/// A sampled point of a light is seen from where nothing stands between: the light itself does not hide it.
+/// A sampled point of a light is visible if nothing is in between: the light does not occlude itself.
 TYPED_TEST(SelfIntersectionOf, LightsAreSeen) {
   using Real = TypeParam;
   Random random(4);
@@ -194,7 +194,7 @@ TYPED_TEST(SelfIntersectionOf, LightsAreSeen) {
   EXPECT_EQ(hidden, 0u) << "of " << tried;
 }
 
-/// The third corner is so close to the first that the edges to the second are one after rounding.
+/// The third corner is so close to the first that the edges to the second are equal after rounding.
 TYPED_TEST(SelfIntersectionOf, NeedlesHaveFinitePoints) {
   using Real = TypeParam;
   const Real tiny = std::is_same_v<Real, float> ? Real(1) : Real(1e-9);
@@ -208,8 +208,8 @@ TYPED_TEST(SelfIntersectionOf, NeedlesHaveFinitePoints) {
   }
 }
 
-/// Another triangle in the same plane along two axes, where the point that a ray leaves has no error along the normal:
-/// as with walls that overlap. Needles seen from the edge may be hit all the same.
+/// Another triangle in the same plane along two axes, where the starting point has no error along the normal: as with
+/// overlapping walls. Needles seen edge-on may still be hit.
 TYPED_TEST(SelfIntersectionOf, WhatLiesInThePlaneIsNotHit) {
   using Real = TypeParam;
   Random random(21);

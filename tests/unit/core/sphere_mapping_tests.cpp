@@ -1,4 +1,4 @@
-// Directions to points of a picture and back, areas, and what lies beyond the picture's edges.
+// Directions to points of an image and back, areas, and texels beyond the image's edges.
 
 #include "core/lights/sphere_mapping.h"
 
@@ -39,7 +39,7 @@ TYPED_TEST(SphereMappings, OfTheAxes) {
     EXPECT_NEAR(static_cast<double>(uv.y), v, 1e-6);
   };
   const Real diagonal = std::sqrt(Real(0.5));
-  // The square of pbrt-v4: x to the right, y down, z in the middle.
+  // pbrt-v4's square: x to the right, y down, z at the centre.
   expect(octahedral_of_direction(Vec3<Real>{0, 0, 1}), 0.5, 0.5);
   expect(octahedral_of_direction(Vec3<Real>{1, 0, 0}), 1, 0.5);
   expect(octahedral_of_direction(Vec3<Real>{-1, 0, 0}), 0, 0.5);
@@ -58,7 +58,7 @@ TYPED_TEST(SphereMappings, OfTheAxes) {
   expect(equirectangular_of_direction(Vec3<Real>{-diagonal, 0, diagonal}), 0.5, 0.25);
 }
 
-/// The area that a small square has on the sphere, by the cross product of differences.
+/// The area of a small square on the sphere, by the cross product of differences.
 TEST(SphereMappingAreas, AreThoseOfSmallSquares) {
   Random random(2);
   constexpr double step = 1e-5;
@@ -76,7 +76,7 @@ TEST(SphereMappingAreas, AreThoseOfSmallSquares) {
     }
 }
 
-/// A texel is found at its centre; across edges of the picture, and across the folds, radiance does not jump.
+/// A texel is found at its centre; radiance is continuous across edges of the image and across the folds.
 TYPED_TEST(SphereMappings, LookUpsAreContinuous) {
   using Real = TypeParam;
   for (const int width : {16, 32}) {
@@ -95,7 +95,7 @@ TYPED_TEST(SphereMappings, LookUpsAreContinuous) {
       Random random(3);
       for (int i = 0; i < 100'000; ++i) {
         const Vec3d a = random.on_sphere(), b = normalize(a + random.on_sphere() * 1e-4);
-        // Rows of the other mapping end at the poles.
+        // Rows of the equirectangular mapping end at the poles.
         if (width == 32 && std::abs(dot(a, axes.normal)) > 0.99) continue;
         const Vec3<Real> ra = evaluate_environment(scene.view, record, convert<Real>(a));
         const Vec3<Real> rb = evaluate_environment(scene.view, record, convert<Real>(b));
@@ -105,7 +105,7 @@ TYPED_TEST(SphereMappings, LookUpsAreContinuous) {
   }
 }
 
-/// What a map says in directions that are not numbers is nothing, and no memory beyond it is read.
+/// For NaN directions a map returns black, and no memory outside it is read.
 TYPED_TEST(SphereMappings, NotANumber) {
   using Real = TypeParam;
   const Real nan = std::numeric_limits<Real>::quiet_NaN();

@@ -1,5 +1,5 @@
-// Tangents are derivatives of the position by uv, whatever the shape, however it is placed: a step along dpdu changes u
-// and leaves v. And what normal maps and bumps make of them leans the way that it should.
+// Tangents are derivatives of the position by uv, for any shape and placement: a step along dpdu changes u but not v.
+// And normal maps and bump maps tilt normals the right way.
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ constexpr const char* transforms[] = {"",
 constexpr const char* bump = R"(Texture "u" "float" "bilerp" "float v00" 0 "float v01" 0 "float v10" 0.3 "float v11" 0.3
     Material "diffuse" "texture displacement" "u")";
 
-/// How a shape comes into the world.
+/// Ways of placing a shape in the world.
 enum class Stands { alone, moving, as_instance, as_moving_instance };
 
 std::string placed(const std::string& shape, const std::string& transform, bool reversed, Stands stands) {
@@ -84,7 +84,7 @@ CompiledScene<Real> scene_of(Scene scene) {
   return flat;
 }
 
-/// What a ray finds, with its tangents.
+/// The hit of a ray, with its tangents.
 template <class Real>
 struct Found {
   Hit<Real> hit;
@@ -102,7 +102,7 @@ bool find(const CompiledScene<Real>& scene, const Vec3<Real>& from, const Vec3<R
   return true;
 }
 
-/// Calls check(found) for a hundred points of the shape, at any time. Rays come from everywhere.
+/// Calls check(found) for a hundred points of the shape, at random times. Rays come from all directions.
 template <class Real, class Check>
 void at_points(const CompiledScene<Real>& scene, const Check& check) {
   Random random(7);
@@ -137,8 +137,8 @@ class SurfaceTangentsOf : public ::testing::Test {
 };
 TYPED_TEST_SUITE(SurfaceTangentsOf, Reals);
 
-/// From a point a step of dpdu du + dpdv dv, and down onto the surface again: there uv has changed by (du, dv). Steps
-/// over an edge of a mesh, and over the seam of u, do not count.
+/// A step of dpdu du + dpdv dv from a point, projected back to the surface, changes uv by (du, dv). Steps over an edge
+/// of a mesh, and over the seam of u, are skipped.
 TYPED_TEST(SurfaceTangentsOf, AreDerivativesOfThePosition) {
   using Real = TypeParam;
   this->for_each_case(bump, [&](const std::string& text) {
@@ -160,11 +160,11 @@ TYPED_TEST(SurfaceTangentsOf, AreDerivativesOfThePosition) {
   });
 }
 
-/// A normal map that leans to (0.6, 0, 0.8) leans along dpdu, to the side of the front.
+/// A normal map with the normal (0.6, 0, 0.8) tilts it along dpdu, towards the front.
 TYPED_TEST(SurfaceTangentsOf, NormalMapsLeanAlongU) {
   using Real = TypeParam;
   this->for_each_case(bump, [&](const std::string& text) {
-    // The file has a bump, in the place of which comes the map.
+    // The file has a bump map, which the normal map replaces.
     Scene described = described_scene(text);
     Texture lean;
     lean.kind = TextureKind::constant;
@@ -182,7 +182,7 @@ TYPED_TEST(SurfaceTangentsOf, NormalMapsLeanAlongU) {
       const Vec3<Real> n = mapped_normal(scene.view, material.normal_map, material.normal_scale,
                                          texture_point(si, at.hit), frame_along(si.shading_normal, at.tangents));
       EXPECT_GT(dot(n, si.shading_normal), Real(0.7));
-      // Along what of dpdu, and then of dpdv, is perpendicular to the rest.
+      // Along dpdu, and then along the part of dpdv that is perpendicular to it.
       const Vec3<Real>& ns = si.shading_normal;
       const Vec3<Real> u = normalize(at.tangents.dpdu - ns * dot(ns, at.tangents.dpdu));
       const Vec3<Real> v = at.tangents.dpdv - ns * dot(ns, at.tangents.dpdv);
@@ -192,11 +192,11 @@ TYPED_TEST(SurfaceTangentsOf, NormalMapsLeanAlongU) {
   });
 }
 
-/// Where the displacement grows with u, the normal leans against dpdu, and stays on the side of the front.
+/// If the displacement increases with u, the normal tilts against dpdu, and stays on the front side.
 TYPED_TEST(SurfaceTangentsOf, BumpsLeanAgainstTheSlope) {
   using Real = TypeParam;
   this->for_each_case(bump, [&](const std::string& text) {
-    // Normals of curves lean along u themselves, by more than this bump.
+    // Shading normals of curves tilt along u by more than this bump.
     if (text.find("\"curve\"") != std::string::npos) return;
     const CompiledScene<Real> scene = scene_of<Real>(described_scene(text));
     at_points(scene, [&](const Found<Real>& at) {
@@ -212,8 +212,8 @@ TYPED_TEST(SurfaceTangentsOf, BumpsLeanAgainstTheSlope) {
   });
 }
 
-/// A mesh whose own tangents say what its uvs say leans the same way, whatever its placement: in the world and in
-/// instances that stand or move.
+/// A mesh with tangents that agree with its uvs tilts the same way, whatever its placement: in the world and in
+/// instances, still or moving.
 TYPED_TEST(SurfaceTangentsOf, TangentsOfAMeshAgreeWithItsUvs) {
   using Real = TypeParam;
   this->for_each_case(bump, [&](const std::string& text) {

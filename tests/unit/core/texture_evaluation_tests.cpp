@@ -1,4 +1,4 @@
-// Textures at points where their value is known.
+// Textures at points with known values.
 
 #include <gtest/gtest.h>
 
@@ -96,7 +96,7 @@ TYPED_TEST(TextureEvaluation, CheckerboardInSpace) {
       }
 }
 
-/// Two by two: 0 and 1 above, 2 and 3 below, as bytes a of 255.
+/// Two by two texels: 0 and 1 above, 2 and 3 below, as bytes a of 255.
 ImageTexels two_by_two(bool srgb) {
   ImageTexels image;
   image.width = image.height = 2;
@@ -127,7 +127,7 @@ TYPED_TEST(TextureEvaluation, NearestTexelWithVUpwards) {
     EXPECT_NEAR(t.at_uv(i, 0.2, 0.1), 0.4, tolerance);
     EXPECT_NEAR(t.at_uv(i, 0.8, 0.1), 0.8, tolerance);
   }
-  // Left of the picture, in its lower half.
+  // To the left of the image, in its lower half.
   EXPECT_NEAR(t.at_uv(0, -0.2, 0.1), 0.8, tolerance);
   EXPECT_NEAR(t.at_uv(0, -7.2, 4.1), 0.8, tolerance);
   EXPECT_EQ(t.at_uv(1, -0.2, 0.1), 0);
@@ -150,11 +150,11 @@ TYPED_TEST(TextureEvaluation, BilinearTexels) {
     EXPECT_NEAR(t.at_uv(i, 0.25, 0.5), 0.2, tolerance);
     EXPECT_NEAR(t.at_uv(i, 0.5, 0.5), 0.35, tolerance);
   }
-  // Halfway to what lies beyond the right edge.
+  // Halfway to the texel beyond the right edge.
   EXPECT_NEAR(t.at_uv(0, 1, 0.25), 0.6, tolerance);
   EXPECT_NEAR(t.at_uv(1, 1, 0.25), 0.4, tolerance);
   EXPECT_NEAR(t.at_uv(2, 1, 0.25), 0.8, tolerance);
-  // Far away and nowhere, something comes back.
+  // Infinity and NaN give some value.
   EXPECT_TRUE(std::isfinite(t.at_uv(0, 1e30, 0)));
   EXPECT_TRUE(std::isfinite(t.at_uv(0, std::numeric_limits<double>::quiet_NaN(), 0)));
 }
@@ -179,7 +179,7 @@ TYPED_TEST(TextureEvaluation, FloatTexelsAreLinear) {
   EXPECT_EQ(t.at(0, {}, {0.75, 0.5}), (Vec3d{100, 200, 300}));
 }
 
-/// (s, t) = (2 u, v) turned counter-clockwise by 90 degrees, then moved: (-v + 0.25, 2 u + 0.5).
+/// (s, t) = (2 u, v) rotated counter-clockwise by 90 degrees, then translated: (-v + 0.25, 2 u + 0.5).
 TYPED_TEST(TextureEvaluation, UvAreScaledThenTurnedThenMoved) {
   Texture turned = of_kind(TextureKind::coordinates);
   turned.uv_scale = {2, 1};
@@ -259,7 +259,7 @@ TYPED_TEST(TextureEvaluation, DirectionMixFollowsTheNormal) {
   EXPECT_NEAR(facing({0.8, 0.6, 0}), 0.6 + 0.4 * 0.25, rounding<TypeParam>);
 }
 
-/// By the formula: a cell has a dot where noise at its middle is positive, and then near its middle.
+/// By definition a cell has a dot if the noise at its centre is positive, near that centre.
 TYPED_TEST(TextureEvaluation, DotsLieInTheCellsThatNoiseChooses) {
   const Textures<TypeParam> t({constant(1), constant(0), over(TextureKind::dots, {0, 1, no_index})});
   int dots = 0;
@@ -267,7 +267,7 @@ TYPED_TEST(TextureEvaluation, DotsLieInTheCellsThatNoiseChooses) {
     for (int j = 0; j < 20; ++j) {
       const bool has_dot = perlin_noise(t.noise_permutation(), Vec3<double>{i + 0.5, j + 0.5, 0.5}) > 0;
       dots += has_dot;
-      // The dot's middle is at most 0.15 off that of the cell, its radius is 0.35.
+      // The dot's centre is at most 0.15 from that of the cell; its radius is 0.35.
       EXPECT_EQ(t.at_uv(2, i + 0.01, j + 0.01), has_dot ? 1 : 0) << i << " " << j;
       EXPECT_EQ(t.at_uv(2, i + 0.499, j + 0.499), 0);
     }
@@ -359,7 +359,7 @@ TYPED_TEST(TextureEvaluation, OctavesSum) {
   }
 }
 
-/// Between the darkest and the brightest of the colours of its spline, times 1.5.
+/// Between the darkest and the brightest colour of its spline, times 1.5.
 TYPED_TEST(TextureEvaluation, MarbleStaysWithinItsColours) {
   const Textures<TypeParam> t({of_kind(TextureKind::marble)});
   Random random(4);

@@ -1,4 +1,4 @@
-// What meshes have at their vertices beside normals and uv: second uvs, colours, tangents.
+// Vertex attributes other than normals and uv: second uvs, colours, tangents.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace alhazen::test {
 namespace {
 
-/// A triangle (0, 0), (1, 0), (0, 1) with everything; before it one that has nothing, so that offsets are not 0.
+/// A triangle (0, 0), (1, 0), (0, 1) with all attributes; one without any precedes it, so that offsets are not 0.
 Scene scene_with_attributes(const Transform& transform) {
   Scene scene = described_scene(film_of(4, 4) +
                                 "WorldBegin LightSource \"infinite\" Shape \"trianglemesh\" \"point3 P\" [5 0 0  6 0 0 "
@@ -51,7 +51,7 @@ class VertexAttributes : public ::testing::Test {
     return {};
   }
   Vec3d value(const CompiledScene<Real>& scene, uint32_t from_the_last, const Hit<Real>& hit) const {
-    // One material more stands at the end, for shapes without.
+    // The default material follows, for shapes without one.
     const TextureRange range = scene.view.materials[scene.view.materials_count - 2 - from_the_last].reflectance;
     return convert<double>(
         evaluate_texture(scene.view, range, TexturePoint<Real>{{}, {Real(0.25), Real(0.75)}, {}, hit}));
@@ -87,14 +87,14 @@ TYPED_TEST(VertexAttributes, TangentsAreThoseOfTheMeshOrOfItsUvs) {
   EXPECT_EQ(tangents(scene, true).dpdu, (Vec3<Real>{1, 0, 0}));
   EXPECT_EQ(mesh_tangent(scene.view, this->hit(scene)).handedness, -1);
   EXPECT_EQ(mesh_tangent(scene.view, this->hit(scene, true)).handedness, 0);
-  // A mirror turns left-handed into right-handed; scales do not lengthen tangents.
+  // A mirror swaps handedness; scales do not change the length of tangents.
   const auto mirrored = compiled_scene<Real>(scene_with_attributes(Transform::scale({1, -3, 1})));
   EXPECT_EQ(tangents(mirrored, false).dpdu, (Vec3<Real>{0, -1, 0}));
   EXPECT_EQ(tangents(mirrored, false).dpdv, (Vec3<Real>{1, 0, 0}));
   EXPECT_EQ(mesh_tangent(mirrored.view, this->hit(mirrored)).handedness, 1);
 }
 
-/// Area of (u, v) over area of the surface: 1 of the first set, 8 of the second; scales count.
+/// Area of (u, v) per area of the surface: 1 for the first set, 8 for the second; scales matter.
 TYPED_TEST(VertexAttributes, DensityOfUvs) {
   using Real = TypeParam;
   const auto scene = compiled_scene<Real>(scene_with_attributes(Transform::scale({2, 2, 2})));

@@ -27,15 +27,15 @@ struct Miss {
   size_t from_inside = 0, from_outside = 0;
 };
 
-/// Rays at the mesh, which is star-shaped about `center` and about as large as `radius`: from points in the inner half
-/// of it, and from outside on a way that leads through the inner half.
+/// Rays at the mesh, which is star-shaped about `center` and about as large as `radius`: from points in its inner half,
+/// and from outside in directions that lead through the inner half.
 template <class Tree, class Real = typename Tree::Real>
 Miss<Real> shoot(const SceneView<Real>& scene, const Mesh& mesh, const Vec3d& center, double radius, Aim aim,
                  size_t rays, Random& random) {
   const typename Tree::Intersector bvh(scene);
   Miss<Real> misses;
   for (size_t i = 0; i < rays; ++i) {
-    // What is drawn in double is rounded first, so that the ray aims at what the scene holds.
+    // Numbers generated in double are rounded first, so that the ray aims at what the scene contains.
     const Vec3<Real> target = convert<Real>(target_on(mesh, aim, random));
     const Vec3<Real> inside = convert<Real>(center + random.on_sphere() * (random.uniform<double>() * 0.5 * radius));
     const Vec3<Real> outwards = normalize(target - inside);
@@ -77,7 +77,7 @@ TYPED_TEST(WatertightOf, IcosphereFarAway) { check_watertight<TypeParam>(0, 100,
 TYPED_TEST(WatertightOf, Jittered) { check_watertight<TypeParam>(0.02, 1, {}, 3); }
 TYPED_TEST(WatertightOf, JitteredFarAway) { check_watertight<TypeParam>(0.02, 100, far_away, 4); }
 
-/// From the very centre of a mesh about the origin the way to a vertex is exact: edge functions come out as 0.
+// From the exact centre of a mesh about the origin the direction to a vertex is exact: edge functions become 0.
 TYPED_TEST(WatertightOf, ExactlyThroughVertices) {
   using Real = typename TypeParam::Real;
   const Mesh mesh = icosphere(4);
@@ -87,7 +87,7 @@ TYPED_TEST(WatertightOf, ExactlyThroughVertices) {
   const typename TypeParam::Intersector bvh(scene.view);
   Hit<Real> hit;
   for (const Vec3d& p : mesh.positions) {
-    // The direction need not be of unit length for this.
+    // The direction need not have unit length for this.
     EXPECT_TRUE(bvh.closest_hit({{}, convert<Real>(p)}, infinity<Real>, hit));
     EXPECT_TRUE(bvh.closest_hit({{}, normalize(convert<Real>(p))}, infinity<Real>, hit));
   }

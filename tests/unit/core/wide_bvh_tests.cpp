@@ -1,5 +1,5 @@
-// How the compressed wide BVH is made: every primitive is in one leaf, and every box holds what is below it. What rays
-// meet in it is in bvh_tests.cpp and watertight_tests.cpp.
+// The structure of the compressed wide BVH: every primitive is in one leaf, and every box contains everything below it.
+// bvh_tests.cpp and watertight_tests.cpp test traversal.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ class Walk {
  public:
   explicit Walk(const SceneView<float>& scene) : scene_(scene), seen_(scene.wide_primitives_count) {}
 
-  /// Checks what is below a node, and returns the box of it.
+  /// Checks everything below a node, and returns its box.
   Bounds3<float> below(uint32_t index, int depth) {
     deepest_ = std::max(deepest_, depth);
     ++nodes_;
@@ -117,7 +117,7 @@ TEST(WideBvh, OfHugeRangesOfSizes) {
   check(scene.flat<float>());
 }
 
-/// The binary tree's leaves hold up to eight where no plane parts them.
+/// The binary tree's leaves hold up to eight primitives that no plane separates.
 TEST(WideBvh, OfPrimitivesInOnePlace) {
   PrimitiveScene scene;
   for (int i = 0; i < 1000; ++i) scene.add_sphere({1, 2, 3}, 1);

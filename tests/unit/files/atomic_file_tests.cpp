@@ -1,4 +1,4 @@
-// Files that appear whole or not at all, their temporaries, and which file a path names.
+// Files that appear completely or not at all, their temporaries, and the files that paths name.
 
 #include "files/atomic_file.h"
 
@@ -30,7 +30,7 @@ class AtomicFiles : public ::testing::Test {
     file.write(text.data(), text.size());
     file.commit();
   }
-  /// Whether this filesystem has files without names.
+  /// Returns whether this filesystem supports nameless files.
   bool has_nameless() const {
     const int descriptor = ::open(folder_.path().c_str(), O_TMPFILE | O_WRONLY, 0600);
     if (descriptor >= 0) ::close(descriptor);
@@ -81,7 +81,7 @@ TEST_F(AtomicFiles, KeepsPermissionsOfWhatItReplaces) {
 }
 
 TEST_F(AtomicFiles, TemporariesOfKilledProcessesAreRemovedAndOthersAreNot) {
-  // The name is what a process without files without names would have left.
+  // The name that a process without nameless files would have left behind.
   const std::string abandoned = temporary_path(folder_.path()), in_use = temporary_path(folder_.path());
   const std::string foreign = folder_.write_text(".alhazen-notes", "of the user");
   for (const std::string& path : {abandoned, in_use}) folder_.write_text(fs::path(path).filename().string(), "half");

@@ -1,4 +1,4 @@
-// The one place that opens input: regular files alone, and none outside of a folder that confines.
+// Opening of input: regular files only, and none outside a confining folder.
 
 #include "files/input_file.h"
 
@@ -73,7 +73,7 @@ TEST(InputFile, RefusesWhatIsNoRegularFile) {
   EXPECT_EQ(input_problem(folder.write_text("a", "")).message, "");
 }
 
-/// With openat2, and as on kernels that have none.
+/// With openat2, and as on kernels without it.
 class Confined : public ::testing::TestWithParam<bool> {
  protected:
   Confined() {
@@ -86,7 +86,7 @@ class Confined : public ::testing::TestWithParam<bool> {
     fs::create_symlink(folder_.file("secret"), folder_.file("scene/absolute-out"));
     fs::create_symlink("/proc/self/root" + folder_.file("secret"), folder_.file("scene/magic-out"));
     fs::create_symlink("link-out", folder_.file("scene/link-to-link-out"));
-    // A name of which the folder's is the beginning.
+    // A name that begins with the folder's name.
     fs::create_directories(folder_.file("scene-two"));
     folder_.write_text("scene-two/secret", "secret");
   }
@@ -102,7 +102,7 @@ class Confined : public ::testing::TestWithParam<bool> {
 TEST_P(Confined, ReadsWithinTheFolder) {
   for (const char* name : {"inside", "./inside", "sub/../inside", "sub/link-inside", "sub//../inside"})
     EXPECT_EQ(text_of(path(name)), "inside") << name;
-  // By a path that does not begin with the folder's name, as one of the command line.
+  // A path that does not begin with the folder's name, as on the command line.
   EXPECT_EQ(text_of(path(folder_.file("scene/inside"), folder_.file("scene-two/../scene"))), "inside");
   EXPECT_EQ(text_of(path(folder_.file("scene") + "//inside", folder_.file("scene") + "/")), "inside");
 }

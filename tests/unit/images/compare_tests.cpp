@@ -140,7 +140,7 @@ TEST(Compare, EqualButForNanIsStillEqual) {
   EXPECT_EQ(d.flip, 0);
 }
 
-/// The definition, with the whole window summed at each pixel that has one.
+/// The definition, with the whole window summed at each pixel.
 double direct_ssim(const Plane<double>& a, const Plane<double>& b) {
   double total = 0, count = 0;
   for (size_t y = 5; y + 5 < a.height; ++y)
@@ -188,7 +188,7 @@ TEST(Compare, PicturesSmallerThanTheWindows) {
 }
 
 TEST(Compare, FlipIsThatOfTheReferenceImplementation) {
-  // Means of the authors' implementation, version 1.x in C++, at the same distance, for the same pictures.
+  // Means of the authors' implementation, version 1.x in C++, at the same distance, for the same images.
   EXPECT_NEAR(compare_images(pattern(96, 64, true), pattern(96, 64, false)).flip, 0.35060313, 1e-5);
   EXPECT_NEAR(compare_images(pattern(13, 7, true), pattern(13, 7, false)).flip, 0.37669685, 1e-5);
 }

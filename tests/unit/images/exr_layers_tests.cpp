@@ -1,4 +1,4 @@
-// Which channels and which part of an EXR file are its picture.
+// Selection of the channels and the part of an EXR file that are its image.
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -16,7 +16,7 @@
 namespace alhazen {
 namespace {
 
-/// The colour of a file of one pixel whose channels hold 0, 1, 2, ... in this order.
+/// The colour of a one-pixel file whose channels hold 0, 1, 2, ... in this order.
 std::vector<float> colour_of(const std::vector<std::string>& channels) {
   const TemporaryFolder folder;
   Image image{1, 1, channels, {}};
@@ -63,7 +63,7 @@ TEST(ExrLayers, OfSeveralTheOneThatIsCalledTheWhole) {
   EXPECT_NE(error_of({"layer.R", "layer.G"}).find("neither channels R, G, B nor grey"), std::string::npos);
 }
 
-/// The texel of a file of one pixel whose R, G and B have those primaries.
+/// The texel of a one-pixel file whose R, G and B have those primaries.
 std::vector<float> texel_of(const Imf::Chromaticities& primaries, const Colour& rgb, TextureEncoding encoding) {
   const TemporaryFolder folder;
   Imf::Header header(1, 1);
@@ -107,7 +107,7 @@ TEST(ExrPrimaries, ThoseOfNoColourSpaceAreRefused) {
     EXPECT_THROW(texel_of(primaries, {1, 1, 1}, TextureEncoding::automatic), InputError);
 }
 
-/// Writes a part for each list of channels, all of one pixel; part n holds n, n + 0.25, n + 0.5, ...
+/// Writes a part of one pixel for each list of channels; part n holds n, n + 0.25, n + 0.5, ...
 std::string write_parts(const TemporaryFolder& folder, const std::vector<std::vector<std::string>>& parts) {
   std::vector<Imf::Header> headers;
   for (size_t n = 0; n < parts.size(); ++n) {

@@ -70,7 +70,7 @@ TEST(Image, SrgbCurveHasItsInverseAndItsEnds) {
 
 TEST(Exr, SingleFloatsComeBackExactly) {
   const TemporaryFolder folder;
-  // Over two blocks of rows, in the order in which a reader gives channels.
+  // Over two blocks of rows, in the order in which a reader returns channels.
   const Image image = make_image(5, 131, {"R", "G", "B", "A", "albedo.R", "albedo.G", "albedo.B", "depth.Z"});
   ExrOptions options;
   options.pixel_type = ExrPixelType::single;
@@ -278,7 +278,7 @@ TEST(Png, NeedsRedGreenAndBlue) {
   EXPECT_EQ(folder.count(), 0u);
 }
 
-// Whole or not at all.
+// Completely or not at all.
 
 struct Interrupted {};
 
@@ -365,7 +365,7 @@ TEST(AtomicWrite, AFullDisk) {
   EXPECT_THROW(write_exr("/dev/full", source_of(make_image(300, 200, {"R"})), {}), RenderError);
 }
 
-/// A disk that is full after so many bytes, for files written while it lives.
+/// A disk that is full after this number of bytes, for files written during its lifetime.
 class SmallDisk {
  public:
   explicit SmallDisk(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Tiny pictures of every format, written byte by byte, for the tests of the readers.
+// Tiny images in every format, written byte by byte, for the tests of the readers.
 
 #include <zlib.h>
 
@@ -39,7 +39,7 @@ inline Bytes png_chunk(const std::string& type, const Bytes& data) {
          big_32(static_cast<uint32_t>(crc32(0, body.data(), static_cast<uInt>(body.size()))));
 }
 
-/// `rows`: each row with its filter byte before it. `before_data`: chunks between header and data.
+/// `rows`: each row after its filter byte. `before_data`: chunks between header and data.
 /// Colour types: 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGB and alpha.
 inline Bytes png(uint32_t width, uint32_t height, uint8_t depth, uint8_t colour_type, const Bytes& rows,
                  const Bytes& before_data = {}) {
@@ -60,7 +60,7 @@ inline Bytes tga(uint8_t type, uint32_t width, uint32_t height, uint8_t bits, ui
          Bytes{bits, descriptor} + palette + data;
 }
 
-/// With the header of 40 bytes. A negative height: rows from the top down. `behind`: masks or palette.
+/// With a header of 40 bytes. A negative height: rows from the top down. `behind`: masks or palette.
 inline Bytes bmp(int width, int height, uint32_t bits, uint32_t compression, const Bytes& behind, const Bytes& rows,
                  uint32_t colours = 0) {
   const uint32_t texels_at = static_cast<uint32_t>(54 + behind.size());
@@ -80,7 +80,7 @@ inline Bytes pfm(const std::string& kind, int width, int height, const std::stri
   return text(kind + "\n" + std::to_string(width) + " " + std::to_string(height) + "\n" + scale + "\n") + values;
 }
 
-/// One block of 8 x 8 pixels of one colour. The only quantiser is 8, so that a coefficient of 40 is a value of 128 +
+/// One block of 8 x 8 pixels of one colour. The only quantizer is 8, so that a coefficient of 40 is a value of 128 +
 /// 40; the only DC code, 0, is followed by 6 bits; the only AC code, 0, ends a block.
 /// `components`: 1 (grey of 168) or 3 (Y, Cb and Cr of 168, 168 and 88).
 inline Bytes jpeg(uint8_t components) {

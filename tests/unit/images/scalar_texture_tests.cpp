@@ -18,7 +18,7 @@ ScalarTexture read(const std::string& name, const Bytes& bytes, TextureEncoding 
   return read_scalar_texture(folder.write(name, bytes), encoding);
 }
 
-/// The alpha as bytes; {} where the colours were taken.
+/// The alpha as bytes; {} if the colours were used.
 Bytes alpha_of(const std::string& name, const Bytes& bytes) {
   for (const TextureEncoding encoding : {TextureEncoding::automatic, TextureEncoding::srgb, TextureEncoding::linear}) {
     const ScalarTexture scalar = read(name, bytes, encoding);
@@ -157,7 +157,7 @@ TEST(ScalarTexture, MeanOfTheColoursWhereAlphaIsOne) {
   EXPECT_FALSE(read("a.pfm", pfm("PF", 1, 1, "-1.0", floats({1, 2, 3}))).from_alpha);
 }
 
-/// Every use of a float texture has the alpha, and a spectrum texture of the same file its colours.
+/// Every use as a float texture takes the alpha, and a spectrum texture of the same file its colours.
 TEST(ScalarTexture, OfPbrtScenes) {
   const TemporaryFolder folder;
   folder.write("leaf.png", png(2, 1, 8, 6, {0, 200, 100, 50, 0, 200, 100, 50, 255}));

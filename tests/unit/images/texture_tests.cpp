@@ -18,7 +18,7 @@ ImageTexels read(const std::string& name, const Bytes& bytes, TextureEncoding en
   return read_texture(folder.write(name, bytes), encoding);
 }
 
-/// The message of the InputError, without the path, or "" where nothing was thrown.
+/// The message of the InputError, without the path, or "" if nothing was thrown.
 std::string error_of(const std::string& name, const Bytes& bytes) {
   const TemporaryFolder folder;
   const std::string path = folder.write(name, bytes);
@@ -153,7 +153,7 @@ TEST(Texture, HdrFlatAndRunLengths) {
   EXPECT_EQ(texels.floats[22], 1.0f);
 }
 
-/// The picture of two rows of three texels, 1 2 3 above 4 5 6, in each of the eight orders that a file may have it in.
+/// The image of two rows of three texels, 1 2 3 above 4 5 6, in each of the eight possible orders of a file.
 TEST(Texture, HdrOfEveryOrientation) {
   const std::pair<const char*, std::vector<int>> orders[] = {
       {"-Y 2 +X 3", {1, 2, 3, 4, 5, 6}}, {"-Y 2 -X 3", {3, 2, 1, 6, 5, 4}}, {"+Y 2 +X 3", {4, 5, 6, 1, 2, 3}},

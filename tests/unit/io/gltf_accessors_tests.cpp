@@ -1,4 +1,4 @@
-// Accessors of glTF files: component types, normalised integers, strides, sparse values, bounds.
+// Accessors of glTF files: component types, normalized integers, strides, sparse values, bounds.
 
 #include "io/read_scene.h"
 #include "support/temporary_folder.h"
@@ -55,7 +55,7 @@ TEST(GltfAccessors, ReadIndicesOfEveryType) {
 
 TEST(GltfAccessors, FollowStrideAndOffset) {
   GltfFile file;
-  // Positions and normals in turns, from byte 4 on.
+  // Interleaved positions and normals, from byte 4 on.
   const int view = file.view<float>({9, 0, 0, 0, 0, 0, 1, 2, 0, 0, 0, 0, 1, 0, 2, 0, 0, 0, 1}, 24);
   json description{{"bufferView", view}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}, {"byteOffset", 4}};
   const int positions = file.add_accessor(description);

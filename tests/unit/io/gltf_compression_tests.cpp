@@ -1,4 +1,4 @@
-// Meshes of glTF files compressed by meshoptimizer and by Draco: whole, damaged and cut short.
+// Meshes of glTF files compressed by meshoptimizer and by Draco: intact, damaged and truncated.
 
 #include "unit/io/gltf_support.h"
 
@@ -14,7 +14,7 @@ namespace alhazen::test {
 
 namespace {
 
-/// Decodes with every byte of the compressed data changed in turn: a mesh or an error, never a crash.
+/// Decodes with every byte of the compressed data changed in turn: gives a mesh or an error, and never crashes.
 void expect_error_or_mesh(GltfFile file, size_t offset, size_t size) {
   for (size_t i = offset; i < offset + size; ++i)
     for (const uint8_t change : {uint8_t{0x01}, uint8_t{0x80}, uint8_t{0xff}}) {

@@ -1,5 +1,5 @@
-// Extensions of glTF that change what is read as a whole: hidden nodes, animated values, WebP, light that goes through
-// diffusely; and how what has no camera is seen and lit.
+// Extensions of glTF that affect the whole file: hidden nodes, animated values, WebP, diffuse transmission; and how
+// files without cameras or lights are viewed and lit.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ TEST(GltfVisibility, HidesNodesWithWhatIsBelowThem) {
   EXPECT_TRUE(parsed.diagnostics.warnings().empty());
 }
 
-/// A file whose one animation sets what `pointer` names to `values`, at 0 and 2 seconds.
+/// A file with one animation, which sets the target of `pointer` to `values` at 0 and 2 seconds.
 GltfFile animated(const std::string& pointer, const std::vector<float>& values, const std::string& type) {
   GltfFile file;
   file.add_triangle_of({{"pbrMetallicRoughness", {{"roughnessFactor", 0.25}}}, {"alphaMode", "BLEND"}});
@@ -56,7 +56,7 @@ TEST(GltfPointers, AnimateNumbersAndArrays) {
   };
   EXPECT_NEAR(roughness(file.parse()), 0.25, 1e-6);
   EXPECT_NEAR(roughness(file.parse(at_time(1))), 0.75, 1e-6);
-  // What the file leaves out is added.
+  // Members absent in the file are added.
   GltfFile colour = animated("/materials/0/pbrMetallicRoughness/baseColorFactor", {1, 0, 0, 1, 0, 0, 1, 1}, "VEC4");
   const ParsedGltf parsed = colour.parse(at_time(0.5));
   expect_point(parsed.texture(parsed.material().principled.base_colour).value, {0.75, 0, 0.25});
@@ -160,7 +160,7 @@ TEST(GltfCameras, FillPicturesOfAnyShape) {
     }
 }
 
-/// A camera at the origin, within a box that is closed but for its last `open` triangles.
+/// A camera at the origin, in a box that is closed except for its last `open` triangles.
 ParsedGltf room(size_t open) {
   std::vector<float> corners;
   for (int i = 0; i < 8; ++i)

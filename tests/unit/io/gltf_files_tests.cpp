@@ -1,4 +1,4 @@
-// Real glTF files: all that are well-formed open, and all that are not are refused or read, with one sentence.
+// Real glTF files: all well-formed ones are read, and all others are refused or read, with one sentence.
 
 #include "io/read_scene.h"
 #include "support/external_scenes.h"
@@ -10,7 +10,7 @@ namespace {
 
 const std::vector<std::string> gltf_extensions{".gltf", ".glb"};
 
-/// Warnings that are true of these files.
+/// Warnings that are correct for these files.
 bool is_expected(const std::string& warning) {
   return warning.find("points and lines have no area") != std::string::npos ||
          warning.find("no surface to be drawn") != std::string::npos;
@@ -41,7 +41,7 @@ TEST(GltfFiles, OpenEveryWellFormedOne) {
         expect_sound(scene);
         ++opened;
       } catch (const InputError& error) {
-        // The suite holds files that must be refused.
+        // The suite contains files that must be refused.
         if (path.string().find("Compatibility") == std::string::npos) ADD_FAILURE() << error.what();
       }
       for (const Diagnostics::Warning& warning : diagnostics.warnings())

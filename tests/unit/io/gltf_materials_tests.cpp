@@ -139,7 +139,7 @@ TEST(GltfMaterials, ReadTheExtensionsOfMaterials) {
   const Principled& p = m.principled;
   EXPECT_EQ(m.normal_scale, 0.5);
   EXPECT_EQ(parsed.texture(m.normal_map).kind, TextureKind::image);
-  EXPECT_TRUE(m.double_sided);  // a volume is met from within too
+  EXPECT_TRUE(m.double_sided);  // a volume is also hit from inside
   EXPECT_FALSE(p.thin);
   EXPECT_EQ(p.attenuation_distance, 2);
   expect_point(p.attenuation_colour, {0.5, 0.25, 1});
@@ -150,7 +150,7 @@ TEST(GltfMaterials, ReadTheExtensionsOfMaterials) {
   EXPECT_EQ(parsed.texture(parsed.texture(p.clearcoat_roughness).inputs[1]).channel, 1);
   EXPECT_NE(p.clearcoat_normal_map, no_index);
   expect_point(constant(parsed, p.sheen_colour), {0.5, 0, 1});
-  // Sheen roughness and specular lie in alpha.
+  // Sheen roughness and specular are stored in alpha.
   for (const uint32_t scalar : {p.sheen_roughness, p.specular}) {
     const ImageTexels& image = parsed.scene.images[parsed.texture(parsed.texture(scalar).inputs[1]).image];
     EXPECT_EQ(image.bytes.back(), 0);
@@ -168,7 +168,7 @@ TEST(GltfMaterials, ReadTheExtensionsOfMaterials) {
   EXPECT_TRUE(parsed.diagnostics.warnings().empty());
 }
 
-/// Where a point of glTF's uv lands in the picture, as (u, v) with v down.
+/// The position in the image of a point of glTF's uv, as (u, v) with v down.
 Vec2d mapped(const Texture& t, Vec2d uv) {
   const double c = std::cos(t.uv_rotation * std::numbers::pi / 180),
                r = std::sin(t.uv_rotation * std::numbers::pi / 180);
@@ -187,7 +187,7 @@ TEST(GltfMaterials, TransformTextureCoordinates) {
   const ParsedGltf parsed = file.parse();
   const Texture& node = parsed.texture(parsed.material().principled.base_colour);
   EXPECT_EQ(node.uv_set, 1);
-  // Translation * rotation * scale, with the rotation counter-clockwise as the picture is seen.
+  // Translation * rotation * scale, with the rotation counter-clockwise as seen in the image.
   const double c = std::cos(angle), s = std::sin(angle), u = 0.7, v = 0.4;
   const Vec2d at = mapped(node, {u, v});
   EXPECT_NEAR(at.x, c * 2 * u + s * 3 * v + 0.1, 1e-12);
@@ -262,7 +262,7 @@ TEST(GltfMaterials, PreferThePictureThatCanBeRead) {
   file.add_triangle_of({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}}}});
   EXPECT_EQ(file.parse().scene.images.size(), 1u);
   EXPECT_TRUE(file.parse().diagnostics.warnings().empty());
-  // Without the other picture this one is read, which is no more than a head.
+  // Without the other image this one is read, which is only a header.
   file.root["textures"][0].erase("source");
   EXPECT_NE(file.error().find("WebP"), std::string::npos) << file.error();
   file.root["textures"][0]["extensions"] = {{"KHR_texture_basisu", {{"source", 1}}}};
@@ -285,14 +285,14 @@ TEST(GltfLights, ReadPunctualLights) {
     file.add_node(node);
   }
   const ParsedGltf parsed = file.parse();
-  // The last is the neutral light, which whatever has no camera gets too.
+  // The last is the neutral light, which files without a camera get too.
   ASSERT_EQ(parsed.scene.lights.size(), 4u);
   EXPECT_EQ(parsed.scene.lights[3].kind, LightKind::environment);
   EXPECT_EQ(parsed.scene.lights[0].kind, LightKind::point);
   expect_point(parsed.scene.lights[0].radiance, {10, 5, 0});
   expect_point(parsed.scene.lights[0].position, {1, 2, 3});
   EXPECT_EQ(parsed.scene.lights[1].kind, LightKind::distant);
-  // -z, turned by a quarter about y.
+  // -z, rotated by 90 degrees about y.
   expect_point(parsed.scene.lights[1].direction, {-1, 0, 0});
   EXPECT_NEAR(parsed.scene.lights[2].cone_angle, 0.2 * 180 / std::numbers::pi, 1e-9);
   EXPECT_NEAR(parsed.scene.lights[2].falloff_start, 0.1 * 180 / std::numbers::pi, 1e-9);
@@ -332,7 +332,7 @@ TEST(GltfCameras, ReadPerspectiveAndOrthographicOnes) {
   const ParsedGltf second = file.parse(options);
   EXPECT_EQ(second.scene.camera.kind, CameraKind::orthographic);
   expect_point(second.scene.camera.world_from_camera.start.point({0, 0, 0}), {0, 7, 0});
-  // A window of [-1, 1] over the height reaches ymag.
+  // A window of [-1, 1] over the height is ymag high.
   expect_point(second.scene.camera.world_from_camera.start.direction({0, 1, 0}), {0, 2, 0});
   EXPECT_EQ(second.scene.film.width, 1280);
   EXPECT_EQ(second.scene.film.height, 640);
@@ -357,11 +357,11 @@ TEST(GltfCameras, FrameWhatHasNoCamera) {
     EXPECT_LT(std::abs(p.x), tangent * p.z);
     EXPECT_LT(std::abs(p.y), tangent * p.z);
   }
-  // x is to the right, so that writing can be read.
+  // x is to the right, so that text can be read.
   EXPECT_GT(camera_from_world.direction({1, 0, 0}).x, 0);
 }
 
-/// By the size of the scene in the picture, whatever its size in metres.
+/// By the size of the scene in the image, whatever its size in metres.
 TEST(GltfCameras, FrameTheSmallestAsTheLargest) {
   const auto height_in_picture = [](double scale) {
     GltfFile file;
@@ -377,7 +377,7 @@ TEST(GltfCameras, FrameTheSmallestAsTheLargest) {
     EXPECT_NEAR(height_in_picture(scale), expected, 1e-6) << scale;
 }
 
-// What is refused ---------------------------------------------------------------------------------------------------
+// Errors ------------------------------------------------------------------------------------------------------------
 
 TEST(GltfErrors, NameUnknownExtensions) {
   GltfFile file;

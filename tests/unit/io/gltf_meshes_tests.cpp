@@ -64,7 +64,7 @@ TEST(GltfMeshes, ReadNormalsTangentsUvsAndColours) {
   const Mesh& mesh = parsed.mesh();
   EXPECT_EQ(mesh.normals[0], (Vec3f{0, 0, 1}));
   EXPECT_EQ(mesh.tangents[0], (std::array<float, 4>{1, 0, 0, -1}));
-  // v runs down in the file, and up here.
+  // v points down in the file, and up here.
   EXPECT_EQ(mesh.uvs[0], (Vec2f{0, 0}));
   EXPECT_EQ(mesh.uvs[2], (Vec2f{0, 1}));
   EXPECT_NEAR(mesh.second_uvs[1].y, 0.8, 1e-6);
@@ -86,14 +86,14 @@ TEST(GltfMeshes, LeaveTangentsOutWhereThereAreNoNormals) {
 TEST(GltfMeshes, ChainTransformsOfNodes) {
   GltfFile file;
   const double half = std::numbers::sqrt2 / 2;
-  // A quarter turn about z, then a matrix that doubles and moves; by columns.
+  // A rotation by 90 degrees about z, then a matrix that scales by two and translates, given by columns.
   file.root["nodes"] = {
       {{"children", {1}}, {"matrix", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 10, 0, 0, 1}}},
       {{"mesh", 0}, {"rotation", {0, 0, half, half}}, {"translation", {0, 1, 0}}, {"scale", {3, 1, -1}}}};
   file.add_mesh(file.triangle());
   const ParsedGltf parsed = file.parse();
   const Transform& world = parsed.shapes()[0].world_from_object.start;
-  // (1, 0, 1) scaled (3, 0, -1), turned (0, 3, -1), moved (0, 4, -1), doubled and moved.
+  // (1, 0, 1) scaled (3, 0, -1), rotated (0, 3, -1), translated (0, 4, -1), then scaled and translated.
   expect_point(world.point({1, 0, 1}), {10, 8, -2});
   EXPECT_TRUE(world.swaps_handedness());
 }
@@ -144,7 +144,7 @@ TEST(GltfMeshes, ReadInstancesForGpus) {
   file.add_node(node);
   const ParsedGltf parsed = file.parse();
   ASSERT_EQ(parsed.scene.instances.size(), 2u);
-  // Half a turn about z.
+  // A rotation by 180 degrees about z.
   expect_point(parsed.scene.instances[1].world_from_group.start.point({1, 0, 0}), {9, 2, 3});
 }
 
@@ -225,7 +225,7 @@ TEST(GltfMeshes, InterpolateKeyframesInEveryWay) {
   expect_point(origin_at(file, "LINEAR", 99), {4, 0, 0});
   expect_point(origin_at(file, "STEP", 2.9), {0, 0, 0});
   expect_point(origin_at(file, "STEP", 3), {4, 0, 0});
-  // Hermite at one half: half of 4, and span * (1/8 of the out-tangent).
+  // Hermite interpolation at one half: half of 4, and span * (1/8 of the out-tangent).
   expect_point(origin_at(file, "CUBICSPLINE", 2), {2.25, 0, 0});
   expect_point(origin_at(file, "2", 1), {0, 0, 0});
   EXPECT_THROW(origin_at(file, "none of them", 1), InputError);
@@ -248,11 +248,11 @@ TEST(GltfMeshes, BlendSkins) {
   json primitive = file.triangle();
   primitive["attributes"]["JOINTS_0"] = file.accessor<uint8_t>({0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}, "VEC4");
   primitive["attributes"]["WEIGHTS_0"] = file.accessor<float>({1, 0, 0, 0, 0, 1, 0, 0, 0.5f, 0.5f, 0, 0}, "VEC4");
-  // Bound where joint 1 stands at (0, 0, -1).
+  // The bind pose has joint 1 at (0, 0, -1).
   const int inverse_bind = file.accessor<float>(
       {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1}, "MAT4");
   file.root["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", inverse_bind}}};
-  // The node's own place does not matter.
+  // The node's own transform does not matter.
   file.add_node({{"mesh", file.add_mesh(primitive)}, {"skin", 0}, {"translation", {100, 0, 0}}});
   file.add_node({{"translation", {0, 0, 0}}});
   file.add_node({{"translation", {0, 0, 3}}});

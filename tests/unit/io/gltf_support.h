@@ -1,6 +1,6 @@
 #pragma once
 
-// glTF files that tests write themselves.
+// glTF files written by tests.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ inline ParsedGltf parse_text(const std::string& text, const ReadOptions& options
   return parsed;
 }
 
-/// The message of the error that parsing gives, empty where it gives none.
+/// The message of the error from parsing, empty if there is none.
 inline std::string error_of_gltf(const std::string& text, const ReadOptions& options = {},
                                  const std::string& folder = "no-such-folder") {
   try {
@@ -59,7 +59,7 @@ inline std::string error_of_gltf(const std::string& text, const ReadOptions& opt
   return {};
 }
 
-/// A file in the making: JSON to be changed at will, and the bytes of its one buffer.
+/// A file under construction: JSON that can be changed freely, and the bytes of its one buffer.
 struct GltfFile {
   json root{{"asset", {{"version", "2.0"}}}};
   std::vector<uint8_t> data;
@@ -91,7 +91,7 @@ struct GltfFile {
     return static_cast<int>(root["accessors"].size()) - 1;
   }
 
-  /// An accessor of tightly packed values in a view of their own.
+  /// Adds an accessor of tightly packed values in a view of its own.
   template <class T>
   int accessor(const std::vector<T>& values, const std::string& type, bool normalized = false) {
     const size_t components = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : static_cast<size_t>(type[3] - '0');
@@ -103,7 +103,7 @@ struct GltfFile {
     return add_accessor(description);
   }
 
-  /// A mesh of one primitive, whose index is returned.
+  /// Adds a mesh of one primitive and returns its index.
   int add_mesh(json primitive) {
     root["meshes"].push_back({{"primitives", json::array({std::move(primitive)})}});
     return static_cast<int>(root["meshes"].size()) - 1;
@@ -130,7 +130,7 @@ struct GltfFile {
     add_node({{"mesh", add_mesh(primitive)}});
   }
 
-  /// A texture of a picture of 1 x 2 pixels, white above black; with alpha 255 above 0 where asked for.
+  /// A texture with an image of 1 x 2 pixels, white above black; with alpha 255 above 0 on request.
   int add_texture(bool has_alpha = false, json sampler = {}) {
     const std::string opaque =
         "iVBORw0KGgoAAAANSUhEUgAAAAEAAAACCAIAAAAW4yFwAAAAEElEQVR4nGP4//8/AwMDAwAR9gL+3Q4KRgAAAABJRU5ErkJggg==";

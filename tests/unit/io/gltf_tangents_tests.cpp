@@ -1,4 +1,4 @@
-// Tangents of glTF meshes that bring none along.
+// Tangents of glTF meshes that lack them.
 
 #include <array>
 
@@ -8,8 +8,8 @@
 namespace alhazen::test {
 namespace {
 
-/// Two triangles over an edge from (1, 0, 0) to (1, 1, 0), the second of them raised; vertices by the edge twice where
-/// `is_split`. u runs along x; the second triangle's runs back where `is_mirrored`.
+/// Two triangles with a common edge from (1, 0, 0) to (1, 1, 0), the second of them raised; the edge has two vertices
+/// at each end if `is_split`. u runs along x; that of the second triangle runs back if `is_mirrored`.
 Mesh strip(bool is_split, bool is_mirrored) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 1}};
@@ -37,7 +37,7 @@ TEST(GltfTangents, AreSharedAcrossEdges) {
     Mesh mesh = strip(is_split, false);
     gltf::add_tangents(mesh, 0);
     ASSERT_EQ(mesh.tangents.size(), mesh.positions.size());
-    // In the plane of the normal, which leans back by a sixteenth of a turn.
+    // In the plane of the normal, which tilts back by 22.5 degrees.
     expect_point(tangent(mesh, 1), {0.92387953, 0, 0.38268343}, 1e-6);
     expect_point(tangent(mesh, 0), {0.92387953, 0, 0.38268343}, 1e-6);
     if (is_split) {
@@ -49,16 +49,16 @@ TEST(GltfTangents, AreSharedAcrossEdges) {
 }
 
 TEST(GltfTangents, AreTheMeanByAngle) {
-  // Two triangles in a plane at one vertex with angles of 90 and 45 degrees; u of the second is turned by 90 degrees.
+  // Two triangles in a plane at one vertex with angles of 90 and 45 degrees; u of the second is rotated by 90 degrees.
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 1, 0}};
   mesh.normals.assign(4, Vec3f{0, 0, 1});
   mesh.uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
   mesh.indices = {0, 1, 2, 0, 2, 3};
-  // Of the second: p2 - p0 = (0, 1) at uv (0, 1), p3 - p0 = (-1, 1) at uv (1, 1): dp/du = (-1, 0), the other way round.
+  // In the second: p2 - p0 = (0, 1) at uv (0, 1), p3 - p0 = (-1, 1) at uv (1, 1): dp/du = (-1, 0), reversed.
   gltf::add_tangents(mesh, 0);
   ASSERT_EQ(mesh.positions.size(), 6u);
-  // So the vertices that both have are two each.
+  // So the two common vertices are duplicated.
   expect_point(tangent(mesh, 0), {1, 0, 0});
   EXPECT_EQ(mesh.tangents[0][3], 1);
   EXPECT_EQ(mesh.tangents[3][3], -1);

@@ -1,4 +1,4 @@
-// Infinite lights with pictures: what is read, how they stand, how bright they are, and what is refused.
+// Infinite lights with images: reading, orientation, brightness, and errors.
 
 #include <cmath>
 #include <limits>
@@ -40,7 +40,7 @@ class PbrtEnvironment : public ::testing::Test {
     return parse_world(before + " LightSource \"infinite\" " + parameters, folder_.path());
   }
 
-  /// The message of one on the second line of a file.
+  /// The message for a light on the second line of a file.
   std::string error(const std::string& parameters) const {
     return error_of("WorldBegin\nLightSource \"infinite\" " + parameters, folder_.path());
   }
@@ -57,7 +57,7 @@ TEST_F(PbrtEnvironment, PicturesAreRead) {
   EXPECT_EQ(light.where.line, 2);
   const ImageTexels& map = p.scene.environments.at(light.environment);
   ImageTexels expected = sun_map(16, 8, 5);
-  channel_of(expected, 0, 7, 2) = 0;  // no light takes light away
+  channel_of(expected, 0, 7, 2) = 0;  // radiance cannot be negative
   EXPECT_EQ(map.width, 16);
   EXPECT_EQ(map.height, 8);
   EXPECT_EQ(map.floats, expected.floats);
@@ -93,7 +93,7 @@ TEST_F(PbrtEnvironment, StandAsTheTransformSays) {
 
 TEST_F(PbrtEnvironment, IlluminanceIsThatOfAPlaneThatFacesUp) {
   const Parsed even = infinite("\"string filename\" \"square.exr\" \"float illuminance\" 10");
-  // Radiance 1/2 all round makes pi / 2.
+  // Radiance 1/2 all around gives pi / 2.
   EXPECT_NEAR(even.scene.lights.at(0).radiance.x, 10 / (pi<double> / 2), 1e-3);
   for (const char* name : {"wide", "sun"}) {
     const Parsed p =
@@ -172,7 +172,7 @@ TEST_F(PbrtEnvironment, BlackMapsAreNoLights) {
   EXPECT_EQ(flat.view.environments_count, 0u);
 }
 
-/// Descriptions that do not come from a reader.
+/// Descriptions that were not made by a reader.
 TEST_F(PbrtEnvironment, CompilingRefusesWhatIsNoMap) {
   const auto refuse = [](Scene scene) { EXPECT_THROW(compiled_scene<float>(std::move(scene)), InputError); };
   refuse(map_alone(even_map(3, 2, 1)));

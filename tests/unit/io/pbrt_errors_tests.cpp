@@ -1,4 +1,4 @@
-// Malformed scenes: the place at which each error must point, and the words that must be in it.
+// Malformed scenes: the location that each error must report, and the words that it must contain.
 
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,4 @@
-// Lights with pictures: what is read, which way they stand, what they send where, how bright they are and what is
-// refused.
+// Lights with images: reading, orientation, emission by direction, brightness, and errors.
 
 #include <cmath>
 #include <limits>
@@ -15,11 +14,11 @@ namespace {
 class PbrtLightPictures : public ::testing::Test {
  protected:
   PbrtLightPictures() {
-    // Bright to the right of the top row alone.
+    // Bright only at the right of the top row.
     ImageTexels map = even_map(4, 2, 0);
     for (size_t c = 0; c < 3; ++c) channel_of(map, 3, 0, c) = 1 + static_cast<float>(c);
     write("corner", map);
-    // The inner diamond of a square map is the half of the sphere about its z.
+    // The inner diamond of a square map is the hemisphere about its z.
     map = even_map(16, 16, 0);
     for (int y = 0; y < 16; ++y)
       for (int x = 0; x < 16; ++x)
@@ -57,8 +56,8 @@ TEST_F(PbrtLightPictures, AProjectionStandsUpright) {
   const Parsed p = world(light);
   EXPECT_TRUE(p.diagnostics.warnings().empty());
   EXPECT_EQ(p.scene.lights[0].kind, LightKind::projection);
-  // Twice as wide as high: at distance 1 from -2 to 2 and from -1 to 1. The texel's middle is (1.5, 0.5); x is to the
-  // right of one who looks along z with y up.
+  // Twice as wide as high: at distance 1 from -2 to 2 and from -1 to 1. The texel's centre is (1.5, 0.5); x is to the
+  // right when looking along z with y up.
   expect_near(sent_to(light, {1.5, 0.5, 1}), Vec3d{2, 4, 6} / splat(3.5), 1e-9);
   for (const Vec3d& dark : {Vec3d{-1.5, 0.5, 1}, {1.5, -0.5, 1}, {2.1, 0.5, 1}, {1.5, 1.1, 1}, {-1.5, -0.5, -1}})
     EXPECT_TRUE(is_zero(sent_to(light, dark))) << dark.x << " " << dark.y << " " << dark.z;
@@ -71,14 +70,14 @@ TEST_F(PbrtLightPictures, AGoniometricLightStandsUpright) {
   const Parsed p = world(light);
   EXPECT_TRUE(p.diagnostics.warnings().empty());
   EXPECT_EQ(p.scene.lights[0].kind, LightKind::goniometric);
-  // The picture's z is the light's y; red and green of 3 are 2 in the mean of the channels.
+  // The image's z is the light's y; red and green of 3 have the mean 2 over the channels.
   expect_near(sent_to(light, {0, 2, 0}), Vec3d{10, 12, 14} / splat(4.0), 1e-6);
   EXPECT_TRUE(is_zero(sent_to(light, {0, -2, 0})));
   EXPECT_TRUE(is_zero(sent_to("Rotate 180 1 0 0 " + light, {0, 2, 0})));
   EXPECT_TRUE(world("LightSource \"goniometric\" \"rgb I\" [ 1 1 1 ]").warned("equally in all directions"));
 }
 
-/// Integral of what is sent to a sphere of radius 1 is the power.
+/// The integral of the emission over the sphere is the power.
 TEST_F(PbrtLightPictures, PowerIsAllThatIsSent) {
   for (const std::string light :
        {R"(LightSource "goniometric" "string filename" "upper.exr" "float power" 10)",
@@ -88,7 +87,7 @@ TEST_F(PbrtLightPictures, PowerIsAllThatIsSent) {
     const double sent = integral_over_sphere(600, [&](const Vec3d& d) {
       return luminance(sample_light(scene.view, d, Vec3d{}, 0.0, 0.0, Vec2d{0.5, 0.5}).radiance);
     });
-    // Of a picture of few texels, interpolation between them moves light to where it counts otherwise.
+    // In an image of few texels, interpolation moves light to texels with other weights.
     EXPECT_NEAR(sent, 10, light.find("even") != std::string::npos ? 0.1 : 0.6) << light;
   }
 }
@@ -102,7 +101,7 @@ TEST_F(PbrtLightPictures, OfAreaLights) {
   EXPECT_TRUE(p.diagnostics.warnings().empty());
   const CompiledScene<double> scene = compiled_scene<double>(p.scene);
   const Hit<double> hit{1, 0, 0, PrimitiveId(PrimitiveKind::triangle, 0)};
-  // The middle of the last texel of the top row is at (3.5, 1.5); v goes up the picture.
+  // The centre of the last texel of the top row is at (3.5, 1.5); v points up in the image.
   SurfaceInteraction<double> si = surface_interaction(scene.view, Ray<double>{{0, 0, 1}, {0, 0, -1}, 0}, hit);
   const LightRecord<double>& lamp = scene.view.lights[0];
   si.uv = {3.5 / 4, 1.5 / 2};
@@ -110,13 +109,13 @@ TEST_F(PbrtLightPictures, OfAreaLights) {
               1e-6);
   si.uv = {3.5 / 4, 0.5 / 2};
   EXPECT_TRUE(is_zero(emission_factor(scene.view, lamp, point_of_emission(si, hit))));
-  // What is sampled is what is met.
+  // Light sampling and BSDF sampling see the same emission.
   for (const Vec2d& u : {Vec2d{0.1, 0.2}, {0.7, 0.9}, {0.95, 0.4}}) {
     const LightSample<double> s = sample_light(scene.view, Vec3d{1, 1, 5}, Vec3d{}, 0.0, 0.9, u);
     si.uv = {s.point.x / 4, s.point.y / 2};
     expect_near(s.radiance, emission_factor(scene.view, lamp, point_of_emission(si, hit)) * 3, 1e-6);
   }
-  // pi times the area times the mean luminance of the picture is the power.
+  // pi times the area times the mean luminance of the image is the power.
   const Parsed powered = world(R"(AreaLightSource "diffuse" "string filename" "even.exr" "float power" 10)" + quad);
   EXPECT_NEAR(shapes(powered)[0].emission->radiance.x, 10 / (pi<double> * 8 * 2), 1e-9);
 }

@@ -81,7 +81,7 @@ TEST(PbrtOptions, OtherCameras) {
   for (const Parsed* parsed : {&p, &orthographic}) EXPECT_FALSE(parsed->warned("Camera"));
 }
 
-/// A thin biconvex lens: 1 / f = (1.5 - 1) (1 / 50 + 1 / 50), so f = 50 mm; behind it an aperture stop.
+/// A thin biconvex lens: 1 / f = (1.5 - 1) (1 / 50 + 1 / 50), so f = 50 mm; behind it is an aperture stop.
 TEST(PbrtOptions, RealisticCameraHasTheFieldOfViewOfItsLens) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "pbrt_lens";
   std::filesystem::create_directories(folder);
@@ -228,7 +228,7 @@ TEST(PbrtFiles, LargeListsParse) {
   EXPECT_EQ(p.scene.meshes[0].indices.capacity(), 3 * count);
 }
 
-/// Scenes that lie beside the source tree where it was set up with them.
+/// Scenes beside the source tree, if they are installed there.
 std::vector<std::filesystem::path> scenes_beside_the_source() {
   const std::filesystem::path shared = std::filesystem::path(ALHAZEN_SOURCE_DIR) / ".." / "shared";
   std::vector<std::filesystem::path> scenes;

@@ -162,7 +162,7 @@ TEST(PbrtShapes, LoopSubdivisionKeepsAFlatSheetFlat) {
   for (const Vec3f& n : mesh_of(p).normals) EXPECT_EQ(n, (Vec3f{0, 0, 1}));
 }
 
-/// A tube has the area of the cone frustum around it: 2 pi * the mean radius * the slanted length.
+/// A tube has the area of the cone frustum around it: 2 pi * the mean radius * the slant height.
 TEST(PbrtShapes, StraightCurveIsATube) {
   const Parsed p = parse_world(
       "Shape \"curve\" \"point3 P\" [ 0 0 0 1 0 0 2 0 0 3 0 0 ] \"string type\" \"cylinder\" "
@@ -184,7 +184,7 @@ TEST(PbrtShapes, StraightCurveIsATube) {
   }
 }
 
-/// A quarter of a circle of radius 1, which a cubic follows to 0.03 %, as a ribbon that stands on it.
+/// A quarter of a circle of radius 1, which a cubic follows to 0.03 %, as a ribbon perpendicular to its plane.
 TEST(PbrtShapes, RibbonHasItsAreaAndNormals) {
   const Parsed p = parse_world(
       "Shape \"curve\" \"string type\" \"ribbon\" \"point3 P\" [ 1 0 0  1 0.5522847 0  0.5522847 1 0  0 1 0 ] "
@@ -197,7 +197,7 @@ TEST(PbrtShapes, RibbonHasItsAreaAndNormals) {
             std::string::npos);
 }
 
-/// The curve of a uniform B-spline begins at (p0 + 4 p1 + p2) / 6, of degree 2 at (p0 + p1) / 2.
+/// The curve of a uniform B-spline begins at (p0 + 4 p1 + p2) / 6, with degree 2 at (p0 + p1) / 2.
 TEST(PbrtShapes, SplinesAndDegrees) {
   const auto first_point = [](const std::string& parameters) {
     const Parsed p = parse_world("Shape \"curve\" \"string type\" \"ribbon\" \"float width\" 0.01 " + parameters);

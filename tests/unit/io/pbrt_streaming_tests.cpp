@@ -1,4 +1,4 @@
-// Scene files are read through a window: what lies across its edge, and what is longer than it.
+// Scene files are read through a window: tokens that cross its edge, and tokens longer than it.
 
 #include <zlib.h>
 
@@ -12,7 +12,7 @@ namespace alhazen::test {
 
 namespace {
 
-/// Of the lexer; what is tested does not depend on it but is only hard around it.
+/// The lexer's window; the tests do not depend on its size but are only difficult around it.
 constexpr size_t window = size_t{1} << 18;
 
 Parsed read(const std::string& path) {
@@ -30,7 +30,7 @@ std::string error_of_file(const std::string& path) {
   return {};
 }
 
-/// Of the processor, since others may use it too.
+/// Processor time, since other programs may run too.
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double seconds_of(const std::string& text) {
@@ -81,7 +81,7 @@ TEST(PbrtStreaming, PlaceAndExcerptFarIntoAFile) {
   const std::string error = error_of_file(path);
   EXPECT_NE(error.find(place), std::string::npos) << error;
   EXPECT_NE(error.find("Shape \"sphere\" Shap\n"), std::string::npos) << error;
-  // The caret stands below the word.
+  // The caret is below the word.
   const size_t excerpt = error.find("Shape \"sphere\" Shap\n"), caret = error.rfind('^');
   const size_t line = error.rfind('\n', excerpt), below = error.rfind('\n', caret);
   EXPECT_EQ(caret - below, error.find("Shap\n", excerpt) - line);
@@ -128,7 +128,7 @@ TEST(PbrtStreaming, BinaryFilesAreNamedSo) {
   EXPECT_EQ(error.find('\xff'), std::string::npos);
 }
 
-/// The excerpt shows a character for each, so that the caret stands where the place is.
+/// The excerpt shows one character for each, so that the caret is at the right column.
 TEST(PbrtStreaming, CaretBelowCharactersThatAreReplaced) {
   const std::string error = error_of("WorldBegin\n\"\x1b[31m\xc3\xa9\xff\" Shape");
   EXPECT_NE(error.find(" 2 | \"?[31m\xc3\xa9?\" Shape\n   | ^"), std::string::npos) << error;
@@ -136,7 +136,7 @@ TEST(PbrtStreaming, CaretBelowCharactersThatAreReplaced) {
   EXPECT_EQ(later.find('\x1b'), std::string::npos) << later;
 }
 
-/// Each was quadratic, or worse, in the number of names.
+/// Each of these was once quadratic, or worse, in the number of names.
 TEST(PbrtStreaming, ManyOfAKindTakeLinearTime) {
   constexpr int many = 100'000;
   std::string forward, backward = "MakeNamedMaterial \"0\" \"string type\" \"diffuse\"\n";

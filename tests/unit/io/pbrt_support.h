@@ -15,7 +15,7 @@ struct Parsed {
   Scene scene;
   Diagnostics diagnostics;
 
-  /// Whether one of the warnings contains `text`.
+  /// Returns whether one of the warnings contains `text`.
   bool warned(const std::string& text) const {
     for (const Diagnostics::Warning& warning : diagnostics.warnings())
       if (warning.to_string().find(text) != std::string::npos) return true;
@@ -29,12 +29,12 @@ inline Parsed parse(const std::string& text, const std::string& folder = "no-suc
   return parsed;
 }
 
-/// Parses `text` as what follows WorldBegin.
+/// Parses `text` after WorldBegin.
 inline Parsed parse_world(const std::string& text, const std::string& folder = "no-such-folder") {
   return parse("WorldBegin\n" + text, folder);
 }
 
-/// The message of the error that parsing gives, empty where it gives none.
+/// The message of the error from parsing, empty if there is none.
 inline std::string error_of(const std::string& text, const std::string& folder = "no-such-folder") {
   try {
     parse(text, folder);

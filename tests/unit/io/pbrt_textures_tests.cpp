@@ -135,7 +135,7 @@ TEST(PbrtTextures, Mappings) {
   EXPECT_TRUE(p.diagnostics.warnings().size() <= 1) << "only that there is nothing to see";
 }
 
-/// A picture of 2 x 1 texels in PFM: linear floats, so nothing is lost.
+/// An image of 2 x 1 texels in PFM: linear floats, so nothing is lost.
 std::string folder_with_picture() {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "pbrt_pictures";
   std::filesystem::create_directories(folder);

@@ -10,7 +10,7 @@ const std::string sphere = "Shape \"sphere\"\n";
 
 TEST(PbrtTransforms, ComposeFromTheRight) {
   const Parsed p = parse_world("Translate 1 2 3 Scale 2 2 2 Rotate 90 0 0 1 " + sphere);
-  // Rotated first, then scaled, then moved.
+  // Rotated first, then scaled, then translated.
   expect_near(shapes(p)[0].world_from_object.start.point({1, 0, 0}), {1, 4, 3});
   EXPECT_FALSE(shapes(p)[0].world_from_object.is_moving());
 }
@@ -30,7 +30,7 @@ TEST(PbrtTransforms, LookAtPlacesTheCamera) {
   expect_near(world_from_camera.point({0, 0, 0}), {0, -5, 1});
   expect_near(world_from_camera.direction({0, 0, 1}), {0, 1, 0});
   expect_near(world_from_camera.direction({0, 1, 0}), {0, 0, 1});
-  // The format is left-handed: without a mirror, x of the world is on the left of this view.
+  // The format is left-handed: without a mirror, the world's x is on the left in this view.
   expect_near(world_from_camera.direction({1, 0, 0}), {-1, 0, 0});
 }
 

@@ -1,4 +1,4 @@
-// Faces of more than three corners: those that are not convex are covered once and no more, the others are fans.
+// Faces of more than three corners: concave ones are covered exactly once, the others become fans.
 
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ double area_of(const std::vector<Vec2d>& polygon) {
   return sum;
 }
 
-/// Triangles that lie the right way round and have together the area of the polygon cover it once. As many as there
-/// must be, and each edge of the polygon is an edge of one of them.
+/// Correctly oriented triangles whose total area is that of the polygon cover it once. Their number must be right, and
+/// each edge of the polygon must be an edge of one of them.
 void expect_cover(const std::vector<Vec2d>& polygon, const Triangles& triangles, const char* name) {
   const double area = area_of(polygon);
   ASSERT_EQ(triangles.size(), polygon.size() - 2) << name;
@@ -102,7 +102,7 @@ TEST(EarClipping, EveryStart) {
   }
 }
 
-/// Areas alone: an edge that stands twice in the outline belongs to two triangles.
+/// Checks areas alone: an edge that occurs twice in the outline belongs to two triangles.
 double covered_area(const std::vector<Vec2d>& polygon) {
   EarClipper clipper;
   double sum = 0;
@@ -115,7 +115,7 @@ double covered_area(const std::vector<Vec2d>& polygon) {
 }
 
 TEST(EarClipping, OutlinesThatTouchThemselves) {
-  // A square with a square hole, joined by a bridge that is gone along twice.
+  // A square with a square hole, joined by a bridge that is traversed twice.
   EXPECT_EQ(covered_area({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}}), 12);
   // Two holes on one bridge.
   EXPECT_EQ(covered_area({{0, 0},
@@ -135,16 +135,16 @@ TEST(EarClipping, OutlinesThatTouchThemselves) {
                           {3, 1},
                           {1, 1}}),
             28);
-  // Two squares that share a corner, as one outline.
+  // Two squares with a common corner, as one outline.
   EXPECT_EQ(covered_area({{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 2}, {1, 2}, {1, 1}, {0, 1}}), 2);
-  // A corner that touches the side opposite.
+  // A corner that touches the opposite side.
   EXPECT_EQ(covered_area({{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}), 8);
   // Corners that repeat, and a needle out and back.
   EXPECT_EQ(covered_area({{0, 0}, {0, 0}, {2, 1}, {4, 0}, {4, 0}, {4, 0}, {2, 4}, {2, 4}}), 6);
   EXPECT_EQ(covered_area({{0, 0}, {4, 0}, {4, 4}, {2, 4}, {2, 9}, {2, 4}, {0, 4}}), 16);
 }
 
-/// Radii that vary at random about a centre, seen from outside of it: simple, with about every other corner reflex.
+/// Random radii about a centre, seen from outside of it: simple, with about every other corner reflex.
 TEST(EarClipping, RandomOutlines) {
   test::Random random(1);
   for (int count = 4; count < 200; ++count) {
@@ -157,7 +157,7 @@ TEST(EarClipping, RandomOutlines) {
   }
 }
 
-/// An outline that crosses itself at random, degenerate ones: they end, with as many triangles as ever.
+/// Random self-intersecting and degenerate outlines: triangulation ends, with the right number of triangles.
 TEST(EarClipping, AnyOutlineEnds) {
   test::Random random(2);
   EarClipper clipper;
@@ -174,7 +174,7 @@ TEST(EarClipping, AnyOutlineEnds) {
   }
 }
 
-/// 100,000 corners: quadratic time would be a minute.
+/// 100,000 corners: quadratic time would take a minute.
 TEST(EarClipping, LargePolygonsTakeLittleTime) {
   test::Random random(3);
   std::vector<Vec2d> rough, crossing;
@@ -235,7 +235,7 @@ TEST(PlyPolygons, ConcaveFacesInEveryPlane) {
     }
 }
 
-/// The area of the mesh is that of its faces, also where they stand among triangles and quads and repeat vertices.
+/// The area of the mesh is that of its faces, also if they are mixed with triangles and quads and repeat vertices.
 TEST(PlyPolygons, FacesOfManyKinds) {
   const std::string vertices = "0 0 1\n4 0 1\n4 1 1\n1 1 1\n1 3 1\n4 3 1\n4 4 1\n0 4 1\n";
   const Mesh mesh = parse(ply_of(vertices,
@@ -248,13 +248,13 @@ TEST(PlyPolygons, FacesOfManyKinds) {
     area += length(normal);
     along_z += normal.z;
   }
-  // A triangle of 2, two quads of 3.5, four times the C of 10, of which the last is turned over.
+  // A triangle of 2, two quads of 3.5, four times the C of 10, the last of which is flipped.
   EXPECT_EQ(mesh.triangle_count(), 1u + 6 + 2 + 2 + 6 + 7 + 6);
   EXPECT_NEAR(area, 2 + 2 * 3.5 + 4 * 10, 1e-12);
   EXPECT_NEAR(along_z, 2 + 2 * 3.5 + 2 * 10, 1e-12);
 }
 
-/// Lines that end with a carriage return alone, in all three formats; the byte behind the header may be a line feed.
+/// Lines that end with a carriage return alone, in all three formats; the byte after the header may be a line feed.
 TEST(PlyLineEnds, CarriageReturns) {
   std::string ascii = ply_of("0 0 0\n1 0 0\n0 1 0\n", "3 0 1 2\n");
   const Mesh expected = parse(ascii);

@@ -1,4 +1,4 @@
-// PLY files: every format and type, what is skipped, what is refused and where the message points.
+// PLY files: every format and type, skipped data, errors and their locations.
 
 #include "io/ply/ply.h"
 
@@ -44,7 +44,7 @@ std::string message_of(const std::string& bytes) {
   return "no error";
 }
 
-/// A file that is removed when the test is over.
+/// A file that is removed at the end of the test.
 class TemporaryFile {
  public:
   TemporaryFile() : path_(std::filesystem::temp_directory_path() / ("ply_test_" + std::to_string(getpid()))) {}
@@ -64,7 +64,7 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
-/// Appends values the way binary data hold them.
+/// Appends values as in binary data.
 class Bytes {
  public:
   explicit Bytes(std::endian order) : order_(order) {}
@@ -241,7 +241,7 @@ TEST(Ply, NumbersBeyondDoubles) {
 }
 
 TEST(Ply, FilesPlainAndCompressed) {
-  // More than one filling of the buffer, so that values lie across its end.
+  // Larger than the buffer, so that values cross its end.
   constexpr int count = 40000;
   std::string ascii_rows;
   Bytes binary_rows(std::endian::little);
@@ -308,7 +308,7 @@ void expect_early_end(const std::string& bytes) {
   EXPECT_NE(message.find("the file ends here"), std::string::npos) << message;
 }
 
-/// Headers that promise more than any machine holds, over data of a few bytes.
+/// Headers that promise more than any machine can hold, over data of a few bytes.
 void read_lies() {
   const std::string faces = "element face 18446744073709551615\nproperty list uint int vertex_indices\n";
   const std::string many_vertices = "element vertex 4000000000\n" + xyz +
@@ -328,7 +328,7 @@ void read_lies() {
   EXPECT_THROW(read_ply(file.path(), diagnostics), InputError);
 }
 
-// The address sanitizer maps memory of its own; GCC and clang each have their way to tell that it is there.
+// The address sanitizer maps memory of its own; GCC and clang indicate its presence differently.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool memory_can_be_limited = false;
 #elif defined(__has_feature)
@@ -337,7 +337,7 @@ constexpr bool memory_can_be_limited = !__has_feature(address_sanitizer);
 constexpr bool memory_can_be_limited = true;
 #endif
 
-/// Lets this process map at most `bytes` more than it has.
+/// Lets this process map at most `bytes` more than now.
 void limit_memory(rlim_t bytes) {
   rlim_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -391,8 +391,8 @@ TEST(Ply, Warnings) {
 
 struct Malformed {
   const char* text;
-  const char* place;    ///< what the message begins with
-  const char* keyword;  ///< what it must say
+  const char* place;    ///< the beginning of the message
+  const char* keyword;  ///< what it must contain
 };
 
 #define XYZ "property float x\nproperty float y\nproperty float z\n"

@@ -1,4 +1,4 @@
-// The file of a checkpoint: every damaged bit is found, and what it was made for is told from what it was not.
+// Checkpoint files: every damaged bit is found, and checkpoints of other renders are recognized.
 
 #include "render/checkpoint.h"
 
@@ -36,7 +36,7 @@ class CheckpointFiles : public ::testing::Test {
 
   Film<Real> make_film() const { return Film<Real>(settings_.window, settings_.aovs, false); }
 
-  /// Eight samples in every pixel, and values that differ.
+  /// Eight samples in every pixel, with different values.
   static void fill(Film<Real>& film) {
     const FilmView<Real> planes = film.view();
     for (uint32_t i = 0; i < 6; ++i) {
@@ -46,7 +46,7 @@ class CheckpointFiles : public ::testing::Test {
     }
   }
 
-  /// What the refusal says; empty where the file was taken.
+  /// The message of the refusal; empty if the file was accepted.
   std::string refusal(const RenderSettings& settings, uint64_t of_scene = scene) const {
     Film<Real> film = make_film();
     try {
@@ -83,7 +83,7 @@ TYPED_TEST(CheckpointFiles, BringsBackTheFilm) {
   });
 }
 
-/// By which a picture that was stopped before its first sample is known: it is black, and not worth writing.
+/// Identifies an image that was stopped before its first sample: it is black, and not worth writing.
 TYPED_TEST(CheckpointFiles, AnEmptyFilmIsToldFromOneWithSamples) {
   Rendering rendering;
   rendering.film = std::make_unique<Film<TypeParam>>(this->settings_.window, this->settings_.aovs, false);

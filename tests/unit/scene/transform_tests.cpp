@@ -1,4 +1,4 @@
-// Transforms: inverses, look_at, what counts as a similarity.
+// Transforms: inverses, look_at, similarities.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ TEST(Transform, InverseUndoes) {
     expect_close(t.inverse().point(t.point(p)), p);
     expect_close(t.inverse().direction(t.direction(d)), d);
     expect_close(computed.inverse().point(p), t.inverse().point(p), 1e-10);
-    // Normals stay normal: n . d = 0 before and after.
+    // Normals stay perpendicular: n . d = 0 before and after.
     const Vec3d n = normalize(cross(d, random.on_sphere()));
     EXPECT_NEAR(dot(t.normal(n), t.direction(d)), 0, 1e-12);
   }

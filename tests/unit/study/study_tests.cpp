@@ -1,4 +1,4 @@
-// What a study makes of its measurements: speedups, work per thread, the plan, resuming, comparing.
+// The evaluation of a study's measurements: speedups, work per thread, the plan, resuming, comparing.
 
 #include "study/study.h"
 
@@ -39,7 +39,7 @@ Trial trial_of(const std::string& key, std::vector<double> seconds, uint64_t sam
   return trial;
 }
 
-/// Two cells of one table over a baseline.
+/// Two cells of a table over a baseline.
 Study small_study(Measure measure = Measure::seconds) {
   Study study;
   study.machine.processor = "a processor";
@@ -88,7 +88,7 @@ TEST(StudyBalance, OfThreads) {
 TEST(StudyProcessors, ShareIsOfWhatThreadsCouldHaveHad) {
   EXPECT_NEAR(processor_fraction(2, 1, {1, 1}, 2), 1, 1e-12);
   EXPECT_NEAR(processor_fraction(1, 1, {1, 1}, 2), 0.5, 1e-12);
-  EXPECT_NEAR(processor_fraction(1.5, 1, {0.5, 1}, 2), 1, 1e-12);    // a static schedule: one is done early
+  EXPECT_NEAR(processor_fraction(1.5, 1, {0.5, 1}, 2), 1, 1e-12);    // a static schedule: one ends early
   EXPECT_NEAR(processor_fraction(2, 1, {1, 1, 1, 1}, 2), 1, 1e-12);  // more threads than processors
 }
 
@@ -104,7 +104,7 @@ TEST(StudyWorkPerThread, IsTheSameInAllForAnyChunks) {
   }
 }
 
-/// The pixels of a thread are those that the kernel of the CUDA backend gives it.
+/// The pixels of a thread are those that the CUDA backend's kernel assigns to it.
 TEST(StudyWorkPerThread, HasThePixelsOfTheKernel) {
   const int width = 19, height = 14, chunks_x = 4, chunks_y = 3;
   const std::string film = "Film \"rgb\" \"integer xresolution\" 19 \"integer yresolution\" 14\nPixelFilter \"box\"\n";
@@ -239,7 +239,7 @@ TEST(StudyResume, RefusesAnotherSceneAndWhatIsDamaged) {
   EXPECT_THROW(resume_from(damaged, "study.json", same), InputError);
 }
 
-/// As studies were written that were interrupted after a first run that was disturbed.
+/// As in studies that were interrupted after a first, disturbed run.
 nlohmann::json without_seconds(size_t trial) {
   nlohmann::json j = nlohmann::json::parse(to_json(small_study()).dump());
   j["trials"][trial] = {{"key", j["trials"][trial]["key"]}, {"status", "ok"}};
@@ -257,7 +257,7 @@ TEST(StudyResume, MeasuresAgainWhatHasNoTimes) {
   resume_from(without_seconds(1), "study.json", study);
   EXPECT_EQ(study.trials[0].status, TrialStatus::ok);
   EXPECT_EQ(study.trials[1].status, TrialStatus::not_run);
-  // Where all runs were disturbed, none is left, and the trial has not been run either.
+  // If all runs were disturbed, none is kept, and the trial counts as not run.
   Study earlier = small_study();
   earlier.trials[0].processor_fractions = {0.5, 0.5, 0.5};
   study.trials[0] = {};
@@ -293,7 +293,7 @@ TEST(StudyRead, TakesTheFolder) {
   EXPECT_EQ(read_study_json(folder.path()), read_study_json(folder.file("study.json")));
 }
 
-/// Drawn by Python where it has matplotlib.
+/// Drawn by Python if it has matplotlib.
 TEST(StudyPlots, OfStudiesThatWereInterrupted) {
   TemporaryFolder folder;
   Study study = small_study();
@@ -306,7 +306,7 @@ TEST(StudyPlots, OfStudiesThatWereInterrupted) {
     table.cells[1].row = "2" + schedule;
     study.tables.push_back(table);
   }
-  // The slowest repeat is the median: the difference of their speedups is rounded to either side of 0.
+  // The slowest repeat is the median: the difference of their speedups may be rounded to either side of 0.
   study.trials[0].seconds = {0.1, 0.3};
   study.trials[1].seconds = {0.7, 0.7, 0.7};
   study.trials[1].busy_seconds.resize(3, {1.0});

@@ -1,4 +1,4 @@
-// The tests' own statistics: known values of the distributions, and that they do find what is wrong.
+// The tests' own statistics: known values of the distributions, and that they detect errors.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ TEST(TestStatistics, ClosedForms) {
     EXPECT_NEAR(student_p_value(-x, 2), 1 - x / std::sqrt(2 + x * x), 1e-13);
     EXPECT_NEAR(student_p_value(x, 1e7), normal_p_value(x), 1e-6);
   }
-  // With many degrees of freedom chi-squared is normal, once its cube root is taken (Wilson and Hilferty 1931).
+  // With many degrees of freedom the cube root of chi-squared is approximately normal (Wilson and Hilferty 1931).
   for (const double x : {3800.0, 4095.0, 4500.0}) {
     const double z = (std::cbrt(x / 4095) - (1 - 2 / (9 * 4095.0))) / std::sqrt(2 / (9 * 4095.0));
     EXPECT_NEAR(chi_squared_p_value(x, 4095), 0.5 * std::erfc(z / std::sqrt(2.0)), 1e-5);
@@ -43,7 +43,8 @@ TEST(TestStatistics, SmallBinsArePooled) {
   EXPECT_DOUBLE_EQ(test.p_value, 1);
 }
 
-/// Under the null hypothesis p-values are uniform; a density wrong by a tenth on a tenth of the range is found.
+/// Under the null hypothesis p-values are uniform; a density that is wrong by a tenth on a tenth of the range is
+/// detected.
 TEST(TestStatistics, ChiSquaredFindsWhatIsWrong) {
   Random random(1);
   int below_a_tenth = 0;

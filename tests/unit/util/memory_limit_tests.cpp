@@ -53,8 +53,8 @@ TEST_F(MemoryLimits, OfTheGroupOrOfOneAboutIt) {
 }
 
 TEST_F(MemoryLimits, OfContainers) {
-  // The group of the container is mounted, and seen by its name outside or as the root; a namespace shows others by
-  // way of its root.
+  // The container's group is mounted, and named as outside or as the root; a namespace names others relative to its
+  // root.
   limit("v2", "memory.max", "6000\n");
   for (const char* group : {"/docker/1", "/", "/../2", "/docker/10"})
     EXPECT_EQ(found(std::string("0::") + group + "\n", version_2("/docker/1")), 6000u) << group;

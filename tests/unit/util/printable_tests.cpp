@@ -1,4 +1,4 @@
-// What a terminal would act upon never stays in a text that is shown.
+// Text that acts on a terminal is never printed unchanged.
 
 #include "util/printable.h"
 
@@ -23,13 +23,13 @@ TEST(Printable, EscapesWhatATerminalActsUpon) {
       {"a\nb\tc\rd\x7f", "a\\nb\\tc\\x0dd\\x7f"},
       {"\xc2\x9b"
        "31m",
-       "\\u009b31m"},  // CSI as one character of C1
+       "\\u009b31m"},  // CSI as one C1 character
       {"\x9b"
        "31m",
        "\\x9b31m"},  // and as a byte of ISO 8859-1
       {"\xe2\x80\xae"
        "gnp.exe",
-       "\\u202egnp.exe"},  // right to left override
+       "\\u202egnp.exe"},  // right-to-left override
       {"\xe2\x81\xa6"
        "x\xe2\x81\xa9",
        "\\u2066x\\u2069"},
@@ -48,7 +48,7 @@ TEST(Printable, EscapesBytesThatAreNotUtf8) {
       {"\xff\xfe", "\\xff\\xfe"},
       {"\xc3", "\\xc3"},
       {"\xc3(", "\\xc3("},
-      {"\xc0\x9b", "\\xc0\\x9b"},  // an escape spelt longer than it is
+      {"\xc0\x9b", "\\xc0\\x9b"},  // an overlong encoding of an escape
       {"\xe0\x80\x9b", "\\xe0\\x80\\x9b"},
       {"\xed\xa0\x80", "\\xed\\xa0\\x80"},
       {"\xf5\x80\x80\x80", "\\xf5\\x80\\x80\\x80"},

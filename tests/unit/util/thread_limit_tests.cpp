@@ -1,4 +1,4 @@
-// What is set for threads of the whole process is taken back.
+// Process-wide thread settings are restored.
 
 #include "util/thread_limit.h"
 
