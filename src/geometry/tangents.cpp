@@ -91,7 +91,7 @@ class TangentBuilder {
 
   void write() {
     enum : uint8_t { unused, straight, mirrored };
-    std::vector<uint8_t> way(mesh_.positions.size(), unused);
+    std::vector<uint8_t> orientation(mesh_.positions.size(), unused);
     std::unordered_map<uint32_t, uint32_t> twins;
     for (size_t t = 0; t < mesh_.triangle_count(); ++t) {
       const double determinant = turn(t);
@@ -99,22 +99,22 @@ class TangentBuilder {
         uint32_t& vertex = mesh_.indices[3 * t + i];
         // A triangle without uv area fits either orientation.
         const uint8_t wanted = determinant < 0 ? mirrored : straight;
-        if (way[vertex] == unused) way[vertex] = wanted;
-        if (way[vertex] == wanted || determinant == 0) continue;
+        if (orientation[vertex] == unused) orientation[vertex] = wanted;
+        if (orientation[vertex] == wanted || determinant == 0) continue;
         const auto [twin, is_new] = twins.try_emplace(vertex, static_cast<uint32_t>(mesh_.positions.size()));
         if (is_new) {
           duplicate(vertex);
-          way.push_back(wanted);
+          orientation.push_back(wanted);
         }
         vertex = twin->second;
       }
     }
     for (uint32_t i = 0; i < mesh_.positions.size(); ++i) {
-      const Vec3d sum = sums_[slot(i, way[i] == mirrored)];
+      const Vec3d sum = sums_[slot(i, orientation[i] == mirrored)];
       const double size = length(sum);
       const Vec3d unit = size > 0 ? sum * (1 / size) : Vec3d{};
       mesh_.tangents.push_back({static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z),
-                                way[i] == mirrored ? -1.0f : 1.0f});
+                                orientation[i] == mirrored ? -1.0f : 1.0f});
     }
   }
 

@@ -17,7 +17,7 @@ struct NoisyPicture {
 
 /// Why OptiX's denoiser cannot be used here, and what to do; empty if it can.
 std::string optix_denoiser_problem();
-/// Returns the denoised radiance of `picture`, computed by OptiX's denoiser on GPU `device`. Throws RenderError.
-std::vector<float> denoise_by_optix(const NoisyPicture& picture, int device);
+/// Returns the denoised radiance of `image`, computed by OptiX's denoiser on GPU `device`. Throws RenderError.
+std::vector<float> denoise_by_optix(const NoisyPicture& image, int device);
 
 }  // namespace alhazen

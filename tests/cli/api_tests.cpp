@@ -202,7 +202,7 @@ TEST_F(Api, TimeLimitEndsEarly) {
   EXPECT_FALSE(render(scene_, settings).complete);
 }
 
-TEST_F(Api, WarningsComeWithThePicture) {
+TEST_F(Api, WarningsComeWithTheImage) {
   const std::string scene = folder_.write_text(
       "warned.pbrt", cornell_box(8) + "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  0 0 0  0 0 0 ]\n");
   const Picture picture = render(scene, quick());

@@ -10,15 +10,15 @@ using CudaOptions = Command;
 
 TEST_F(CudaOptions, TheHostStandsInForAGpu) {
   ASSERT_EQ(render({"-q", "--spp", "5", "--backend", "serial", "-o", "serial.exr"}).exit_code, 0);
-  const std::vector<std::vector<std::string>> ways{
+  const std::vector<std::vector<std::string>> option_sets{
       {"pixel", "--block", "8x8"}, {"chunk", "--chunk", "3x2", "--block", "16x32"}, {"persistent"}, {"wavefront"}};
-  for (const std::vector<std::string>& way : ways) {
+  for (const std::vector<std::string>& options : option_sets) {
     std::vector<std::string> arguments{"-q",       "--spp", "5",  "--backend", "cuda",
                                        "--device", "host",  "-o", "host.exr",  "--strategy"};
-    arguments.insert(arguments.end(), way.begin(), way.end());
+    arguments.insert(arguments.end(), options.begin(), options.end());
     const CommandResult result = render(arguments);
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(image("serial.exr").planes, image("host.exr").planes) << way[0];
+    EXPECT_EQ(image("serial.exr").planes, image("host.exr").planes) << options[0];
   }
 }
 

@@ -55,11 +55,11 @@ TEST_F(Environment, ReplacesTheSkyUprightAndNotMirrored) {
                      "--integrator", integrator})
                     .exit_code,
                 0);
-      const Image picture = image("view.exr");
-      expect_colour(picture, 1, 4, {1, 0, 0});
-      expect_colour(picture, 7, 4, {0, 1, 0});
-      expect_colour(picture, 1, 8, {1, 0, 0});
-      expect_colour(picture, 4, 0, {0, 0, 1});
+      const Image rendered = image("view.exr");
+      expect_colour(rendered, 1, 4, {1, 0, 0});
+      expect_colour(rendered, 7, 4, {0, 1, 0});
+      expect_colour(rendered, 1, 8, {1, 0, 0});
+      expect_colour(rendered, 4, 0, {0, 0, 1});
     }
   }
 }
@@ -74,9 +74,9 @@ TEST_F(Environment, OfTheLibraryIsTheSame) {
   Settings settings;
   settings.samples_per_pixel = 4;
   settings.environment = folder_.file("map.exr");
-  const Picture picture = alhazen::render(folder_.file("view.pbrt"), settings);
-  EXPECT_TRUE(picture.warnings.empty());
-  for (size_t c = 0; c < 3; ++c) EXPECT_EQ(picture.planes[c], expected.planes[c]);
+  const Picture rendered = alhazen::render(folder_.file("view.pbrt"), settings);
+  EXPECT_TRUE(rendered.warnings.empty());
+  for (size_t c = 0; c < 3; ++c) EXPECT_EQ(rendered.planes[c], expected.planes[c]);
   settings.environment = folder_.file("odd.exr");
   EXPECT_THROW(alhazen::render(folder_.file("view.pbrt"), settings), std::runtime_error);
 }
@@ -90,9 +90,9 @@ TEST_F(Environment, LightsMeshesAlone) {
       run({"render", "mesh.ply", "--environment", "map.exr", "-o", "mesh.exr", "--spp", "1", "--size", "9x9", "-q"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
-  const Image picture = image("mesh.exr");
+  const Image rendered = image("mesh.exr");
   const size_t corner = 8 * 9;  // behind and below the mesh: not the white sky that meshes get otherwise
-  EXPECT_LT(picture.planes[0][corner] + picture.planes[1][corner] + picture.planes[2][corner], 1.01f);
+  EXPECT_LT(rendered.planes[0][corner] + rendered.planes[1][corner] + rendered.planes[2][corner], 1.01f);
 }
 
 TEST_F(Environment, WhatIsRefused) {

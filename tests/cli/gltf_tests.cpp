@@ -45,10 +45,10 @@ class Gltf : public Command {
     all.insert(all.end(), arguments.begin(), arguments.end());
     const CommandResult result = run(all);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    const Image picture = image("out.exr");
+    const Image rendered = image("out.exr");
     const auto sum = [&](const char* channel) {
       double total = 0;
-      for (const float value : picture.planes.at(static_cast<size_t>(picture.channel(channel))))
+      for (const float value : rendered.planes.at(static_cast<size_t>(rendered.channel(channel))))
         total += static_cast<double>(value);
       return total;
     };
@@ -85,10 +85,11 @@ TEST_F(Gltf, DarkensThePngOfLightsThatAreMuchTooBright) {
     all.insert(all.end(), further.begin(), further.end());
     const CommandResult result = run(all);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    const Image picture = image("out.png");
-    float most = 0;
-    for (const float value : picture.planes.at(static_cast<size_t>(picture.channel("G")))) most = std::max(most, value);
-    return std::pair{most, result.err.find("PNG with --exposure -") != std::string::npos};
+    const Image rendered = image("out.png");
+    float largest = 0;
+    for (const float value : rendered.planes.at(static_cast<size_t>(rendered.channel("G"))))
+      largest = std::max(largest, value);
+    return std::pair{largest, result.err.find("PNG with --exposure -") != std::string::npos};
   };
   const auto [fitted, is_said] = green("sun.gltf", {});
   EXPECT_LT(fitted, 0.99f);

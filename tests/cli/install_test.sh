@@ -22,7 +22,7 @@ cmake --build "$work/example/build"
 
 scene=$work/prefix/share/alhazen/scenes/cornell.pbrt
 "$work/example/build/render_to_memory" "$scene" | tee "$work/whole.txt"
-grep -q '^100 x 100 pixels, complete;' "$work/whole.txt" || fail "the example did not render the whole picture"
+grep -q '^100 x 100 pixels, complete;' "$work/whole.txt" || fail "the example did not render the whole image"
 "$work/example/build/render_to_memory" "$scene" 0 | tee "$work/cancelled.txt"
 grep -q '^100 x 100 pixels, cancelled;' "$work/cancelled.txt" || fail "the example did not cancel"
 status=0

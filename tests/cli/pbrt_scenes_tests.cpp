@@ -16,9 +16,9 @@ class PbrtScenes : public Command {
     const CommandResult result = run({"render", scene, "-o", "out.exr", "--spp", samples});
     EXPECT_EQ(result.exit_code, 0) << result.everything();
     errors_ = result.err;
-    const Image picture = image("out.exr");
+    const Image rendered = image("out.exr");
     double sum = 0;
-    const auto& green = picture.planes.at(static_cast<size_t>(picture.channel("G")));
+    const auto& green = rendered.planes.at(static_cast<size_t>(rendered.channel("G")));
     for (const float value : green) sum += static_cast<double>(value);
     return sum / static_cast<double>(green.size());
   }
@@ -27,9 +27,9 @@ class PbrtScenes : public Command {
 };
 
 /// The alpha of an RGBA image cuts holes into a black square, through which the sky is visible.
-TEST_F(PbrtScenes, AlphaOfAPictureCutsOut) {
-  const auto sky_through = [&](const Bytes& picture, const std::string& name, const std::string& use) {
-    folder_.write(name, picture);
+TEST_F(PbrtScenes, AlphaOfAnImageCutsOut) {
+  const auto sky_through = [&](const Bytes& image_bytes, const std::string& name, const std::string& use) {
+    folder_.write(name, image_bytes);
     folder_.write_text("leaf.pbrt", R"(Camera "orthographic" Film "rgb" "integer xresolution" 4 "integer yresolution" 4
 WorldBegin LightSource "infinite" "rgb L" [ 1 1 1 ]
 Texture "t" "float" "imagemap" "string filename" ")" +

@@ -61,7 +61,7 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
     EXPECT_NE(help.out.find(group), std::string::npos) << group;
 }
 
-TEST_F(RenderOptions, TextureBudgetMakesPicturesSmaller) {
+TEST_F(RenderOptions, TextureBudgetMakesImagesSmaller) {
   Image picture{800, 800, {"R", "G", "B"}, std::vector(3, std::vector<float>(800 * 800, 0.5f))};
   for (size_t i = 0; i < 800 * 800; i += 3) picture.planes[0][i] = 0.25f;
   write_png(folder_.file("picture.png"), source_of(picture), {});
@@ -262,7 +262,7 @@ TEST_F(RenderOptions, SizeAndParts) {
     for (size_t x = 0; x < 10; ++x) EXPECT_EQ(crop.planes[0][y * 10 + x], whole.planes[0][y * 20 + x + 10]);
 }
 
-TEST_F(RenderOptions, PictureOptionsReachTheRenderer) {
+TEST_F(RenderOptions, ImageOptionsReachTheRenderer) {
   EXPECT_EQ(statistics({"-o", "a.exr", "--spp", "5"})["spp"], 5);
   EXPECT_EQ(statistics({"-o", "a.exr"})["spp"], 2);
   EXPECT_EQ(statistics({"-o", "a.exr", "--max-depth", "0"})["mean_segments"], 1.0);
@@ -282,7 +282,7 @@ TEST_F(RenderOptions, SeedsChangeTheNoise) {
   EXPECT_TRUE(is_same(image("a.exr"), image("c.exr")));
 }
 
-TEST_F(RenderOptions, EngineOptionsReachTheBackendAndLeaveThePicture) {
+TEST_F(RenderOptions, EngineOptionsReachTheBackendAndKeepTheImage) {
   ASSERT_EQ(render({"-o", "serial.exr", "--spp", "2", "--backend", "serial"}).exit_code, 0);
   const Image serial = image("serial.exr");
   for (const char* strategy : {"tiles", "rows", "collapse", "rows+reduction", "reduction"}) {

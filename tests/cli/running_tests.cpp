@@ -57,7 +57,7 @@ TEST_F(Running, PlainProgressHasNoControlCharacters) {
   }
 }
 
-TEST_F(Running, InterruptWritesThePictureSoFar) {
+TEST_F(Running, InterruptWritesTheImageSoFar) {
   for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     CommandOptions options;
     options.signal_when = [&](const std::string& err) { return interrupt_at_progress(err) ? signal_number : 0; };
@@ -70,9 +70,9 @@ TEST_F(Running, InterruptWritesThePictureSoFar) {
     const nlohmann::json j = only_json(result.out);
     EXPECT_FALSE(j["complete"]);
     EXPECT_GT(j["camera_samples"], 0);
-    const Image picture = image("a.exr");
+    const Image rendered = image("a.exr");
     float brightest = 0;
-    for (const float value : picture.planes.at(static_cast<size_t>(picture.channel("R"))))
+    for (const float value : rendered.planes.at(static_cast<size_t>(rendered.channel("R"))))
       brightest = std::max(brightest, value);
     EXPECT_GT(brightest, 0.1f);
     EXPECT_EQ(image("a.png").width, 24);

@@ -22,7 +22,7 @@ class Streams : public Command {
   }
 };
 
-TEST_F(Streams, StderrThatTakesNothingKeepsThePicture) {
+TEST_F(Streams, StderrThatTakesNothingKeepsTheImage) {
   const Image whole = expected();
   const bool has_full = std::filesystem::exists("/dev/full");
   for (const std::string options : {"", "--progress json", "--progress plain -v", "-q"})
@@ -32,13 +32,13 @@ TEST_F(Streams, StderrThatTakesNothingKeepsThePicture) {
       const CommandResult result = script("$RENDER --spp 8 -o a.exr -o a.png " + options + " " + stream);
       EXPECT_EQ(result.exit_code, 0) << result.everything();
       ASSERT_TRUE(exists("a.exr"));
-      EXPECT_EQ(image("a.exr").planes, whole.planes) << "no message stands in the picture";
+      EXPECT_EQ(image("a.exr").planes, whole.planes) << "no message is written into the image";
       EXPECT_EQ(image("a.png").width, 16);
       std::filesystem::remove(folder_.file("a.exr"));
     }
 }
 
-TEST_F(Streams, ReaderOfStderrThatLeavesKeepsThePicture) {
+TEST_F(Streams, ReaderOfStderrThatLeavesKeepsTheImage) {
   const Image whole = expected();
   const CommandResult result =
       script("{ sleep 0.3; $RENDER --spp 8 --progress json -v -o a.exr; echo $? > code; } 2>&1 | true; cat code");
@@ -47,7 +47,7 @@ TEST_F(Streams, ReaderOfStderrThatLeavesKeepsThePicture) {
 }
 
 /// The read end of the pipe stays open, but nobody reads from it.
-TEST_F(Streams, ReaderOfStderrThatStopsKeepsThePicture) {
+TEST_F(Streams, ReaderOfStderrThatStopsKeepsTheImage) {
   const CommandResult result = script(
       "mkfifo pipe && exec 3<>pipe && head -c 65536 /dev/zero >&3\n"
       "timeout -k 1 60 $RENDER --spp 10000000 --time-limit 0.6 --progress json -v -o a.exr 2>&3; echo $?");

@@ -18,7 +18,7 @@ class Subcommands : public Command {
   }
 };
 
-TEST_F(Subcommands, CompareOfEqualPicturesIsZero) {
+TEST_F(Subcommands, CompareOfEqualImagesIsZero) {
   write_image("a.exr", 20, 14, 0.5f);
   const CommandResult result = run({"compare", "a.exr", "a.exr", "--json"});
   EXPECT_EQ(result.exit_code, 0) << result.everything();
@@ -71,7 +71,7 @@ TEST_F(Subcommands, CompareShowsWhere) {
 TEST_F(Subcommands, CompareRefusesWhatCannotBeCompared) {
   write_image("a.exr", 20, 14, 0.5f);
   write_image("b.exr", 14, 20, 0.5f);
-  folder_.write_text("text.png", "no picture");
+  folder_.write_text("text.png", "no bytes");
   const Bytes before =
       folder_.write_text("diff.png", "as it was") == "" ? Bytes() : read_file(folder_.file("diff.png"));
   const std::vector<std::vector<std::string>> cases{{"compare", "a.exr", "b.exr", "--diff", "diff.png"},
@@ -91,14 +91,14 @@ TEST_F(Subcommands, CompareRefusesWhatCannotBeCompared) {
   const CommandResult sizes = run({"compare", "a.exr", "b.exr"});
   EXPECT_NE(sizes.err.find("20 x 14"), std::string::npos) << sizes.err;
   EXPECT_EQ(run({"compare", "a.exr", "a.exr", "--diff", "no/such/folder/diff.png"}).exit_code, 2);
-  const Bytes picture = read_file(folder_.file("a.exr"));
+  const Bytes bytes = read_file(folder_.file("a.exr"));
   std::filesystem::create_symlink("a.exr", folder_.file("link.exr"));
   for (const char* name : {"a.exr", "./a.exr", "link.exr"}) {
     const CommandResult over_it = run({"compare", "a.exr", "a.exr", "--diff", name});
     EXPECT_EQ(over_it.exit_code, 2) << over_it.everything();
     EXPECT_NE(over_it.err.find("same file"), std::string::npos) << over_it.err;
   }
-  EXPECT_EQ(read_file(folder_.file("a.exr")), picture);
+  EXPECT_EQ(read_file(folder_.file("a.exr")), bytes);
 }
 
 TEST_F(Subcommands, DevicesListsTheBackends) {
@@ -145,7 +145,7 @@ TEST_F(Subcommands, HelpAndVersion) {
 }
 
 /// The result is printed even if the image cannot be written.
-TEST_F(Subcommands, CompareTellsWhatItMeasuredWithoutThePicture) {
+TEST_F(Subcommands, ComparePrintsItsResultWithoutTheImage) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
   write_image("a.exr", 20, 14, 0.5f);
   std::filesystem::create_symlink("/dev/full", folder_.file("full.png"));

@@ -25,7 +25,7 @@ class OutputTargets : public Command {
 
 TEST_F(OutputTargets, LinksAreFollowed) {
   fs::create_directories(folder_.file("sub/deeper"));
-  folder_.write_text("sub/old.exr", "an older picture");
+  folder_.write_text("sub/old.exr", "an older rendered");
   link("sub/old.exr", "old.exr");
   link("sub/new.exr", "new.exr");
   link(folder_.file("absolute.png"), "link.png");
@@ -83,8 +83,8 @@ TEST_F(OutputTargets, APipeWithoutAReaderEndsWithASignal) {
 }
 
 /// Whether there are samples when the signal arrives depends on the machine; a black image is never written.
-TEST_F(OutputTargets, InterruptAtTheStartKeepsTheOlderPictureOrShowsSomething) {
-  const Bytes older = read_file(folder_.write_text("a.exr", "an older picture"));
+TEST_F(OutputTargets, InterruptAtTheStartKeepsTheOlderImageOrShowsSomething) {
+  const Bytes older = read_file(folder_.write_text("a.exr", "an older rendered"));
   for (const char* threads : {"1", "64"}) {
     CommandOptions options;
     options.signal_when = [](const std::string& err) {
@@ -97,15 +97,15 @@ TEST_F(OutputTargets, InterruptAtTheStartKeepsTheOlderPictureOrShowsSomething) {
       continue;
     }
     EXPECT_EQ(result.exit_code, 130) << result.everything();
-    const Image picture = image("a.exr");
-    const std::vector<float>& red = picture.planes.at(static_cast<size_t>(picture.channel("R")));
+    const Image rendered = image("a.exr");
+    const std::vector<float>& red = rendered.planes.at(static_cast<size_t>(rendered.channel("R")));
     EXPECT_GT(*std::max_element(red.begin(), red.end()), 0.0f);
     folder_.write("a.exr", older);
   }
 }
 
 TEST_F(OutputTargets, KilledItLeavesNothing) {
-  folder_.write_text("a.exr", "an older picture");
+  folder_.write_text("a.exr", "an older rendered");
   const size_t files = folder_.count();
   // A pipe instead of the second image keeps the program writing.
   const CommandResult result = script(

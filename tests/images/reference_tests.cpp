@@ -187,7 +187,7 @@ TEST(References, MaterialTestballByTungsten) {
   EXPECT_LT(std::sqrt(squares / regions), 0.015);
 }
 
-TEST(References, EveryPbrtSceneHasAPicture) {
+TEST(References, EveryPbrtSceneHasAnImage) {
   const std::string folder = shared + "/scenes/pbrt";
   SKIP_WITHOUT(folder);
   Settings settings;

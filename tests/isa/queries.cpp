@@ -7,7 +7,7 @@ namespace ALHAZEN_CORE {
 
 namespace {
 
-template <test::Way way, bool any_hit, class Real>
+template <test::QueryMode mode, bool any_hit, class Real>
 void answer(const test::QueryRequest& request) {
   const SimdBvhIntersector<Real> intersector(*static_cast<const SceneView<Real>*>(request.scene));
   const auto* const rays = static_cast<const Ray<Real>*>(request.rays);
@@ -19,11 +19,11 @@ void answer(const test::QueryRequest& request) {
     hits[i] = hit;
     request.found[i] = found;
   };
-  if constexpr (way == test::Way::coherent) {
+  if constexpr (mode == test::QueryMode::coherent) {
     intersector.trace_coherent(request.count, ray, limit, keep);
-  } else if constexpr (way == test::Way::many) {
+  } else if constexpr (mode == test::QueryMode::many) {
     intersector.template trace<any_hit>(request.count, ray, limit, keep);
-  } else if constexpr (way == test::Way::in_turns) {
+  } else if constexpr (mode == test::QueryMode::interleaved) {
     if (static_cast<const SceneView<Real>*>(request.scene)->instances_count > 0)
       intersector.template trace_in_turns<any_hit, true>(request.count, ray, limit, keep);
     else
@@ -36,24 +36,25 @@ void answer(const test::QueryRequest& request) {
 }
 
 template <class Real>
-test::AnswerQueries select(test::Way way, bool any_hit) {
-  switch (way) {
-    case test::Way::coherent:
-      return answer<test::Way::coherent, false, Real>;
-    case test::Way::in_turns:
-      return any_hit ? answer<test::Way::in_turns, true, Real> : answer<test::Way::in_turns, false, Real>;
-    case test::Way::many:
-      return any_hit ? answer<test::Way::many, true, Real> : answer<test::Way::many, false, Real>;
-    case test::Way::one:
+test::AnswerQueries select(test::QueryMode mode, bool any_hit) {
+  switch (mode) {
+    case test::QueryMode::coherent:
+      return answer<test::QueryMode::coherent, false, Real>;
+    case test::QueryMode::interleaved:
+      return any_hit ? answer<test::QueryMode::interleaved, true, Real>
+                     : answer<test::QueryMode::interleaved, false, Real>;
+    case test::QueryMode::many:
+      return any_hit ? answer<test::QueryMode::many, true, Real> : answer<test::QueryMode::many, false, Real>;
+    case test::QueryMode::single:
       break;
   }
-  return any_hit ? answer<test::Way::one, true, Real> : answer<test::Way::one, false, Real>;
+  return any_hit ? answer<test::QueryMode::single, true, Real> : answer<test::QueryMode::single, false, Real>;
 }
 
 }  // namespace
 
-test::AnswerQueries select_answers(test::Way way, bool any_hit, bool is_double) {
-  return is_double ? select<double>(way, any_hit) : select<float>(way, any_hit);
+test::AnswerQueries select_answers(test::QueryMode mode, bool any_hit, bool is_double) {
+  return is_double ? select<double>(mode, any_hit) : select<float>(mode, any_hit);
 }
 
 }  // namespace ALHAZEN_CORE

@@ -7,9 +7,9 @@
 
 namespace alhazen {
 
-#define ALHAZEN_DECLARE_ANSWERS(set)                                               \
-  namespace set {                                                                  \
-  test::AnswerQueries select_answers(test::Way way, bool any_hit, bool is_double); \
+#define ALHAZEN_DECLARE_ANSWERS(set)                                                      \
+  namespace set {                                                                         \
+  test::AnswerQueries select_answers(test::QueryMode mode, bool any_hit, bool is_double); \
   }
 ALHAZEN_DECLARE_ANSWERS(baseline)
 #if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
@@ -22,11 +22,11 @@ namespace test {
 
 /// Uses the requested instruction set, or the best one below it that this processor supports.
 template <class Real>
-void answer_queries(const SceneView<Real>& scene, InstructionSet set, Way way, bool any_hit, uint32_t count,
+void answer_queries(const SceneView<Real>& scene, InstructionSet set, QueryMode mode, bool any_hit, uint32_t count,
                     const Ray<Real>* rays, const Real* limits, Hit<Real>* hits, bool* found) {
   const InstructionSet here = set < instruction_sets().back() ? set : instruction_sets().back();
   const auto select = ALHAZEN_KERNEL_OF(here, select_answers);
-  select(way, any_hit, sizeof(Real) == sizeof(double))({&scene, rays, limits, count, hits, found});
+  select(mode, any_hit, sizeof(Real) == sizeof(double))({&scene, rays, limits, count, hits, found});
 }
 
 /// Queries one by one.
@@ -37,13 +37,13 @@ class IsaIntersector {
 
   bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
     bool found;
-    answer_queries(*scene_, set, Way::one, false, 1, &ray, &t_max, &hit, &found);
+    answer_queries(*scene_, set, QueryMode::single, false, 1, &ray, &t_max, &hit, &found);
     return found;
   }
   bool occluded(const Ray<Real>& ray, Real t_max) const {
     Hit<Real> hit;
     bool found;
-    answer_queries(*scene_, set, Way::one, true, 1, &ray, &t_max, &hit, &found);
+    answer_queries(*scene_, set, QueryMode::single, true, 1, &ray, &t_max, &hit, &found);
     return found;
   }
 

@@ -7,8 +7,9 @@
 namespace alhazen::test {
 
 /// One ray per call, interleaved, all in one call as in renders, or all in one call as coherent packets.
-enum class Way : uint32_t { one, in_turns, many, coherent };
-inline constexpr Way ways[] = {Way::one, Way::in_turns, Way::many, Way::coherent};
+enum class QueryMode : uint32_t { single, interleaved, many, coherent };
+inline constexpr QueryMode query_modes[] = {QueryMode::single, QueryMode::interleaved, QueryMode::many,
+                                            QueryMode::coherent};
 
 /// Arrays of `count` elements in the requested precision: rays and limits, and the results.
 struct QueryRequest {

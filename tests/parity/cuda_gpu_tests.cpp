@@ -106,11 +106,11 @@ class CudaOnDevice : public ::testing::TestWithParam<Case> {
   std::string device_, scene_, integrator_;
 };
 
-TEST_P(CudaOnDevice, InDoubleGivesTheSerialPicture) { expect_alike<double>("double", 1e-9, 0.999); }
+TEST_P(CudaOnDevice, InDoubleGivesTheSerialImage) { expect_alike<double>("double", 1e-9, 0.999); }
 
 /// Fused operations and the other tree move a ray by an ulp; few paths then diverge, which affects 1 of the 64 samples
 /// of a pixel.
-TEST_P(CudaOnDevice, InFloatGivesTheSamePictureByEverySchedule) { expect_alike<float>("float", 1e-3, 0.9); }
+TEST_P(CudaOnDevice, InFloatGivesTheSameImageByEverySchedule) { expect_alike<float>("float", 1e-3, 0.9); }
 
 /// An image in double, with a seed of its own.
 std::vector<Moments> reference_of(const std::string& scene, const std::string& integrator) {
@@ -123,11 +123,11 @@ std::vector<Moments> reference_of(const std::string& scene, const std::string& i
 
 /// Z-test of an image in float, part by part. All such tests of this file hold at 0.01 together.
 void expect_unbiased(const std::vector<Moments>& reference, const std::string& scene, Settings settings) {
-  constexpr size_t pictures = 2 * 2 * (2 * 4 + 1);  // scenes, integrators; devices and schedules, OptiX
+  constexpr size_t images = 2 * 2 * (2 * 4 + 1);  // scenes, integrators; devices and schedules, OptiX
   settings.sampler = "independent";
   const std::vector<Moments> moments = moments_of(*film_of<float>(scene, settings));
   for (size_t part = 0; part < moments.size(); ++part)
-    EXPECT_GT(test::welch_p_value(moments[part], reference[part], 1e-6), test::sidak(0.01, pictures * moments.size()))
+    EXPECT_GT(test::welch_p_value(moments[part], reference[part], 1e-6), test::sidak(0.01, images * moments.size()))
         << "part " << part << ": " << moments[part].mean() << " and " << reference[part].mean();
 }
 
@@ -152,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(Parity, CudaOnDevice,
 /// Scene, integrator.
 class OptixOnDevice : public ::testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
-TEST_P(OptixOnDevice, IsUnbiasedAndCloseToTheSerialPicture) {
+TEST_P(OptixOnDevice, IsUnbiasedAndCloseToTheSerialImage) {
   const auto& [scene, integrator] = GetParam();
   const BackendDescription backend = make_backend("optix")->describe();
   if (!backend.available) GTEST_SKIP() << backend.details;

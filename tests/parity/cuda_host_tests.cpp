@@ -92,7 +92,7 @@ TEST(CudaOnHostSizes, ThatNothingDivides) {
   }
 }
 
-TEST(CudaOnHostSizes, APartOfThePicture) {
+TEST(CudaOnHostSizes, APartOfTheImage) {
   Settings serial = serial_settings("double");
   serial.pixel_bounds = {{3, 18, 5, 14}};
   expect_serial_bits(parity_scene("spheres"), serial);
@@ -156,7 +156,7 @@ TEST(CudaOnHostWideBvh, GivesAllButTheSameBits) {
 }
 
 /// Devices that render parts of one image, one after the other.
-TEST(CudaOnHostShares, AddUpToThePicture) {
+TEST(CudaOnHostShares, AddUpToTheImage) {
   for (const uint32_t devices : {2u, 3u}) {
     Settings serial = serial_settings("double");
     serial.width = 21;

@@ -31,13 +31,13 @@ void expect_what_looking_at_every_primitive_finds(const CompiledScene<float>& sc
   const EmbreeIntersector intersector(scene.view, &embree.tracer());
   const test::LinearIntersector<float> linear(scene.view);
   Random random(8);
-  size_t met = 0, different = 0;
+  size_t hit_count = 0, different = 0;
   for (size_t i = 0; i < rays; ++i) {
     const Ray<float> ray = random_ray(random, 15);
     Hit<float> hit, expected;
     const bool found = intersector.closest_hit(ray, infinity<float>, hit);
     const bool expect_found = linear.closest_hit(ray, infinity<float>, expected);
-    met += found;
+    hit_count += found;
     // Rays that graze an edge may differ: the triangle tests round differently.
     if (found != expect_found ||
         (found && (!(hit.primitive == expected.primitive) || hit.instance != expected.instance))) {
@@ -55,15 +55,15 @@ void expect_what_looking_at_every_primitive_finds(const CompiledScene<float>& sc
       EXPECT_FALSE(intersector.occluded(ray, expected.t * 0.999f));
     }
   }
-  EXPECT_GT(met, rays / 5);
+  EXPECT_GT(hit_count, rays / 5);
   EXPECT_LE(different, 1 + rays / 10'000);
 }
 
-TEST(Embree, MeetsWhatLookingAtEveryPrimitiveFinds) {
+TEST(Embree, HitsWhatTheLinearScanFinds) {
   expect_what_looking_at_every_primitive_finds(test::mixed_primitives(7, 200).flat<float>(), 50'000);
 }
 
-TEST(Embree, MeetsInstances) {
+TEST(Embree, HitsInstances) {
   const CompiledScene<float> scene = test::flat_instanced_scene<float>(test::instanced_scene(5, 80, 10), false);
   ASSERT_EQ(scene.view.instances_count, 80u);
   expect_what_looking_at_every_primitive_finds(scene, 5'000);
@@ -133,9 +133,9 @@ Settings settings_of(const std::string& backend) {
 }
 
 /// The same samples have the same values, except for few paths that diverge because a hit is rounded differently.
-class EmbreePicture : public ::testing::TestWithParam<std::string> {};
+class EmbreeImage : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(EmbreePicture, IsThatOfTheSerialBackend) {
+TEST_P(EmbreeImage, IsThatOfTheSerialBackend) {
   const Scene& scene = parity_scene(GetParam());
   const Outcome serial = render_bits(scene, settings_of("serial")), embree = render_bits(scene, settings_of("embree"));
   ASSERT_EQ(serial.rows.size(), embree.rows.size());
@@ -153,7 +153,7 @@ TEST_P(EmbreePicture, IsThatOfTheSerialBackend) {
   EXPECT_EQ(embree.statistics.nonfinite_samples, 0u);
 }
 
-TEST_P(EmbreePicture, IsTheSameBitsByEveryStrategyAndThreadCount) {
+TEST_P(EmbreeImage, IsTheSameBitsByEveryStrategyAndThreadCount) {
   const Scene& scene = parity_scene(GetParam());
   Settings settings = settings_of("embree");
   settings.threads = 1;
@@ -166,7 +166,7 @@ TEST_P(EmbreePicture, IsTheSameBitsByEveryStrategyAndThreadCount) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Parity, EmbreePicture, ::testing::Values("cornell", "spheres"));
+INSTANTIATE_TEST_SUITE_P(Parity, EmbreeImage, ::testing::Values("cornell", "spheres"));
 
 TEST(Embree, TracesInFloatAlone) {
   Settings settings = settings_of("embree");
@@ -179,6 +179,6 @@ TEST(Embree, TracesInFloatAlone) {
 
 #else
 
-TEST(Embree, MeetsWhatLookingAtEveryPrimitiveFinds) { GTEST_SKIP() << "this build is without Embree"; }
+TEST(Embree, HitsWhatTheLinearScanFinds) { GTEST_SKIP() << "this build is without Embree"; }
 
 #endif

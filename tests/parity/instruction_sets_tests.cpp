@@ -12,8 +12,8 @@ namespace alhazen::test {
 namespace {
 
 template <class Real>
-std::vector<BlockSum<Real>> take_picture(const CompiledScene<Real>& flat, IntegratorKind integrator,
-                                         SamplerType sampler, InstructionSet set) {
+std::vector<BlockSum<Real>> take_image(const CompiledScene<Real>& flat, IntegratorKind integrator, SamplerType sampler,
+                                       InstructionSet set) {
   std::vector<BlockRequest> requests;
   for (uint32_t y = 0; y < parity_height; ++y)
     for (uint32_t x = 0; x < parity_height; ++x) requests.push_back({x, y, 4, 1 + (x + y) % 4});
@@ -30,10 +30,10 @@ void expect_same_bits(const std::string& name) {
   const CompiledScene<Real> flat = test::compiled_scene<Real>(parity_scene(name));
   for (const IntegratorKind integrator : {IntegratorKind::path, IntegratorKind::recursive})
     for (const SamplerType sampler : {SamplerType::sobol, SamplerType::independent}) {
-      const auto expected = take_picture(flat, integrator, sampler, InstructionSet::baseline);
+      const auto expected = take_image(flat, integrator, sampler, InstructionSet::baseline);
       EXPECT_GT(expected[expected.size() / 2].segments, 0u);
       for (const InstructionSet set : instruction_sets()) {
-        const auto sums = take_picture(flat, integrator, sampler, set);
+        const auto sums = take_image(flat, integrator, sampler, set);
         EXPECT_EQ(std::memcmp(sums.data(), expected.data(), sums.size() * sizeof(sums[0])), 0)
             << name << ", " << to_string(set);
       }

@@ -365,7 +365,7 @@ TEST(OptixMock, TrianglesLieInTheArena) {
   EXPECT_EQ(calls.corners[3].y, 1);
 }
 
-TEST(OptixMock, NothingToMeet) {
+TEST(OptixMock, NothingToHit) {
   const OptixFunctionTable table = mock_driver();
   const Scene scene = scene_of(
       "Film \"rgb\" \"integer xresolution\" 9 \"integer yresolution\" 7\n"
@@ -409,7 +409,7 @@ TEST(OptixMock, ErrorsSayWhatFailedAndLeaveNothing) {
   EXPECT_EQ(error_of(table), "OptiX failed while starting: OPTIX_ERROR_OF_THE_MOCK");
 }
 
-TEST(OptixMock, DenoiserTakesAndGivesWholePictures) {
+TEST(OptixMock, DenoiserTakesAndGivesWholeImages) {
   const OptixFunctionTable table = mock_driver();
   Scene scene = parity_scene("spheres");
   Settings asked = settings_of("path");

@@ -125,7 +125,7 @@ TEST_P(Passes, APartIsTheSamePartOfTheWhole) {
   }
 }
 
-TEST_P(Passes, LayersDoNotChangeThePicture) {
+TEST_P(Passes, LayersDoNotChangeTheImage) {
   Settings settings = settings_of(precision(), 6);
   const Outcome with = render_bits(scene(), settings);
   settings.aovs.clear();

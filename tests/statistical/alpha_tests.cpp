@@ -60,11 +60,11 @@ TYPED_TEST(Alpha, IntegratorsAgreeBehindACard) {
       "AttributeBegin Translate 0.2 0 1.3 " + quad + "\"float alpha\" 0.7 AttributeEnd";
   const CompiledScene<TypeParam> scene = compiled_scene_of<TypeParam>(text);
   Moments by[2];
-  constexpr uint32_t pictures = is_sanitized ? 6 : 24;
-  for (uint32_t picture = 0; picture < pictures; ++picture)
+  constexpr uint32_t runs = is_sanitized ? 6 : 24;
+  for (uint32_t run = 0; run < runs; ++run)
     for (int i = 0; i < 2; ++i) {
       const IntegratorKind integrator = i == 0 ? IntegratorKind::path : IntegratorKind::iterative;
-      const Take take{integrator, SamplerType::independent, 4, 64, 1000u * static_cast<uint32_t>(i) + picture};
+      const Take take{integrator, SamplerType::independent, 4, 64, 1000u * static_cast<uint32_t>(i) + run};
       by[i].add(render_pixels(scene.view, take, side, side).mean());
     }
   EXPECT_GT(by[0].mean(), 0.05);
@@ -91,7 +91,7 @@ TYPED_TEST(Alpha, OneSidedOnesAreSeenFromTheFront) {
 }
 
 /// Beer-Lambert: a slab of thickness 2 with the index of its surroundings.
-TYPED_TEST(Alpha, AbsorptionFollowsTheWay) {
+TYPED_TEST(Alpha, AbsorptionFollowsTheDistance) {
   Scene scene = described_scene(camera +
                                 "WorldBegin LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]"
                                 "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb sigma_a\" "

@@ -38,39 +38,39 @@ struct Coat {
   }
 };
 
-/// Light from `way` that remains after hitting the base, on its way up; 0 if none does.
-double meet_base(const Coat& coat, Vec3d& way, Random& random) {
-  const Vec3d up{-way.x, -way.y, -way.z};
+/// Scatters light from `direction` at the base; returns the fraction that goes up again.
+double scatter_at_base(const Coat& coat, Vec3d& direction, Random& random) {
+  const Vec3d up{-direction.x, -direction.y, -direction.z};
   if (coat.type == MaterialType::coated_diffuse) {
-    way = sample_cosine_hemisphere(random.uniform_2d<double>());
+    direction = sample_cosine_hemisphere(random.uniform_2d<double>());
     return coat.reflectance;
   }
   const double k = absorption_for_reflectance(coat.reflectance) / 1.5;
   const BsdfSample<double> s = sample_conductor(ConductorBsdf<double>{splat(1 / 1.5), splat(k), coat.metal_alpha}, up,
                                                 random.uniform_2d<double>());
-  way = s.direction;
+  direction = s.direction;
   return s.pdf > 0 ? s.weight.y : 0;
 }
 
 /// The weight of one walk that starts outside.
 double walk(const Coat& coat, double cosine, Random& random) {
   const DielectricBsdf<double> interface { 1.5, coat.alpha };
-  const auto cross = [&](const Vec3d& wo, Vec3d& way) {
+  const auto cross = [&](const Vec3d& wo, Vec3d& direction) {
     const double u = random.uniform<double>();
     const BsdfSample<double> s = sample_dielectric(interface, wo, u, random.uniform_2d<double>());
-    way = s.direction;
+    direction = s.direction;
     return s.pdf > 0 ? s.weight.y * s.eta * s.eta : 0;
   };
-  Vec3d way{};
-  double weight = cross({std::sqrt(1 - cosine * cosine), 0, cosine}, way);
-  if (weight == 0 || way.z > 0) return weight;
+  Vec3d direction{};
+  double weight = cross({std::sqrt(1 - cosine * cosine), 0, cosine}, direction);
+  if (weight == 0 || direction.z > 0) return weight;
   for (int bounce = 0; bounce < (coat.bounces > 0 ? coat.bounces : 200); ++bounce) {
-    weight *= std::exp(coat.thickness / way.z) * meet_base(coat, way, random);
-    if (!(weight > 0) || !(way.z > 0)) return 0;
-    weight *= std::exp(-coat.thickness / way.z);
-    const Vec3d below{-way.x, -way.y, -way.z};
-    weight *= cross(below, way);
-    if (weight == 0 || way.z > 0) return weight;
+    weight *= std::exp(coat.thickness / direction.z) * scatter_at_base(coat, direction, random);
+    if (!(weight > 0) || !(direction.z > 0)) return 0;
+    weight *= std::exp(-coat.thickness / direction.z);
+    const Vec3d below{-direction.x, -direction.y, -direction.z};
+    weight *= cross(below, direction);
+    if (weight == 0 || direction.z > 0) return weight;
   }
   return 0;
 }

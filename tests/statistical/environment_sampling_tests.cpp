@@ -170,8 +170,8 @@ TYPED_TEST(EnvironmentSampling, IntegratorsAgree) {
     const CompiledScene<Real> scene = compiled_scene<Real>(std::move(described));
     std::array<Moments, std::size(all_integrators)> moments;
     for (size_t i = 0; i < moments.size(); ++i)
-      for (uint32_t picture = 0; picture < effort(32); ++picture) {
-        const Take take{all_integrators[i], SamplerType::sobol, 5, 16, static_cast<uint32_t>(1000 * i) + picture};
+      for (uint32_t run = 0; run < effort(32); ++run) {
+        const Take take{all_integrators[i], SamplerType::sobol, 5, 16, static_cast<uint32_t>(1000 * i) + run};
         moments[i].add(render_pixels(scene.view, take, side, side).mean());
       }
     for (size_t i = 0; i < moments.size(); ++i)

@@ -27,7 +27,7 @@ constexpr size_t cases = 4 * 2 * 2 * pairs * (blocks + 1);
 using BlockMoments = std::array<Moments, blocks + 1>;
 
 template <class Real>
-void add_picture(const SceneView<Real>& scene, const Take& take, BlockMoments& moments) {
+void add_image(const SceneView<Real>& scene, const Take& take, BlockMoments& moments) {
   std::array<double, blocks + 1> means{};
   for (uint32_t y = 0; y < side; ++y)
     for (uint32_t x = 0; x < side; ++x) {
@@ -42,10 +42,10 @@ template <class Real>
 void check_agreement(const CompiledScene<Real>& scene, SamplerType sampler) {
   std::array<BlockMoments, integrators> moments;
   for (size_t i = 0; i < integrators; ++i)
-    for (uint32_t picture = 0; picture < effort(32); ++picture) {
+    for (uint32_t run = 0; run < effort(32); ++run) {
       // Each integrator has seeds of its own: the same random numbers would give the same paths.
-      const uint32_t seed = static_cast<uint32_t>(1000 * i) + picture;
-      add_picture(scene.view, Take{all_integrators[i], sampler, 6, 8, seed}, moments[i]);
+      const uint32_t seed = static_cast<uint32_t>(1000 * i) + run;
+      add_image(scene.view, Take{all_integrators[i], sampler, 6, 8, seed}, moments[i]);
     }
   EXPECT_GT(moments[0][blocks].mean(), 0.1) << "the scene is dark";
   for (size_t i = 0; i < integrators; ++i)

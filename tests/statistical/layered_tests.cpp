@@ -118,10 +118,10 @@ TYPED_TEST(Layered, DiffuseTransmissionNeitherGainsNorLoses) {
   using Real = TypeParam;
   Random random(7);
   for (const double roughness : {0.1, 0.5, 1.0})
-    for (const double share : {0.3, 1.0})
+    for (const double fraction : {0.3, 1.0})
       for (const double cosine : {0.9, 0.3, -0.6}) {
         PrincipledValues v;
-        v.roughness = roughness, v.diffuse_transmission = share;
+        v.roughness = roughness, v.diffuse_transmission = fraction;
         const Bsdf<Real> bsdf = principled_of<Real>(v).bsdf(cosine);
         const Energy e = energy_of(bsdf, direction_at(bsdf.frame, cosine, 0.4), 16384, random);
         EXPECT_NEAR(e.mean, 1, 0.015 + 4 * e.error) << name_of(v, cosine, 0.4);

@@ -74,18 +74,18 @@ Vec3d point_near_edge(const Mesh& mesh, Random& random) {
   const uint32_t first = random.below(3);
   const auto corner = [&](uint32_t i) { return mesh.positions[mesh.indices[triangle + (first + i) % 3]]; };
   double a = random.uniform<double>(), b = (1 - a) * random.magnitude_between(1e-9, 0.3);
-  const uint32_t way = random.below(4);
-  if (way == 0) a = random.magnitude_between(1e-9, 0.1);
-  if (way == 1) b = (1 - a) * random.uniform<double>();
+  const uint32_t choice = random.below(4);
+  if (choice == 0) a = random.magnitude_between(1e-9, 0.1);
+  if (choice == 1) b = (1 - a) * random.uniform<double>();
   return corner(0) * (1 - a - b) + corner(1) * a + corner(2) * b;
 }
 
 /// A direction on the side of `normal`: uniform, cosine-weighted, or grazing.
 Vec3d leaving_direction(const Vec3d& normal, Random& random) {
   const Vec3d uniform = random.on_hemisphere(normal);
-  const uint32_t way = random.below(3);
-  if (way == 0) return uniform;
-  if (way == 1) return normalize(normal * 1.000001 + random.on_sphere());
+  const uint32_t choice = random.below(3);
+  if (choice == 0) return uniform;
+  if (choice == 1) return normalize(normal * 1.000001 + random.on_sphere());
   return normalize(uniform - normal * dot(uniform, normal) + normal * random.magnitude_between(1e-6, 0.1));
 }
 
@@ -132,11 +132,11 @@ size_t count_hits(const Intersector& intersector, const std::vector<Ray<Real>>& 
 }
 
 template <class Real>
-size_t count_hits(const SceneView<Real>& view, InstructionSet set, Way way, const std::vector<Ray<Real>>& rays) {
+size_t count_hits(const SceneView<Real>& view, InstructionSet set, QueryMode mode, const std::vector<Ray<Real>>& rays) {
   const std::vector<Real> limits(rays.size(), infinity<Real>);
   std::vector<Hit<Real>> hits(rays.size());
   const std::unique_ptr<bool[]> found(new bool[rays.size()]());
-  answer_queries(view, set, way, false, static_cast<uint32_t>(rays.size()), rays.data(), limits.data(), hits.data(),
+  answer_queries(view, set, mode, false, static_cast<uint32_t>(rays.size()), rays.data(), limits.data(), hits.data(),
                  found.get());
   return static_cast<size_t>(std::count(found.get(), found.get() + rays.size(), true));
 }
@@ -156,9 +156,9 @@ void count(const SceneView<Real>& view, const LeavingRays<Real>& rays, Tallies& 
   };
   add("binary tree", [&](const Rays& of) { return count_hits(BvhIntersector<Real>(view), of); });
   for (const InstructionSet set : instruction_sets())
-    for (const Way way : ways)
-      add(std::string(to_string(set)) + ", way " + std::to_string(static_cast<int>(way)),
-          [&](const Rays& of) { return count_hits(view, set, way, of); });
+    for (const QueryMode mode : query_modes)
+      add(std::string(to_string(set)) + ", choice " + std::to_string(static_cast<int>(mode)),
+          [&](const Rays& of) { return count_hits(view, set, mode, of); });
   if constexpr (sizeof(Real) == sizeof(float)) {
     add("wide tree", [&](const Rays& of) { return count_hits(WideBvhIntersector<>(view), of); });
 #if defined(ALHAZEN_WITH_EMBREE)

@@ -55,7 +55,7 @@ class LightWeights : public ::testing::Test {};
 TYPED_TEST_SUITE(LightWeights, Reals);
 
 /// Inside a sphere that emits inwards: points on it see only the light itself.
-TYPED_TEST(LightWeights, WithinAShiningSphere) {
+TYPED_TEST(LightWeights, InsideAnEmissiveSphere) {
   using Real = TypeParam;
   const std::string moving = "ActiveTransform EndTime Translate ";
   for (const Vec3d& place : places)
@@ -72,7 +72,7 @@ TYPED_TEST(LightWeights, WithinAShiningSphere) {
 }
 
 /// The same for a sphere with an emission texture.
-TYPED_TEST(LightWeights, WithinASphereThatShinesByATexture) {
+TYPED_TEST(LightWeights, InsideASphereWithAnEmissionTexture) {
   using Real = TypeParam;
   for (const Vec3d& place : places) {
     SCOPED_TRACE(numbers(place));

@@ -146,9 +146,9 @@ TYPED_TEST(WarpOf, SampledSphereNormalIsThatOfTheHit) {
     // At the silhouette and at the surface rounding decides.
     if (abs_dot(w, normal) < Real(0.05) || std::abs(length(center - point) - radius) < Real(0.05)) continue;
     ASSERT_TRUE(intersect_sphere(Ray<Real>{point, w}, center, radius, infinity<Real>, t));
-    const Vec3<Real> met = normalize(point + w * t - center);
-    ASSERT_NEAR(static_cast<double>(length(met - normal)), 0, by_precision<Real>(2e-4, 1e-12));
-    ASSERT_NEAR(static_cast<double>(pdf_sphere(center, radius, point, w, t, met) / pdf), 1,
+    const Vec3<Real> hit_normal = normalize(point + w * t - center);
+    ASSERT_NEAR(static_cast<double>(length(hit_normal - normal)), 0, by_precision<Real>(2e-4, 1e-12));
+    ASSERT_NEAR(static_cast<double>(pdf_sphere(center, radius, point, w, t, hit_normal) / pdf), 1,
                 by_precision<Real>(1e-2, 1e-10));
   }
 }
@@ -168,18 +168,18 @@ TYPED_TEST(WarpOf, VisibleNormals) {
 }
 
 /// The integral of |f| over each of `bins` equal parts of [-radius, radius].
-std::vector<double> filter_shares(const Filter& filter, double radius, size_t bins) {
-  std::vector<double> shares(bins);
+std::vector<double> filter_fractions(const Filter& filter, double radius, size_t bins) {
+  std::vector<double> fractions(bins);
   double total = 0;
   constexpr int points = 256;
   for (size_t i = 0; i < bins; ++i)
     for (int k = 0; k < points; ++k) {
       const double x = radius * (2 * (static_cast<double>(i) + (k + 0.5) / points) / static_cast<double>(bins) - 1);
-      shares[i] += std::abs(filter_value(filter, x, radius));
+      fractions[i] += std::abs(filter_value(filter, x, radius));
       total += std::abs(filter_value(filter, x, radius));
     }
-  for (double& share : shares) share /= total;
-  return shares;
+  for (double& fraction : fractions) fraction /= total;
+  return fractions;
 }
 
 TYPED_TEST(WarpOf, Filters) {
@@ -208,7 +208,8 @@ TYPED_TEST(WarpOf, Filters) {
         ASSERT_EQ(static_cast<double>(s.weight), value < 0 ? -1 : 1) << x << ", " << y;
       }
     }
-    std::vector<double> x_expected = filter_shares(filter, 2, bins), y_expected = filter_shares(filter, 1.5, bins);
+    std::vector<double> x_expected = filter_fractions(filter, 2, bins),
+                        y_expected = filter_fractions(filter, 1.5, bins);
     for (double& e : x_expected) e *= static_cast<double>(samples);
     for (double& e : y_expected) e *= static_cast<double>(samples);
     expect_fits(chi_squared_test(x_counts, x_expected), "filter along x, " + std::to_string(static_cast<int>(type)));

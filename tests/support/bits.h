@@ -75,7 +75,7 @@ inline ::testing::AssertionResult same_bits(const Outcome& a, const Outcome& b) 
                                          << a.channels[first % row / width] << " of pixel " << first % width << ", "
                                          << first / row << ": " << a.rows[first] << " and " << b.rows[first];
   if (a.planes != b.planes)
-    return ::testing::AssertionFailure() << "the pictures are equal, but not the sums that they come from";
+    return ::testing::AssertionFailure() << "the images are equal, but not the sums from which they are computed";
   return ::testing::AssertionSuccess();
 }
 

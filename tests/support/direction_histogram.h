@@ -47,9 +47,9 @@ class DirectionHistogram {
                         theta_max_ * static_cast<double>(i + 1) / theta_bins,
                         2 * pi<double> * (static_cast<double>(j) / phi_bins - 0.5),
                         2 * pi<double> * (static_cast<double>(j + 1) / phi_bins - 0.5)};
-        const double share = refine(pdf, cell, quadrature(pdf, cell), 0);
-        integral += share;
-        expected.push_back(share * count_);
+        const double part_of_cell = refine(pdf, cell, quadrature(pdf, cell), 0);
+        integral += part_of_cell;
+        expected.push_back(part_of_cell * count_);
       }
     expected.push_back((1 - integral) * count_);
     return chi_squared_test(observed_, expected);

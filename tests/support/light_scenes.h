@@ -45,20 +45,20 @@ inline std::string small_lights(int count, uint64_t seed, bool with_delta, doubl
 
 /// Multiplies every emission of `scene` by an image of 4 x 4 colours, half of them black.
 inline Scene with_emission_texture(Scene scene) {
-  ImageTexels picture;
-  picture.width = picture.height = 4;
-  picture.srgb = false;
-  picture.name = "emission";
+  ImageTexels image;
+  image.width = image.height = 4;
+  image.srgb = false;
+  image.name = "emission";
   Random random(5);
   for (int i = 0; i < 16; ++i) {
     const bool is_lit = (i / 4 + i) % 2 == 0;
-    for (int c = 0; c < 3; ++c) picture.floats.push_back(is_lit ? static_cast<float>(random.between(0.2, 2)) : 0.0f);
+    for (int c = 0; c < 3; ++c) image.floats.push_back(is_lit ? static_cast<float>(random.between(0.2, 2)) : 0.0f);
   }
   Texture texture;
   texture.name = "emission";
   texture.kind = TextureKind::image;
   texture.image = static_cast<uint32_t>(scene.images.size());
-  scene.images.push_back(std::move(picture));
+  scene.images.push_back(std::move(image));
   const auto index = static_cast<uint32_t>(scene.textures.size());
   scene.textures.push_back(texture);
   for (ShapeGroup& group : scene.groups)

@@ -48,10 +48,10 @@ Left walk(const CoatedMetal& coat, double coat_alpha, double metal_alpha, const 
   const DielectricBranches<double> entry = dielectric_branches(interface, o, numbers.pair());
   if (!(entry.refracted.pdf > 0)) return left;
   double weight = (1 - entry.reflected_rate) * entry.refracted.weight.x;
-  Vec3d way = entry.refracted.direction;
+  Vec3d direction = entry.refracted.direction;
   const int bounces = coat.bounces > 0 ? coat.bounces : 64;
   for (int bounce = 0; bounce < bounces && weight > 1e-5; ++bounce) {
-    const Vec3d down = -way, m = sample_visible_normal(down, metal_alpha, numbers.pair());
+    const Vec3d down = -direction, m = sample_visible_normal(down, metal_alpha, numbers.pair());
     const Vec3d up = m * (2 * dot(down, m)) - down;
     if (!(up.z > 0)) break;
     weight *=
@@ -64,7 +64,7 @@ Left walk(const CoatedMetal& coat, double coat_alpha, double metal_alpha, const 
     }
     if (!(exit.reflected.pdf > 0)) break;
     weight *= coated_metal_fit<double> * exit.reflected_rate * exit.reflected.weight.x;
-    way = exit.reflected.direction;
+    direction = exit.reflected.direction;
   }
   return left;
 }

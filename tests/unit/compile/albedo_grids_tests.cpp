@@ -12,7 +12,7 @@
 namespace alhazen::test {
 namespace {
 
-double ggx_share(const AlbedoGrid& grid, const Vec2d& alpha, const Vec3d& o) {
+double ggx_fraction(const AlbedoGrid& grid, const Vec2d& alpha, const Vec3d& o) {
   const Table values = values_of(grid);
   return ggx_albedo(grid_place(values->data(), record_of(grid), alpha), o).all();
 }
@@ -24,10 +24,10 @@ TEST(AlbedoGrids, PairsThatVaryHoldTheConstantOnes) {
     for (const double azimuth : {0.0, 0.5, 1.2, 1.57}) {
       const double sine = std::sqrt(1 - cosine * cosine), x = sine * std::cos(azimuth), y = sine * std::sin(azimuth);
       const AlbedoGrid constant{.is_anisotropic = true, .alpha_u = alpha.x, .alpha_v = alpha.y};
-      const double share = ggx_share(constant, alpha, {x, y, cosine});
-      EXPECT_NEAR(ggx_share(varying, alpha, {x, y, cosine}), share, 0.006) << cosine << " " << azimuth;
-      EXPECT_NEAR(ggx_share(varying, turned, {y, x, cosine}), share, 0.006) << cosine << " " << azimuth;
-      EXPECT_LT(share, 1.001);
+      const double fraction = ggx_fraction(constant, alpha, {x, y, cosine});
+      EXPECT_NEAR(ggx_fraction(varying, alpha, {x, y, cosine}), fraction, 0.006) << cosine << " " << azimuth;
+      EXPECT_NEAR(ggx_fraction(varying, turned, {y, x, cosine}), fraction, 0.006) << cosine << " " << azimuth;
+      EXPECT_LT(fraction, 1.001);
     }
 }
 

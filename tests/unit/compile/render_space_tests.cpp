@@ -48,7 +48,7 @@ std::vector<Vec3d> places(const Scene& scene) {
   return all;
 }
 
-TEST(RenderSpace, EverythingThatHasAPlaceMovesWithTheCamera) {
+TEST(RenderSpace, EverythingThatHasAPositionMovesWithTheCamera) {
   Scene far = scene_at({3e6, -2e6, 1e6});
   move_to_render_space(far);
   expect_near(far.camera.world_from_camera.start.point({}), {});
@@ -71,7 +71,7 @@ TEST(RenderSpace, ScenesNearTheOriginStay) {
   }
 }
 
-TEST(RenderSpace, ASceneSeenFromFarAwayIsMovedByItsMiddle) {
+TEST(RenderSpace, ASceneSeenFromFarAwayIsMovedByItsCentre) {
   Scene scene = scene_at({3e6, 0, 0});
   // As far from the scene as the scene is from the origin.
   scene.camera.world_from_camera.start = scene.camera.world_from_camera.end = Transform::translate({6e6, 0, 0});

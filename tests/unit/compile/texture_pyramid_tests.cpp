@@ -144,7 +144,7 @@ TYPED_TEST(PyramidLookup, ChecksFarAwayAreGrey) {
   for (double x = 15; x < 17; x += 0.037) EXPECT_NEAR(static_cast<double>(seen_at(scene, x, 16.01)), 0.5, 1e-5);
 }
 
-TYPED_TEST(PyramidLookup, MagnifiedPicturesAreSharp) {
+TYPED_TEST(PyramidLookup, MagnifiedImagesAreSharp) {
   const auto scene = floor_seen_from<TypeParam>(0.05, checks(64, 64, true));
   // Pixels are 0.1 / 32 of the plane: the centres of four texels, 1 / 32 wide, about the centre.
   std::set<double> values;
@@ -185,7 +185,7 @@ TEST(PyramidLevels, LogarithmIsContinuousAndClose) {
 }
 
 /// Grey images take a third of the memory and give the same values.
-TEST(PyramidLevels, GreyPicturesTakeOneChannel) {
+TEST(PyramidLevels, GreyImagesTakeOneChannel) {
   const auto scene = floor_seen_from<float>(1, checks(4, 4, false));
   EXPECT_EQ(scene.view.images[0].channels, 1u);
   EXPECT_EQ(scene.view.images_count, 3u);

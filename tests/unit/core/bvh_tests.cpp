@@ -26,17 +26,17 @@ bool expect_same(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max 
   const typename Tree::Intersector bvh(scene);
   const LinearIntersector<Real> linear(scene);
   Hit<Real> hit, expected;
-  const bool met = bvh.closest_hit(ray, t_max, hit), expect_met = linear.closest_hit(ray, t_max, expected);
-  EXPECT_EQ(met, expect_met);
-  EXPECT_EQ(bvh.occluded(ray, t_max), expect_met);
-  EXPECT_EQ(linear.occluded(ray, t_max), expect_met);
-  if (met && expect_met && !(hit.primitive == expected.primitive)) {
+  const bool was_hit = bvh.closest_hit(ray, t_max, hit), expect_hit = linear.closest_hit(ray, t_max, expected);
+  EXPECT_EQ(was_hit, expect_hit);
+  EXPECT_EQ(bvh.occluded(ray, t_max), expect_hit);
+  EXPECT_EQ(linear.occluded(ray, t_max), expect_hit);
+  if (was_hit && expect_hit && !(hit.primitive == expected.primitive)) {
     EXPECT_LE(ulps_between(hit.t, expected.t), 16u) << hit.t << " instead of " << expected.t;
   }
-  if (met && expect_met && hit.primitive == expected.primitive) {
+  if (was_hit && expect_hit && hit.primitive == expected.primitive) {
     EXPECT_EQ(hit.t, expected.t);
   }
-  return expect_met;
+  return expect_hit;
 }
 
 /// Rays from a box about the origin, half of them towards objects in the inner part of it.
@@ -52,12 +52,12 @@ TYPED_TEST(BvhOf, MixedPrimitives) {
   using Real = typename TypeParam::Real;
   const CompiledScene<Real> scene = mixed_primitives(7, 200).flat<Real>();
   Random random(8);
-  size_t met = 0;
+  size_t hit_count = 0;
   for (size_t i = 0; i < effort(100'000); ++i) {
-    met += expect_same<TypeParam>(scene.view, random_ray<Real>(random, 15));
+    hit_count += expect_same<TypeParam>(scene.view, random_ray<Real>(random, 15));
     if (this->HasFailure()) break;
   }
-  EXPECT_GT(met, effort(20'000));
+  EXPECT_GT(hit_count, effort(20'000));
 }
 
 TYPED_TEST(BvhOf, LimitedDistance) {

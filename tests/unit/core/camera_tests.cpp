@@ -41,7 +41,7 @@ TYPED_TEST(CameraOf, PixelsOfAPlainCamera) {
 }
 
 /// The field of view is over the shorter side.
-TYPED_TEST(CameraOf, TallPicture) {
+TYPED_TEST(CameraOf, TallImage) {
   const auto scene = compiled_scene_of<TypeParam>(film_of(50, 100) + "Camera \"perspective\" \"float fov\" 60\n" + sky);
   const double t = std::tan(pi<double> / 6);
   expect_along(ray_through(scene, 50, 50).direction, {t, 0, 1});
@@ -166,7 +166,7 @@ TYPED_TEST(CameraOf, FootprintOfAPixel) {
 }
 
 /// Also if the filter has negative parts, whose samples have negative weights.
-TYPED_TEST(CameraOf, EveryFilterKeepsAConstantPicture) {
+TYPED_TEST(CameraOf, EveryFilterKeepsAConstantImage) {
   for (const char* filter : {"box", "triangle", "gaussian", "mitchell", "sinc"}) {
     const auto scene = compiled_scene_of<TypeParam>(film_of(4, 4) + "PixelFilter \"" + filter +
                                                     "\"\nWorldBegin\nLightSource \"infinite\" \"rgb L\" [0.5 2 7]");

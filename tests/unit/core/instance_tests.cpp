@@ -25,14 +25,14 @@ template <class Tree>
 class InstancesInTree : public ::testing::Test {};
 TYPED_TEST_SUITE(InstancesInTree, Trees);
 
-TYPED_TEST(InstancesInTree, AreMetAsTheLinearScanMeetsThem) {
+TYPED_TEST(InstancesInTree, AreHitAsByTheLinearScan) {
   using Real = typename TypeParam::Real;
   const CompiledScene<Real> scene = flat_instanced_scene<Real>(instanced_scene(1, 40, reach), false);
   ASSERT_EQ(scene.view.instances_count, 40u);
   const typename TypeParam::Intersector tree(scene.view);
   const LinearIntersector<Real> linear(scene.view);
   Random random(2);
-  size_t met_instances = 0;
+  size_t hit_instances = 0;
   for (size_t i = 0; i < effort(10'000); ++i) {
     const Ray<Real> ray = random_ray<Real>(random);
     const Real limit = i % 4 == 0 ? static_cast<Real>(random.magnitude_between(1, 30)) : infinity<Real>;
@@ -46,19 +46,19 @@ TYPED_TEST(InstancesInTree, AreMetAsTheLinearScanMeetsThem) {
     ASSERT_EQ(hit.b2, expected.b2);
     ASSERT_TRUE(hit.primitive == expected.primitive);
     ASSERT_EQ(hit.instance, expected.instance);
-    met_instances += hit.instance != no_instance;
+    hit_instances += hit.instance != no_instance;
   }
-  EXPECT_GT(met_instances, effort(10'000) / 10);
+  EXPECT_GT(hit_instances, effort(10'000) / 10);
 }
 
-TYPED_TEST(InstancesInTree, AreMetWhereTheyMove) {
+TYPED_TEST(InstancesInTree, AreHitWhereTheyMove) {
   using Real = typename TypeParam::Real;
   const CompiledScene<Real> scene = flat_instanced_scene<Real>(instanced_scene(11, 15, reach, true), false);
   ASSERT_EQ(scene.view.instance_motions_count, 5u);
   const typename TypeParam::Intersector tree(scene.view);
   const LinearIntersector<Real> linear(scene.view);
   Random random(12);
-  size_t met_moving = 0;
+  size_t hit_moving = 0;
   for (size_t i = 0; i < effort(5'000); ++i) {
     Ray<Real> ray = random_ray<Real>(random);
     ray.time = random.uniform<Real>();
@@ -70,9 +70,9 @@ TYPED_TEST(InstancesInTree, AreMetWhereTheyMove) {
     ASSERT_EQ(hit.t, expected.t);
     ASSERT_TRUE(hit.primitive == expected.primitive);
     ASSERT_EQ(hit.instance, expected.instance);
-    met_moving += hit.instance != no_instance && scene.view.instances[hit.instance].motion != no_motion;
+    hit_moving += hit.instance != no_instance && scene.view.instances[hit.instance].motion != no_motion;
   }
-  EXPECT_GT(met_moving, effort(5'000) / 100);
+  EXPECT_GT(hit_moving, effort(5'000) / 100);
 }
 
 /// Two coincident instances: the lower one counts, whichever is visited first.
@@ -84,12 +84,12 @@ TYPED_TEST(InstancesInTree, OfTwoInOnePlaceTheLowerCounts) {
   const CompiledScene<Real> scene = flat_instanced_scene<Real>(twice, false);
   const typename TypeParam::Intersector tree(scene.view);
   Random random(4);
-  size_t met = 0;
+  size_t hit_count = 0;
   for (size_t i = 0; i < effort(5'000); ++i) {
     const Ray<Real> ray = random_ray<Real>(random);
     Hit<Real> hit;
     if (!tree.closest_hit(ray, infinity<Real>, hit) || hit.instance == no_instance) continue;
-    ++met;
+    ++hit_count;
     ASSERT_LT(hit.instance, once.size());
     // A limit of exactly that distance excludes the hit.
     Hit<Real> before;
@@ -97,7 +97,7 @@ TYPED_TEST(InstancesInTree, OfTwoInOnePlaceTheLowerCounts) {
       ASSERT_LT(before.t, hit.t);
     }
   }
-  EXPECT_GT(met, effort(5'000) / 20);
+  EXPECT_GT(hit_count, effort(5'000) / 20);
 }
 
 template <class Real>
@@ -130,7 +130,7 @@ TYPED_TEST(Instances, OfMeshesThatMoveWithinAnObject) {
   const CompiledScene<Real> by_hand = flat_instanced_scene<Real>(expected, false);
   ASSERT_EQ(flat.view.instances_count, 12u);
   EXPECT_EQ(flat.view.instance_motions_count, 2u + 6u);
-  size_t met = 0;
+  size_t hit_count = 0;
   for (size_t i = 0; i < effort(5'000); ++i) {
     Ray<Real> ray = random_ray<Real>(random);
     ray.time = random.uniform<Real>();
@@ -140,9 +140,9 @@ TYPED_TEST(Instances, OfMeshesThatMoveWithinAnObject) {
     if (!found) continue;
     ASSERT_EQ(a.t, b.t);
     ASSERT_EQ(a.instance, b.instance);
-    met += a.instance != no_instance && a.instance >= 6;
+    hit_count += a.instance != no_instance && a.instance >= 6;
   }
-  EXPECT_GT(met, effort(5'000) / 100);
+  EXPECT_GT(hit_count, effort(5'000) / 100);
 }
 
 TYPED_TEST(Instances, LookLikeCopies) {
@@ -154,7 +154,7 @@ TYPED_TEST(Instances, LookLikeCopies) {
   EXPECT_LT(instances.view.triangles_count * 20, copies.view.triangles_count);
   const double tolerance = 2e4 * static_cast<double>(std::numeric_limits<Real>::epsilon());
   Random random(6);
-  size_t met = 0, apart = 0;
+  size_t hit_count = 0, apart = 0;
   for (size_t i = 0; i < effort(20'000); ++i) {
     const Ray<Real> ray = random_ray<Real>(random);
     Hit<Real> a, b;
@@ -165,7 +165,7 @@ TYPED_TEST(Instances, LookLikeCopies) {
       continue;
     }
     if (!found) continue;
-    ++met;
+    ++hit_count;
     const SurfaceInteraction<Real> of_instance = surface_interaction(instances.view, ray, a);
     const SurfaceInteraction<Real> of_copy = surface_interaction(copies.view, ray, b);
     const auto distance = [](const Vec3<Real>& x, const Vec3<Real>& y) { return static_cast<double>(length(x - y)); };
@@ -175,15 +175,15 @@ TYPED_TEST(Instances, LookLikeCopies) {
     ASSERT_LT(distance(of_instance.shading_normal, of_copy.shading_normal), 0.7);
     if (distance(of_instance.normal, of_copy.normal) > 1e-2) ++apart;
   }
-  EXPECT_GT(met, effort(20'000) / 10);
-  EXPECT_LT(apart, met / 1000 + 3);
+  EXPECT_GT(hit_count, effort(20'000) / 10);
+  EXPECT_LT(apart, hit_count / 1000 + 3);
 }
 
 /// The error bound of a point on an instance includes the errors of transforming it out of the object's space and back.
-TYPED_TEST(Instances, AreNotMetByRaysThatLeaveThem) {
+TYPED_TEST(Instances, AreNotHitByRaysThatLeaveThem) {
   using Real = TypeParam;
   Random random(7);
-  size_t left = 0, met_again = 0;
+  size_t left = 0, hit_again = 0;
   while (left < effort(100'000)) {
     Scene described;
     Mesh mesh = icosphere(0);  // convex: outward rays hit nothing
@@ -222,10 +222,10 @@ TYPED_TEST(Instances, AreNotMetByRaysThatLeaveThem) {
       const Vec3<Real> direction = convert<Real>(random.on_hemisphere(convert<double>(si.normal) * side));
       const Ray<Real> leaving = spawn_ray(si, normalize(direction));
       ++left;
-      met_again += LinearIntersector<Real>(scene.view).occluded(leaving, static_cast<Real>(10 * size));
+      hit_again += LinearIntersector<Real>(scene.view).occluded(leaving, static_cast<Real>(10 * size));
     }
   }
-  EXPECT_EQ(met_again, 0u) << "of " << left;
+  EXPECT_EQ(hit_again, 0u) << "of " << left;
 }
 
 /// At any time they are where an instance with the interpolated matrix of shutter open and close would be.
@@ -246,7 +246,7 @@ TYPED_TEST(Instances, MoveAlongLines) {
       placement.start = placement.end = Transform(matrix);
     }
     const CompiledScene<Real> frozen = flat_instanced_scene<Real>(still, false);
-    size_t met = 0, apart = 0;
+    size_t hit_count = 0, apart = 0;
     for (size_t i = 0; i < effort(5'000); ++i) {
       Ray<Real> ray = random_ray<Real>(random);
       ray.time = static_cast<Real>(time);
@@ -258,7 +258,7 @@ TYPED_TEST(Instances, MoveAlongLines) {
         continue;
       }
       if (!found) continue;
-      ++met;
+      ++hit_count;
       const SurfaceInteraction<Real> of_moving = surface_interaction(scene.view, ray, a);
       const SurfaceInteraction<Real> of_still = surface_interaction(frozen.view, ray, b);
       ASSERT_LT(static_cast<double>(length(of_moving.position - of_still.position)), tolerance);
@@ -266,8 +266,8 @@ TYPED_TEST(Instances, MoveAlongLines) {
         ASSERT_GT(dot(of_moving.normal, of_still.normal), Real(0.99));
       }
     }
-    EXPECT_GT(met, effort(5'000) / 10);
-    EXPECT_LT(apart, met / 500 + 3);
+    EXPECT_GT(hit_count, effort(5'000) / 10);
+    EXPECT_LT(apart, hit_count / 500 + 3);
   }
 }
 

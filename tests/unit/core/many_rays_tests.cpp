@@ -30,9 +30,9 @@ struct Answers {
   std::vector<Hit<Real>> hits;
   std::unique_ptr<bool[]> found;
 
-  Answers(const SceneView<Real>& scene, InstructionSet set, Way way, bool any_hit, const Queries<Real>& queries)
+  Answers(const SceneView<Real>& scene, InstructionSet set, QueryMode mode, bool any_hit, const Queries<Real>& queries)
       : hits(queries.rays.size()), found(new bool[queries.rays.size()]()) {
-    answer_queries(scene, set, way, any_hit, static_cast<uint32_t>(hits.size()), queries.rays.data(),
+    answer_queries(scene, set, mode, any_hit, static_cast<uint32_t>(hits.size()), queries.rays.data(),
                    queries.limits.data(), hits.data(), found.get());
   }
 };
@@ -76,27 +76,27 @@ void expect_same(const Hit<Real>& a, const Hit<Real>& b) {
 template <class Real>
 void check(const SceneView<Real>& scene, const Queries<Real>& queries) {
   const LinearIntersector<Real> linear(scene);
-  const Answers<Real> alone(scene, InstructionSet::baseline, Way::one, false, queries);
-  size_t met = 0;
+  const Answers<Real> alone(scene, InstructionSet::baseline, QueryMode::single, false, queries);
+  size_t hit_count = 0;
   for (size_t i = 0; i < queries.rays.size(); ++i) {
     Hit<Real> expected;
     EXPECT_EQ(alone.found[i], linear.closest_hit(queries.rays[i], queries.limits[i], expected));
     if (alone.found[i]) expect_same(alone.hits[i], expected);
-    met += alone.found[i];
+    hit_count += alone.found[i];
     if (::testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(met, queries.rays.size() / 10);
+  EXPECT_GT(hit_count, queries.rays.size() / 10);
   for (const InstructionSet set : instruction_sets())
-    for (const Way way : ways)
+    for (const QueryMode mode : query_modes)
       for (const bool any_hit : {false, true}) {
-        if (any_hit && way == Way::coherent) continue;
-        const Answers<Real> answers(scene, set, way, any_hit, queries);
+        if (any_hit && mode == QueryMode::coherent) continue;
+        const Answers<Real> answers(scene, set, mode, any_hit, queries);
         for (size_t i = 0; i < queries.rays.size(); ++i) {
           EXPECT_EQ(answers.found[i], alone.found[i]);
           if (answers.found[i] && !any_hit) expect_same(answers.hits[i], alone.hits[i]);
         }
         if (::testing::Test::HasFailure()) {
-          ADD_FAILURE() << to_string(set) << ", way " << static_cast<int>(way) << (any_hit ? ", any hit" : "");
+          ADD_FAILURE() << to_string(set) << ", mode " << static_cast<int>(mode) << (any_hit ? ", any hit" : "");
           return;
         }
       }
@@ -158,10 +158,10 @@ TYPED_TEST(ManyRays, EdgesOfASmallMesh) {
   while (queries.rays.size() < effort(5'000)) {
     const Vec3d& corner = mesh.positions[random.below(static_cast<uint32_t>(mesh.positions.size()))];
     const Vec3d& other = mesh.positions[random.below(static_cast<uint32_t>(mesh.positions.size()))];
-    const double share = random.below(3) * 0.5;
+    const double weight = random.below(3) * 0.5;
     const Vec3d origin = random.below(2) ? Vec3d{} : random.in_box(-4, 4);
-    const Vec3d way = corner * share + other * (1 - share) - origin;
-    if (length(way) > 0.1) queries.add(origin, normalize(way), 0, infinity<double>);
+    const Vec3d to_target = corner * weight + other * (1 - weight) - origin;
+    if (length(to_target) > 0.1) queries.add(origin, normalize(to_target), 0, infinity<double>);
   }
   check(scene.view, queries);
 }
@@ -193,8 +193,8 @@ TYPED_TEST(ManyRays, InAnEmptyScene) {
   Random random(23);
   const Queries<TypeParam> queries = bundles<TypeParam>(random, 100, 10);
   for (const InstructionSet set : instruction_sets())
-    for (const Way way : ways) {
-      const Answers<TypeParam> answers(scene.view, set, way, false, queries);
+    for (const QueryMode mode : query_modes) {
+      const Answers<TypeParam> answers(scene.view, set, mode, false, queries);
       for (size_t i = 0; i < queries.rays.size(); ++i) EXPECT_FALSE(answers.found[i]);
     }
 }

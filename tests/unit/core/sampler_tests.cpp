@@ -40,7 +40,7 @@ TYPED_TEST(SamplerOf, BelowOne) {
 
 /// Every argument matters, and none is equivalent to another: pixels, samples, seeds and branches with the same numbers
 /// would have the same errors.
-TYPED_TEST(SamplerOf, NoTwoShareTheirNumbers) {
+TYPED_TEST(SamplerOf, NoTwoHaveTheSameNumbers) {
   std::vector<std::array<uint32_t, 4>> numbers;
   const auto draw = [&](const TypeParam& sampler) {
     std::array<uint32_t, 4> bits;

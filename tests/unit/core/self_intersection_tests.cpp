@@ -75,7 +75,7 @@ TYPED_TEST_SUITE(SelfIntersectionOf, Reals);
 TYPED_TEST(SelfIntersectionOf, Triangles) {
   using Real = TypeParam;
   Random random(1);
-  size_t left = 0, met_again = 0;
+  size_t left = 0, hit_again = 0;
   OnePrimitive<Real> scene;
   scene.primitive = PrimitiveId(PrimitiveKind::triangle, 0);
   while (left < effort(1'000'000)) {
@@ -93,17 +93,17 @@ TYPED_TEST(SelfIntersectionOf, Triangles) {
       for (const double side : {1.0, -1.0}) {
         const Ray<Real> ray = spawn_ray(*si, leaving_direction(si->normal, side, random));
         ++left;
-        met_again += LinearIntersector<Real>(view).occluded(ray, infinity<Real>);
+        hit_again += LinearIntersector<Real>(view).occluded(ray, infinity<Real>);
       }
     }
   }
-  EXPECT_EQ(met_again, 0u) << "of " << left;
+  EXPECT_EQ(hit_again, 0u) << "of " << left;
 }
 
 TYPED_TEST(SelfIntersectionOf, SpheresFromOutside) {
   using Real = TypeParam;
   Random random(2);
-  size_t left = 0, met_again = 0;
+  size_t left = 0, hit_again = 0;
   OnePrimitive<Real> scene;
   scene.primitive = PrimitiveId(PrimitiveKind::sphere, 0);
   while (left < effort(1'000'000)) {
@@ -118,10 +118,10 @@ TYPED_TEST(SelfIntersectionOf, SpheresFromOutside) {
       if (!si) continue;
       const Ray<Real> ray = spawn_ray(*si, leaving_direction(si->normal, 1, random));
       ++left;
-      met_again += LinearIntersector<Real>(view).occluded(ray, infinity<Real>);
+      hit_again += LinearIntersector<Real>(view).occluded(ray, infinity<Real>);
     }
   }
-  EXPECT_EQ(met_again, 0u) << "of " << left;
+  EXPECT_EQ(hit_again, 0u) << "of " << left;
 }
 
 /// An inward ray hits the far side, after 2 r cos, not the near side again. Spheres must be larger than the resolution
@@ -129,7 +129,7 @@ TYPED_TEST(SelfIntersectionOf, SpheresFromOutside) {
 TYPED_TEST(SelfIntersectionOf, SpheresFromInside) {
   using Real = TypeParam;
   Random random(3);
-  size_t left = 0, met_again = 0;
+  size_t left = 0, hit_again = 0;
   OnePrimitive<Real> scene;
   scene.primitive = PrimitiveId(PrimitiveKind::sphere, 0);
   while (left < effort(1'000'000)) {
@@ -146,10 +146,10 @@ TYPED_TEST(SelfIntersectionOf, SpheresFromInside) {
       const Ray<Real> ray = spawn_ray(*si, leaving_direction(si->normal, -1, random));
       ++left;
       const double chord = 2 * radius * static_cast<double>(abs_dot(ray.direction, si->normal));
-      met_again += LinearIntersector<Real>(view).occluded(ray, static_cast<Real>(chord / 2));
+      hit_again += LinearIntersector<Real>(view).occluded(ray, static_cast<Real>(chord / 2));
     }
   }
-  EXPECT_EQ(met_again, 0u) << "of " << left;
+  EXPECT_EQ(hit_again, 0u) << "of " << left;
 }
 
 /// A sampled point of a light is visible if nothing is in between: the light does not occlude itself.

@@ -52,23 +52,24 @@ constexpr const char* bump = R"(Texture "u" "float" "bilerp" "float v00" 0 "floa
     Material "diffuse" "texture displacement" "u")";
 
 /// Ways of placing a shape in the world.
-enum class Stands { alone, moving, as_instance, as_moving_instance };
+enum class PlacementKind { alone, moving, as_instance, as_moving_instance };
 
-std::string placed(const std::string& shape, const std::string& transform, bool reversed, Stands stands) {
+std::string placed(const std::string& shape, const std::string& transform, bool reversed,
+                   PlacementKind placement_kind) {
   const std::string orientation = reversed ? "ReverseOrientation " : "";
   const std::string motion = "ActiveTransform EndTime Translate 0.2 0.1 0 Rotate 50 0 1 1 ActiveTransform All ";
   const std::string turned = "ActiveTransform EndTime Translate 0.2 0.1 0 ActiveTransform All ";
-  switch (stands) {
-    case Stands::alone:
+  switch (placement_kind) {
+    case PlacementKind::alone:
       return orientation + transform + " " + shape;
-    case Stands::moving:
+    case PlacementKind::moving:
       return orientation + (shape.find("\"sphere\"") == std::string::npos ? motion : turned) + transform + " " + shape;
-    case Stands::as_instance:
-    case Stands::as_moving_instance:
+    case PlacementKind::as_instance:
+    case PlacementKind::as_moving_instance:
       break;
   }
   return "ObjectBegin \"o\" Scale 1 1 -1 " + shape + " ObjectEnd " + orientation +
-         (stands == Stands::as_moving_instance ? motion : "") + transform +
+         (placement_kind == PlacementKind::as_moving_instance ? motion : "") + transform +
          " ObjectInstance \"o\" Translate 90 0 0 ObjectInstance \"o\"";
 }
 
@@ -125,11 +126,12 @@ class SurfaceTangentsOf : public ::testing::Test {
     for (const NamedText& shape : shapes)
       for (const char* transform : transforms)
         for (const bool reversed : {false, true})
-          for (const Stands stands : {Stands::alone, Stands::moving, Stands::as_instance, Stands::as_moving_instance}) {
+          for (const PlacementKind placement_kind : {PlacementKind::alone, PlacementKind::moving,
+                                                     PlacementKind::as_instance, PlacementKind::as_moving_instance}) {
             SCOPED_TRACE(std::string(shape.name) + ", " + transform + (reversed ? ", reversed" : "") + ", " +
-                         std::to_string(static_cast<int>(stands)));
+                         std::to_string(static_cast<int>(placement_kind)));
             std::string text = "WorldBegin LightSource \"infinite\" " + std::string(material) + " " +
-                               placed(shape.text, transform, reversed, stands);
+                               placed(shape.text, transform, reversed, placement_kind);
             check(text);
             if (this->HasFailure()) return;
           }

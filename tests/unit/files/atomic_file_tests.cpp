@@ -122,7 +122,7 @@ TEST_F(AtomicFiles, ADiskThatIsFullIsToldByCommitToo) {
   AtomicFile file("/dev/full");
   EXPECT_THROW(file.write("text", 4), WriteError);
   EXPECT_THROW(file.commit(), WriteError);
-  EXPECT_NO_THROW(check_target("/dev/full")) << "space may be freed until the picture is written";
+  EXPECT_NO_THROW(check_target("/dev/full")) << "space may be freed until the image is written";
 }
 
 TEST_F(AtomicFiles, LinksLeadToTheirTargets) {

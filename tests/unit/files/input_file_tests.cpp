@@ -107,7 +107,7 @@ TEST_P(Confined, ReadsWithinTheFolder) {
   EXPECT_EQ(text_of(path(folder_.file("scene") + "//inside", folder_.file("scene") + "/")), "inside");
 }
 
-TEST_P(Confined, RefusesEveryWayOut) {
+TEST_P(Confined, RefusesEveryPathThatLeadsOutside) {
   for (const char* name :
        {"../secret", "sub/../../secret", "link-out", "link-to-link-out", "folder-out/secret", "absolute-out",
         "magic-out", "sub/../folder-out/scene/sub/../../secret", "../scene-two/secret", "../nothing-of-that-name"}) {

@@ -45,7 +45,7 @@ Image pattern(int width, int height, bool altered) {
   return image;
 }
 
-TEST(Compare, EqualPictures) {
+TEST(Compare, EqualImages) {
   const Image image = pattern(40, 30, false);
   const ImageDifference d = compare_images(image, image);
   EXPECT_EQ(d.mse, 0);
@@ -59,7 +59,7 @@ TEST(Compare, EqualPictures) {
   EXPECT_EQ(d.nonfinite_a + d.nonfinite_b, 0);
 }
 
-TEST(Compare, ReducedPicturesAreMeansOfBlocks) {
+TEST(Compare, ReducedImagesAreMeansOfBlocks) {
   Image image = constant_image(5, 3, 0);
   for (size_t i = 0; i < 15; ++i) image.planes[0][i] = static_cast<float>(i);
   const Image small = reduced(image, 2);
@@ -179,7 +179,7 @@ TEST(Compare, SsimIsThatOfItsDefinition) {
   EXPECT_NEAR(compare_images(a, b).ssim, direct_ssim(encoded_luminance(a), encoded_luminance(b)), 1e-9);
 }
 
-TEST(Compare, PicturesSmallerThanTheWindows) {
+TEST(Compare, ImagesSmallerThanTheWindows) {
   for (const int size : {1, 2, 7}) {
     const ImageDifference d = compare_images(pattern(size, 1, true), pattern(size, 1, false));
     EXPECT_TRUE(std::isfinite(d.ssim) && d.ssim < 1) << size;

@@ -36,13 +36,13 @@ std::string error_of(const std::vector<std::string>& channels) {
 
 using Colour = std::vector<float>;
 
-TEST(ExrLayers, TheBaseLayerIsThePicture) {
+TEST(ExrLayers, TheBaseLayerIsTheImage) {
   EXPECT_EQ(colour_of({"R", "G", "B", "albedo.R", "albedo.G", "albedo.B"}), Colour({0, 1, 2}));
   EXPECT_EQ(colour_of({"Y", "diffuse.R", "diffuse.G", "diffuse.B"}), Colour({0, 0, 0}));
   EXPECT_EQ(colour_of({"Z"}), Colour({0, 0, 0})) << "the only channel";
 }
 
-TEST(ExrLayers, OneLayerIsThePictureByWhateverName) {
+TEST(ExrLayers, OneLayerIsTheImageByWhateverName) {
   EXPECT_EQ(colour_of({"layer.R", "layer.G", "layer.B"}), Colour({0, 1, 2}));
   EXPECT_EQ(colour_of({"A", "Z", "layer.R", "layer.G", "layer.B", "layer.A"}), Colour({2, 3, 4}));
   EXPECT_EQ(colour_of({"View Layer.Combined.R", "View Layer.Combined.G", "View Layer.Combined.B", "depth.Z"}),
@@ -136,7 +136,7 @@ Colour colour_of_parts(const std::vector<std::vector<std::string>>& parts) {
   return read_texture(write_parts(folder, parts), TextureEncoding::automatic).floats;
 }
 
-TEST(ExrLayers, ThePartWithColoursIsThePicture) {
+TEST(ExrLayers, ThePartWithColoursIsTheImage) {
   EXPECT_EQ(colour_of_parts({{"R", "G", "B"}, {"R", "G", "B"}}), Colour({0, 0.25f, 0.5f})) << "the first of two";
   EXPECT_EQ(colour_of_parts({{"Z"}, {"R", "G", "B", "A"}}), Colour({1, 1.25f, 1.5f}));
   EXPECT_EQ(colour_of_parts({{"X", "Y", "Z"}, {"l.R", "l.G", "l.B"}}), Colour({1, 1.25f, 1.5f}));

@@ -141,7 +141,7 @@ ParsedGltf row(double wide, double aspect) {
   return file.parse(options);
 }
 
-TEST(GltfCameras, FillPicturesOfAnyShape) {
+TEST(GltfCameras, FillImagesOfAnyShape) {
   for (const double aspect : {0.0, 0.5, 1.0, 3.0})
     for (const double wide : {1.0, 4.0}) {
       const ParsedGltf parsed = row(wide, aspect);
@@ -181,7 +181,7 @@ ParsedGltf room(size_t open) {
   return file.parse();
 }
 
-TEST(GltfLights, ClosedRoomsShineByTheirOwnColour) {
+TEST(GltfLights, ClosedRoomsEmitTheirOwnColour) {
   const ParsedGltf closed = room(0);
   ASSERT_TRUE(closed.shapes().at(0).emission);
   expect_point(closed.texture(closed.shapes()[0].emission->texture).value, {1, 0.5, 0.25});

@@ -33,9 +33,9 @@ TEST(GltfMaterials, ReadTheMetallicRoughnessModel) {
   const Texture& base = parsed.texture(m.principled.base_colour);
   ASSERT_EQ(base.kind, TextureKind::scale);
   expect_point(constant(parsed, base.inputs[0]), {0.5, 0.25, 1});
-  const Texture& picture = parsed.texture(base.inputs[1]);
-  ASSERT_EQ(picture.kind, TextureKind::image);
-  EXPECT_TRUE(parsed.scene.images[picture.image].srgb);
+  const Texture& map = parsed.texture(base.inputs[1]);
+  ASSERT_EQ(map.kind, TextureKind::image);
+  EXPECT_TRUE(parsed.scene.images[map.image].srgb);
   const Texture& metallic = parsed.texture(m.principled.metallic);
   expect_point(constant(parsed, metallic.inputs[0]), {0.75, 0.75, 0.75});
   const Texture& channel = parsed.texture(metallic.inputs[1]);
@@ -253,7 +253,7 @@ TEST(GltfMaterials, VariantsLeaveWhatTheyDoNotName) {
   EXPECT_EQ(file.parse(options).material().name, "red");
 }
 
-TEST(GltfMaterials, PreferThePictureThatCanBeRead) {
+TEST(GltfMaterials, PreferTheImageThatCanBeRead) {
   GltfFile file;
   const int texture = file.add_texture();
   file.root["images"].push_back({{"uri", "data:image/webp;base64,UklGRg=="}});
@@ -363,7 +363,7 @@ TEST(GltfCameras, FrameWhatHasNoCamera) {
 
 /// By the size of the scene in the image, whatever its size in metres.
 TEST(GltfCameras, FrameTheSmallestAsTheLargest) {
-  const auto height_in_picture = [](double scale) {
+  const auto height_in_image = [](double scale) {
     GltfFile file;
     file.add_node({{"mesh", file.add_mesh(file.triangle())}, {"scale", {scale, scale, scale}}});
     const Camera camera = file.parse().scene.camera;
@@ -371,10 +371,10 @@ TEST(GltfCameras, FrameTheSmallestAsTheLargest) {
     const Vec3d foot = camera_from_world.point({0, 0, 0}), head = camera_from_world.point({0, scale, 0});
     return head.y / head.z - foot.y / foot.z;
   };
-  const double expected = height_in_picture(1);
+  const double expected = height_in_image(1);
   EXPECT_GT(expected, 0.1);
   for (const double scale : {1e-6, 1e-9, 1e-10, 1e-12, 1e-15, 1e6, 1e12})
-    EXPECT_NEAR(height_in_picture(scale), expected, 1e-6) << scale;
+    EXPECT_NEAR(height_in_image(scale), expected, 1e-6) << scale;
 }
 
 // Errors ------------------------------------------------------------------------------------------------------------

@@ -119,7 +119,7 @@ TEST(GltfMeshes, MakeInstancesOfMeshesThatAreUsedTwice) {
   expect_point(parsed.scene.instances[1].world_from_group.start.point({}), {0, 0, 7});
 }
 
-TEST(GltfMeshes, PlaceWhatShinesDirectly) {
+TEST(GltfMeshes, PlaceEmissiveMeshesDirectly) {
   GltfFile file;
   file.root["materials"] = {{{"emissiveFactor", {1, 1, 1}}}};
   json primitive = file.triangle();

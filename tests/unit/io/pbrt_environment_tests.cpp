@@ -48,7 +48,7 @@ class PbrtEnvironment : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(PbrtEnvironment, PicturesAreRead) {
+TEST_F(PbrtEnvironment, ImagesAreRead) {
   const Parsed p = infinite("\"string filename\" \"sun.exr\" \"float scale\" 3");
   EXPECT_TRUE(p.diagnostics.warnings().empty());
   const Light& light = p.scene.lights.at(0);

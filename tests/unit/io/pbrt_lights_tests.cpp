@@ -11,9 +11,9 @@
 namespace alhazen::test {
 namespace {
 
-class PbrtLightPictures : public ::testing::Test {
+class PbrtLightImages : public ::testing::Test {
  protected:
-  PbrtLightPictures() {
+  PbrtLightImages() {
     // Bright only at the right of the top row.
     ImageTexels map = even_map(4, 2, 0);
     for (size_t c = 0; c < 3; ++c) channel_of(map, 3, 0, c) = 1 + static_cast<float>(c);
@@ -51,7 +51,7 @@ class PbrtLightPictures : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(PbrtLightPictures, AProjectionStandsUpright) {
+TEST_F(PbrtLightImages, AProjectionStandsUpright) {
   const std::string light = R"(LightSource "projection" "string filename" "corner.exr" "float fov" 90 "float scale" 2)";
   const Parsed p = world(light);
   EXPECT_TRUE(p.diagnostics.warnings().empty());
@@ -65,7 +65,7 @@ TEST_F(PbrtLightPictures, AProjectionStandsUpright) {
   expect_near(sent_to("Rotate 90 0 1 0 " + light, {1, 0.5, -1.5}), Vec3d{2, 4, 6} / splat(3.5), 1e-9);
 }
 
-TEST_F(PbrtLightPictures, AGoniometricLightStandsUpright) {
+TEST_F(PbrtLightImages, AGoniometricLightStandsUpright) {
   const std::string light = R"(LightSource "goniometric" "string filename" "upper.exr" "rgb I" [ 5 6 7 ])";
   const Parsed p = world(light);
   EXPECT_TRUE(p.diagnostics.warnings().empty());
@@ -78,7 +78,7 @@ TEST_F(PbrtLightPictures, AGoniometricLightStandsUpright) {
 }
 
 /// The integral of the emission over the sphere is the power.
-TEST_F(PbrtLightPictures, PowerIsAllThatIsSent) {
+TEST_F(PbrtLightImages, PowerIsAllThatIsSent) {
   for (const std::string light :
        {R"(LightSource "goniometric" "string filename" "upper.exr" "float power" 10)",
         R"(LightSource "projection" "string filename" "corner.exr" "float power" 10 "float fov" 60)",
@@ -92,7 +92,7 @@ TEST_F(PbrtLightPictures, PowerIsAllThatIsSent) {
   }
 }
 
-TEST_F(PbrtLightPictures, OfAreaLights) {
+TEST_F(PbrtLightImages, OfAreaLights) {
   const std::string quad =
       R"( Shape "trianglemesh" "point3 P" [ 0 0 0  4 0 0  4 2 0  0 2 0 ] "integer indices" [ 0 1 2 0 2 3 ]
           "point2 uv" [ 0 0  1 0  1 1  0 1 ])";
@@ -120,7 +120,7 @@ TEST_F(PbrtLightPictures, OfAreaLights) {
   EXPECT_NEAR(shapes(powered)[0].emission->radiance.x, 10 / (pi<double> * 8 * 2), 1e-9);
 }
 
-TEST_F(PbrtLightPictures, Errors) {
+TEST_F(PbrtLightImages, Errors) {
   const std::string goniometric = "LightSource \"goniometric\" \"string filename\" ";
   const std::string projection = "LightSource \"projection\" ";
   struct Case {

@@ -240,7 +240,7 @@ TEST(PbrtAreaLights, EmissionOfTheShapesThatFollow) {
   expect_near(shapes(p)[2].emission->radiance, {1, 1, 1});
 }
 
-TEST(PbrtAreaLights, PowerIsSharedOutOverTheArea) {
+TEST(PbrtAreaLights, PowerIsDistributedOverTheArea) {
   const Parsed p = parse_world(
       "Scale 2 2 2 AreaLightSource \"diffuse\" \"float power\" 100 Shape \"sphere\" "
       "Shape \"disk\" \"float radius\" 3");

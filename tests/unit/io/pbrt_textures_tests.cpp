@@ -136,7 +136,7 @@ TEST(PbrtTextures, Mappings) {
 }
 
 /// An image of 2 x 1 texels in PFM: linear floats, so nothing is lost.
-std::string folder_with_picture() {
+std::string folder_with_image() {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "pbrt_pictures";
   std::filesystem::create_directories(folder);
   std::ofstream file(folder / "p.pfm", std::ios::binary);
@@ -152,7 +152,7 @@ TEST(PbrtTextures, ImagesAreReadOnceForEachUse) {
       "\"float scale\" 2 \"string filter\" \"point\"\n"
       "Texture \"b\" \"spectrum\" \"imagemap\" \"string filename\" \"p.pfm\" \"bool invert\" true\n"
       "Texture \"c\" \"float\" \"imagemap\" \"string filename\" \"p.pfm\" \"string filter\" \"trilinear\"",
-      folder_with_picture());
+      folder_with_image());
   ASSERT_EQ(p.scene.images.size(), 2u) << "one in colour and one in grey";
   EXPECT_EQ(named(p, "a").image, named(p, "b").image);
   EXPECT_EQ(named(p, "a").wrap, WrapMode::clamp);

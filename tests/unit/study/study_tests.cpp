@@ -85,7 +85,7 @@ TEST(StudyBalance, OfThreads) {
   EXPECT_NEAR(gini_of_busy(trial), 0.25, 1e-12);
 }
 
-TEST(StudyProcessors, ShareIsOfWhatThreadsCouldHaveHad) {
+TEST(StudyProcessors, FractionIsOfAvailableProcessorTime) {
   EXPECT_NEAR(processor_fraction(2, 1, {1, 1}, 2), 1, 1e-12);
   EXPECT_NEAR(processor_fraction(1, 1, {1, 1}, 2), 0.5, 1e-12);
   EXPECT_NEAR(processor_fraction(1.5, 1, {0.5, 1}, 2), 1, 1e-12);    // a static schedule: one ends early
@@ -117,9 +117,9 @@ TEST(StudyWorkPerThread, HasThePixelsOfTheKernel) {
   const ThreadGrid grid = threads_of(std::vector<float>(size_t{19 * 14}, 1.0f), width, height, chunks_x, chunks_y);
   for (uint32_t y = 0; y < static_cast<uint32_t>(grid.height); ++y)
     for (uint32_t x = 0; x < static_cast<uint32_t>(grid.width); ++x) {
-      Film<float> picture(settings.window, settings.aovs, false);
+      Film<float> film(settings.window, settings.aovs, false);
       cuda::Totals totals{};
-      cuda::Launch<float> launch{flat.view, picture.view(),    &totals,          0, 0, width,
+      cuda::Launch<float> launch{flat.view, film.view(),       &totals,          0, 0, width,
                                  {},        {0, height, 0, 4}, settings.sampler, 0, 10};
       std::vector<BlockSum<float>> sums(static_cast<size_t>(grid.width * grid.height));
       const cuda::PixelKernel<cuda::FlatTracing, IntegratorKind::iterative, float> kernel{launch, chunks_x, chunks_y,
@@ -127,8 +127,7 @@ TEST(StudyWorkPerThread, HasThePixelsOfTheKernel) {
       kernel(cuda::HostThread(x, y, static_cast<uint32_t>(grid.width)));
       std::vector<float> taken;
       for (int row = 0; row < height; ++row)
-        for (int column = 0; column < width; ++column)
-          taken.push_back(picture.samples_at(column, row) > 0 ? 1.0f : 0.0f);
+        for (int column = 0; column < width; ++column) taken.push_back(film.samples_at(column, row) > 0 ? 1.0f : 0.0f);
       const ThreadGrid of_kernel = threads_of(taken, width, height, chunks_x, chunks_y);
       const size_t own = y * static_cast<size_t>(grid.width) + x;
       EXPECT_GT(of_kernel.segments[own], 0);
