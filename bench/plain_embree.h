@@ -1,7 +1,7 @@
 #pragma once
 
-// A compiled scene as one would hand it to Embree without a renderer around it: its own triangles and spheres, no
-// filters, the flags that it has by default, the high-quality build. The yardstick that our traversal is measured with.
+// A compiled scene in plain Embree, as an application without a renderer would use it: Embree's own triangles and
+// spheres, no filters, default flags, the high-quality build. It is the reference for our traversal.
 
 #include "backends/embree/api.h"
 #include "core/scene_view.h"
@@ -10,7 +10,7 @@ namespace alhazen {
 
 class PlainEmbree {
  public:
-  /// `view` must outlive it. Throws std::runtime_error where Embree refuses.
+  /// `view` must outlive it. Throws std::runtime_error if Embree fails.
   PlainEmbree(const SceneView<float>& view, int threads);
   ~PlainEmbree();
   PlainEmbree(const PlainEmbree&) = delete;

@@ -1,5 +1,5 @@
-// Closest-hit and any-hit queries on recorded rays: by our tree, as it was compiled for each of the instruction sets,
-// and, where it is built in, by Embree. scripts/bench-rays.py runs it and prints ratios.
+// Closest-hit and any-hit queries with recorded rays: by our tree, as compiled for each instruction set, and by Embree
+// if it is built in. scripts/bench-rays.py runs it and prints ratios.
 
 #include <benchmark/benchmark.h>
 
@@ -80,7 +80,7 @@ void register_precision(const std::string& precision) {
 #endif
     }
 #if defined(ALHAZEN_WITH_EMBREE)
-    // What whole.cpp renders, without the shading.
+    // The rays of whole.cpp's renders, without the shading.
     if constexpr (sizeof(Real) == sizeof(float))
       add(std::string("whole/") + scene, "embree", {primary, bounce, shadow}, select(best, Call::plain_embree),
           Call::plain_embree);

@@ -15,7 +15,7 @@ namespace alhazen {
 
 namespace {
 
-/// Sorts the rays of a path by what they are asked for.
+/// Sorts the rays of a path by kind of query.
 template <class Real>
 struct Recorder {
   const SimdBvhIntersector<Real>& inner;

@@ -1,7 +1,7 @@
 #pragma once
 
 // The rays of a render, recorded in the order in which it traces them. Scenes: scenes/weekend.pbrt, scenes/cornell.pbrt
-// and a mesh of a trefoil knot under a lamp and a sky, of scenes/knot.ply.gz or what ALHAZEN_BENCH_MESH names.
+// and a mesh of a trefoil knot under a lamp and a sky, from scenes/knot.ply.gz or the file in ALHAZEN_BENCH_MESH.
 
 #include <array>
 #include <memory>
@@ -18,7 +18,7 @@
 
 namespace alhazen {
 
-/// Camera rays, 16 of a pixel after each other; bounces in the order of the paths; the same shuffled; shadow rays.
+/// Camera rays, 16 consecutive ones per pixel; bounces in the order of the paths; the same shuffled; shadow rays.
 enum RaySet { primary, bounce, shuffled, shadow };
 
 inline constexpr const char* bench_scenes[] = {"weekend", "cornell", "knot"};
@@ -32,12 +32,12 @@ struct Recorded {
   CompiledScene<Real> flat;
   std::array<std::vector<Query<Real>>, 4> sets;
 #if defined(ALHAZEN_WITH_EMBREE)
-  std::unique_ptr<PlainEmbree> plain_embree;  ///< float alone
+  std::unique_ptr<PlainEmbree> plain_embree;  ///< float only
   std::unique_ptr<EmbreeScene> embree;
 #endif
 
   explicit Recorded(const std::string& name);
-  /// Recorded when it is first asked for.
+  /// Recorded on first use.
   static const Recorded& of(const std::string& name);
 };
 

@@ -1,4 +1,4 @@
-// Whole renders of scenes/spheres.pbrt: the engines of the CPU beside each other, and the BVH beside the linear scan of
+// Whole renders of scenes/spheres.pbrt: compares the CPU engines with each other, and the BVH with the linear scan of
 // the report's Algorithm 5. Run by scripts/bench.py, which prints ratios.
 
 #include <benchmark/benchmark.h>

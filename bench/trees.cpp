@@ -1,5 +1,5 @@
-// The binary BVH beside the compressed wide one that GPUs walk, on the host: what building takes, what both weigh, and
-// how many rays a second they answer. The mesh is scenes/knot.ply.gz or what ALHAZEN_BENCH_MESH names.
+// Compares the binary BVH with the compressed wide one of GPUs, on the host: build time, memory, and rays per second.
+// The mesh is scenes/knot.ply.gz or the file in ALHAZEN_BENCH_MESH.
 
 #include <benchmark/benchmark.h>
 
@@ -25,7 +25,7 @@ const CompiledScene<float>& mesh() {
   return flat;
 }
 
-/// From points all round the mesh to points within its bounds: no two of them alike, as after some bounces.
+/// From points around the mesh to points within its bounds: incoherent, as after some bounces.
 std::vector<Ray<float>> incoherent_rays() {
   const BvhNode<float>& root = mesh().view.nodes[0];
   const Vec3<float> size = root.high() - root.low(), centre = root.low() + size * 0.5f;

@@ -1,5 +1,5 @@
-// Whole renders by `path` on one core, of the very samples whose rays rays.cpp has Embree trace; and what building the
-// trees takes, on as many threads as the machine has processors.
+// Whole renders by `path` on one core, with the same samples whose rays rays.cpp traces by Embree; and the build times
+// of the trees, with as many threads as the machine has processors.
 
 #include <benchmark/benchmark.h>
 

@@ -3,8 +3,8 @@
 
 usage: python/study_plots.py FOLDER
 
-FOLDER holds the study.json that `alhazen study report` wrote. A plot whose numbers were not measured is left out.
-The program carries this file within itself and runs it at the end of a report.
+FOLDER holds the study.json that `alhazen study report` wrote. Plots without measurements are omitted.
+The program embeds this file and runs it at the end of a report.
 """
 
 import json
@@ -33,7 +33,7 @@ def set_style():
 
 
 def short(value):
-    """Three digits that count, never with an exponent."""
+    """Three significant digits, never with an exponent."""
     return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
 
 
@@ -44,8 +44,8 @@ class Study:
         self.tables = {table["id"]: table for table in self.json["tables"]}
 
     def cells(self, table, column=None, having=()):
-        """The measured cells of a table, of one of its columns where that is named, that have what is to be drawn: a study
-        that was interrupted has cells without a baseline, and some that were not measured."""
+        """The measured cells of a table, or of one of its columns, that have the quantity to be drawn: an interrupted
+        study has cells without a baseline, and some that were not measured."""
         return [cell for cell in self.tables.get(table, {"cells": []})["cells"]
                 if cell["status"] == "ok" and cell.get("seconds") and (column is None or cell["column"] == column)
                 and all(cell.get(name) is not None for name in having)]
@@ -55,7 +55,7 @@ class Study:
 
 
 def write_whole(path, write):
-    """A plot that is interrupted leaves no half of a file, and no other."""
+    """An interrupted plot leaves no partial file."""
     temporary = path.with_name(f".{path.name}.tmp")
     try:
         write(temporary)
@@ -71,7 +71,7 @@ def save(figure, folder, name):
 
 
 def error_of_speedup(cell):
-    """How far the speedup would be off at the slowest and at the fastest repeat; rounding does not make it negative."""
+    """Differences of the speedup at the slowest and the fastest repeat, not negative despite rounding."""
     seconds, speedup = cell["seconds"], cell["speedup"]
     return [max(0.0, speedup - speedup * seconds["median"] / seconds["max"]),
             max(0.0, speedup * seconds["median"] / seconds["min"] - speedup)]
@@ -101,7 +101,7 @@ def draw_headline(study):
                 (f"OpenMP rows dynamic, {processors} threads", "table3", lambda row: row == f"{processors} dynamic", "blue"),
                 (None, "engines", lambda row: row.startswith("OpenMP tiles"), "blue"),
                 (None, "engines", lambda row: row.startswith("Embree tiles"), "blue"),
-                ("CUDA a thread a pixel", "table4", lambda row: True, "orange"),
+                ("CUDA one thread per pixel", "table4", lambda row: True, "orange"),
                 ("CUDA chunks", "table5", lambda row: True, "orange"),
                 (None, "engines", lambda row: row.startswith("CUDA"), "orange"),
                 ("OptiX", "optix", lambda row: True, "red")]
@@ -172,7 +172,7 @@ def draw_scaling(study):
 
 
 def draw_gpu(study, table, name):
-    """Speedups of a table of the GPU, double and float beside each other."""
+    """Speedups of a GPU table, double and float side by side."""
     rows = [row for row in study.tables.get(table, {"rows": []})["rows"]
             if any(cell["row"] == row for cell in study.cells(table, having=["speedup"]))]
     if not rows:
@@ -206,7 +206,7 @@ def draw_figure3(study):
     naive, chunked = (read_pfm(study.folder / figure3[name]["picture"]) for name in ("naive", "chunked"))
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 4.1))
     top = max(figure3["naive"]["largest"], figure3["chunked"]["largest"])
-    for axes, values, facts, title in ((left, naive, figure3["naive"], "a thread a pixel"),
+    for axes, values, facts, title in ((left, naive, figure3["naive"], "one thread per pixel"),
                                        (right, chunked, figure3["chunked"], f"{figure3['chunks']} chunks")):
         image = axes.imshow(values, cmap="inferno", vmin=1, vmax=top, interpolation="nearest")
         axes.set_title(f"{title}: mean {facts['mean']:.2f}, largest {facts['largest']:.2f}")
@@ -255,7 +255,7 @@ def draw_queries(study):
     axes.set_yticks(positions, rows)
     axes.grid(axis="y", visible=False)
     axes.margins(x=0.12)
-    axes.set_xlabel("nanoseconds a ray, one thread, shading included")
+    axes.set_xlabel("nanoseconds per ray, one thread, shading included")
     axes.legend(loc="lower right")
     save(figure, study.folder, "queries")
 
@@ -278,7 +278,7 @@ def draw_depth(study, table, name):
     most = max(cell["rays_per_sample"] for cell in study.cells(table, having=needed))
     shown = depths[2.0 ** depths - 1 <= 2 * most]
     left.plot(shown, 2.0 ** shown - 1, color="#98a4af", linestyle=":", label="all of them branch: $2^D - 1$")
-    for axes, title in ((left, "rays of a camera sample"), (right, "microseconds of a camera sample")):
+    for axes, title in ((left, "rays per camera sample"), (right, "microseconds per camera sample")):
         axes.set_yscale("log")
         axes.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
         axes.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
@@ -286,7 +286,7 @@ def draw_depth(study, table, name):
         if high < 50 * low:
             axes.yaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
         axes.set_xticks(depths[1::2])
-        axes.set_xlabel("D, segments at most")
+        axes.set_xlabel("D, maximum number of segments")
         axes.set_title(title)
     left.legend(fontsize=9)
     save(figure, study.folder, name)
@@ -303,7 +303,7 @@ def draw_objects(study):
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("spheres")
-    axes.set_ylabel("nanoseconds a ray")
+    axes.set_ylabel("nanoseconds per ray")
     axes.legend()
     save(figure, study.folder, "objects")
 
@@ -343,7 +343,7 @@ def main():
     for name, draw in plots.items():
         try:
             draw(study)
-        except Exception as error:  # one that fails is no reason to lose the others
+        except Exception as error:  # the other plots are still drawn
             failures.append(f"{name} ({type(error).__name__}: {error})")
     if failures:
         sys.exit("; ".join(failures))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Traversal, whole renders and builds beside Embree: interleaved repeats in one run, medians, ratios.
+"""Compares traversal, whole renders and builds with Embree: interleaved repeats in one run, medians, ratios.
 
 usage: scripts/bench-rays.py [--binary build/release/bench/alhazen_bench] [--mesh MESH.ply] [--repeats 5]
                              [--filter REGEX] [--json FILE] [--markdown]
@@ -29,7 +29,7 @@ def run(options):
 
 
 def groups_of(report):
-    """{group: {engine: (milliseconds of each repeat, number of rays or None, bytes a triangle or None)}}"""
+    """{group: {engine: (milliseconds of each repeat, number of rays or None, bytes per triangle or None)}}"""
     groups = {}
     for entry in report["benchmarks"]:
         if entry["run_type"] != "iteration":
@@ -52,7 +52,7 @@ def main():
     parser.add_argument("--markdown", action="store_true", help="tables for docs/results")
     options = parser.parse_args()
     if not os.access(options.binary, os.X_OK):
-        sys.exit(f"bench-rays: {options.binary} is not there: build it first (scripts/build.sh alhazen_bench)")
+        sys.exit(f"bench-rays: {options.binary} does not exist: build it first (scripts/build.sh alhazen_bench)")
     report = run(options)
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:

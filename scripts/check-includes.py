@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds the rule of who may include whom. Prints file:line for each breach and fails.
+"""Checks the rules of which layer may include which. Prints file:line for each violation and fails.
 
 Layers are the folders of src/, and `alhazen` is the public header in include/. A file may include what its own layer
 may, given below, by a path that starts at src/ or include/.
@@ -30,12 +30,12 @@ MAY_INCLUDE = {
     "alhazen": set(),
 }
 
-# Exceptions: (layer, path that it may include all the same, why).
+# Exceptions: (layer, path that it may include nevertheless, reason).
 EXCEPTIONS = [
     ("core", "immintrin.h", "intrinsics of x86, within core/simd/lanes.h"),
 ]
 
-# The core runs on devices too: of the standard library it may use only what needs no run time support there.
+# The core runs on devices too: of the standard library it may use only headers that need no run time support there.
 CORE_STANDARD_HEADERS = {"bit", "cfloat", "cmath", "concepts", "cstddef", "cstdint", "limits", "type_traits"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]*)"|<([^>]*)>)')
@@ -70,13 +70,13 @@ def main():
         name = path.relative_to(root)
         layer = name.parts[1]
         if layer not in MAY_INCLUDE:
-            print(f"{name}:1: '{layer}' is no layer that {Path(__file__).name} knows: add it to its table")
+            print(f"{name}:1: '{layer}' is not a layer known to {Path(__file__).name}: add it to its table")
             failures += 1
             continue
         for number, message in breaches(path, layer):
             print(f"{name}:{number}: {message}")
             failures += 1
-    print(f"{len(files)} files, {failures} includes against the rule")
+    print(f"{len(files)} files, {failures} includes against the rules")
     return 1 if failures else 0
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The scenes that a script writes are as their script writes them.
+# Checks that generated scenes are what their scripts generate.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../scenes"
 

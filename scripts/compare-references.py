@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Scenes against the pictures that other renderers made of them, as a Markdown table (docs/results/references.md).
+"""Compares scenes with reference images from other renderers, as a Markdown table (docs/results/references.md).
 
   compare-references.py FOLDER... [--spp 8] [--reduce 4] [--only NAME...] [--output DIR]
 
 Every folder below FOLDER that holds TungstenRender.exr and a pbrt file is a scene. It is rendered at the size of its
-reference, with the filter that it asks for, at few samples; then both pictures are averaged over blocks of pixels
-(`alhazen compare --reduce`), so that most of the noise goes and what is left is what differs.
+reference, with its own filter, with few samples; then both images are averaged over blocks of pixels
+(`alhazen compare --reduce`), which removes most of the noise and leaves the differences.
 """
 
 import argparse
@@ -36,9 +36,9 @@ def name_of(scene: pathlib.Path) -> str:
     return scene.parent.parent.name if scene.parent.name == "pbrt" else scene.parent.name
 
 
-def size_of(picture: pathlib.Path) -> str:
+def size_of(image: pathlib.Path) -> str:
     """WxH of an EXR: its header has the data window as two inclusive corners."""
-    header = picture.read_bytes()[:65536]
+    header = image.read_bytes()[:65536]
     at = header.index(b"dataWindow\0box2i\0") + len(b"dataWindow\0box2i\0") + 4
     x0, y0, x1, y1 = struct.unpack("<4i", header[at : at + 16])
     return f"{x1 - x0 + 1}x{y1 - y0 + 1}"
@@ -55,16 +55,16 @@ class Study:
 
     def row(self, scene: pathlib.Path, reference: pathlib.Path) -> str:
         name = name_of(scene)
-        picture, small = self.work / f"{name}.exr", self.work / f"{name}.png"
+        image, small = self.work / f"{name}.exr", self.work / f"{name}.png"
         start = time.time()
-        rendered = run([self.options.alhazen, "render", str(scene), "-o", str(picture), "-o", str(small), "-q",
+        rendered = run([self.options.alhazen, "render", str(scene), "-o", str(image), "-o", str(small), "-q",
                         "--size", size_of(reference), "--spp", str(self.options.spp), "--threads", str(self.options.threads),
                         *self.options.render])  # fmt: skip
         seconds = time.time() - start
         (self.work / f"{name}.log").write_text(rendered.stderr)
         if rendered.returncode != 0:
             return f"| {name} | {rendered.stderr.strip().splitlines()[0] if rendered.stderr else 'failed'} |"
-        compared = run([self.options.alhazen, "compare", str(picture), str(reference), "--json", "--reduce",
+        compared = run([self.options.alhazen, "compare", str(image), str(reference), "--json", "--reduce",
                         str(self.options.reduce), "--diff", str(self.work / f"{name}-diff.png")])  # fmt: skip
         if compared.returncode != 0:
             return f"| {name} | {compared.stderr.strip().splitlines()[0]} |"
@@ -77,11 +77,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", metavar="FOLDER")
     parser.add_argument("--alhazen", default="build/release/bin/alhazen", help="the program")
-    parser.add_argument("--spp", type=int, default=8, help="samples a pixel of the whole picture")
-    parser.add_argument("--reduce", type=int, default=4, help="blocks of this many pixels a side are averaged")
+    parser.add_argument("--spp", type=int, default=8, help="samples per pixel of the whole image")
+    parser.add_argument("--reduce", type=int, default=4, help="average blocks of this many pixels per side")
     parser.add_argument("--only", nargs="*", default=[], help="names of scenes")
     parser.add_argument("--threads", type=int, default=0)
-    parser.add_argument("--output", help="keep the pictures, those of the differences and the warnings here")
+    parser.add_argument("--output", help="keep the images, difference images and warnings here")
     parser.add_argument("--render", nargs="*", default=[], help="more options of `alhazen render`")
     options = parser.parse_args()
     print("| scene | mean luminance / reference | relMSE | FLIP | seconds |\n|---|---|---|---|---|")

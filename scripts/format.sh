@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Formats the C++ of the repository with clang-format. --check: changes nothing, names each place that differs and
-# fails; exits with 77 where clang-format 14, the one of Debian 12, is not there (others break lines elsewhere).
+# Formats the C++ of the repository with clang-format. --check: changes nothing, reports each difference and fails; exits
+# with 77 if clang-format 14, that of Debian 12, is not installed (other versions break lines differently).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Runs fuzz targets of build/fuzz one after the other, each from what it found the last time and from its corpus in
+# Runs the fuzz targets of build/fuzz one after the other, each from its earlier findings and from its corpus in
 # tests/fuzz/corpus. Environment: SECONDS_EACH (default: 600). Arguments: names of targets, such as `png` or
-# `render_gltf` (default: all). What covers something new is kept in build/fuzz/found, what fails in build/fuzz/findings.
+# `render_gltf` (default: all). Inputs with new coverage are kept in build/fuzz/found, failing ones in build/fuzz/findings.
 #   cmake --preset fuzz && cmake --build --preset fuzz && scripts/fuzz.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -28,7 +28,7 @@ for target in "${targets[@]}"; do
   also=()
   if [[ $target == render_image ]]; then also=(exr png hdr); fi
   for corpus in "$target" "$format" "${also[@]}"; do
-    # The target's own name stands twice where it does not begin with render_.
+    # The target's own name occurs twice if it does not begin with render_.
     if [[ -d tests/fuzz/corpus/$corpus && ${corpora[-1]} != "tests/fuzz/corpus/$corpus" ]]; then
       corpora+=("tests/fuzz/corpus/$corpus")
     fi

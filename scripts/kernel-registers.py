@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints registers, stack and spills of every CUDA kernel, as ptxas tells them.
+"""Prints registers, stack and spills of every CUDA kernel, as reported by ptxas.
 
 usage: scripts/kernel-registers.py [--build build/release] [--arch 90]
 Compiles the kernels again for one architecture, with the options of the build. Also the target `kernel_registers`.

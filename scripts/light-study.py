@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Error at equal time of two ways to find light, as Markdown tables (docs/results/lights.md).
+"""Error at equal time of two methods of finding light, as Markdown tables (docs/results/lights.md).
 
   light-study.py lights        a room of 1 to 100000 lights: the light tree against a choice by power alone
   light-study.py scenes DIR    `path` against `iterative` on scenes of DIR, the folder of test scenes
-  light-study.py sky MAP       sampling an environment map against meeting it by chance
+  light-study.py sky MAP       sampling an environment map against BSDF sampling alone
 
-The error of a picture falls as 1 / sqrt(samples), so of two ways at the same number of samples the mean squared error
-times the seconds says which is better at equal time: their ratio is how many times as long the worse one has to run.
+The error of an image falls as 1 / sqrt(samples), so for two methods with equal samples the mean squared error times
+the seconds says which is better at equal time: their ratio is how many times as long the worse one has to run.
 """
 
 import argparse
@@ -29,7 +29,7 @@ Translate 1.5 0.8 0 Shape "sphere" "float radius" 0.8 AttributeEnd
 
 
 def room(count: int, sampler: str) -> str:
-    """A room with that many small lamps, triangles that face anywhere, of the same power together, out of sight."""
+    """A room with that many small lamps, randomly oriented triangles of constant total power, out of sight."""
     rng = random.Random(count)
     size = 0.5 / count**0.5
     points = []
@@ -50,11 +50,11 @@ WorldBegin
     return head + FLOOR + lamps
 
 
-def open_room(picture: str) -> str:
-    """The room without lamps, under a map at 30 times its radiance, its top upwards."""
+def open_room(image: str) -> str:
+    """The room without lamps, under a map scaled by 30, with its top upwards."""
     lamps = "AreaLightSource"
     head = room(1, "power").split(lamps)[0]
-    return head + f'Rotate -90 1 0 0 LightSource "infinite" "string filename" "{picture}" "float scale" 30\n'
+    return head + f'Rotate -90 1 0 0 LightSource "infinite" "string filename" "{image}" "float scale" 30\n'
 
 
 class Study:
@@ -66,7 +66,7 @@ class Study:
         return str(pathlib.Path(self.folder.name) / name)
 
     def render(self, scene: str, output: str, samples: int, extra: list[str]) -> float:
-        """Processor seconds, which other programs of a busy machine do not add to."""
+        """Processor seconds, which do not depend on other programs of a busy machine."""
         command = [self.options.alhazen, "render", scene, "-o", output, "--exr-type", "float", "--spp", str(samples)]
         command += ["--stats=json", "-q", *extra]
         if self.options.threads:
@@ -80,18 +80,18 @@ class Study:
         result = subprocess.run([self.options.alhazen, "compare", "--json", a, b], capture_output=True, text=True)
         return json.loads(result.stdout)[self.options.metric]
 
-    def contest(self, name: str, ways: dict[str, tuple[str, list[str]]], samples: int, reference: int) -> None:
-        """`ways`: scene and options by name; the reference is made by the first."""
-        first, options = next(iter(ways.values()))
+    def contest(self, name: str, methods: dict[str, tuple[str, list[str]]], samples: int, reference: int) -> None:
+        """`methods`: scene and options by name; the reference is made by the first."""
+        first, options = next(iter(methods.values()))
         self.render(first, self.path("reference.exr"), reference, ["--seed", "99", *options])
         cells, costs = [], []
-        for scene, options in ways.values():
-            # What reading the scene and one sample cost is taken off.
-            start = self.render(scene, self.path("picture.exr"), 1, options)
+        for scene, options in methods.values():
+            # The cost of reading the scene and of one sample is subtracted.
+            start = self.render(scene, self.path("image.exr"), 1, options)
             errors, seconds = [], []
             for seed in range(1, self.options.repeats + 1):
-                seconds.append(self.render(scene, self.path("picture.exr"), samples, ["--seed", str(seed), *options]))
-                errors.append(self.error(self.path("picture.exr"), self.path("reference.exr")))
+                seconds.append(self.render(scene, self.path("image.exr"), samples, ["--seed", str(seed), *options]))
+                errors.append(self.error(self.path("image.exr"), self.path("reference.exr")))
             error, time = sum(errors) / len(errors), (min(seconds) - start) * samples / (samples - 1)
             cells += [f"{error:.3g}", f"{time:.2f}"]
             costs.append(error * time)
@@ -111,8 +111,8 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=0)
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--samples", type=int, default=16)
-    parser.add_argument("--reference", type=int, default=1024, help="samples a pixel of the reference")
-    parser.add_argument("--metric", default="relmse", help="what `alhazen compare --json` calls the error")
+    parser.add_argument("--reference", type=int, default=1024, help="samples per pixel of the reference")
+    parser.add_argument("--metric", default="relmse", help="name of the error in `alhazen compare --json`")
     parser.add_argument("--size", default="160x90")
     options = parser.parse_args()
     study = Study(options)
@@ -120,18 +120,18 @@ def main() -> None:
     if options.study == "lights":
         header("lights", "tree", "power")
         for count in (1, 3, 10, 30, 1000, 100_000):
-            ways = {}
+            methods = {}
             for sampler in ("bvh", "power"):
                 path = study.path(f"{sampler}-{count}.pbrt")
                 pathlib.Path(path).write_text(room(count, sampler))
-                ways[sampler] = (path, size)
-            study.contest(str(count), ways, options.samples, options.reference)
+                methods[sampler] = (path, size)
+            study.contest(str(count), methods, options.samples, options.reference)
     elif options.study == "sky":
-        header("scene", "sampled", "by chance")
+        header("scene", "light sampling", "BSDF sampling")
         path = study.path("sky.pbrt")
         pathlib.Path(path).write_text(open_room(str(pathlib.Path(options.folder).resolve())))
-        ways = {"path": (path, size), "iterative": (path, [*size, "--integrator", "iterative"])}
-        study.contest(pathlib.Path(options.folder).stem, ways, options.samples, options.reference)
+        methods = {"path": (path, size), "iterative": (path, [*size, "--integrator", "iterative"])}
+        study.contest(pathlib.Path(options.folder).stem, methods, options.samples, options.reference)
     else:
         header("scene", "path", "iterative")
         folder = pathlib.Path(options.folder)
@@ -146,8 +146,8 @@ def main() -> None:
             "room of 1000 lights": (many, size),
         }
         for name, (scene, extra) in scenes.items():
-            ways = {"path": (scene, extra), "iterative": (scene, [*extra, "--integrator", "iterative"])}
-            study.contest(name, ways, options.samples, options.reference)
+            methods = {"path": (scene, extra), "iterative": (scene, [*extra, "--integrator", "iterative"])}
+            study.contest(name, methods, options.samples, options.reference)
 
 
 if __name__ == "__main__":

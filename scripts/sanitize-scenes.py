@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Renders scenes with a program built with sanitizers, tiny and by every way to render, and reports what goes wrong.
+"""Renders scenes with a program built with sanitizers, at a tiny size and with every backend, and reports problems.
 
   cmake --preset debug && cmake --build --preset debug --target alhazen_cli
   scripts/sanitize-scenes.py FOLDER... [--binary build/debug/bin/alhazen] [--size 16] [--spp 1] [--seconds 5]
                              [--ways TEXT...] [--mutations N] [--seed 1] [--timeout 300] [--only TEXT] [--keep DIR]
                              [--nan] [--memcheck]
 
-Scenes are the .pbrt, .gltf, .glb and .ply files (and those with .gz behind) below FOLDER, or a file itself; images (.exr,
-.hdr, .pfm, .png) that lie below a folder without scenes are rendered as the environment of a sphere. A finding is output
+Scenes are the .pbrt, .gltf, .glb and .ply files (and the same with .gz) below FOLDER, or a file itself; images (.exr,
+.hdr, .pfm, .png) below a folder without scenes are rendered as the environment of a sphere. A finding is output
 of a sanitizer, an exit code that is neither 0 nor 2, or a run that does not end within --timeout. Each is printed with
-the command that shows it again, and makes the exit code 1.
+the command that reproduces it, and makes the exit code 1.
 
 --mutations N renders, of every scene up to 1 MB, N copies in which a number was replaced by an odd one, bytes were
 changed, or the end is missing; by one way each. --keep DIR keeps the copies that were findings. --nan counts the warning
@@ -42,7 +42,7 @@ WAYS = {
 }
 ODD_NUMBERS = ["0", "-1", "1", "0.5", "3", "255", "1e-30", "1e-8", "1e4", "-1e4", "1e9", "1e18", "1e30", "-1e30", "3e38", "1e308",
                "-1e308", "1e400", "nan", "2147483647", "-2147483648", "4294967296"]
-# Those that are values, not parts of names or of data.
+# Numbers that are values, not parts of names or of data.
 NUMBER = re.compile(rb"(?<=[\s\[,:])-?\d+\.?\d*(?:[eE][-+]?\d+)?(?=[\s\],}])")
 # Of valgrind, whose reports of string functions of the standard library are false ones.
 KERNEL_ERROR = re.compile(r"uninitialised[^\n]*\n[^\n]*alhazen::(baseline|avx2|avx512)::")
@@ -59,7 +59,7 @@ def scenes_below(folder):
 
 
 def ways_of(binary, wanted):
-    """The ways that this build has, or those whose name holds one of the texts that are wanted."""
+    """The settings that this build supports, or those whose name contains one of the given texts."""
     listing = subprocess.run([binary, "devices"], capture_output=True, text=True, check=False).stdout
     names = [name for name in WAYS if not wanted or any(text in name for text in wanted)]
     return [name for name in names if not (name.startswith("embree") and "libembree-dev" in listing)]
@@ -83,8 +83,8 @@ class Runner:
         self.findings = 0
 
     def command(self, scene, way):
-        command = [str(self.options.binary), "render", str(scene), "-q", "-o", str(self.folder / "picture.exr"), "-o",
-                   str(self.folder / "picture.png"), "--size", f"{self.options.size}x{self.options.size}", "--spp",
+        command = [str(self.options.binary), "render", str(scene), "-q", "-o", str(self.folder / "image.exr"), "-o",
+                   str(self.folder / "image.png"), "--size", f"{self.options.size}x{self.options.size}", "--spp",
                    str(self.options.spp), "--time-limit", str(self.options.seconds), *shlex.split(WAYS[way])]
         if scene.name.lower().endswith(IMAGES):
             sphere = self.folder / "sphere.pbrt"
@@ -95,7 +95,7 @@ class Runner:
         return command
 
     def render(self, scene, way):
-        """Whether the scene was fine by this way; prints what was not."""
+        """Returns whether the scene was fine with these settings; prints any problem."""
         command = self.command(scene, way)
         self.runs += 1
         try:
@@ -125,7 +125,7 @@ class Runner:
 
 
 def mutated(data, numbers):
-    """A copy of a file in which a few things are otherwise. `numbers` gives random ones."""
+    """A copy of a file with a few changes. `numbers` generates random numbers."""
     places = [match.span() for match in NUMBER.finditer(data)]
     if places and numbers.random() < 0.8:
         for _ in range(numbers.choice([1, 1, 1, 2, 3])):
@@ -144,7 +144,7 @@ def mutated(data, numbers):
 
 
 def render_mutations(runner, scene, ways, numbers):
-    """Copies lie in a folder of their own, in which links stand for the files beside the scene."""
+    """Copies are in a folder of their own, with links to the files beside the scene."""
     data = scene.read_bytes()
     if not 0 < len(data) <= MAX_MUTATED:
         return
@@ -166,24 +166,24 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", type=pathlib.Path, metavar="FOLDER")
     parser.add_argument("--binary", type=pathlib.Path, default=ROOT / "build/debug/bin/alhazen")
-    parser.add_argument("--size", type=int, default=16, help="pixels a side")
+    parser.add_argument("--size", type=int, default=16, help="pixels per side")
     parser.add_argument("--spp", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=5, help="--time-limit of each render")
-    parser.add_argument("--timeout", type=float, default=300, help="seconds after which a run counts as one without end")
-    parser.add_argument("--ways", nargs="*", default=[], help="of " + ", ".join(WAYS) + "; parts of names do")
+    parser.add_argument("--timeout", type=float, default=300, help="seconds after which a run counts as endless")
+    parser.add_argument("--ways", nargs="*", default=[], help="of " + ", ".join(WAYS) + "; parts of names suffice")
     parser.add_argument("--mutations", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", default="", help="scenes whose path holds this text")
+    parser.add_argument("--only", default="", help="scenes whose path contains this text")
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--nan", action="store_true")
     parser.add_argument("--memcheck", action="store_true")
     options = parser.parse_args()
     if not options.binary.is_file():
-        parser.error(f"{options.binary} is not there: build it, or give --binary")
+        parser.error(f"{options.binary} does not exist: build it, or give --binary")
     ways = ways_of(options.binary, options.ways)
     scenes = [s for folder in options.folders for s in scenes_below(folder) if options.only in str(s)]
     if not scenes or not ways:
-        parser.error("there is nothing to render: no scene, or no way to render, has such a name")
+        parser.error("there is nothing to render: no scene, or no setting, has such a name")
     numbers = random.Random(options.seed)
     with tempfile.TemporaryDirectory() as folder:
         runner = Runner(options, pathlib.Path(folder))

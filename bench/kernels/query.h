@@ -1,6 +1,6 @@
 #pragma once
 
-// A recorded ray query, and the loops over many that are timed (rays.cpp), compiled once an instruction set.
+// A recorded ray query, and the timed loops over many of them (rays.cpp), compiled once per instruction set.
 
 #include <cstdint>
 
@@ -18,11 +18,11 @@ struct Query {
 
 namespace alhazen {
 
-/// One ray a call; as many as a render has under way a call; the same for rays of which neighbours go much the same
-/// way; one ray a call by Embree alone, or by our backend over it.
+/// One ray per call; as many per call as a render traces at a time; the same as coherent packets; one ray per call by
+/// Embree alone, or by our backend over it.
 enum class Call : uint32_t { one, many, coherent, plain_embree, embree_backend };
 
-/// Answers `count` queries over `scene`, a SceneView of their precision; returns how many met something.
+/// Answers `count` queries over `scene`, a SceneView of their precision; returns the number of hits.
 using TraceQueries = uint64_t (*)(const void* scene, const void* tracer, const void* queries, uint32_t count,
                                   bool any_hit);
 

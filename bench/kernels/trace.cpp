@@ -1,4 +1,4 @@
-// Compiled once an instruction set, in its namespace.
+// Compiled once per instruction set, in its namespace.
 
 #include "core/bvh/bvh8/traversal.h"
 #include "kernels/query.h"
@@ -46,7 +46,7 @@ uint64_t trace_together(const void* scene, const void*, const void* queries, uin
   const SimdBvhIntersector<Real> intersector(*static_cast<const SceneView<Real>*>(scene));
   const Query<Real>* const query = static_cast<const Query<Real>*>(queries);
   uint64_t hits = 0;
-  constexpr uint32_t at_a_time = 128;  // as many as a PathBatch has under way
+  constexpr uint32_t at_a_time = 128;  // about the number of active paths of a PathBatch
   for (uint32_t i = 0; i < count; i += at_a_time) {
     const uint32_t some = count - i < at_a_time ? count - i : at_a_time;
     hits += coherent  ? trace_coherently(intersector, query + i, some)

@@ -1,5 +1,5 @@
-// Renders a scene into memory, shows progress, and stops early where a second argument gives the seconds it may take.
-// What the progress function throws stops the render too, and is caught below as are the errors of the library.
+// Renders a scene into memory, shows progress, and stops early if a second argument gives a time limit in seconds.
+// An exception from the progress function stops the render too, and is caught below like the errors of the library.
 
 #include <alhazen/alhazen.h>
 
