@@ -12,7 +12,7 @@
 namespace alhazen {
 namespace {
 
-constexpr int64_t picture_size = 200;
+constexpr int64_t image_size = 200;
 constexpr uint32_t samples = 16;
 
 template <class Real>
@@ -30,13 +30,13 @@ struct SpheresScene {
     Diagnostics diagnostics;
     Scene scene = read_pbrt(ALHAZEN_SOURCE_DIR "/scenes/spheres.pbrt", diagnostics);
     Settings asked;
-    asked.width = asked.height = picture_size;
+    asked.width = asked.height = image_size;
     asked.integrator = "iterative";
     asked.samples_per_pixel = samples;
     SpheresScene loaded;
     loaded.settings = resolve_settings(asked, scene);
     loaded.flat = compile_scene<Real>(
-        std::move(scene), CompileOptions{picture_size, picture_size, 0, {.binary = false, .simd = true}}, diagnostics);
+        std::move(scene), CompileOptions{image_size, image_size, 0, {.binary = false, .simd = true}}, diagnostics);
     return loaded;
   }
 };

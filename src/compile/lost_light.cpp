@@ -301,8 +301,8 @@ void warn_of_lost_light(const LostLight& lost, const Scene& scene, const SourceL
     message += ", as the \"" + scene.replaced_integrator + "\" that the file asks for would";
   message += "; a small emissive shape in its place is found";
   if (lost.others > 0)
-    message += std::string(" (so it is with ") + (lost.others_may_be_more ? "at least " : "") +
-               std::to_string(lost.others) + (lost.others == 1 ? " other)" : " others)");
+    message += std::string(" (as for ") + (lost.others_may_be_more ? "at least " : "") + std::to_string(lost.others) +
+               (lost.others == 1 ? " other)" : " others)");
   diagnostics.warn(light->where, message);
 }
 

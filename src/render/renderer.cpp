@@ -170,7 +170,7 @@ class PassLoop {
     } catch (const std::exception& failure) {
       const size_t before = diagnostics_.warnings().size();
       diagnostics_.warn({settings_.checkpoint},
-                        std::string("the checkpoint was not saved, and the render goes on: ") + failure.what());
+                        std::string("the checkpoint was not saved, and the render continues: ") + failure.what());
       if (events_.warned && diagnostics_.warnings().size() > before) events_.warned();
     }
   }

@@ -31,7 +31,7 @@ class Transform {
 
   Vec3d point(const Vec3d& p) const;      ///< divides by w
   Vec3d direction(const Vec3d& v) const;  ///< no translation
-  Vec3d normal(const Vec3d& n) const;     ///< by the inverse transpose; not normalised
+  Vec3d normal(const Vec3d& n) const;     ///< by the inverse transpose; not normalized
 
   /// True if the upper 3x3 has a negative determinant, so that it swaps handedness.
   bool swaps_handedness() const;

@@ -361,10 +361,10 @@ std::string image_sizes_of(const Study& study, const Table& table) {
 std::vector<std::string> facts_of(const Study& study) {
   const Machine& m = study.machine;
   const SceneFacts& s = study.scene;
-  double least_load = 0, most_load = 0;
+  double min_load = 0, max_load = 0;
   for (const Conditions& c : study.conditions) {
-    least_load = &c == &study.conditions.front() ? c.load : std::min(least_load, c.load);
-    most_load = std::max(most_load, c.load);
+    min_load = &c == &study.conditions.front() ? c.load : std::min(min_load, c.load);
+    max_load = std::max(max_load, c.load);
   }
   std::vector<std::string> lines{
       fmt::format("{}, {} processors, {}, {:.0f} GiB; {}", m.processor, m.processors, m.instructions, m.memory_gib,
@@ -382,7 +382,7 @@ std::vector<std::string> facts_of(const Study& study) {
     lines.push_back(fmt::format(
         "Half the spread of a usual cell over its repeats is {:.1f} % of its median; load average {:.1f} to "
         "{:.1f}, {:.0f} MHz; {}",
-        100 * noise, least_load, most_load, study.conditions.empty() ? 0 : study.conditions.back().megahertz,
+        100 * noise, min_load, max_load, study.conditions.empty() ? 0 : study.conditions.back().megahertz,
         text_of(disturbance_of(study))));
   return lines;
 }

@@ -184,7 +184,7 @@ class Report {
       write();
       return true;
     } catch (const RenderError& failure) {
-      if (told_.insert(failure.what()).second) events_.warning(failure.what());
+      if (reported_.insert(failure.what()).second) events_.warning(failure.what());
       return false;
     }
   }
@@ -201,7 +201,7 @@ class Report {
   Scene scene_;
   std::optional<Image> reference_;
   Study study_;
-  std::set<std::string> told_;  ///< failures of `attempt` that were reported
+  std::set<std::string> reported_;  ///< failures of `attempt` that were reported
   bool has_lost_figure_ = false;
 };
 

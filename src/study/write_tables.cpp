@@ -119,7 +119,7 @@ std::string markdown_of(const Study& study) {
         "| threads | mean | smallest | largest | busiest over mean | Gini | segments in all "
         "|\n|---|---|---|---|---|---|---|\n";
     for (const auto& [name, grid] :
-         {std::pair<const char*, const ThreadGrid&>{"one a pixel", w.naive}, {"one for 4 x 4 chunks", w.chunked}})
+         {std::pair<const char*, const ThreadGrid&>{"one per pixel", w.naive}, {"one for 4 x 4 chunks", w.chunked}})
       text += fmt::format("| {}: {} x {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.0f} |\n", name, grid.width,
                           grid.height, grid.mean(), grid.smallest_mean(), grid.largest_mean(), grid.busiest_over_mean(),
                           gini(grid.segments), grid.total());

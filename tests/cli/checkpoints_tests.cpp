@@ -71,7 +71,7 @@ TEST_F(Checkpoints, ASaveThatFailsIsAWarning) {
   const CommandResult result =
       render({"-o", "b.exr", "--size", "48x48", "--spp", "16", "--checkpoint", "state,0"}, options);
   EXPECT_EQ(result.exit_code, 0) << result.everything();
-  const std::string warning = "warning: state: the checkpoint was not saved, and the render goes on: ";
+  const std::string warning = "warning: state: the checkpoint was not saved, and the render continues: ";
   const size_t first = result.err.find(warning);
   EXPECT_NE(first, std::string::npos) << result.err;
   EXPECT_EQ(result.err.find(warning, first + 1), std::string::npos) << "told once\n" << result.err;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "cli/fixture.h"
-#include "unit/images/picture_files.h"
+#include "unit/images/image_files.h"
 
 namespace alhazen::test {
 

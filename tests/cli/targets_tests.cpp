@@ -25,7 +25,7 @@ class OutputTargets : public Command {
 
 TEST_F(OutputTargets, LinksAreFollowed) {
   fs::create_directories(folder_.file("sub/deeper"));
-  folder_.write_text("sub/old.exr", "an older rendered");
+  folder_.write_text("sub/old.exr", "an older image");
   link("sub/old.exr", "old.exr");
   link("sub/new.exr", "new.exr");
   link(folder_.file("absolute.png"), "link.png");
@@ -84,7 +84,7 @@ TEST_F(OutputTargets, APipeWithoutAReaderEndsWithASignal) {
 
 /// Whether there are samples when the signal arrives depends on the machine; a black image is never written.
 TEST_F(OutputTargets, InterruptAtTheStartKeepsTheOlderImageOrShowsSomething) {
-  const Bytes older = read_file(folder_.write_text("a.exr", "an older rendered"));
+  const Bytes older = read_file(folder_.write_text("a.exr", "an older image"));
   for (const char* threads : {"1", "64"}) {
     CommandOptions options;
     options.signal_when = [](const std::string& err) {
@@ -105,7 +105,7 @@ TEST_F(OutputTargets, InterruptAtTheStartKeepsTheOlderImageOrShowsSomething) {
 }
 
 TEST_F(OutputTargets, KilledItLeavesNothing) {
-  folder_.write_text("a.exr", "an older rendered");
+  folder_.write_text("a.exr", "an older image");
   const size_t files = folder_.count();
   // A pipe instead of the second image keeps the program writing.
   const CommandResult result = script(

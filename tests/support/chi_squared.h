@@ -47,9 +47,9 @@ struct ChiSquared {
   size_t pooled = 0;  ///< number of pooled bins
 };
 
-inline constexpr double least_expected = 5;
+inline constexpr double min_expected = 5;
 
-/// Bins with fewer than `least_expected` are merged, the smallest first, into pools of at least that many. The
+/// Bins with fewer than `min_expected` are merged, the smallest first, into pools of at least that many. The
 /// remainder joins the last pool; a pool with expectation 0 must be empty. The counts must have the same sum, which
 /// removes one degree of freedom.
 inline ChiSquared chi_squared_test(const std::vector<double>& observed, const std::vector<double>& expected) {
@@ -64,10 +64,10 @@ inline ChiSquared chi_squared_test(const std::vector<double>& observed, const st
     ++bins;
   };
   for (const size_t i : order) {
-    if (expected[i] < least_expected) ++test.pooled;
+    if (expected[i] < min_expected) ++test.pooled;
     pool_observed += observed[i];
     pool_expected += std::max(expected[i], 0.0);
-    if (pool_expected >= least_expected) close_pool();
+    if (pool_expected >= min_expected) close_pool();
   }
   // The largest bin completes a pool unless all of them together are too few.
   if (pool_observed > 0) {

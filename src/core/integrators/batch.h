@@ -181,7 +181,7 @@ class PathBatch {
                                                  : shading_point(scene_, lane.path.ray, lane.hit);
     if constexpr (kind != IntegratorKind::path) {
       go_on_or_end(shade_at(scene_, numbers, max_segments_, lane.hit, point, lane.path, lane.record), index);
-    } else if (!arrive(scene_, max_segments_, lane.hit, point, lane.path, lane.record)) {
+    } else if (!handle_hit(scene_, max_segments_, lane.hit, point, lane.path, lane.record)) {
       go_on_or_end(false, index);
     } else if (point.bsdf.kind == MaterialKind::diffuse) {
       if (!is_computed || point.material->features & MaterialFeatures::tangents) hit_points_.set(place, point);

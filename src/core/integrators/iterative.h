@@ -27,7 +27,7 @@ template <class Real, class Sampler, class Record>
 ALHAZEN_HD ALHAZEN_HOT bool shade_at(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
                                      const Hit<Real>& hit, const ShadingPoint<Real>& point, IterativeState<Real>& path,
                                      Record& record) {
-  path.throughput *= arriving_share(point, path.travelled + hit.t);
+  path.throughput *= beer_lambert(point, path.travelled + hit.t);
   if (path.vertex == 0) record_first_hit(point, path.travelled + hit.t, record);
   record.radiance += path.throughput * surface_emission(scene, hit, point);
   if (path.vertex + 1 >= max_segments) return false;

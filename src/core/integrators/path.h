@@ -82,10 +82,10 @@ ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingP
 
 /// Handles a hit up to direct light: records it and adds emission. Returns false if the path ends there.
 template <class Real, class Record>
-ALHAZEN_HD ALHAZEN_HOT bool arrive(const SceneView<Real>& scene, uint32_t max_segments, const Hit<Real>& hit,
-                                   const ShadingPoint<Real>& point, PathState<Real>& path, Record& record) {
+ALHAZEN_HD ALHAZEN_HOT bool handle_hit(const SceneView<Real>& scene, uint32_t max_segments, const Hit<Real>& hit,
+                                       const ShadingPoint<Real>& point, PathState<Real>& path, Record& record) {
   if (point.material->features & MaterialFeatures::absorbs)
-    path.throughput *= arriving_share(point, path.travelled + hit.t);
+    path.throughput *= beer_lambert(point, path.travelled + hit.t);
   if (path.vertex == 0) record_first_hit(point, path.travelled + hit.t, record);
   gather_emission(scene, path, hit, point, record);
   return path.vertex + 1 < max_segments;
@@ -114,7 +114,7 @@ ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler
   if (scene.has_cutouts && passes(scene, hit, ray_kind(path.vertex), path.ray, path.travelled))
     return record.segments < max_transparent_hits;
   const ShadingPoint<Real> point = shading_point(scene, path.ray, hit);
-  return arrive(scene, max_segments, hit, point, path, record) &&
+  return handle_hit(scene, max_segments, hit, point, path, record) &&
          light_and_scatter(scene, sampler, point, path, record, light);
 }
 

@@ -19,7 +19,7 @@ ALHAZEN_HD Vec3<Real> cast_ray_recursive(const SceneView<Real>& scene, const Int
     return background_radiance(scene, ray.direction);
   const ShadingPoint<Real> point = shading_point(scene, ray, hit);
   if (segment == 0) record_first_hit(point, travelled + hit.t, record);
-  const Vec3<Real> transmittance = arriving_share(point, travelled + hit.t);
+  const Vec3<Real> transmittance = beer_lambert(point, travelled + hit.t);
   const Vec3<Real> emission = transmittance * surface_emission(scene, hit, point);
   const BsdfSample<Real> s = scatter(point, sampler, VertexDimensions(segment));
   if (!(s.pdf > 0) || is_zero(s.weight)) return emission;

@@ -86,8 +86,8 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> surface_emission(const SceneView<Real>& scene,
   return radiance * emission_factor(scene, light, point_of_emission(point.si, hit));
 }
 
-/// The side of the surface from which light must arrive to be reflected back along the ray, as its normal; zero if the
-/// surface may transmit light.
+/// The side of the surface from which light must handle_hit to be reflected back along the ray, as its normal; zero if
+/// the surface may transmit light.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> side_of_light(const ShadingPoint<Real>& point) {
   const MaterialKind kind = point.bsdf.kind;
@@ -108,7 +108,7 @@ ALHAZEN_HD ALHAZEN_HOT bool is_on_one_side(const ShadingPoint<Real>& point, cons
 
 /// Beer-Lambert transmittance over `distance` through the medium that the surface bounds.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT Vec3<Real> arriving_share(const ShadingPoint<Real>& point, Real distance) {
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> beer_lambert(const ShadingPoint<Real>& point, Real distance) {
   if (!(point.material->features & MaterialFeatures::absorbs) || dot(point.wo, point.si.normal) > 0)
     return splat(Real(1));
   const Vec3<Real>& sigma = point.material->absorption;

@@ -30,7 +30,7 @@ Vec3d linear_rgb(const Vec3d& xyz) {
           dot(xyz, {0.0528812929, -0.2040112061, 1.1511299132})};
 }
 
-/// The linearised CIELAB in which contrast sensitivity is measured: Y, Cx (red to green), Cz (yellow to blue).
+/// The linearized CIELAB in which contrast sensitivity is measured: Y, Cx (red to green), Cz (yellow to blue).
 Vec3d ycxcz(const Vec3d& xyz) { return {116 * xyz.y - 16, 500 * (xyz.x - xyz.y), 200 * (xyz.y - xyz.z)}; }
 
 Vec3d xyz_of_ycxcz(const Vec3d& c) {

@@ -12,7 +12,7 @@ namespace alhazen::gltf {
 namespace {
 
 struct Wall {
-  bool is_met = false;
+  bool is_hit = false;
   bool is_of_instance = false;
   size_t shape = 0;  ///< of group 0
 };
@@ -76,7 +76,7 @@ bool light_closed_room(Scene& scene) {
       const double height = -0.93 + 1.9 * (y + 0.5) / steps, turn = 0.613 + (x + 0.37 * y) * std::numbers::pi / steps;
       const double ring = std::sqrt(1 - height * height);
       const Wall wall = outermost(scene, eye, {ring * std::cos(turn), height, ring * std::sin(turn)});
-      if (!wall.is_met) return false;
+      if (!wall.is_hit) return false;
       if (!wall.is_of_instance) is_emissive[wall.shape] = any = true;
     }
   if (!any) return false;

@@ -115,9 +115,9 @@ TYPED_TEST(LostLightOf, OneWarningForSeveralLights) {
 }
 
 TYPED_TEST(LostLightOf, LightsThatWereNotLookedAtMayBeMore) {
-  for (const auto& [lights, others] : {std::pair{16, "(so it is with 15 others)"},
-                                       {17, "(so it is with at least 15 others)"},
-                                       {100, "(so it is with at least 15 others)"}}) {
+  for (const auto& [lights, others] : {std::pair{16, "(as for 15 others)"},
+                                       {17, "(as for at least 15 others)"},
+                                       {100, "(as for at least 15 others)"}}) {
     std::string text = "WorldBegin\n";
     for (int i = 0; i < lights; ++i)
       text += "LightSource \"point\" \"point3 from\" [" + std::to_string(i % 10 * 0.1) + " 4 0]\n";

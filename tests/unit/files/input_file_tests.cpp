@@ -136,7 +136,7 @@ TEST_P(Confined, HoldsTheFolder) {
   EXPECT_EQ(text_of(inside), "inside");
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, Confined, ::testing::Bool());
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutOpenat2, Confined, ::testing::Bool());
 
 }  // namespace
 

@@ -21,8 +21,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "image_files.h"
 #include "images/display/tone_map.h"
-#include "picture_files.h"
 
 namespace alhazen {
 namespace {

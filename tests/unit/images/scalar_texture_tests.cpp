@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "image_files.h"
 #include "images/image.h"
-#include "picture_files.h"
 #include "unit/io/pbrt_support.h"
 
 namespace alhazen {

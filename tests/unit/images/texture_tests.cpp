@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "image_files.h"
 #include "images/image.h"
 #include "images/read_scalar_texture.h"
-#include "picture_files.h"
 
 namespace alhazen {
 namespace {

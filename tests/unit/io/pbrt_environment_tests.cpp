@@ -7,7 +7,7 @@
 #include "io/environment.h"
 #include "support/environments.h"
 #include "support/temporary_folder.h"
-#include "unit/images/picture_files.h"
+#include "unit/images/image_files.h"
 #include "unit/io/pbrt_support.h"
 
 namespace alhazen::test {

@@ -309,7 +309,7 @@ void expect_early_end(const std::string& bytes) {
 }
 
 /// Headers that promise more than any machine can hold, over data of a few bytes.
-void read_lies() {
+void read_false_header() {
   const std::string faces = "element face 18446744073709551615\nproperty list uint int vertex_indices\n";
   const std::string many_vertices = "element vertex 4000000000\n" + xyz +
                                     "property float nx\nproperty float ny\nproperty float nz\n"
@@ -347,11 +347,11 @@ void limit_memory(rlim_t bytes) {
 }
 
 TEST(Ply, HeaderThatLiesTakesNoMemory) {
-  read_lies();
+  read_false_header();
   if (!memory_can_be_limited) return;
   const auto under_limit = [] {
     limit_memory(64u << 20);
-    read_lies();
+    read_false_header();
     std::_Exit(testing::Test::HasFailure() ? 1 : 0);
   };
   EXPECT_EXIT(under_limit(), ::testing::ExitedWithCode(0), "");
