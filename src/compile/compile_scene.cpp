@@ -267,9 +267,9 @@ class SceneCompiler {
   }
 
   void check_memory(uint64_t triangles, uint64_t vertices) const {
-    const uint64_t least =
+    const uint64_t min_bytes =
         triangles * (sizeof(TriangleRecord) + sizeof(TriangleBlock<Real>) / 4) + vertices * sizeof(Vec3<Real>);
-    if (least > physical_memory() / 10 * 9) throw InputError({scene_.name}, too_large());
+    if (min_bytes > physical_memory() / 10 * 9) throw InputError({scene_.name}, too_large());
   }
 
   void place(const Placement& p) {

@@ -41,9 +41,9 @@ bool covers_the_polygon(const Mesh& mesh, const Fan& fan, const Vec3d& area) {
   const double size = max_component(abs(area));
   if (!(size > 0)) return true;
   const Vec3d direction = area / size;
-  const double least = -1e-6 * dot(area, direction);
+  const double min_area = -1e-6 * dot(area, direction);
   for (uint64_t i = 1; i + 1 < fan.corners(); ++i)
-    if (dot(fan_area(mesh, fan, i), direction) < least) return false;
+    if (dot(fan_area(mesh, fan, i), direction) < min_area) return false;
   return true;
 }
 

@@ -103,12 +103,12 @@ double median_over_repeats(const Trial& trial, const Number& number) {
 
 double busiest_over_mean(const Trial& trial) {
   return median_over_repeats(trial, [](const std::vector<double>& busy) {
-    double sum = 0, most = 0;
+    double sum = 0, longest = 0;
     for (const double seconds : busy) {
       sum += seconds;
-      most = std::max(most, seconds);
+      longest = std::max(longest, seconds);
     }
-    return sum > 0 ? most * static_cast<double>(busy.size()) / sum : 0;
+    return sum > 0 ? longest * static_cast<double>(busy.size()) / sum : 0;
   });
 }
 

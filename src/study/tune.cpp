@@ -88,8 +88,8 @@ class Tuning {
   void choose_size() {
     const RenderSettings settings = resolve_settings(asked_, scene_);
     const double width = settings.width, height = settings.height;
-    const double least = std::min(1.0, min_side / std::min(width, height));
-    set_size(width, height, least);
+    const double min_scale = std::min(1.0, min_side / std::min(width, height));
+    set_size(width, height, min_scale);
     Work first = outcome_.candidates.front().work;
     first.settings.samples_per_pixel = samples_per_block;
     const Clock::time_point start = Clock::now();
@@ -99,7 +99,7 @@ class Tuning {
     const double rendering = small.statistics.render_seconds, beside = whole - rendering;
     const double runs = static_cast<double>(outcome_.candidates.size()) * (runs_a_round + 1);
     const double fraction = std::max(0.0, budget_ / 4 / runs - beside) / std::max(rendering, 1e-6);
-    set_size(width, height, std::clamp(least * std::sqrt(fraction), least, 1.0));
+    set_size(width, height, std::clamp(min_scale * std::sqrt(fraction), min_scale, 1.0));
   }
 
   void set_size(double width, double height, double scale) {

@@ -99,17 +99,17 @@ std::string path_to(const std::string& group, const std::string& root) {
 }  // namespace
 
 uint64_t control_group_memory(const std::string& process) {
-  uint64_t least = no_limit;
+  uint64_t smallest = no_limit;
   for (const Hierarchy& h : hierarchies(process + "/mountinfo")) {
     const std::string group = group_in(process + "/cgroup", h.is_version_2);
     if (group.empty()) continue;
     const char* const name = h.is_version_2 ? "/memory.max" : "/memory.limit_in_bytes";
     for (std::string path = path_to(group, h.root);; path.resize(path.rfind('/'))) {
-      least = std::min(least, limit_in(h.mount + path + name));
+      smallest = std::min(smallest, limit_in(h.mount + path + name));
       if (path.empty()) break;
     }
   }
-  return least;
+  return smallest;
 }
 
 uint64_t physical_memory() {

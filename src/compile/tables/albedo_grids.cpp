@@ -44,7 +44,7 @@ void add_ggx(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, 
   const UnshadowedFraction unshadowed(o, alpha);
   const double u2 = sqr(alpha.x), v2 = sqr(alpha.y);
   normals.for_batches(o, alpha, [&](const VisibleNormals::Batch& m) {
-    double all[VisibleNormals::Batch::most], edges[VisibleNormals::Batch::most];
+    double all[VisibleNormals::Batch::max_count], edges[VisibleNormals::Batch::max_count];
     for (size_t k = 0; k < m.count; ++k) {
       const double cosine = o.x * m.x[k] + o.y * m.y[k] + o.z * m.z[k];
       const double x = 2 * cosine * m.x[k] - o.x, y = 2 * cosine * m.y[k] - o.y, z = 2 * cosine * m.z[k] - o.z;

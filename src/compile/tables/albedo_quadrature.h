@@ -30,8 +30,8 @@ inline double cosine_at(uint32_t node, double ior, uint32_t nodes) {
 /// The inverse of alpha_coordinate, at a node.
 inline double alpha_at(uint32_t node, uint32_t nodes) {
   if (node == 0) return least_layered_alpha<double>;
-  const double least = std::sqrt(least_layered_alpha<double>);
-  return std::min(1.0, sqr(least + (1 - least) * node / (nodes - 1)));
+  const double root_of_min = std::sqrt(least_layered_alpha<double>);
+  return std::min(1.0, sqr(root_of_min + (1 - root_of_min) * node / (nodes - 1)));
 }
 
 /// Mean of value(cosine) over all directions, weighted by the cosine. Below an index of 1, totally reflected directions
@@ -75,9 +75,9 @@ class VisibleNormals {
  public:
   /// A batch of normals that is in memory at once.
   struct Batch {
-    static constexpr size_t most = 64;
+    static constexpr size_t max_count = 64;
     size_t count;
-    double x[most], y[most], z[most];
+    double x[max_count], y[max_count], z[max_count];
     const double* weight;
   };
 
@@ -105,7 +105,7 @@ class VisibleNormals {
     const double up = 0.5 * (1 + stretched.z);
     Batch batch;
     for (size_t first = 0; first < x_.size(); first += batch.count) {
-      batch.count = std::min(Batch::most, x_.size() - first);
+      batch.count = std::min(Batch::max_count, x_.size() - first);
       batch.weight = weight_.data() + first;
       const double *x = x_.data() + first, *y = y_.data() + first, *height = height_.data() + first;
       for (size_t k = 0; k < batch.count; ++k) {

@@ -89,8 +89,8 @@ uint32_t packed_texel(const BmpHeader& header, std::span<const uint8_t> row, siz
 uint8_t masked(uint32_t value, uint32_t mask) {
   if (mask == 0) return 0;
   const int shift = std::countr_zero(mask);
-  const uint64_t most = mask >> shift;
-  return static_cast<uint8_t>(((value & mask) >> shift) * uint64_t{255} / most);
+  const uint64_t max_value = mask >> shift;
+  return static_cast<uint8_t>(((value & mask) >> shift) * uint64_t{255} / max_value);
 }
 
 void decode_row(const BmpHeader& header, std::span<const uint8_t> palette, std::span<const uint8_t> row, uint8_t* rgb,

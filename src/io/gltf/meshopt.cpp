@@ -31,8 +31,8 @@ Layout read_layout(const Document& document, const Json& compression, size_t sou
   if (layout.mode == "TRIANGLES" && layout.count % 3 != 0) bad("\"count\" must be a multiple of 3 for triangles");
   // Both codecs have a minimum size: a header of 2 bits per 16 bytes of attributes, and a byte per triangle or index.
   // So a small file cannot request all memory.
-  const uint64_t most = is_attributes ? 256 * uint64_t{source_bytes} : 3 * uint64_t{source_bytes};
-  if (layout.count > (uint64_t{1} << 31) || layout.count > most)
+  const uint64_t max_items = is_attributes ? 256 * uint64_t{source_bytes} : 3 * uint64_t{source_bytes};
+  if (layout.count > (uint64_t{1} << 31) || layout.count > max_items)
     bad("the compressed data are too short for " + std::to_string(layout.count) + " items");
   return layout;
 }

@@ -86,11 +86,11 @@ uint32_t Textures::mix(uint32_t at_0, uint32_t at_1, uint32_t amount) {
   return add(std::move(node));
 }
 
-uint32_t Textures::threshold(uint32_t texture, double least) {
+uint32_t Textures::threshold(uint32_t texture, double value) {
   Texture node;
   node.kind = TextureKind::threshold;
   node.inputs[0] = texture;
-  node.value = {least, least, least};
+  node.value = {value, value, value};
   return add(std::move(node));
 }
 

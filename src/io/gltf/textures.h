@@ -32,7 +32,7 @@ class Textures {
   uint32_t scaled(const Vec3d& value, uint32_t texture);
   uint32_t channel(uint32_t texture, int channel);
   uint32_t mix(uint32_t at_0, uint32_t at_1, uint32_t amount);
-  uint32_t threshold(uint32_t texture, double least);
+  uint32_t threshold(uint32_t texture, double value);
   uint32_t node(TextureKind kind);
   Texture& at(uint32_t index) const { return scene_.textures[index]; }
 
