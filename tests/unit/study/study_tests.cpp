@@ -117,9 +117,9 @@ TEST(StudyWorkPerThread, HasThePixelsOfTheKernel) {
   const ThreadGrid grid = threads_of(std::vector<float>(size_t{19 * 14}, 1.0f), width, height, chunks_x, chunks_y);
   for (uint32_t y = 0; y < static_cast<uint32_t>(grid.height); ++y)
     for (uint32_t x = 0; x < static_cast<uint32_t>(grid.width); ++x) {
-      Film<float> film(settings.window, settings.aovs, false);
+      Film<float> rendered(settings.window, settings.aovs, false);
       cuda::Totals totals{};
-      cuda::Launch<float> launch{flat.view, film.view(),       &totals,          0, 0, width,
+      cuda::Launch<float> launch{flat.view, rendered.view(),   &totals,          0, 0, width,
                                  {},        {0, height, 0, 4}, settings.sampler, 0, 10};
       std::vector<BlockSum<float>> sums(static_cast<size_t>(grid.width * grid.height));
       const cuda::PixelKernel<cuda::FlatTracing, IntegratorKind::iterative, float> kernel{launch, chunks_x, chunks_y,
@@ -127,7 +127,8 @@ TEST(StudyWorkPerThread, HasThePixelsOfTheKernel) {
       kernel(cuda::HostThread(x, y, static_cast<uint32_t>(grid.width)));
       std::vector<float> taken;
       for (int row = 0; row < height; ++row)
-        for (int column = 0; column < width; ++column) taken.push_back(film.samples_at(column, row) > 0 ? 1.0f : 0.0f);
+        for (int column = 0; column < width; ++column)
+          taken.push_back(rendered.samples_at(column, row) > 0 ? 1.0f : 0.0f);
       const ThreadGrid of_kernel = threads_of(taken, width, height, chunks_x, chunks_y);
       const size_t own = y * static_cast<size_t>(grid.width) + x;
       EXPECT_GT(of_kernel.segments[own], 0);
@@ -276,7 +277,7 @@ TEST(StudyCompare, LeavesOutWhatHasNoTimes) {
 }
 
 TEST(StudyRead, TakesTheFolder) {
-  TemporaryFolder folder;
+  test::TemporaryFolder folder;
   const auto error_of = [](const std::string& path) {
     try {
       read_study_json(path);
@@ -294,7 +295,7 @@ TEST(StudyRead, TakesTheFolder) {
 
 /// Drawn by Python if it has matplotlib.
 TEST(StudyPlots, OfStudiesThatWereInterrupted) {
-  TemporaryFolder folder;
+  test::TemporaryFolder folder;
   Study study = small_study();
   for (const char* id : {"table1", "table2", "table3", "table4", "table5", "balance", "queries", "depth", "glass",
                          "objects", "error", "engines", "optix"}) {
