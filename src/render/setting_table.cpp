@@ -156,7 +156,8 @@ std::vector<SettingEntry> output_settings() {
   constexpr SettingGroup group = SettingGroup::output;
   return {
       entry(group, "aov", "", "NAMES",
-            "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance", layers(), true),
+            "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance",
+            layers(), true),
       entry(group, "denoise", "", "NAME",
             "none, or optix: runs on a GPU, with any backend; adds the layers albedo and normal",
             name(&Settings::denoiser)),
@@ -194,8 +195,7 @@ std::vector<SettingEntry> image_settings() {
       entry(group, "variant", "", "NAME",
             "glTF: the materials of this variant, by name or number; without it each mesh's own",
             name(&Settings::variant)),
-      entry(group, "confine", "", "",
-            "Read no files outside the folder of the scene: for untrusted scenes",
+      entry(group, "confine", "", "", "Read no files outside the folder of the scene: for untrusted scenes",
             flag(&Settings::confine)),
       entry(group, "sampler", "", "NAME", "sobol or independent", name(&Settings::sampler)),
       entry(group, "seed", "", "N", "Seed of the random numbers",
@@ -231,8 +231,7 @@ std::vector<SettingEntry> running_settings() {
   return {
       entry(group, "time-limit", "", "SECONDS", "Stop after the last complete pass within this time",
             number("time-limit", &Settings::time_limit, 0.0, 0.0, 1e9)),
-      entry(group, "texture-budget", "", "MIB",
-            "Halve the largest texture images until all fit; 0: no limit (16384)",
+      entry(group, "texture-budget", "", "MIB", "Halve the largest texture images until all fit; 0: no limit (16384)",
             number<int64_t>("texture-budget", &Settings::texture_budget, -1, 0, 1 << 30)),
       entry(group, "checkpoint", "", "FILE[,SECONDS]", "Save the state at this interval (60)", checkpoint()),
       entry(group, "resume", "", "", "Continue from the checkpoint file", flag(&Settings::resume)),

@@ -9,7 +9,7 @@
 
 #include "images/metrics/ssim.h"
 
-namespace alhazen {
+namespace alhazen::test {
 namespace {
 
 const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -228,4 +228,4 @@ TEST(Compare, ReferenceRenders) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::test

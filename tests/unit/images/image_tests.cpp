@@ -24,10 +24,8 @@
 #include "image_files.h"
 #include "images/display/tone_map.h"
 
-namespace alhazen {
+namespace alhazen::test {
 namespace {
-
-using namespace testing;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -403,4 +401,4 @@ TEST(AtomicWrite, ADiskThatFillsUpAtAnyPoint) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::test

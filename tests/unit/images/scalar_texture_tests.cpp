@@ -8,10 +8,8 @@
 #include "images/image.h"
 #include "unit/io/pbrt_support.h"
 
-namespace alhazen {
+namespace alhazen::test {
 namespace {
-
-using namespace testing;
 
 ScalarTexture read(const std::string& name, const Bytes& bytes, TextureEncoding encoding = TextureEncoding::automatic) {
   const TemporaryFolder folder;
@@ -184,4 +182,4 @@ TEST(ScalarTexture, OfPbrtScenes) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::test

@@ -8,10 +8,8 @@
 #include "images/image.h"
 #include "images/read_scalar_texture.h"
 
-namespace alhazen {
+namespace alhazen::test {
 namespace {
-
-using namespace testing;
 
 ImageTexels read(const std::string& name, const Bytes& bytes, TextureEncoding encoding = TextureEncoding::automatic) {
   const TemporaryFolder folder;
@@ -281,4 +279,4 @@ TEST(Texture, GarbageBehindEverySignatureIsAnError) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::test

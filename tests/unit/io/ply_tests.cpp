@@ -19,7 +19,7 @@
 
 #include "io/ply/parse_ply.h"
 
-namespace alhazen {
+namespace alhazen::test {
 namespace {
 
 Mesh parse(const std::string& bytes, Diagnostics& diagnostics) {
@@ -513,4 +513,4 @@ TEST(Ply, MalformedBinaryRows) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::test

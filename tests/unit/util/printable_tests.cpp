@@ -6,7 +6,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::test {
 
 namespace {
 
@@ -79,4 +79,4 @@ TEST(Printable, ErrorsAndWarningsAre) {
 
 }  // namespace
 
-}  // namespace alhazen
+}  // namespace alhazen::test
