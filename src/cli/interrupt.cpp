@@ -26,15 +26,21 @@ int64_t now() {
   return int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
 }
 
-/// When a terminal closes, both its shell and the kernel send SIGHUP; a limit on processor time sends SIGXCPU every
-/// second. Such repetitions do not mean that the user is impatient.
+std::atomic<bool> hung_up{false};
+
+/// When a terminal closes, both its shell and the kernel send SIGHUP, and service managers send it together with
+/// SIGTERM, in either order; a limit on processor time sends SIGXCPU every second. Such repetitions do not mean that
+/// the user is impatient.
 bool is_repeated_by_itself(int signal_number) {
-  return signal_number == SIGXCPU || (signal_number == SIGHUP && now() - interrupted_at.load() < 1'000'000'000);
+  if (signal_number == SIGXCPU) return true;
+  const bool is_one_of_a_pair = hung_up.load() && (signal_number == SIGHUP || signal_number == SIGTERM);
+  return is_one_of_a_pair && now() - interrupted_at.load() < 1'000'000'000;
 }
 
 extern "C" void handle_interrupt(int signal_number, siginfo_t* info, void*) {
   const bool is_of_terminal = info->si_code > 0;
   if (is_in_background && signal_number == SIGINT && is_of_terminal) return;
+  if (signal_number == SIGHUP) hung_up = true;
   int64_t never = 0;
   if (interrupted_at.compare_exchange_strong(never, now())) return;
   if (is_repeated_by_itself(signal_number)) return;
