@@ -64,9 +64,9 @@ TunedEntry entry_of(const Json& j) {
   e.version = j.at("version");
   e.date = j.at("date");
   e.nanoseconds_per_sample = j.at("nanoseconds_per_sample");
-  for (const auto& [name, text] : j.at("engine").items())
+  for (const auto& [name, value] : j.at("engine").items())
     if (std::count(std::begin(engine_settings), std::end(engine_settings), name) > 0)
-      setting_entry(name).set(e.engine, text.get<std::string>());
+      setting_entry(name).set(e.engine, value.is_string() ? value.get<std::string>() : value.dump());
   return e;
 }
 

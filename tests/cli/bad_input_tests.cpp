@@ -242,8 +242,8 @@ TEST_F(BadInput, OddScenesAreWarnedOf) {
 }
 
 TEST_F(BadInput, Sizes) {
-  expect_bad_usage({"--size", "0x10"}, {"--size 0x10"});
-  expect_bad_usage({"--size", "10x0"}, {"--size 10x0"});
+  expect_bad_usage({"--size", "0x10"}, {"--size", "WIDTHxHEIGHT", "'0x10'"});
+  expect_bad_usage({"--size", "10x0"}, {"--size", "WIDTHxHEIGHT", "'10x0'"});
   expect_bad_usage({"--size", "-4x10"}, {"-4x10"});
   expect_bad_usage({"--size", "10"}, {"WIDTHxHEIGHT"});
   expect_bad_usage({"--size", "10x"}, {"WIDTHxHEIGHT"});

@@ -202,11 +202,11 @@ TEST(PbrtMaterials, BumpsAreRead) {
   EXPECT_NE(only_material(p).displacement, no_index);
 }
 
-TEST(PbrtMaterials, InterfacesAreLeftOut) {
+TEST(PbrtMaterials, InterfacesAreOmitted) {
   for (const std::string kind : {"interface", ""}) {
     const Parsed p = parse_world("Material \"" + kind + "\"" + sphere + "Material \"diffuse\"" + sphere);
     EXPECT_EQ(shapes(p).size(), 1u);
-    EXPECT_TRUE(p.warned("left out"));
+    EXPECT_TRUE(p.warned("omitted"));
   }
 }
 
