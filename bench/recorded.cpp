@@ -18,7 +18,7 @@ namespace {
 /// Sorts the rays of a path by kind of query.
 template <class Real>
 struct Recorder {
-  const SimdBvhIntersector<Real>& inner;
+  const Bvh8Intersector<Real>& inner;
   std::array<std::vector<Query<Real>>, 4>& sets;
   mutable bool is_camera_ray = true;
 
@@ -76,7 +76,7 @@ Recorded<Real>::Recorded(const std::string& name) {
   flat =
       compile_scene<Real>(read_bench_scene(name),
                           CompileOptions{bench_width, bench_height, 0, {.binary = false, .simd = true}}, diagnostics);
-  const SimdBvhIntersector<Real> intersector(flat.view);
+  const Bvh8Intersector<Real> intersector(flat.view);
   for (uint32_t y = 0; y < bench_height; ++y)
     for (uint32_t x = 0; x < bench_width; ++x)
       for (uint32_t i = 0; i < bench_samples; ++i) {

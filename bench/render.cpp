@@ -4,10 +4,10 @@
 #include <benchmark/benchmark.h>
 
 #include "compile/compile_scene.h"
+#include "core/bvh/brute_force/intersector.h"
 #include "io/pbrt/pbrt.h"
 #include "render/backend.h"
 #include "render/kernels/instances.h"
-#include "support/linear_intersector.h"
 
 namespace alhazen {
 namespace {
@@ -82,7 +82,8 @@ void register_precision(const std::string& precision) {
   for (const char* schedule : {"static", "guided"})
     add(std::string("openmp 2 rows ") + schedule, "openmp", "rows", schedule, 2, iterative);
   add("serial linear scan", "serial", "", "dynamic", 1,
-      SampleKernel<Real>(take_blocks<IntegratorKind::iterative, SobolSampler, test::LinearIntersector<Real>, Real>));
+      SampleKernel<Real>(
+          take_blocks<IntegratorKind::iterative, SobolSampler, test::BruteForceIntersector<Real>, Real>));
 }
 
 }  // namespace

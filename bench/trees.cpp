@@ -27,7 +27,7 @@ const CompiledScene<float>& mesh() {
 
 /// From points around the mesh to points within its bounds: incoherent, as after some bounces.
 std::vector<Ray<float>> incoherent_rays() {
-  const BvhNode<float>& root = mesh().view.nodes[0];
+  const Bvh2Node<float>& root = mesh().view.bvh2_nodes[0];
   const Vec3<float> size = root.high() - root.low(), centre = root.low() + size * 0.5f;
   test::Random random(1);
   std::vector<Ray<float>> rays(size_t{1} << 16);
@@ -62,7 +62,7 @@ void build(benchmark::State& state, bool wide_bvh) {
   }
   const SceneView<float>& view = mesh().view;
   const uint64_t bytes =
-      wide_bvh ? view.wide_nodes_count * sizeof(WideNode) : view.nodes_count * sizeof(BvhNode<float>);
+      wide_bvh ? view.cwbvh_nodes_count * sizeof(CwbvhNode) : view.bvh2_nodes_count * sizeof(Bvh2Node<float>);
   state.counters["triangles"] = static_cast<double>(view.triangles_count);
   state.counters["bytes a triangle"] = static_cast<double>(bytes) / static_cast<double>(view.triangles_count);
 }
@@ -72,8 +72,8 @@ BENCHMARK_CAPTURE(build, wide, true)
     ->Name("mesh/build binary and wide")
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(closest_hit<BvhIntersector<float>>)->Name("mesh/closest hit binary")->Unit(benchmark::kMillisecond);
-BENCHMARK(closest_hit<WideBvhIntersector<>>)->Name("mesh/closest hit wide")->Unit(benchmark::kMillisecond);
+BENCHMARK(closest_hit<Bvh2Intersector<float>>)->Name("mesh/closest hit binary")->Unit(benchmark::kMillisecond);
+BENCHMARK(closest_hit<CwbvhIntersector<>>)->Name("mesh/closest hit wide")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace alhazen

@@ -24,7 +24,7 @@ uint64_t trace_singly(const void* scene, const void* tracer, const void* queries
 }
 
 template <bool any_hit, class Real>
-uint64_t trace_some(const SimdBvhIntersector<Real>& intersector, const Query<Real>* query, uint32_t count) {
+uint64_t trace_some(const Bvh8Intersector<Real>& intersector, const Query<Real>* query, uint32_t count) {
   uint64_t hits = 0;
   intersector.template trace<any_hit>(
       count, [&](uint32_t i) -> const Ray<Real>& { return query[i].ray; }, [&](uint32_t i) { return query[i].t_max; },
@@ -33,7 +33,7 @@ uint64_t trace_some(const SimdBvhIntersector<Real>& intersector, const Query<Rea
 }
 
 template <class Real>
-uint64_t trace_coherently(const SimdBvhIntersector<Real>& intersector, const Query<Real>* query, uint32_t count) {
+uint64_t trace_coherently(const Bvh8Intersector<Real>& intersector, const Query<Real>* query, uint32_t count) {
   uint64_t hits = 0;
   intersector.trace_coherent(
       count, [&](uint32_t i) -> const Ray<Real>& { return query[i].ray; }, [&](uint32_t i) { return query[i].t_max; },
@@ -43,7 +43,7 @@ uint64_t trace_coherently(const SimdBvhIntersector<Real>& intersector, const Que
 
 template <class Real, bool coherent>
 uint64_t trace_together(const void* scene, const void*, const void* queries, uint32_t count, bool any_hit) {
-  const SimdBvhIntersector<Real> intersector(*static_cast<const SceneView<Real>*>(scene));
+  const Bvh8Intersector<Real> intersector(*static_cast<const SceneView<Real>*>(scene));
   const Query<Real>* const query = static_cast<const Query<Real>*>(queries);
   uint64_t hits = 0;
   constexpr uint32_t at_a_time = 128;  // about the number of active paths of a PathBatch
@@ -82,7 +82,7 @@ template <class Real>
 TraceQueries select(Call call) {
   switch (call) {
     case Call::one:
-      return trace_singly<SimdBvhIntersector<Real>, Real>;
+      return trace_singly<Bvh8Intersector<Real>, Real>;
     case Call::many:
       return trace_together<Real, false>;
     case Call::coherent:

@@ -96,10 +96,10 @@ class SceneCompiler {
     if (checks_lost_light)
       if (const auto lost = find_lost_light(whole_view(flat), options_.path_segments))
         warn_of_lost_light(*lost, scene_, surface_shapes_[lost->surface]->where, diagnostics_);
-    if (options_.trees.binary || out_.nodes.empty()) return;
-    flat.statistics.tree_bytes -= out_.nodes.size() * sizeof(out_.nodes[0]);
-    flat.statistics.nodes = out_.simd_nodes.size();
-    std::vector<BvhNode<Real>>().swap(out_.nodes);
+    if (options_.trees.binary || out_.bvh2_nodes.empty()) return;
+    flat.statistics.tree_bytes -= out_.bvh2_nodes.size() * sizeof(out_.bvh2_nodes[0]);
+    flat.statistics.nodes = out_.bvh8_nodes.size();
+    std::vector<Bvh2Node<Real>>().swap(out_.bvh2_nodes);
   }
 
   /// The settings of `flat` over the arrays as they are.
@@ -248,7 +248,7 @@ class SceneCompiler {
     if (triangles > max_primitives_of_a_kind || vertices > 0xfffffff0u || world.size() > max_primitives_of_a_kind)
       throw InputError({scene_.name}, "the scene has " + std::to_string(triangles) + " triangles with " +
                                           std::to_string(vertices) + " vertices, more than 2^30 or 2^32: split it");
-    if (scene_.instances.size() > SimdChild::most_of_a_kind)
+    if (scene_.instances.size() > Bvh8Child::max_index_count)
       throw InputError({scene_.name}, "the scene has " + std::to_string(scene_.instances.size()) +
                                           " instances, more than 2^26: split it");
     check_memory(triangles, vertices);

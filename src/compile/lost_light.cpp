@@ -247,7 +247,7 @@ class LostLightSearch {
   }
 
   const SceneView<Real>& view_;
-  BvhIntersector<Real> intersector_;
+  Bvh2Intersector<Real> intersector_;
   uint32_t max_segments_;
   std::vector<Candidate> candidates_;
   std::vector<Tally> tallies_;  ///< by material

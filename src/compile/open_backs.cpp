@@ -83,7 +83,7 @@ class Eye {
   }
 
   const SceneView<Real>& view_;
-  BvhIntersector<Real> intersector_;
+  Bvh2Intersector<Real> intersector_;
 };
 
 template <class Real>
@@ -103,7 +103,7 @@ bool is_candidate(const SceneView<Real>& view, uint32_t index) {
 template <class Real>
 void mark_backs_in_image(const SceneView<Real>& view, uint32_t width, uint32_t height, uint32_t end, int team,
                          std::vector<uint8_t>& is_open) {
-  const BvhIntersector<Real> intersector(view);
+  const Bvh2Intersector<Real> intersector(view);
   const double pixels = static_cast<double>(width) * height;
   const uint32_t step = static_cast<uint32_t>(std::ceil(std::sqrt(std::max(1.0, pixels / max_camera_rays))));
 #pragma omp parallel for schedule(dynamic) num_threads(team)
@@ -212,7 +212,7 @@ template <class Real>
 bool is_in_the_open(const SceneView<Real>& view) {
   if (view.camera.kind == CameraKind::orthographic) return true;
   const auto& m = view.camera.world_from_camera;
-  const BvhIntersector<Real> intersector(view);
+  const Bvh2Intersector<Real> intersector(view);
   constexpr uint32_t directions = 256;
   uint32_t outwards = 0;
   for (uint32_t i = 0; i < directions; ++i) {

@@ -28,9 +28,9 @@ class TreeBuilder {
     build(std::move(boxes), 0, in_world);
     for (ObjectRecord& object : out_.objects) {
       object.first_primitive = static_cast<uint32_t>(out_.primitives.size());
-      object.node = static_cast<uint32_t>(out_.nodes.size());
-      object.wide_node = static_cast<uint32_t>(out_.wide_nodes.size());
-      object.simd_node = static_cast<uint32_t>(out_.simd_nodes.size());
+      object.bvh2_root = static_cast<uint32_t>(out_.bvh2_nodes.size());
+      object.cwbvh_root = static_cast<uint32_t>(out_.cwbvh_nodes.size());
+      object.bvh8_root = static_cast<uint32_t>(out_.bvh8_nodes.size());
       build(triangle_boxes(object.first_triangle, object.triangle_count), object.first_triangle, object.triangle_count);
     }
   }
@@ -96,13 +96,13 @@ class TreeBuilder {
   /// Trees over triangles from `first` on and, in the world's, over spheres and instances.
   void build(std::vector<Bounds3<Real>> boxes, uint32_t first, uint32_t triangles) {
     const Trees& trees = options_.trees;
-    BvhTree<Real> tree;
+    Bvh2<Real> tree;
     if (trees.binary || trees.wide || trees.simd) {
-      BvhOptions options = trees.simd ? BvhOptions::for_collapse(options_.threads) : BvhOptions{};
+      Bvh2Options options = trees.simd ? Bvh2Options::for_collapse(options_.threads) : Bvh2Options{};
       options.threads = options_.threads;
       if (boxes.size() > triangles + out_.spheres.size() + out_.moving_spheres.size())
         options.max_leaf = 1;  // an instance is to be alone in its leaf
-      tree = build_bvh<Real>(boxes, options);
+      tree = build_bvh2<Real>(boxes, options);
       reinsert_subtrees(tree, options_.threads);
     } else {
       tree.order.resize(boxes.size());
@@ -116,39 +116,39 @@ class TreeBuilder {
       for (size_t i = 0; i < ordered.size(); ++i) ordered[i] = boxes[tree.order[i]];
       std::vector<Bounds3<Real>>().swap(boxes);
       if constexpr (sizeof(Real) == sizeof(float))
-        if (trees.wide) add_wide_bvh(tree.nodes, ordered, first_primitive);
-      if (trees.simd) build_simd_bvh<Real>(tree.nodes, ordered, first_primitive, options_.threads, out_);
+        if (trees.wide) add_cwbvh(tree.nodes, ordered, first_primitive);
+      if (trees.simd) build_bvh8<Real>(tree.nodes, ordered, first_primitive, options_.threads, out_);
     }
     if (trees.binary) add_nodes(std::move(tree.nodes), first_primitive);
   }
 
-  void add_nodes(std::vector<BvhNode<Real>> nodes, uint32_t first_primitive) {
-    if (out_.nodes.empty()) {
-      out_.nodes = std::move(nodes);
+  void add_nodes(std::vector<Bvh2Node<Real>> nodes, uint32_t first_primitive) {
+    if (out_.bvh2_nodes.empty()) {
+      out_.bvh2_nodes = std::move(nodes);
       return;
     }
-    const uint32_t base = static_cast<uint32_t>(out_.nodes.size());
-    for (BvhNode<Real>& node : nodes) node.first += node.count > 0 ? first_primitive : base;
-    out_.nodes.insert(out_.nodes.end(), nodes.begin(), nodes.end());
+    const uint32_t base = static_cast<uint32_t>(out_.bvh2_nodes.size());
+    for (Bvh2Node<Real>& node : nodes) node.first += node.count > 0 ? first_primitive : base;
+    out_.bvh2_nodes.insert(out_.bvh2_nodes.end(), nodes.begin(), nodes.end());
   }
 
-  void add_wide_bvh(const std::vector<BvhNode<float>>& nodes, const std::vector<Bounds3<float>>& boxes,
-                    uint32_t first_primitive) {
-    WideBvh wide = build_wide_bvh(nodes, boxes);
-    const uint32_t base = static_cast<uint32_t>(out_.wide_nodes.size());
-    const uint32_t primitive_base = static_cast<uint32_t>(out_.wide_primitives.size());
-    for (WideNode& node : wide.nodes) {
+  void add_cwbvh(const std::vector<Bvh2Node<float>>& nodes, const std::vector<Bounds3<float>>& boxes,
+                 uint32_t first_primitive) {
+    Cwbvh wide = build_cwbvh(nodes, boxes);
+    const uint32_t base = static_cast<uint32_t>(out_.cwbvh_nodes.size());
+    const uint32_t primitive_base = static_cast<uint32_t>(out_.cwbvh_primitives.size());
+    for (CwbvhNode& node : wide.nodes) {
       node.first_child += base;
       node.first_primitive += primitive_base;
     }
-    out_.wide_nodes.insert(out_.wide_nodes.end(), wide.nodes.begin(), wide.nodes.end());
-    out_.wide_primitives.reserve(primitive_base + wide.primitives.size());
+    out_.cwbvh_nodes.insert(out_.cwbvh_nodes.end(), wide.nodes.begin(), wide.nodes.end());
+    out_.cwbvh_primitives.reserve(primitive_base + wide.primitives.size());
     for (const uint32_t place : wide.primitives)
-      out_.wide_primitives.push_back(wide_primitive(out_.primitives[first_primitive + place]));
+      out_.cwbvh_primitives.push_back(cwbvh_primitive(out_.primitives[first_primitive + place]));
   }
 
-  WidePrimitive wide_primitive(PrimitiveId id) const {
-    WidePrimitive primitive{};
+  CwbvhPrimitive cwbvh_primitive(PrimitiveId id) const {
+    CwbvhPrimitive primitive{};
     primitive.id = id;
     switch (id.kind()) {
       case PrimitiveKind::triangle: {
@@ -213,9 +213,9 @@ void build_trees(const CompileOptions& options, SceneArrays<Real>& out, SceneSta
   out.primitives.reserve(out.triangles.size() + out.spheres.size() + out.moving_spheres.size() + out.instances.size());
   TreeBuilder<Real>(options, out).run();
   const auto bytes = [](const auto& array) { return array.size() * sizeof(array[0]); };
-  statistics.nodes = options.trees.binary ? out.nodes.size() : out.simd_nodes.size();
-  statistics.tree_bytes = bytes(out.nodes) + bytes(out.wide_nodes) + bytes(out.wide_primitives) +
-                          bytes(out.simd_nodes) + bytes(out.triangle_blocks) + bytes(out.sphere_blocks) +
+  statistics.nodes = options.trees.binary ? out.bvh2_nodes.size() : out.bvh8_nodes.size();
+  statistics.tree_bytes = bytes(out.bvh2_nodes) + bytes(out.cwbvh_nodes) + bytes(out.cwbvh_primitives) +
+                          bytes(out.bvh8_nodes) + bytes(out.triangle_blocks) + bytes(out.sphere_blocks) +
                           bytes(out.moving_sphere_blocks) + bytes(out.instances);
   statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -20,10 +20,10 @@ namespace ALHAZEN_CORE {
 /// Lists every array of the scene once: ARRAY(element type, name). Storage, device pointers, memory report and checksum
 /// are generated from this list.
 #define ALHAZEN_SCENE_ARRAYS(ARRAY)                    \
-  ARRAY(BvhNode<Real>, nodes)                          \
-  ARRAY(WideNode, wide_nodes)                          \
-  ARRAY(WidePrimitive, wide_primitives)                \
-  ARRAY(SimdNode, simd_nodes)                          \
+  ARRAY(Bvh2Node<Real>, bvh2_nodes)                    \
+  ARRAY(CwbvhNode, cwbvh_nodes)                        \
+  ARRAY(CwbvhPrimitive, cwbvh_primitives)              \
+  ARRAY(Bvh8Node, bvh8_nodes)                          \
   ARRAY(TriangleBlock<Real>, triangle_blocks)          \
   ARRAY(SphereBlock<Real>, sphere_blocks)              \
   ARRAY(MovingSphereBlock<Real>, moving_sphere_blocks) \

@@ -6,11 +6,11 @@
 namespace ALHAZEN_CORE {
 
 RawKernel select_float_kernel(uint32_t, uint32_t) {
-  return take_blocks<IntegratorKind::path, SobolSampler, SimdBvhIntersector<float>, float>;
+  return take_blocks<IntegratorKind::path, SobolSampler, Bvh8Intersector<float>, float>;
 }
 
 RawKernel select_double_kernel(uint32_t, uint32_t) {
-  return take_blocks<IntegratorKind::path, SobolSampler, SimdBvhIntersector<double>, double>;
+  return take_blocks<IntegratorKind::path, SobolSampler, Bvh8Intersector<double>, double>;
 }
 
 }  // namespace ALHAZEN_CORE

@@ -9,7 +9,7 @@ namespace {
 
 template <test::QueryMode mode, bool any_hit, class Real>
 void answer(const test::QueryRequest& request) {
-  const SimdBvhIntersector<Real> intersector(*static_cast<const SceneView<Real>*>(request.scene));
+  const Bvh8Intersector<Real> intersector(*static_cast<const SceneView<Real>*>(request.scene));
   const auto* const rays = static_cast<const Ray<Real>*>(request.rays);
   const auto* const limits = static_cast<const Real*>(request.limits);
   auto* const hits = static_cast<Hit<Real>*>(request.hits);
@@ -25,9 +25,9 @@ void answer(const test::QueryRequest& request) {
     intersector.template trace<any_hit>(request.count, ray, limit, keep);
   } else if constexpr (mode == test::QueryMode::interleaved) {
     if (static_cast<const SceneView<Real>*>(request.scene)->instances_count > 0)
-      intersector.template trace_in_turns<any_hit, true>(request.count, ray, limit, keep);
+      intersector.template trace_interleaved<any_hit, true>(request.count, ray, limit, keep);
     else
-      intersector.template trace_in_turns<any_hit>(request.count, ray, limit, keep);
+      intersector.template trace_interleaved<any_hit>(request.count, ray, limit, keep);
   } else {
     for (uint32_t i = 0; i < request.count; ++i)
       request.found[i] =

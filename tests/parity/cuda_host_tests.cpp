@@ -139,11 +139,11 @@ TEST(CudaOnHostWideBvh, GivesAllButTheSameBits) {
       Diagnostics diagnostics;
       const CompiledScene<float> flat =
           compile_scene<float>(std::move(scene), {settings.width, settings.height, 1, {.wide = true}}, diagnostics);
-      ASSERT_GT(flat.view.wide_nodes_count, 0u);
+      ASSERT_GT(flat.view.cwbvh_nodes_count, 0u);
       auto film = std::make_unique<Film<float>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
       RenderControl control(1);
       cuda::HostExecutor executor;
-      cuda::DeviceRender<cuda::HostExecutor, cuda::WideTracing, float> render(executor, {});
+      cuda::DeviceRender<cuda::HostExecutor, cuda::CwbvhTracing, float> render(executor, {});
       render.render_pass({flat, SampleKernel<float>(nullptr), settings, *film, control, 0, 18}, control.thread(0));
       Rendering rendering;
       rendering.film = std::move(film);
@@ -171,7 +171,7 @@ TEST(CudaOnHostShares, AddUpToTheImage) {
     RenderControl control(1);
     for (uint32_t device = 0; device < devices; ++device) {
       cuda::HostExecutor executor;
-      cuda::DeviceRender<cuda::HostExecutor, cuda::FlatTracing, double> render(executor, {device, devices});
+      cuda::DeviceRender<cuda::HostExecutor, cuda::Bvh2Tracing, double> render(executor, {device, devices});
       render.render_pass({flat, SampleKernel<double>(nullptr), settings, *film, control, 0, 16}, control.thread(0));
       render.render_pass({flat, SampleKernel<double>(nullptr), settings, *film, control, 16, 2}, control.thread(0));
     }

@@ -8,9 +8,9 @@
 
 #include "backends/embree/intersector.h"
 #include "backends/embree/scene.h"
+#include "core/bvh/brute_force/intersector.h"
 #include "support/closed_meshes.h"
 #include "support/instanced_scenes.h"
-#include "support/linear_intersector.h"
 #include "support/primitive_scenes.h"
 #include "support/ulps.h"
 
@@ -29,14 +29,14 @@ Ray<float> random_ray(Random& random, double size) {
 void expect_what_looking_at_every_primitive_finds(const CompiledScene<float>& scene, size_t rays) {
   const EmbreeScene embree(scene.view, 1);
   const EmbreeIntersector intersector(scene.view, &embree.tracer());
-  const test::LinearIntersector<float> linear(scene.view);
+  const BruteForceIntersector<float> brute_force(scene.view);
   Random random(8);
   size_t hit_count = 0, different = 0;
   for (size_t i = 0; i < rays; ++i) {
     const Ray<float> ray = random_ray(random, 15);
     Hit<float> hit, expected;
     const bool found = intersector.closest_hit(ray, infinity<float>, hit);
-    const bool expect_found = linear.closest_hit(ray, infinity<float>, expected);
+    const bool expect_found = brute_force.closest_hit(ray, infinity<float>, expected);
     hit_count += found;
     // Rays that graze an edge may differ: the triangle tests round differently.
     if (found != expect_found ||

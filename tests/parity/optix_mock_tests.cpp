@@ -145,7 +145,7 @@ OptixResult build(OptixDeviceContext, CUstream, const OptixAccelBuildOptions* op
 }
 
 struct HostBvhStacks : LocalStacks {
-  using Intersector = BvhIntersector<float>;
+  using Intersector = Bvh2Intersector<float>;
 };
 
 struct LaunchThread : cuda::HostThread {

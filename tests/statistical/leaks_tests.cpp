@@ -11,9 +11,9 @@
 #include "core/integrators/stages.h"
 #include "support/closed_meshes.h"
 #include "support/effort.h"
+#include "support/engines.h"
 #include "support/instanced_scenes.h"
 #include "support/reals.h"
-#include "support/trees.h"
 
 #if defined(ALHAZEN_WITH_EMBREE)
 #include "backends/embree/intersector.h"
@@ -98,7 +98,7 @@ struct LeavingRays {
     Mesh mesh = closed.mesh;
     for (Vec3d& p : mesh.positions) p = closed.place.point(p);
     const Vec3d center = closed.place.point(closed.place.baked);
-    const BvhIntersector<Real> bvh(view);
+    const Bvh2Intersector<Real> bvh(view);
     while (inwards.size() < count) {
       const Vec3d target = point_near_edge(mesh, random);
       const Vec3<Real> origin = convert<Real>(lerp(center, target, 0.5 * random.uniform<double>()));
@@ -154,13 +154,13 @@ void count(const SceneView<Real>& view, const LeavingRays<Real>& rays, Tallies& 
     tallies[engine].got_out += rays.inwards.size() - hits(rays.inwards);
     tallies[engine].hit_again += hits(rays.outwards);
   };
-  add("binary tree", [&](const Rays& of) { return count_hits(BvhIntersector<Real>(view), of); });
+  add("binary tree", [&](const Rays& of) { return count_hits(Bvh2Intersector<Real>(view), of); });
   for (const InstructionSet set : instruction_sets())
     for (const QueryMode mode : query_modes)
       add(std::string(to_string(set)) + ", choice " + std::to_string(static_cast<int>(mode)),
           [&](const Rays& of) { return count_hits(view, set, mode, of); });
   if constexpr (sizeof(Real) == sizeof(float)) {
-    add("wide tree", [&](const Rays& of) { return count_hits(WideBvhIntersector<>(view), of); });
+    add("wide tree", [&](const Rays& of) { return count_hits(CwbvhIntersector<>(view), of); });
 #if defined(ALHAZEN_WITH_EMBREE)
     const EmbreeScene embree(view, 1);
     const EmbreeIntersector intersector(view, &embree.tracer());

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/bvh/brute_force/intersector.h"
 #include "core/integrators/stages.h"
 #include "support/direction_histogram.h"
 #include "support/effort.h"
-#include "support/linear_intersector.h"
 #include "support/primitive_scenes.h"
 #include "support/random.h"
 #include "support/reals.h"
@@ -68,7 +68,7 @@ template <class Real>
 Real pdf_of_direction(const SceneView<Real>& scene, const Ray<Real>& ray) {
   Hit<Real> hit;
   Real pdf = pdf_background(scene);
-  if (LinearIntersector<Real>(scene).closest_hit(ray, infinity<Real>, hit)) {
+  if (BruteForceIntersector<Real>(scene).closest_hit(ray, infinity<Real>, hit)) {
     const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
     pdf += pdf_light(scene, scene.lights[scene.surfaces[si.surface].light], ray, hit, si, Vec3<Real>{});
   }

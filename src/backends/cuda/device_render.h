@@ -18,22 +18,22 @@
 namespace alhazen::cuda {
 
 /// Ray queries by the binary BVH.
-struct FlatTracing {
+struct Bvh2Tracing {
   static constexpr bool by_launch_of_pixels = false;  ///< whether there is no schedule but a launch of all pixels
 
   template <class Real, class Stacks>
-  ALHAZEN_HD static BvhIntersector<Real, Stacks> intersector(const SceneView<Real>& scene, const Stacks& stacks) {
-    return BvhIntersector<Real, Stacks>(scene, stacks);
+  ALHAZEN_HD static Bvh2Intersector<Real, Stacks> intersector(const SceneView<Real>& scene, const Stacks& stacks) {
+    return Bvh2Intersector<Real, Stacks>(scene, stacks);
   }
 };
 
 /// Ray queries by the compressed wide BVH.
-struct WideTracing {
+struct CwbvhTracing {
   static constexpr bool by_launch_of_pixels = false;
 
   template <class Stacks>
-  ALHAZEN_HD static WideBvhIntersector<Stacks> intersector(const SceneView<float>& scene, const Stacks& stacks) {
-    return WideBvhIntersector<Stacks>(scene, stacks);
+  ALHAZEN_HD static CwbvhIntersector<Stacks> intersector(const SceneView<float>& scene, const Stacks& stacks) {
+    return CwbvhIntersector<Stacks>(scene, stacks);
   }
 };
 

@@ -4,7 +4,7 @@ namespace alhazen::cuda {
 
 template <>
 std::unique_ptr<GpuRender<double>> make_gpu_render(int device, const RowShare& share) {
-  return std::make_unique<CudaRender<FlatTracing, double>>(device, share);
+  return std::make_unique<CudaRender<Bvh2Tracing, double>>(device, share);
 }
 
 }  // namespace alhazen::cuda

@@ -4,7 +4,7 @@ namespace alhazen::cuda {
 
 template <>
 std::unique_ptr<GpuRender<float>> make_gpu_render(int device, const RowShare& share) {
-  return std::make_unique<CudaRender<WideTracing, float>>(device, share);
+  return std::make_unique<CudaRender<CwbvhTracing, float>>(device, share);
 }
 
 }  // namespace alhazen::cuda

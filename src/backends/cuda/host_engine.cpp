@@ -21,8 +21,8 @@ class HostEngine final : public Engine {
 
  private:
   HostExecutor executor_;
-  DeviceRender<HostExecutor, FlatTracing, float> single_;
-  DeviceRender<HostExecutor, FlatTracing, double> double_;
+  DeviceRender<HostExecutor, Bvh2Tracing, float> single_;
+  DeviceRender<HostExecutor, Bvh2Tracing, double> double_;
 };
 
 }  // namespace

@@ -13,16 +13,16 @@ namespace alhazen {
 
 namespace {
 
-constexpr int most_bins = 16;
-/// From this depth on ranges are halved, which ends before max_bvh_depth for any number of primitives.
-constexpr int halving_depth = max_bvh_depth - 32;
+constexpr int max_bins = 16;
+/// From this depth on ranges are halved, which ends before max_bvh2_depth for any number of primitives.
+constexpr int halving_depth = max_bvh2_depth - 32;
 constexpr uint32_t task_size = 8192;
 /// Larger ranges are binned by all threads, in chunks whose number does not depend on the threads.
 constexpr uint32_t parallel_binning_size = 1u << 17;
 constexpr uint32_t binning_chunks = 16;
 
 /// Fewer bins for few primitives: most ranges are small, and sweeping over bins is what they cost.
-constexpr int bins_for(uint32_t count) { return count < 96 ? 4 + static_cast<int>(count / 8) : most_bins; }
+constexpr int bins_for(uint32_t count) { return count < 96 ? 4 + static_cast<int>(count / 8) : max_bins; }
 
 template <class Real>
 using Row = Lanes<Real, 4>;
@@ -69,7 +69,7 @@ struct Bin {
 template <class Real>
 struct Bins {
   int count = 0;
-  Bin<Real> of_axis[3][most_bins];
+  Bin<Real> of_axis[3][max_bins];
 
   Bins() {}
   explicit Bins(int bins) { clear(bins); }
@@ -133,7 +133,7 @@ struct Split {
 template <class Real>
 class Builder {
  public:
-  Builder(std::span<const Bounds3<Real>> boxes, const BvhOptions& options)
+  Builder(std::span<const Bounds3<Real>> boxes, const Bvh2Options& options)
       : options_(options),
         references_(boxes.size()),
         nodes_(2 * boxes.size()),
@@ -143,11 +143,11 @@ class Builder {
     for (uint32_t i = 0; i < count_; ++i) references_[i] = {boxes[i].low, i, boxes[i].high, 0};
   }
 
-  BvhTree<Real> build() {
+  Bvh2<Real> build() {
 #pragma omp parallel num_threads(team_)
 #pragma omp single
     build_range(0, 0, count_, 0);
-    BvhTree<Real> tree;
+    Bvh2<Real> tree;
     tree.order.resize(count_);
     for (uint32_t i = 0; i < count_; ++i) tree.order[i] = references_[i].index;
     references_.clear();
@@ -219,7 +219,7 @@ class Builder {
     for (int axis = 0; axis < 3; ++axis) {
       if (!(centers.diagonal()[axis] > 0)) continue;
       const auto& row = bins.of_axis[axis];
-      double right_cost[most_bins];
+      double right_cost[max_bins];
       RowBounds<Real> box = RowBounds<Real>::empty();
       uint32_t n = 0;
       for (int i = bins.count - 1; i > 0; --i) {
@@ -268,7 +268,7 @@ class Builder {
     const bool parallel = count >= parallel_binning_size;
     const RangeBounds<Real> range = parallel ? parallel_bounds(begin, end) : bounds_of(begin, end);
     const Bounds3<Real> boxes = range.boxes.bounds(), centers = range.centers.bounds();
-    BvhNode<Real>& node = nodes_[node_index];
+    Bvh2Node<Real>& node = nodes_[node_index];
     node.corners[0] = boxes.low;
     node.corners[1] = boxes.high;
     const Binning<Real> binning(centers, bins_for(count));
@@ -300,8 +300,8 @@ class Builder {
   }
 
   /// Threads number nodes in the order in which they come; this makes the order that of the tree alone.
-  void number_depth_first(uint32_t from, uint32_t to, std::vector<BvhNode<Real>>& out) const {
-    BvhNode<Real> node = nodes_[from];
+  void number_depth_first(uint32_t from, uint32_t to, std::vector<Bvh2Node<Real>>& out) const {
+    Bvh2Node<Real> node = nodes_[from];
     const uint32_t children = node.first;
     if (node.count == 0) {
       node.first = static_cast<uint32_t>(out.size());
@@ -313,9 +313,9 @@ class Builder {
     number_depth_first(children + 1, node.first + 1, out);
   }
 
-  BvhOptions options_;
+  Bvh2Options options_;
   LargeArray<Reference<Real>> references_;
-  LargeArray<BvhNode<Real>> nodes_;  ///< as many as there can be, 2 n - 1
+  LargeArray<Bvh2Node<Real>> nodes_;  ///< as many as there can be, 2 n - 1
   uint32_t count_;
   int team_;
   std::atomic<uint32_t> next_node_{1};
@@ -324,12 +324,12 @@ class Builder {
 }  // namespace
 
 template <class Real>
-BvhTree<Real> build_bvh(std::span<const Bounds3<Real>> boxes, const BvhOptions& options) {
+Bvh2<Real> build_bvh2(std::span<const Bounds3<Real>> boxes, const Bvh2Options& options) {
   if (boxes.empty()) return {};
   return Builder<Real>(boxes, options).build();
 }
 
-template BvhTree<float> build_bvh(std::span<const Bounds3<float>>, const BvhOptions&);
-template BvhTree<double> build_bvh(std::span<const Bounds3<double>>, const BvhOptions&);
+template Bvh2<float> build_bvh2(std::span<const Bounds3<float>>, const Bvh2Options&);
+template Bvh2<double> build_bvh2(std::span<const Bounds3<double>>, const Bvh2Options&);
 
 }  // namespace alhazen

@@ -11,23 +11,23 @@
 namespace alhazen {
 
 template <class Real>
-struct BvhTree {
-  std::vector<BvhNode<Real>> nodes;  ///< depth-first; empty where there were no boxes
+struct Bvh2 {
+  std::vector<Bvh2Node<Real>> nodes;  ///< depth-first; empty where there were no boxes
   /// Leaves refer to ranges of this: the boxes' indices in the order of the leaves.
   std::vector<uint32_t> order;
 };
 
-struct BvhOptions {
+struct Bvh2Options {
   uint32_t max_leaf = 8;        ///< primitives
   double traversal_cost = 1.2;  ///< of a visit to a node's two children, in units of a primitive test
   int threads = 0;              ///< 0: as OpenMP has it
 
   /// Down to single primitives, for a collapse that chooses its leaves itself.
-  static BvhOptions for_collapse(int threads) { return {4, 1, threads}; }
+  static Bvh2Options for_collapse(int threads) { return {4, 1, threads}; }
 };
 
 /// `boxes` must be finite and not empty.
 template <class Real>
-BvhTree<Real> build_bvh(std::span<const Bounds3<Real>> boxes, const BvhOptions& options);
+Bvh2<Real> build_bvh2(std::span<const Bounds3<Real>> boxes, const Bvh2Options& options);
 
 }  // namespace alhazen

@@ -11,20 +11,20 @@ namespace alhazen {
 
 namespace {
 
-SimdChild::Kind kind_of(PrimitiveId primitive) {
+Bvh8Child::Kind kind_of(PrimitiveId primitive) {
   switch (primitive.kind()) {
     case PrimitiveKind::sphere:
-      return SimdChild::spheres;
+      return Bvh8Child::spheres;
     case PrimitiveKind::moving_sphere:
-      return SimdChild::moving_spheres;
+      return Bvh8Child::moving_spheres;
     default:
-      return SimdChild::triangles;
+      return Bvh8Child::triangles;
   }
 }
 
 template <class Real>
-uint32_t lanes_of(SimdChild::Kind kind) {
-  return static_cast<uint32_t>(kind == SimdChild::triangles ? TriangleBlock<Real>::lanes : SphereBlock<Real>::lanes);
+uint32_t lanes_of(Bvh8Child::Kind kind) {
+  return static_cast<uint32_t>(kind == Bvh8Child::triangles ? TriangleBlock<Real>::lanes : SphereBlock<Real>::lanes);
 }
 
 /// The number of blocks, infinite for primitives of several kinds or more of them than pay. An instance is a leaf of
@@ -32,13 +32,13 @@ uint32_t lanes_of(SimdChild::Kind kind) {
 template <class Real>
 struct BlockCost {
   std::span<const PrimitiveId> primitives;
-  static constexpr uint32_t most_primitives = 16;
+  static constexpr uint32_t max_primitives = 16;
   static constexpr float instance_cost = 16;
 
   float operator()(uint32_t first, uint32_t count) const {
-    if (count > most_primitives) return std::numeric_limits<float>::infinity();
+    if (count > max_primitives) return std::numeric_limits<float>::infinity();
     if (count == 1 && primitives[first].kind() == PrimitiveKind::instance) return instance_cost;
-    const SimdChild::Kind kind = kind_of(primitives[first]);
+    const Bvh8Child::Kind kind = kind_of(primitives[first]);
     for (uint32_t i = first; i < first + count; ++i)
       if (kind_of(primitives[i]) != kind || primitives[i].kind() == PrimitiveKind::instance)
         return std::numeric_limits<float>::infinity();
@@ -49,7 +49,7 @@ struct BlockCost {
 
 /// The box in float, wider by what the box test and the primitive tests round.
 template <class Real>
-Bounds3<float> simd_box(const Bounds3<Real>& box) {
+Bounds3<float> padded_box(const Bounds3<Real>& box) {
   const Vec3<Real> far = max(abs(box.low), abs(box.high));
   const float slack = static_cast<float>(max_component(far)) * box_slack;
   const Vec3<float> low = convert<float>(box.low), high = convert<float>(box.high);
@@ -57,9 +57,9 @@ Bounds3<float> simd_box(const Bounds3<Real>& box) {
 }
 
 template <class Real>
-class SimdBuilder {
+class Bvh8Builder {
  public:
-  SimdBuilder(std::span<const BvhNode<Real>> tree, std::span<const Bounds3<Real>> boxes, uint32_t first_primitive,
+  Bvh8Builder(std::span<const Bvh2Node<Real>> tree, std::span<const Bounds3<Real>> boxes, uint32_t first_primitive,
               int threads, SceneArrays<Real>& scene)
       : scene_(scene),
         primitives_(std::span(scene.primitives).subspan(first_primitive, boxes.size())),
@@ -68,18 +68,18 @@ class SimdBuilder {
         collapse_(tree, boxes, cost_, threads) {}
 
   void run() {
-    first_node_ = static_cast<uint32_t>(scene_.simd_nodes.size());
-    block_count_[SimdChild::triangles] = static_cast<uint32_t>(scene_.triangle_blocks.size());
-    block_count_[SimdChild::spheres] = static_cast<uint32_t>(scene_.sphere_blocks.size());
-    block_count_[SimdChild::moving_spheres] = static_cast<uint32_t>(scene_.moving_sphere_blocks.size());
+    first_node_ = static_cast<uint32_t>(scene_.bvh8_nodes.size());
+    block_count_[Bvh8Child::triangles] = static_cast<uint32_t>(scene_.triangle_blocks.size());
+    block_count_[Bvh8Child::spheres] = static_cast<uint32_t>(scene_.sphere_blocks.size());
+    block_count_[Bvh8Child::moving_spheres] = static_cast<uint32_t>(scene_.moving_sphere_blocks.size());
     plan();
-    for (const size_t count : {first_node_ + plan_.size(), size_t{block_count_[SimdChild::triangles]}})
-      if (count > SimdChild::most_of_a_kind)
+    for (const size_t count : {first_node_ + plan_.size(), size_t{block_count_[Bvh8Child::triangles]}})
+      if (count > Bvh8Child::max_index_count)
         throw InputError("the scene is too large: its tree would have more than 2^26 nodes or blocks of triangles");
-    scene_.simd_nodes.resize(first_node_ + plan_.size());
-    scene_.triangle_blocks.resize(block_count_[SimdChild::triangles]);
-    scene_.sphere_blocks.resize(block_count_[SimdChild::spheres]);
-    scene_.moving_sphere_blocks.resize(block_count_[SimdChild::moving_spheres]);
+    scene_.bvh8_nodes.resize(first_node_ + plan_.size());
+    scene_.triangle_blocks.resize(block_count_[Bvh8Child::triangles]);
+    scene_.sphere_blocks.resize(block_count_[Bvh8Child::spheres]);
+    scene_.moving_sphere_blocks.resize(block_count_[Bvh8Child::moving_spheres]);
 #pragma omp parallel for schedule(dynamic, 1024) num_threads(threads_)
     for (size_t i = 0; i < plan_.size(); ++i) fill(i);
   }
@@ -89,13 +89,13 @@ class SimdBuilder {
   struct Planned {
     uint32_t binary;
     uint32_t first_node;
-    uint32_t first_block[4];  ///< by SimdChild::Kind
+    uint32_t first_block[4];  ///< by Bvh8Child::Kind
   };
 
   bool is_instance(uint32_t leaf) const { return primitives_[collapse_.first(leaf)].kind() == PrimitiveKind::instance; }
 
   /// 0 for an instance.
-  uint32_t blocks_of(uint32_t leaf, SimdChild::Kind& kind) const {
+  uint32_t blocks_of(uint32_t leaf, Bvh8Child::Kind& kind) const {
     if (is_instance(leaf)) return 0;
     kind = kind_of(primitives_[collapse_.first(leaf)]);
     const uint32_t lanes = lanes_of<Real>(kind);
@@ -112,11 +112,11 @@ class SimdBuilder {
       Planned& node = plan_[at];
       node.first_node = first_node_ + static_cast<uint32_t>(plan_.size());
       std::copy(std::begin(block_count_), std::end(block_count_), node.first_block);
-      uint32_t children[simd_children];
+      uint32_t children[bvh8_width];
       const uint32_t count = collapse_.children_of(node.binary, children);
       for (uint32_t c = 0; c < count; ++c) {
         if (collapse_.makes_leaf(children[c])) {
-          SimdChild::Kind kind{};
+          Bvh8Child::Kind kind{};
           const uint32_t blocks = blocks_of(children[c], kind);
           block_count_[kind] += blocks;
         } else {
@@ -129,44 +129,44 @@ class SimdBuilder {
 
   void fill(size_t at) {
     Planned next = plan_[at];
-    SimdNode& node = scene_.simd_nodes[first_node_ + at];
-    uint32_t children[simd_children];
+    Bvh8Node& node = scene_.bvh8_nodes[first_node_ + at];
+    uint32_t children[bvh8_width];
     const uint32_t count = collapse_.children_of(next.binary, children);
     const Vec3<Real> middle = collapse_.box(next.binary).center();
-    Vec3<Real> offsets[simd_children];
+    Vec3<Real> offsets[bvh8_width];
     for (uint32_t c = 0; c < count; ++c) offsets[c] = collapse_.box(children[c]).center() - middle;
     const std::array<uint32_t, 8> slots = octant_slots(offsets, count);
-    for (uint32_t slot = 0; slot < simd_children; ++slot) leave_free(node, slot);
+    for (uint32_t slot = 0; slot < bvh8_width; ++slot) leave_free(node, slot);
     for (uint32_t c = 0; c < count; ++c) {
-      const Bounds3<float> box = simd_box(collapse_.box(children[c]));
+      const Bounds3<float> box = padded_box(collapse_.box(children[c]));
       const uint32_t slot = slots[c];
       for (int axis = 0; axis < 3; ++axis) {
         node.bounds[2 * axis][slot] = box.low[axis];
         node.bounds[2 * axis + 1][slot] = box.high[axis];
       }
       if (collapse_.makes_leaf(children[c]) && is_instance(children[c])) {
-        node.child[slot] = SimdChild::instance(primitives_[collapse_.first(children[c])].index());
+        node.child[slot] = Bvh8Child::instance(primitives_[collapse_.first(children[c])].index());
       } else if (collapse_.makes_leaf(children[c])) {
-        SimdChild::Kind kind{};
+        Bvh8Child::Kind kind{};
         const uint32_t blocks = blocks_of(children[c], kind);
-        node.child[slot] = SimdChild::pack(kind, blocks, next.first_block[kind]);
+        node.child[slot] = Bvh8Child::pack(kind, blocks, next.first_block[kind]);
         fill_blocks(children[c], kind, next.first_block[kind], blocks);
         next.first_block[kind] += blocks;
       } else {
-        node.child[slot] = SimdChild::pack(SimdChild::node, 0, next.first_node++);
+        node.child[slot] = Bvh8Child::pack(Bvh8Child::node, 0, next.first_node++);
       }
     }
   }
 
-  static void leave_free(SimdNode& node, uint32_t slot) {
+  static void leave_free(Bvh8Node& node, uint32_t slot) {
     for (int axis = 0; axis < 3; ++axis) {
       node.bounds[2 * axis][slot] = infinity<float>;
       node.bounds[2 * axis + 1][slot] = -infinity<float>;
     }
-    node.child[slot] = SimdChild::nothing;
+    node.child[slot] = Bvh8Child::nothing;
   }
 
-  void fill_blocks(uint32_t leaf, SimdChild::Kind kind, uint32_t first_block, uint32_t blocks) {
+  void fill_blocks(uint32_t leaf, Bvh8Child::Kind kind, uint32_t first_block, uint32_t blocks) {
     const uint32_t lanes = lanes_of<Real>(kind);
     const uint32_t first = collapse_.first(leaf), count = collapse_.count(leaf);
     for (uint32_t i = 0; i < blocks * lanes; ++i) {
@@ -174,10 +174,10 @@ class SimdBuilder {
       // Lanes that are left over hold the last primitive's numbers, but for what makes them none.
       const uint32_t index = primitives_[first + std::min(i, count - 1)].index();
       switch (kind) {
-        case SimdChild::spheres:
+        case Bvh8Child::spheres:
           set_lane(scene_.sphere_blocks[block], lane, index, i < count, scene_.spheres[index]);
           break;
-        case SimdChild::moving_spheres:
+        case Bvh8Child::moving_spheres:
           set_lane(scene_.moving_sphere_blocks[block], lane, index, i < count, scene_.moving_spheres[index]);
           for (int axis = 0; axis < 3; ++axis)
             scene_.moving_sphere_blocks[block].motion[axis][lane] = scene_.moving_spheres[index].motion[axis];
@@ -217,16 +217,16 @@ class SimdBuilder {
 }  // namespace
 
 template <class Real>
-void build_simd_bvh(std::span<const BvhNode<Real>> tree, std::span<const Bounds3<Real>> boxes, uint32_t first_primitive,
-                    int threads, SceneArrays<Real>& scene) {
-  constexpr size_t fewest_shared_nodes = 8192;  // below, it is not worth waking other threads
-  const int team = tree.size() < fewest_shared_nodes ? 1 : threads > 0 ? threads : omp_get_max_threads();
-  if (!tree.empty()) SimdBuilder<Real>(tree, boxes, first_primitive, team, scene).run();
+void build_bvh8(std::span<const Bvh2Node<Real>> tree, std::span<const Bounds3<Real>> boxes, uint32_t first_primitive,
+                int threads, SceneArrays<Real>& scene) {
+  constexpr size_t min_shared_nodes = 8192;  // below, it is not worth waking other threads
+  const int team = tree.size() < min_shared_nodes ? 1 : threads > 0 ? threads : omp_get_max_threads();
+  if (!tree.empty()) Bvh8Builder<Real>(tree, boxes, first_primitive, team, scene).run();
 }
 
-template void build_simd_bvh(std::span<const BvhNode<float>>, std::span<const Bounds3<float>>, uint32_t, int,
-                             SceneArrays<float>&);
-template void build_simd_bvh(std::span<const BvhNode<double>>, std::span<const Bounds3<double>>, uint32_t, int,
-                             SceneArrays<double>&);
+template void build_bvh8(std::span<const Bvh2Node<float>>, std::span<const Bounds3<float>>, uint32_t, int,
+                         SceneArrays<float>&);
+template void build_bvh8(std::span<const Bvh2Node<double>>, std::span<const Bounds3<double>>, uint32_t, int,
+                         SceneArrays<double>&);
 
 }  // namespace alhazen

@@ -21,10 +21,10 @@ namespace alhazen {
 template <class Real, class LeafCost>
 class BvhCollapse {
  public:
-  static constexpr uint32_t most_children = 8;
+  static constexpr uint32_t max_children = 8;
 
   /// `boxes` are those of the primitives in the order of the leaves.
-  BvhCollapse(std::span<const BvhNode<Real>> nodes, std::span<const Bounds3<Real>> boxes, const LeafCost& leaf_cost,
+  BvhCollapse(std::span<const Bvh2Node<Real>> nodes, std::span<const Bounds3<Real>> boxes, const LeafCost& leaf_cost,
               int threads)
       : source_(nodes),
         boxes_(boxes),
@@ -43,7 +43,7 @@ class BvhCollapse {
 
   /// The binary nodes that are the children of the wide node which stands for `node`; returns how many. A tree that is
   /// one leaf is the only child of its root.
-  uint32_t children_of(uint32_t node, uint32_t (&children)[most_children]) const {
+  uint32_t children_of(uint32_t node, uint32_t (&children)[max_children]) const {
     uint32_t count = 0;
     if (makes_leaf(node)) {
       children[count++] = node;
@@ -55,7 +55,7 @@ class BvhCollapse {
   }
 
  private:
-  static constexpr uint32_t most_roots = 7;  // of a forest that stands for one child and its siblings
+  static constexpr uint32_t max_roots = 7;  // of a forest that stands for one child and its siblings
   static constexpr uint32_t no_child = 0xffffffffu;
 
   /// The left child of an inner node is the next node.
@@ -67,13 +67,13 @@ class BvhCollapse {
 
   /// The cheapest ways to stand for a binary node by a forest of at most i wide nodes and leaves, i from 1 to 7.
   struct Choices {
-    std::array<float, most_roots + 1> cost{};    ///< [i]
-    std::array<uint8_t, most_roots + 2> left{};  ///< [i]: roots of the left child; 0: as with i - 1. [8]: of a node
-    bool makes_leaf = false;                     ///< with one root: a leaf rather than a node
+    std::array<float, max_roots + 1> cost{};    ///< [i]
+    std::array<uint8_t, max_roots + 2> left{};  ///< [i]: roots of the left child; 0: as with i - 1. [8]: of a node
+    bool makes_leaf = false;                    ///< with one root: a leaf rather than a node
   };
 
   void add_node(uint32_t source) {
-    const BvhNode<Real>& node = source_[source];
+    const Bvh2Node<Real>& node = source_[source];
     if (node.count > 0) return add_range(node.first, node.count);
     const uint32_t own = binary_count_++;
     binary_[own] = {};
@@ -149,7 +149,7 @@ class BvhCollapse {
     const Choices &l = choices_[index + 1], &r = choices_[node.right];
     const auto distribute = [&](uint32_t roots) {
       std::pair<float, uint8_t> best{std::numeric_limits<float>::infinity(), uint8_t{1}};
-      for (uint32_t left = roots > most_roots ? roots - most_roots : 1; left < roots && left <= most_roots; ++left) {
+      for (uint32_t left = roots > max_roots ? roots - max_roots : 1; left < roots && left <= max_roots; ++left) {
         const float cost = l.cost[left] + r.cost[roots - left];
         if (cost < best.first) best = {cost, static_cast<uint8_t>(left)};
       }
@@ -159,7 +159,7 @@ class BvhCollapse {
     c.left[8] = inner_left;
     c.makes_leaf = leaf_cost <= inner_cost + area;
     c.cost[1] = std::min(leaf_cost, inner_cost + area);
-    for (uint32_t roots = 2; roots <= most_roots; ++roots) {
+    for (uint32_t roots = 2; roots <= max_roots; ++roots) {
       const auto [cost, left] = distribute(roots);
       c.cost[roots] = std::min(cost, c.cost[roots - 1]);
       c.left[roots] = cost < c.cost[roots - 1] ? left : uint8_t{0};
@@ -167,7 +167,7 @@ class BvhCollapse {
   }
 
   /// The roots of the cheapest forest for binary node `index`.
-  void gather(uint32_t index, uint32_t roots, uint32_t (&children)[most_children], uint32_t& count) const {
+  void gather(uint32_t index, uint32_t roots, uint32_t (&children)[max_children], uint32_t& count) const {
     const Choices& c = choices_[index];
     while (roots > 1 && c.left[roots] == 0) --roots;
     if (roots == 1) {
@@ -178,7 +178,7 @@ class BvhCollapse {
     gather(binary_[index].right, roots - c.left[roots], children, count);
   }
 
-  std::span<const BvhNode<Real>> source_;
+  std::span<const Bvh2Node<Real>> source_;
   std::span<const Bounds3<Real>> boxes_;
   const LeafCost& leaf_cost_;
   int threads_;

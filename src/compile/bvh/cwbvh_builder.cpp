@@ -13,9 +13,9 @@ namespace alhazen {
 namespace {
 
 /// A leaf of a few primitives, each at 0.3 of a visit to a wide node (the paper's ratio).
-struct WideLeafCost {
+struct CwbvhLeafCost {
   float operator()(uint32_t, uint32_t count) const {
-    return count <= most_wide_leaf ? 0.3f * static_cast<float>(count) : std::numeric_limits<float>::infinity();
+    return count <= max_cwbvh_leaf ? 0.3f * static_cast<float>(count) : std::numeric_limits<float>::infinity();
   }
 };
 
@@ -27,16 +27,16 @@ struct Child {
 
 class Collapse {
  public:
-  Collapse(std::span<const BvhNode<float>> nodes, std::span<const Bounds3<float>> boxes)
+  Collapse(std::span<const Bvh2Node<float>> nodes, std::span<const Bounds3<float>> boxes)
       : boxes_(boxes), collapse_(nodes, boxes, cost_, 1) {}
 
-  WideBvh run() {
+  Cwbvh run() {
     std::vector<uint32_t> pending{0};  // binary nodes that become wide ones, in the order of the wide nodes
     out_.primitives.reserve(boxes_.size());
     for (size_t i = 0; i < pending.size(); ++i) {
       std::vector<Child> children = children_of(pending[i]);
       assign_slots(pending[i], children);
-      WideNode node = encode(pending[i], children);
+      CwbvhNode node = encode(pending[i], children);
       node.first_child = static_cast<uint32_t>(pending.size());
       node.first_primitive = static_cast<uint32_t>(out_.primitives.size());
       uint32_t offset = 0;
@@ -61,7 +61,7 @@ class Collapse {
 
  private:
   std::vector<Child> children_of(uint32_t index) const {
-    uint32_t children[WideNode::children];
+    uint32_t children[CwbvhNode::children];
     const uint32_t count = collapse_.children_of(index, children);
     std::vector<Child> all;
     for (uint32_t c = 0; c < count; ++c) all.push_back({children[c], 0});
@@ -71,7 +71,7 @@ class Collapse {
   /// Gives each child its slot, and sorts by slot.
   void assign_slots(uint32_t index, std::vector<Child>& children) const {
     const Vec3<float> middle = collapse_.box(index).center();
-    Vec3<float> offsets[WideNode::children];
+    Vec3<float> offsets[CwbvhNode::children];
     for (uint32_t c = 0; c < children.size(); ++c) offsets[c] = collapse_.box(children[c].node).center() - middle;
     const std::array<uint32_t, 8> slots = octant_slots(offsets, static_cast<uint32_t>(children.size()));
     for (uint32_t c = 0; c < children.size(); ++c) children[c].slot = slots[c];
@@ -82,8 +82,8 @@ class Collapse {
     words[child / 4] |= value << (8 * (child % 4));
   }
 
-  WideNode encode(uint32_t index, const std::vector<Child>& children) const {
-    WideNode node{};
+  CwbvhNode encode(uint32_t index, const std::vector<Child>& children) const {
+    CwbvhNode node{};
     node.origin = collapse_.box(index).low;
     for (int axis = 0; axis < 3; ++axis) {
       const double extent =
@@ -96,7 +96,7 @@ class Collapse {
   }
 
   /// False where the steps are too small for some child's box.
-  bool encode_axis(const std::vector<Child>& children, int axis, int exponent, WideNode& node) const {
+  bool encode_axis(const std::vector<Child>& children, int axis, int exponent, CwbvhNode& node) const {
     const float origin = node.origin[axis], scale = std::ldexp(1.0f, exponent);
     uint32_t low[2]{}, high[2]{};
     for (const Child& child : children) {
@@ -122,15 +122,15 @@ class Collapse {
   }
 
   std::span<const Bounds3<float>> boxes_;
-  WideLeafCost cost_;
-  BvhCollapse<float, WideLeafCost> collapse_;
-  WideBvh out_;
+  CwbvhLeafCost cost_;
+  BvhCollapse<float, CwbvhLeafCost> collapse_;
+  Cwbvh out_;
 };
 
 }  // namespace
 
-WideBvh build_wide_bvh(std::span<const BvhNode<float>> nodes, std::span<const Bounds3<float>> boxes) {
-  return nodes.empty() ? WideBvh{} : Collapse(nodes, boxes).run();
+Cwbvh build_cwbvh(std::span<const Bvh2Node<float>> nodes, std::span<const Bounds3<float>> boxes) {
+  return nodes.empty() ? Cwbvh{} : Collapse(nodes, boxes).run();
 }
 
 }  // namespace alhazen

@@ -10,14 +10,14 @@
 
 namespace alhazen {
 
-struct WideBvh {
-  std::vector<WideNode> nodes;  ///< the root first; empty where there was no primitive
+struct Cwbvh {
+  std::vector<CwbvhNode> nodes;  ///< the root first; empty where there was no primitive
   std::vector<uint32_t>
       primitives;  ///< places in the binary tree's order of primitives, in the order of the wide leaves
 };
 
 /// `boxes` bound the primitives in the order of the binary tree's leaves. Of all ways to gather binary nodes into wide
 /// ones it takes the one of least surface area cost, by dynamic programming (Ylitie, Karras, Laine 2017, section 3.2).
-WideBvh build_wide_bvh(std::span<const BvhNode<float>> nodes, std::span<const Bounds3<float>> boxes);
+Cwbvh build_cwbvh(std::span<const Bvh2Node<float>> nodes, std::span<const Bounds3<float>> boxes);
 
 }  // namespace alhazen

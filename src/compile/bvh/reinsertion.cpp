@@ -15,11 +15,11 @@ namespace {
 constexpr size_t share = 20;
 constexpr int rounds = 2;
 /// Below this many nodes there is little to gain.
-constexpr size_t fewest_nodes = 8;
+constexpr size_t min_nodes = 8;
 /// Below this many it is not worth waking other threads.
-constexpr size_t fewest_shared_nodes = 8192;
+constexpr size_t min_shared_nodes = 8192;
 /// A search ends after so many nodes, where boxes overlap so much that bounds rule nothing out.
-constexpr int most_visits = 4096;
+constexpr int max_visits = 4096;
 
 template <class Real>
 struct Move {
@@ -28,12 +28,12 @@ struct Move {
 };
 
 template <class Real>
-Bounds3<Real> box_of(const BvhNode<Real>& node) {
+Bounds3<Real> box_of(const Bvh2Node<Real>& node) {
   return {node.corners[0], node.corners[1]};
 }
 
 template <class Real>
-Real area_of(const BvhNode<Real>& node) {
+Real area_of(const Bvh2Node<Real>& node) {
   return box_of(node).half_area();
 }
 
@@ -50,7 +50,7 @@ uint32_t first_of_pair(uint32_t node) { return node % 2 == 1 ? node : node - 1; 
 template <class Real>
 class Reinsertion {
  public:
-  explicit Reinsertion(std::vector<BvhNode<Real>>& nodes) : nodes_(nodes), parents_(nodes.size()) {
+  explicit Reinsertion(std::vector<Bvh2Node<Real>>& nodes) : nodes_(nodes), parents_(nodes.size()) {
     for (uint32_t i = 0; i < nodes_.size(); ++i)
       if (nodes_[i].count == 0) set_parent_of_children(i);
   }
@@ -99,7 +99,7 @@ class Reinsertion {
     if (parents_[from] == 0) return best;  // its parent is the root, which stays
     const Bounds3<Real> box = box_of(nodes_[from]);
     const Real area = box.half_area();
-    Place stack[most_visits + 1];  // each visit takes one and leaves two at most
+    Place stack[max_visits + 1];  // each visit takes one and leaves two at most
     int waiting = 0;
     uint32_t pivot = parents_[from], side = sibling_of(from);
     Bounds3<Real> without = box_of(nodes_[side]);  // the pivot's box once the subtree is gone
@@ -107,10 +107,10 @@ class Reinsertion {
     int visits = 0;
     for (;;) {
       stack[waiting++] = {gain, side};
-      for (; waiting > 0 && visits < most_visits; ++visits) {
+      for (; waiting > 0 && visits < max_visits; ++visits) {
         const Place place = stack[--waiting];
         if (place.gain - area <= best.gain) continue;
-        const BvhNode<Real>& there = nodes_[place.node];
+        const Bvh2Node<Real>& there = nodes_[place.node];
         const Real with_parent = place.gain - united(box_of(there), box).half_area();
         if (with_parent > best.gain) best = {from, place.node, with_parent};
         if (there.count > 0) continue;
@@ -122,7 +122,7 @@ class Reinsertion {
         without.extend(box_of(nodes_[side]));
         gain += area_of(nodes_[pivot]) - without.half_area();
       }
-      if (pivot == 0 || visits == most_visits) break;
+      if (pivot == 0 || visits == max_visits) break;
       side = sibling_of(pivot);
       pivot = parents_[pivot];
     }
@@ -149,7 +149,7 @@ class Reinsertion {
   /// The sibling takes the place of the parent that both had; the pair's place becomes that of `from` and `to`.
   void reinsert(uint32_t from, uint32_t to) {
     const uint32_t sibling = sibling_of(from), parent = parents_[from];
-    const BvhNode<Real> destination = nodes_[to];
+    const Bvh2Node<Real> destination = nodes_[to];
     nodes_[parent] = nodes_[sibling];
     if (nodes_[parent].count == 0) set_parent_of_children(parent);
     nodes_[sibling] = destination;
@@ -163,7 +163,7 @@ class Reinsertion {
 
   void refit_from(uint32_t node) {
     for (;; node = parents_[node]) {
-      BvhNode<Real>& n = nodes_[node];
+      Bvh2Node<Real>& n = nodes_[node];
       if (n.count == 0) {
         const Bounds3<Real> box = united(box_of(nodes_[n.first]), box_of(nodes_[n.first + 1]));
         n.corners[0] = box.low;
@@ -175,11 +175,11 @@ class Reinsertion {
   }
 
   /// The axis along which the centres are farthest apart.
-  static int widest_gap(const BvhNode<Real>& a, const BvhNode<Real>& b) {
+  static int widest_gap(const Bvh2Node<Real>& a, const Bvh2Node<Real>& b) {
     return max_axis(abs(box_of(a).center() - box_of(b).center()));
   }
 
-  std::vector<BvhNode<Real>>& nodes_;
+  std::vector<Bvh2Node<Real>>& nodes_;
   std::vector<uint32_t> parents_;
 };
 
@@ -187,7 +187,7 @@ class Reinsertion {
 template <class Real>
 class Renumbering {
  public:
-  Renumbering(const std::vector<BvhNode<Real>>& nodes, const std::vector<uint32_t>& order)
+  Renumbering(const std::vector<Bvh2Node<Real>>& nodes, const std::vector<uint32_t>& order)
       : nodes_(nodes), order_(order) {
     out_.nodes.reserve(nodes.size());
     out_.order.reserve(order.size());
@@ -195,12 +195,12 @@ class Renumbering {
   }
 
   bool run() { return place(0, 0, 0); }
-  BvhTree<Real>& tree() { return out_; }
+  Bvh2<Real>& tree() { return out_; }
 
  private:
   bool place(uint32_t from, uint32_t to, int depth) {
-    if (depth >= max_bvh_depth) return false;
-    BvhNode<Real> node = nodes_[from];
+    if (depth >= max_bvh2_depth) return false;
+    Bvh2Node<Real> node = nodes_[from];
     if (node.count > 0) {
       node.first = static_cast<uint32_t>(out_.order.size());
       const auto first = order_.begin() + nodes_[from].first;
@@ -215,24 +215,24 @@ class Renumbering {
     return place(children, node.first, depth + 1) && place(children + 1, node.first + 1, depth + 1);
   }
 
-  const std::vector<BvhNode<Real>>& nodes_;
+  const std::vector<Bvh2Node<Real>>& nodes_;
   const std::vector<uint32_t>& order_;
-  BvhTree<Real> out_;
+  Bvh2<Real> out_;
 };
 
 }  // namespace
 
 template <class Real>
-void reinsert_subtrees(BvhTree<Real>& tree, int threads) {
-  if (tree.nodes.size() < fewest_nodes || !std::isfinite(area_of(tree.nodes[0]))) return;
-  std::vector<BvhNode<Real>> nodes = tree.nodes;
+void reinsert_subtrees(Bvh2<Real>& tree, int threads) {
+  if (tree.nodes.size() < min_nodes || !std::isfinite(area_of(tree.nodes[0]))) return;
+  std::vector<Bvh2Node<Real>> nodes = tree.nodes;
   const int team = threads > 0 ? threads : omp_get_max_threads();
-  Reinsertion<Real>(nodes).run(nodes.size() < fewest_shared_nodes ? 1 : team);
+  Reinsertion<Real>(nodes).run(nodes.size() < min_shared_nodes ? 1 : team);
   Renumbering<Real> renumbering(nodes, tree.order);
   if (renumbering.run()) tree = std::move(renumbering.tree());
 }
 
-template void reinsert_subtrees(BvhTree<float>&, int);
-template void reinsert_subtrees(BvhTree<double>&, int);
+template void reinsert_subtrees(Bvh2<float>&, int);
+template void reinsert_subtrees(Bvh2<double>&, int);
 
 }  // namespace alhazen

@@ -10,6 +10,6 @@ namespace alhazen {
 /// Leaves keep their primitives; nodes and the order of leaves change. A tree that would come out too deep to be walked
 /// is left as it was.
 template <class Real>
-void reinsert_subtrees(BvhTree<Real>& tree, int threads);
+void reinsert_subtrees(Bvh2<Real>& tree, int threads);
 
 }  // namespace alhazen

@@ -44,9 +44,9 @@ struct SphereFrame {
 struct ObjectRecord {
   uint32_t first_triangle, triangle_count;
   uint32_t first_primitive;  ///< in `primitives`, as many as triangles
-  uint32_t node;             ///< the root in `nodes`
-  uint32_t wide_node;        ///< the root in `wide_nodes`
-  uint32_t simd_node;        ///< the root in `simd_nodes`
+  uint32_t bvh2_root;
+  uint32_t cwbvh_root;  ///< the root in `cwbvh_nodes`
+  uint32_t bvh8_root;   ///< the root in `bvh8_nodes`
 };
 
 inline constexpr uint32_t no_motion = 0xffffffffu;

@@ -5,8 +5,8 @@
 namespace ALHAZEN_CORE {
 
 RawKernel select_double_kernel(uint32_t integrator, uint32_t sampler) {
-  return select_kernel<SimdBvhIntersector<double>, double>(static_cast<IntegratorKind>(integrator),
-                                                           static_cast<SamplerType>(sampler));
+  return select_kernel<Bvh8Intersector<double>, double>(static_cast<IntegratorKind>(integrator),
+                                                        static_cast<SamplerType>(sampler));
 }
 
 }  // namespace ALHAZEN_CORE

@@ -1,7 +1,7 @@
 // Kernels of `iterative` with slower ray queries, with which the study compares the CPU's BVH: the report's linear
 // scan, and single-ray traversal of a binary BVH. Compiled once per instruction set, like those in render/kernels.
 
-#include "core/bvh/brute_force/linear.h"
+#include "core/bvh/brute_force/intersector.h"
 #include "render/kernels/instances.h"
 
 namespace ALHAZEN_CORE {
@@ -9,9 +9,9 @@ namespace ALHAZEN_CORE {
 namespace {
 
 template <class Real>
-class BinaryBvhQueries : public BvhIntersector<Real> {
+class BinaryBvhQueries : public Bvh2Intersector<Real> {
  public:
-  explicit BinaryBvhQueries(const SceneView<Real>& scene, const void*) : BvhIntersector<Real>(scene) {}
+  explicit BinaryBvhQueries(const SceneView<Real>& scene, const void*) : Bvh2Intersector<Real>(scene) {}
 
   /// Answers many queries one after the other (core/bvh/bvh8/traversal.h).
   template <bool any_hit, class RayOf, class Limit, class Answer>
@@ -31,7 +31,7 @@ class BinaryBvhQueries : public BvhIntersector<Real> {
 
 template <class Real>
 RawKernel select_queries(bool linear) {
-  return linear ? take_blocks<IntegratorKind::iterative, SobolSampler, LinearIntersector<Real>, Real>
+  return linear ? take_blocks<IntegratorKind::iterative, SobolSampler, BruteForceIntersector<Real>, Real>
                 : take_blocks<IntegratorKind::iterative, SobolSampler, BinaryBvhQueries<Real>, Real>;
 }
 

@@ -27,14 +27,14 @@ Boxes<Real> random_boxes(size_t count, uint64_t seed) {
 }
 
 template <class Real>
-bool is_within(const Vec3<Real>& low, const Vec3<Real>& high, const BvhNode<Real>& parent) {
+bool is_within(const Vec3<Real>& low, const Vec3<Real>& high, const Bvh2Node<Real>& parent) {
   const Vec3<Real>&outer_low = parent.low(), &outer_high = parent.high();
   return low.x >= outer_low.x && low.y >= outer_low.y && low.z >= outer_low.z && high.x <= outer_high.x &&
          high.y <= outer_high.y && high.z <= outer_high.z;
 }
 
 template <class Real>
-void check_tree(const Boxes<Real>& boxes, const BvhTree<Real>& tree) {
+void check_tree(const Boxes<Real>& boxes, const Bvh2<Real>& tree) {
   ASSERT_EQ(tree.order.size(), boxes.size());
   std::vector<int> in_leaves(boxes.size());
   std::vector<int> visits(tree.nodes.size());
@@ -47,9 +47,9 @@ void check_tree(const Boxes<Real>& boxes, const BvhTree<Real>& tree) {
     const auto [index, depth] = stack.back();
     stack.pop_back();
     ASSERT_LT(index, tree.nodes.size());
-    ASSERT_LT(depth, max_bvh_depth);
+    ASSERT_LT(depth, max_bvh2_depth);
     ++visits[index];
-    const BvhNode<Real>& node = tree.nodes[index];
+    const Bvh2Node<Real>& node = tree.nodes[index];
     if (node.count > 0) {
       for (uint32_t i = node.first; i < node.first + node.count; ++i) {
         ASSERT_LT(i, tree.order.size());
@@ -74,7 +74,7 @@ void check_tree(const Boxes<Real>& boxes, const BvhTree<Real>& tree) {
 /// The tree as built, and after reinsertion of its subtrees.
 template <class Real>
 void build_and_check(const Boxes<Real>& boxes) {
-  BvhTree<Real> tree = build_bvh<Real>(boxes, {.threads = 1});
+  Bvh2<Real> tree = build_bvh2<Real>(boxes, {.threads = 1});
   check_tree(boxes, tree);
   reinsert_subtrees(tree, 1);
   check_tree(boxes, tree);
@@ -82,19 +82,19 @@ void build_and_check(const Boxes<Real>& boxes) {
 
 /// The sum of the half areas of inner nodes relative to the root's: the expected number that a random ray visits.
 template <class Real>
-double inner_cost(const BvhTree<Real>& tree) {
+double inner_cost(const Bvh2<Real>& tree) {
   double sum = 0;
-  for (const BvhNode<Real>& node : tree.nodes)
+  for (const Bvh2Node<Real>& node : tree.nodes)
     if (node.count == 0) sum += static_cast<double>(Bounds3<Real>{node.low(), node.high()}.half_area());
   return sum / static_cast<double>(Bounds3<Real>{tree.nodes[0].low(), tree.nodes[0].high()}.half_area());
 }
 
 template <class Real>
-void expect_same_tree(const BvhTree<Real>& a, const BvhTree<Real>& b) {
+void expect_same_tree(const Bvh2<Real>& a, const Bvh2<Real>& b) {
   EXPECT_EQ(a.order, b.order);
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
   for (size_t i = 0; i < a.nodes.size(); ++i) {
-    const BvhNode<Real>&x = a.nodes[i], &y = b.nodes[i];
+    const Bvh2Node<Real>&x = a.nodes[i], &y = b.nodes[i];
     ASSERT_TRUE(x.low() == y.low() && x.high() == y.high() && x.first == y.first && x.count == y.count &&
                 x.axis == y.axis);
   }
@@ -112,7 +112,7 @@ TYPED_TEST(BvhBuilderOf, RandomBoxes) {
 }
 
 TYPED_TEST(BvhBuilderOf, NoBoxes) {
-  const BvhTree<TypeParam> tree = build_bvh<TypeParam>(Boxes<TypeParam>{}, {.threads = 1});
+  const Bvh2<TypeParam> tree = build_bvh2<TypeParam>(Boxes<TypeParam>{}, {.threads = 1});
   EXPECT_TRUE(tree.nodes.empty());
   EXPECT_TRUE(tree.order.empty());
 }
@@ -178,20 +178,20 @@ TYPED_TEST(BvhBuilderOf, LargestNumbers) {
 TYPED_TEST(BvhBuilderOf, SameTreeForAnyThreads) {
   using Real = TypeParam;
   const Boxes<Real> boxes = random_boxes<Real>(200'000, 5);
-  const BvhTree<Real> one = build_bvh<Real>(boxes, {.threads = 1});
+  const Bvh2<Real> one = build_bvh2<Real>(boxes, {.threads = 1});
   check_tree(boxes, one);
-  for (const int threads : {2, 3, 8}) expect_same_tree(build_bvh<Real>(boxes, {.threads = threads}), one);
+  for (const int threads : {2, 3, 8}) expect_same_tree(build_bvh2<Real>(boxes, {.threads = threads}), one);
 }
 
 TYPED_TEST(BvhBuilderOf, SameMovesForAnyThreads) {
   using Real = TypeParam;
   const Boxes<Real> boxes = random_boxes<Real>(effort(50'000), 6);
-  const BvhTree<Real> built = build_bvh<Real>(boxes, {.threads = 1});
-  BvhTree<Real> one = built;
+  const Bvh2<Real> built = build_bvh2<Real>(boxes, {.threads = 1});
+  Bvh2<Real> one = built;
   reinsert_subtrees(one, 1);
   check_tree(boxes, one);
   for (const int threads : {2, 3}) {
-    BvhTree<Real> other = built;
+    Bvh2<Real> other = built;
     reinsert_subtrees(other, threads);
     expect_same_tree(other, one);
   }
@@ -207,7 +207,7 @@ TYPED_TEST(BvhBuilderOf, MovesMakeTheTreeCheaper) {
     boxes[i].extend(convert<Real>(p));
     boxes[i].extend(convert<Real>(p + Vec3d{80, 0.1, 80}));
   }
-  BvhTree<Real> tree = build_bvh<Real>(boxes, {.threads = 1});
+  Bvh2<Real> tree = build_bvh2<Real>(boxes, {.threads = 1});
   const double before = inner_cost(tree);
   reinsert_subtrees(tree, 1);
   EXPECT_LT(inner_cost(tree), 0.9 * before);
@@ -215,14 +215,14 @@ TYPED_TEST(BvhBuilderOf, MovesMakeTheTreeCheaper) {
 
 /// A tree that halves the given order.
 template <class Real>
-BvhTree<Real> halved(const Boxes<Real>& boxes, std::vector<uint32_t> order) {
-  BvhTree<Real> tree;
+Bvh2<Real> halved(const Boxes<Real>& boxes, std::vector<uint32_t> order) {
+  Bvh2<Real> tree;
   tree.order = std::move(order);
   tree.nodes.resize(1);
   const auto add = [&](const auto& self, uint32_t node, uint32_t begin, uint32_t end) -> void {
     Bounds3<Real> box;
     for (uint32_t i = begin; i < end; ++i) box.extend(boxes[tree.order[i]]);
-    BvhNode<Real> n{{box.low, box.high}, begin, 1, 0};
+    Bvh2Node<Real> n{{box.low, box.high}, begin, 1, 0};
     if (end - begin > 1) {
       n.first = static_cast<uint32_t>(tree.nodes.size());
       n.count = 0;
@@ -248,7 +248,7 @@ TYPED_TEST(BvhBuilderOf, MovesBringBackWhatLiesFarOff) {
   }
   const double good = inner_cost(halved(boxes, order));
   std::swap(order[3], order[60]);
-  BvhTree<Real> tree = halved(boxes, order);
+  Bvh2<Real> tree = halved(boxes, order);
   ASSERT_GT(inner_cost(tree), 1.5 * good);
   for (int times = 0; times < 5; ++times) reinsert_subtrees(tree, 1);
   check_tree(boxes, tree);

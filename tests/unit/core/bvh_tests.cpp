@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/bvh/brute_force/intersector.h"
 #include "support/effort.h"
-#include "support/linear_intersector.h"
+#include "support/engines.h"
 #include "support/primitive_scenes.h"
-#include "support/trees.h"
 #include "support/ulps.h"
 
 namespace alhazen::test {
@@ -24,7 +24,7 @@ Ray<Real> ray_from(const Vec3d& origin, const Vec3d& direction, double time = 0)
 template <class Tree, class Real = typename Tree::Real>
 bool expect_same(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max = infinity<Real>) {
   const typename Tree::Intersector bvh(scene);
-  const LinearIntersector<Real> linear(scene);
+  const BruteForceIntersector<Real> linear(scene);
   Hit<Real> hit, expected;
   const bool was_hit = bvh.closest_hit(ray, t_max, hit), expect_hit = linear.closest_hit(ray, t_max, expected);
   EXPECT_EQ(was_hit, expect_hit);
@@ -111,7 +111,7 @@ TYPED_TEST(BvhOf, RaysAlongAxes) {
 TYPED_TEST(BvhOf, EmptyScene) {
   using Real = typename TypeParam::Real;
   const CompiledScene<Real> scene = PrimitiveScene().flat<Real>();
-  EXPECT_EQ(scene.view.nodes_count, 0u);
+  EXPECT_EQ(scene.view.bvh2_nodes_count, 0u);
   EXPECT_FALSE(expect_same<TypeParam>(scene.view, ray_from<Real>({}, {1, 2, 3})));
 }
 
@@ -172,7 +172,7 @@ TYPED_TEST(BvhOf, HugeRangeOfSizes) {
     primitives.add_sphere(random.on_sphere() * size, 0.3 * size);
   }
   const CompiledScene<Real> scene = primitives.flat<Real>();
-  const LinearIntersector<Real> linear(scene.view);
+  const BruteForceIntersector<Real> linear(scene.view);
   size_t sure = 0;
   for (size_t i = 0; i < effort(20'000); ++i) {
     const Vec3d origin = random.on_sphere() * random.magnitude_between(1e-8, 1e12);

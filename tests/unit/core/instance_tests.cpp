@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "core/bvh/brute_force/intersector.h"
 #include "core/integrators/stages.h"
 #include "support/effort.h"
+#include "support/engines.h"
 #include "support/instanced_scenes.h"
-#include "support/linear_intersector.h"
 #include "support/reals.h"
-#include "support/trees.h"
 
 namespace alhazen::test {
 namespace {
@@ -30,7 +30,7 @@ TYPED_TEST(InstancesInTree, AreHitAsByTheLinearScan) {
   const CompiledScene<Real> scene = flat_instanced_scene<Real>(instanced_scene(1, 40, reach), false);
   ASSERT_EQ(scene.view.instances_count, 40u);
   const typename TypeParam::Intersector tree(scene.view);
-  const LinearIntersector<Real> linear(scene.view);
+  const BruteForceIntersector<Real> linear(scene.view);
   Random random(2);
   size_t hit_instances = 0;
   for (size_t i = 0; i < effort(10'000); ++i) {
@@ -56,7 +56,7 @@ TYPED_TEST(InstancesInTree, AreHitWhereTheyMove) {
   const CompiledScene<Real> scene = flat_instanced_scene<Real>(instanced_scene(11, 15, reach, true), false);
   ASSERT_EQ(scene.view.instance_motions_count, 5u);
   const typename TypeParam::Intersector tree(scene.view);
-  const LinearIntersector<Real> linear(scene.view);
+  const BruteForceIntersector<Real> linear(scene.view);
   Random random(12);
   size_t hit_moving = 0;
   for (size_t i = 0; i < effort(5'000); ++i) {
@@ -135,8 +135,8 @@ TYPED_TEST(Instances, OfMeshesThatMoveWithinAnObject) {
     Ray<Real> ray = random_ray<Real>(random);
     ray.time = random.uniform<Real>();
     Hit<Real> a, b;
-    const bool found = LinearIntersector<Real>(by_hand.view).closest_hit(ray, infinity<Real>, b);
-    ASSERT_EQ(BvhIntersector<Real>(flat.view).closest_hit(ray, infinity<Real>, a), found);
+    const bool found = BruteForceIntersector<Real>(by_hand.view).closest_hit(ray, infinity<Real>, b);
+    ASSERT_EQ(Bvh2Intersector<Real>(flat.view).closest_hit(ray, infinity<Real>, a), found);
     if (!found) continue;
     ASSERT_EQ(a.t, b.t);
     ASSERT_EQ(a.instance, b.instance);
@@ -158,8 +158,8 @@ TYPED_TEST(Instances, LookLikeCopies) {
   for (size_t i = 0; i < effort(20'000); ++i) {
     const Ray<Real> ray = random_ray<Real>(random);
     Hit<Real> a, b;
-    const bool found = BvhIntersector<Real>(instances.view).closest_hit(ray, infinity<Real>, a);
-    if (BvhIntersector<Real>(copies.view).closest_hit(ray, infinity<Real>, b) != found ||
+    const bool found = Bvh2Intersector<Real>(instances.view).closest_hit(ray, infinity<Real>, a);
+    if (Bvh2Intersector<Real>(copies.view).closest_hit(ray, infinity<Real>, b) != found ||
         (found && std::abs(static_cast<double>(a.t - b.t)) > tolerance)) {
       ++apart;  // past an edge because of rounding
       continue;
@@ -215,14 +215,14 @@ TYPED_TEST(Instances, AreNotHitByRaysThatLeaveThem) {
       const Ray<Real> ray{convert<Real>(origin), normalize(convert<Real>(target) - convert<Real>(origin)),
                           static_cast<Real>(time)};
       Hit<Real> hit;
-      if (!LinearIntersector<Real>(scene.view).closest_hit(ray, infinity<Real>, hit) || hit.instance != 0) continue;
+      if (!BruteForceIntersector<Real>(scene.view).closest_hit(ray, infinity<Real>, hit) || hit.instance != 0) continue;
       const SurfaceInteraction<Real> si = surface_interaction(scene.view, ray, hit);
       // Outward is the side from which the ray came.
       const double side = dot(si.normal, ray.direction) < 0 ? 1 : -1;
       const Vec3<Real> direction = convert<Real>(random.on_hemisphere(convert<double>(si.normal) * side));
       const Ray<Real> leaving = spawn_ray(si, normalize(direction));
       ++left;
-      hit_again += LinearIntersector<Real>(scene.view).occluded(leaving, static_cast<Real>(10 * size));
+      hit_again += BruteForceIntersector<Real>(scene.view).occluded(leaving, static_cast<Real>(10 * size));
     }
   }
   EXPECT_EQ(hit_again, 0u) << "of " << left;
@@ -251,8 +251,8 @@ TYPED_TEST(Instances, MoveAlongLines) {
       Ray<Real> ray = random_ray<Real>(random);
       ray.time = static_cast<Real>(time);
       Hit<Real> a, b;
-      const bool found = BvhIntersector<Real>(scene.view).closest_hit(ray, infinity<Real>, a);
-      if (BvhIntersector<Real>(frozen.view).closest_hit(ray, infinity<Real>, b) != found ||
+      const bool found = Bvh2Intersector<Real>(scene.view).closest_hit(ray, infinity<Real>, a);
+      if (Bvh2Intersector<Real>(frozen.view).closest_hit(ray, infinity<Real>, b) != found ||
           (found && std::abs(static_cast<double>(a.t - b.t)) > tolerance)) {
         ++apart;
         continue;

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "core/bvh/brute_force/intersector.h"
 #include "isa/queries.h"
 #include "support/closed_meshes.h"
 #include "support/effort.h"
 #include "support/instanced_scenes.h"
-#include "support/linear_intersector.h"
 #include "support/primitive_scenes.h"
 #include "support/reals.h"
 
@@ -75,7 +75,7 @@ void expect_same(const Hit<Real>& a, const Hit<Real>& b) {
 
 template <class Real>
 void check(const SceneView<Real>& scene, const Queries<Real>& queries) {
-  const LinearIntersector<Real> linear(scene);
+  const BruteForceIntersector<Real> linear(scene);
   const Answers<Real> alone(scene, InstructionSet::baseline, QueryMode::single, false, queries);
   size_t hit_count = 0;
   for (size_t i = 0; i < queries.rays.size(); ++i) {
@@ -114,7 +114,7 @@ TYPED_TEST(ManyRays, MixedPrimitives) {
   check(scene.view, queries);
 }
 
-TYPED_TEST(ManyRays, FewPrimitives) {
+TYPED_TEST(ManyRays, BruteForcePackets) {
   Random random(26);
   for (const int count : {1, 3, 8, 14, 25}) {
     PrimitiveScene primitives;

@@ -5,9 +5,9 @@
 
 #include <optional>
 
+#include "core/bvh/brute_force/intersector.h"
 #include "core/integrators/stages.h"
 #include "support/effort.h"
-#include "support/linear_intersector.h"
 #include "support/random.h"
 #include "support/reals.h"
 
@@ -57,7 +57,7 @@ std::optional<SurfaceInteraction<Real>> meet(const SceneView<Real>& scene, const
   const Vec3<Real> o = convert<Real>(origin);
   const Ray<Real> ray{o, normalize(convert<Real>(target) - o)};
   Hit<Real> hit;
-  if (!is_finite(ray.direction) || !LinearIntersector<Real>(scene).closest_hit(ray, infinity<Real>, hit))
+  if (!is_finite(ray.direction) || !BruteForceIntersector<Real>(scene).closest_hit(ray, infinity<Real>, hit))
     return std::nullopt;
   return surface_interaction(scene, ray, hit);
 }
@@ -93,7 +93,7 @@ TYPED_TEST(SelfIntersectionOf, Triangles) {
       for (const double side : {1.0, -1.0}) {
         const Ray<Real> ray = spawn_ray(*si, leaving_direction(si->normal, side, random));
         ++left;
-        hit_again += LinearIntersector<Real>(view).occluded(ray, infinity<Real>);
+        hit_again += BruteForceIntersector<Real>(view).occluded(ray, infinity<Real>);
       }
     }
   }
@@ -118,7 +118,7 @@ TYPED_TEST(SelfIntersectionOf, SpheresFromOutside) {
       if (!si) continue;
       const Ray<Real> ray = spawn_ray(*si, leaving_direction(si->normal, 1, random));
       ++left;
-      hit_again += LinearIntersector<Real>(view).occluded(ray, infinity<Real>);
+      hit_again += BruteForceIntersector<Real>(view).occluded(ray, infinity<Real>);
     }
   }
   EXPECT_EQ(hit_again, 0u) << "of " << left;
@@ -146,7 +146,7 @@ TYPED_TEST(SelfIntersectionOf, SpheresFromInside) {
       const Ray<Real> ray = spawn_ray(*si, leaving_direction(si->normal, -1, random));
       ++left;
       const double chord = 2 * radius * static_cast<double>(abs_dot(ray.direction, si->normal));
-      hit_again += LinearIntersector<Real>(view).occluded(ray, static_cast<Real>(chord / 2));
+      hit_again += BruteForceIntersector<Real>(view).occluded(ray, static_cast<Real>(chord / 2));
     }
   }
   EXPECT_EQ(hit_again, 0u) << "of " << left;
@@ -188,7 +188,7 @@ TYPED_TEST(SelfIntersectionOf, LightsAreSeen) {
       if (!(s.pdf > 0)) continue;
       from.normal = s.direction;
       ++tried;
-      hidden += !is_free(LinearIntersector<Real>(view), shadow_ray(from, s));
+      hidden += !is_free(BruteForceIntersector<Real>(view), shadow_ray(from, s));
     }
   }
   EXPECT_EQ(hidden, 0u) << "of " << tried;

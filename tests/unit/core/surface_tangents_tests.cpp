@@ -97,7 +97,7 @@ template <class Real>
 bool find(const CompiledScene<Real>& scene, const Vec3<Real>& from, const Vec3<Real>& to, Real time,
           Found<Real>& found) {
   const Ray<Real> ray{from, normalize(to - from), time};
-  if (!BvhIntersector<Real>(scene.view).closest_hit(ray, infinity<Real>, found.hit)) return false;
+  if (!Bvh2Intersector<Real>(scene.view).closest_hit(ray, infinity<Real>, found.hit)) return false;
   found.si = surface_interaction(scene.view, ray, found.hit);
   found.tangents = surface_tangents(scene.view, found.hit, found.si);
   return true;

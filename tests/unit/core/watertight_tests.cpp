@@ -4,8 +4,8 @@
 
 #include "support/closed_meshes.h"
 #include "support/effort.h"
+#include "support/engines.h"
 #include "support/primitive_scenes.h"
-#include "support/trees.h"
 
 namespace alhazen::test {
 namespace {

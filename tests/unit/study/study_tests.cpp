@@ -122,7 +122,7 @@ TEST(StudyWorkPerThread, HasThePixelsOfTheKernel) {
       cuda::Launch<float> launch{flat.view, rendered.view(),   &totals,          0, 0, width,
                                  {},        {0, height, 0, 4}, settings.sampler, 0, 10};
       std::vector<BlockSum<float>> sums(static_cast<size_t>(grid.width * grid.height));
-      const cuda::PixelKernel<cuda::FlatTracing, IntegratorKind::iterative, float> kernel{launch, chunks_x, chunks_y,
+      const cuda::PixelKernel<cuda::Bvh2Tracing, IntegratorKind::iterative, float> kernel{launch, chunks_x, chunks_y,
                                                                                           sums.data()};
       kernel(cuda::HostThread(x, y, static_cast<uint32_t>(grid.width)));
       std::vector<float> taken;

@@ -11,7 +11,7 @@ namespace ALHAZEN_CORE {
 /// An inner node has count 0 and its children at `first` and `first + 1`; a leaf has `count` primitives from `first`
 /// in SceneView::primitives. `axis` is the axis along which the children were parted.
 template <class Real>
-struct BvhNode {
+struct Bvh2Node {
   Vec3<Real> corners[2];  ///< low and high; an array, so that the slab test can pick by index
   uint32_t first;
   uint16_t count;
@@ -22,6 +22,6 @@ struct BvhNode {
 };
 
 /// No tree is deeper: the builder ends in leaves before (compile/bvh/bvh2_builder.h).
-inline constexpr int max_bvh_depth = 64;
+inline constexpr int max_bvh2_depth = 64;
 
 }  // namespace ALHAZEN_CORE

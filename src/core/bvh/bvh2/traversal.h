@@ -29,7 +29,7 @@ ALHAZEN_HD SlabRay<Real> slab_ray(const Ray<Real>& ray) {
 /// far distance is raised by its rounding (Ize 2013, "Robust BVH Ray Traversal"). A NaN (origin on a slab's plane,
 /// direction within it) counts as inside.
 template <class Real>
-ALHAZEN_HD ALHAZEN_INLINE Real enter_box(const BvhNode<Real>& node, const SlabRay<Real>& ray, Real t_max) {
+ALHAZEN_HD ALHAZEN_INLINE Real intersect_box(const Bvh2Node<Real>& node, const SlabRay<Real>& ray, Real t_max) {
   constexpr Real raise = 1 + 2 * rounding_bound<Real>(3);
   Real t_near = 0, t_far = t_max;
   for (int axis = 0; axis < 3; ++axis) {
@@ -89,21 +89,21 @@ ALHAZEN_HD bool intersect_primitive(const SceneView<Real>& scene, PrimitiveId pr
 
 /// A node that is yet to be visited, and where the ray enters it.
 template <class Real>
-struct BvhEntry {
+struct Bvh2StackEntry {
   uint32_t node;
   Real t;
 };
 
 /// A ray in the space where it is walked, and which instance that is of: what is above `base` on the stack lies in it.
 template <class Real>
-struct WalkSpace {
+struct TraversalSpace {
   SlabRay<Real> slabs;
   ShearedRay<Real> sheared;
   uint32_t instance = no_instance;
   int base = 0;
   PrimitiveId outer;  ///< what the hit was before
 
-  ALHAZEN_HD explicit WalkSpace(const Ray<Real>& ray) : slabs(slab_ray(ray)), sheared(shear_ray(ray)) {}
+  ALHAZEN_HD explicit TraversalSpace(const Ray<Real>& ray) : slabs(slab_ray(ray)), sheared(shear_ray(ray)) {}
 
   ALHAZEN_HD void enter(const SceneView<Real>& scene, const Ray<Real>& ray, uint32_t entered, int height,
                         Hit<Real>& hit) {
@@ -127,21 +127,22 @@ struct WalkSpace {
 
 /// Walks the tree. With `any_hit` it ends at the first primitive met before `hit.t`. Instances are alone in their leaf.
 template <bool any_hit, class Real, class Stacks>
-ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray, const Stacks& stacks, Hit<Real>& hit) {
-  if (scene.nodes_count == 0) return false;
-  WalkSpace<Real> space(ray);
+ALHAZEN_HD bool traverse_bvh2(const SceneView<Real>& scene, const Ray<Real>& ray, const Stacks& stacks,
+                              Hit<Real>& hit) {
+  if (scene.bvh2_nodes_count == 0) return false;
+  TraversalSpace<Real> space(ray);
   const SlabRay<Real>& slabs = space.slabs;
-  auto stack = stacks.template make<BvhEntry<Real>, 2 * max_bvh_depth>();
+  auto stack = stacks.template make<Bvh2StackEntry<Real>, 2 * max_bvh2_depth>();
   uint32_t current = 0;
   bool found = false;
-  if (enter_box(scene.nodes[0], slabs, hit.t) == infinity<Real>) return false;
+  if (intersect_box(scene.bvh2_nodes[0], slabs, hit.t) == infinity<Real>) return false;
   for (;;) {
-    const BvhNode<Real>& node = scene.nodes[current];
+    const Bvh2Node<Real>& node = scene.bvh2_nodes[current];
     if (node.count > 0 && scene.primitives[node.first].kind() == PrimitiveKind::instance) {
       const uint32_t instance = scene.primitives[node.first].index();
       space.enter(scene, ray, instance, stack.height(), hit);
-      current = scene.objects[scene.instances[instance].object].node;
-      if (enter_box(scene.nodes[current], slabs, hit.t) < infinity<Real>) continue;
+      current = scene.objects[scene.instances[instance].object].bvh2_root;
+      if (intersect_box(scene.bvh2_nodes[current], slabs, hit.t) < infinity<Real>) continue;
     } else if (node.count > 0) {
       for (uint32_t i = node.first; i < node.first + node.count; ++i) {
         if (!intersect_primitive(scene, scene.primitives[i], ray, space.sheared, hit)) continue;
@@ -150,8 +151,8 @@ ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray,
         if (any_hit) return true;
       }
     } else {
-      const Real t_left = enter_box(scene.nodes[node.first], slabs, hit.t);
-      const Real t_right = enter_box(scene.nodes[node.first + 1], slabs, hit.t);
+      const Real t_left = intersect_box(scene.bvh2_nodes[node.first], slabs, hit.t);
+      const Real t_right = intersect_box(scene.bvh2_nodes[node.first + 1], slabs, hit.t);
       const bool left = t_left < infinity<Real>, right = t_right < infinity<Real>;
       if (left && right) {
         const bool left_first = t_left <= t_right;
@@ -164,7 +165,7 @@ ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray,
         continue;
       }
     }
-    BvhEntry<Real> next;
+    Bvh2StackEntry<Real> next;
     do {
       if (stack.height() == space.base && space.instance != no_instance) space.leave(ray, hit);
       if (stack.height() == 0) return found;
@@ -176,15 +177,15 @@ ALHAZEN_HD bool traverse_bvh(const SceneView<Real>& scene, const Ray<Real>& ray,
 
 /// The ray queries that integrators ask, answered by the BVH. Embree or OptiX stand in its place.
 template <class Real, class Stacks = LocalStacks>
-class BvhIntersector {
+class Bvh2Intersector {
  public:
-  ALHAZEN_HD explicit BvhIntersector(const SceneView<Real>& scene, const Stacks& stacks = {})
+  ALHAZEN_HD explicit Bvh2Intersector(const SceneView<Real>& scene, const Stacks& stacks = {})
       : scene_(&scene), stacks_(stacks) {}
 
   /// The nearest hit before t_max; among hits at the same distance that of the lowest primitive.
   ALHAZEN_HD bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
     hit = no_hit_before(t_max);
-    const bool found = traverse_bvh<false>(*scene_, ray, stacks_, hit);
+    const bool found = traverse_bvh2<false>(*scene_, ray, stacks_, hit);
     if (!found) hit.primitive = PrimitiveId();
     return found;
   }
@@ -192,7 +193,7 @@ class BvhIntersector {
   /// Whether anything stands before t_max.
   ALHAZEN_HD bool occluded(const Ray<Real>& ray, Real t_max) const {
     Hit<Real> hit = no_hit_before(t_max);
-    return traverse_bvh<true>(*scene_, ray, stacks_, hit);
+    return traverse_bvh2<true>(*scene_, ray, stacks_, hit);
   }
 
  private:

@@ -76,8 +76,8 @@ template <class Block, class Real>
 ALHAZEN_INLINE bool intersect_blocks(const Block* blocks, uint32_t child, const Ray<Real>& ray,
                                      const ShearedRay<Real>& sheared, Hit<Real>& hit) {
   bool met = false;
-  const Block* block = blocks + SimdChild::first(child);
-  for (const Block* const end = block + SimdChild::blocks(child); block != end; ++block)
+  const Block* block = blocks + Bvh8Child::first(child);
+  for (const Block* const end = block + Bvh8Child::blocks(child); block != end; ++block)
     met |= intersect_block(*block, ray, sheared, hit);
   return met;
 }
@@ -86,10 +86,10 @@ ALHAZEN_INLINE bool intersect_blocks(const Block* blocks, uint32_t child, const 
 template <class Real>
 ALHAZEN_INLINE bool intersect_leaf(const SceneView<Real>& scene, uint32_t child, const Ray<Real>& ray,
                                    const ShearedRay<Real>& sheared, Hit<Real>& hit) {
-  switch (SimdChild::kind(child)) {
-    case SimdChild::spheres:
+  switch (Bvh8Child::kind(child)) {
+    case Bvh8Child::spheres:
       return intersect_blocks(scene.sphere_blocks, child, ray, sheared, hit);
-    case SimdChild::moving_spheres:
+    case Bvh8Child::moving_spheres:
       return intersect_blocks(scene.moving_sphere_blocks, child, ray, sheared, hit);
     default:
       return intersect_blocks(scene.triangle_blocks, child, ray, sheared, hit);

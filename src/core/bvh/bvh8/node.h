@@ -9,30 +9,30 @@
 
 namespace ALHAZEN_CORE {
 
-inline constexpr int simd_children = 8;
+inline constexpr int bvh8_width = 8;
 
 /// What stands below a node: another node, or blocks of primitives of one kind.
-struct SimdChild {
+struct Bvh8Child {
   enum Kind : uint32_t { node = 0, triangles = 1, spheres = 2, moving_spheres = 3 };
-  static constexpr uint32_t index_bits = 26, most_blocks = 15;
+  static constexpr uint32_t index_bits = 26, max_blocks = 15;
 
   static constexpr uint32_t pack(Kind kind, uint32_t blocks, uint32_t first) {
     return static_cast<uint32_t>(kind) << 30 | blocks << index_bits | first;
   }
   static constexpr Kind kind(uint32_t child) { return static_cast<Kind>(child >> 30); }
-  static constexpr uint32_t blocks(uint32_t child) { return child >> index_bits & most_blocks; }
+  static constexpr uint32_t blocks(uint32_t child) { return child >> index_bits & max_blocks; }
   static constexpr uint32_t first(uint32_t child) { return child & ((1u << index_bits) - 1); }
   /// An instance: no blocks of spheres, and its index.
   static constexpr uint32_t instance(uint32_t index) { return pack(spheres, 0, index); }
   static constexpr bool is_instance(uint32_t child) { return child >> index_bits == instance(0) >> index_bits; }
-  static constexpr uint32_t most_of_a_kind = 1u << index_bits;
+  static constexpr uint32_t max_index_count = 1u << index_bits;
   /// Stands in the places that a node leaves free.
   static constexpr uint32_t nothing = 1u << 30;
 };
 
-struct alignas(32) SimdNode {
-  float bounds[6][simd_children];  ///< [2 * axis + 1 where it is the high side]
-  uint32_t child[simd_children];
+struct alignas(32) Bvh8Node {
+  float bounds[6][bvh8_width];  ///< [2 * axis + 1 where it is the high side]
+  uint32_t child[bvh8_width];
 };
 
 /// Lanes that hold no triangle have all their vertices in one point, which is never met.

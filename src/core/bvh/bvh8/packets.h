@@ -1,7 +1,7 @@
 #pragma once
 
 // Closest-hit queries of rays that go much the same way, such as camera rays of one pixel: as many at a time as a
-// register has floats, walking the BVH of bvh8/node.h together. A node's children are each tested against all rays;
+// register has floats, walking the BVH of bvh8_root.h together. A node's children are each tested against all rays;
 // where few rays are left, each of them against all children. What a ray meets does not depend on the others.
 
 #include <bit>
@@ -15,7 +15,7 @@ namespace ALHAZEN_CORE {
 template <class Real>
 class RayPacket {
  public:
-  ALHAZEN_INLINE explicit RayPacket(const SimdPrefetch<Real>& prefetch) : prefetch_(prefetch) {}
+  ALHAZEN_INLINE explicit RayPacket(const Bvh8Prefetch<Real>& prefetch) : prefetch_(prefetch) {}
 
   static constexpr int width = most_register_bytes / static_cast<int>(sizeof(float));
 
@@ -37,7 +37,7 @@ class RayPacket {
       time_[i] = r.time;
       hits_[i] = no_hit_before(t_max(from));
       hits_[i].instance = no_instance;  // packets are for scenes without
-      limit_[i] = simd_limit(hits_[i].t);
+      limit_[i] = box_t_max(hits_[i].t);
     }
     active_ = (1u << (count - 1)) * 2 - 1;
     met_ = 0;
@@ -45,12 +45,12 @@ class RayPacket {
   }
 
   void walk(const SceneView<Real>& scene) {
-    if (scene.simd_nodes_count == 0) return;
+    if (scene.bvh8_nodes_count == 0) return;
     height_ = 0;
     uint32_t child = 0, rays = active_;
     do {
-      if (SimdChild::kind(child) == SimdChild::node)
-        enter(scene.simd_nodes[child], rays);
+      if (Bvh8Child::kind(child) == Bvh8Child::node)
+        enter(scene.bvh8_nodes[child], rays);
       else
         intersect(scene, child, rays);
     } while (pop(child, rays));
@@ -127,16 +127,16 @@ class RayPacket {
   static constexpr int few = width / 4;
 
   /// Puts the children that rays enter on the stack, the nearest on top, near being where the first of its rays does.
-  ALHAZEN_INLINE void enter(const SimdNode& node, uint32_t rays) {
-    alignas(64) float entry[simd_children][width];
-    uint32_t entered[simd_children];
+  ALHAZEN_INLINE void enter(const Bvh8Node& node, uint32_t rays) {
+    alignas(64) float entry[bvh8_width][width];
+    uint32_t entered[bvh8_width];
     if (std::popcount(rays) <= few)
       enter_singly(node, rays, entry, entered);
     else
       enter_together(node, rays, entry, entered);
-    uint64_t order[simd_children];
+    uint64_t order[bvh8_width];
     int count = 0;
-    for (uint32_t child = 0; child < simd_children; ++child) {
+    for (uint32_t child = 0; child < bvh8_width; ++child) {
       if (entered[child] == 0) continue;
       const float t = entry[child][std::countr_zero(entered[child])];
       const uint64_t key = static_cast<uint64_t>(std::bit_cast<uint32_t>(t)) << 32 | child;
@@ -152,8 +152,8 @@ class RayPacket {
     }
   }
 
-  ALHAZEN_INLINE void enter_together(const SimdNode& node, uint32_t rays, float (&entry)[simd_children][width],
-                                     uint32_t (&entered)[simd_children]) const {
+  ALHAZEN_INLINE void enter_together(const Bvh8Node& node, uint32_t rays, float (&entry)[bvh8_width][width],
+                                     uint32_t (&entered)[bvh8_width]) const {
     const F limit = F::load(limit_);
     F inverse[3], near_offset[3], far_offset[3];
     for (int axis = 0; axis < 3; ++axis) {
@@ -161,7 +161,7 @@ class RayPacket {
       near_offset[axis] = F::load(near_offset_[axis]);
       far_offset[axis] = F::load(far_offset_[axis]);
     }
-    for (uint32_t child = 0; child < simd_children; ++child) {
+    for (uint32_t child = 0; child < bvh8_width; ++child) {
       const auto side = [&](int axis, uint32_t row, const F* offset) {
         return fused_multiply_add(F::all(node.bounds[row][child]), inverse[axis], offset[axis]);
       };
@@ -174,13 +174,13 @@ class RayPacket {
     }
   }
 
-  ALHAZEN_INLINE void enter_singly(const SimdNode& node, uint32_t rays, float (&entry)[simd_children][width],
-                                   uint32_t (&entered)[simd_children]) const {
+  ALHAZEN_INLINE void enter_singly(const Bvh8Node& node, uint32_t rays, float (&entry)[bvh8_width][width],
+                                   uint32_t (&entered)[bvh8_width]) const {
     for (uint32_t& of_child : entered) of_child = 0;
     for (; rays != 0; rays &= rays - 1) {
       const int ray = std::countr_zero(rays);
-      const SimdEntry entered_at = enter_children(node, box_ray_of(ray), limit_[ray]);
-      float t[simd_children];
+      const ChildIntervals entered_at = intersect_children(node, box_ray_of(ray), limit_[ray]);
+      float t[bvh8_width];
       entered_at.near.store(t);
       uint32_t children = entered_at.children();
       for (; children != 0; children &= children - 1) {
@@ -204,10 +204,10 @@ class RayPacket {
   }
 
   ALHAZEN_INLINE void intersect(const SceneView<Real>& scene, uint32_t child, uint32_t rays) {
-    switch (SimdChild::kind(child)) {
-      case SimdChild::spheres:
+    switch (Bvh8Child::kind(child)) {
+      case Bvh8Child::spheres:
         return intersect_blocks_of(scene.sphere_blocks, child, rays);
-      case SimdChild::moving_spheres:
+      case Bvh8Child::moving_spheres:
         return intersect_blocks_of(scene.moving_sphere_blocks, child, rays);
       default:
         return intersect_blocks_of(scene.triangle_blocks, child, rays);
@@ -216,8 +216,8 @@ class RayPacket {
 
   template <class Block>
   ALHAZEN_INLINE void intersect_blocks_of(const Block* blocks, uint32_t child, uint32_t rays) {
-    const Block* block = blocks + SimdChild::first(child);
-    for (const Block* const end = block + SimdChild::blocks(child); block != end; ++block) {
+    const Block* block = blocks + Bvh8Child::first(child);
+    for (const Block* const end = block + Bvh8Child::blocks(child); block != end; ++block) {
       const int primitives = count_of(*block);
       if (std::popcount(rays) <= primitives) {
         for (uint32_t left = rays; left != 0; left &= left - 1) {
@@ -289,14 +289,14 @@ class RayPacket {
 
   ALHAZEN_INLINE void note_hit(int ray) {
     met_ |= 1u << ray;
-    limit_[ray] = simd_limit(hits_[ray].t);
+    limit_[ray] = box_t_max(hits_[ray].t);
   }
 
   struct Entry {
     uint32_t child, rays;
   };
 
-  const SimdPrefetch<Real>& prefetch_;
+  const Bvh8Prefetch<Real>& prefetch_;
   // A row a coordinate, a place in it a ray.
   alignas(64) float inverse_[3][width], near_offset_[3][width], far_offset_[3][width], limit_[width];
   alignas(64) float float_origin_[3][width], float_direction_[3][width];
@@ -308,8 +308,8 @@ class RayPacket {
   const Ray<Real>* rays_[width];
   PrimitiveId left_[width];  ///< where that is a triangle
   Hit<Real> hits_[width];
-  F stack_entry_[simd_stack_size];
-  Entry stack_[simd_stack_size];
+  F stack_entry_[bvh8_stack_size];
+  Entry stack_[bvh8_stack_size];
 };
 
 }  // namespace ALHAZEN_CORE

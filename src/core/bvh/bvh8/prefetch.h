@@ -11,18 +11,18 @@ namespace ALHAZEN_CORE {
 
 /// Where the children of each kind lie, for fetching them without a branch.
 template <class Real>
-class SimdPrefetch {
+class Bvh8Prefetch {
  public:
-  ALHAZEN_INLINE explicit SimdPrefetch(const SceneView<Real>& scene)
-      : begin_{bytes_of(scene.simd_nodes), bytes_of(scene.triangle_blocks), bytes_of(scene.sphere_blocks),
+  ALHAZEN_INLINE explicit Bvh8Prefetch(const SceneView<Real>& scene)
+      : begin_{bytes_of(scene.bvh8_nodes), bytes_of(scene.triangle_blocks), bytes_of(scene.sphere_blocks),
                bytes_of(scene.moving_sphere_blocks)} {}
 
   ALHAZEN_INLINE void operator()(uint32_t child) const {
-    constexpr size_t size[4] = {sizeof(SimdNode), sizeof(TriangleBlock<Real>), sizeof(SphereBlock<Real>),
+    constexpr size_t size[4] = {sizeof(Bvh8Node), sizeof(TriangleBlock<Real>), sizeof(SphereBlock<Real>),
                                 sizeof(MovingSphereBlock<Real>)};
-    const char* const at = begin_[SimdChild::kind(child)] + SimdChild::first(child) * size[SimdChild::kind(child)];
+    const char* const at = begin_[Bvh8Child::kind(child)] + Bvh8Child::first(child) * size[Bvh8Child::kind(child)];
     for (int line = 0; line < 3; ++line) __builtin_prefetch(at + 64 * line);
-    __builtin_prefetch(at + sizeof(SimdNode) - 1);
+    __builtin_prefetch(at + sizeof(Bvh8Node) - 1);
   }
 
  private:

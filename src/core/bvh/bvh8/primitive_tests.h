@@ -2,7 +2,7 @@
 
 // The primitive tests of core/shapes on several lanes, operation by operation, so that hits are the same to the last
 // bit, whatever the instruction set. A lane is a pair of a ray and a primitive: one ray and many primitives
-// (bvh8/blocks.h) or many rays and one primitive (bvh8/packets.h).
+// (simd_blocks.h) or many rays and one primitive (simd_packet.h).
 
 #include <bit>
 

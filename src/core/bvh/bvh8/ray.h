@@ -1,6 +1,6 @@
 #pragma once
 
-// A ray and the boxes of a SimdNode, and what of the walk is the same for one ray and for many.
+// A ray and the boxes of a Bvh8Node, and what of the walk is the same for one ray and for many.
 
 #include <bit>
 
@@ -13,7 +13,7 @@
 namespace ALHAZEN_CORE {
 
 /// A ray as boxes are tested: side * inverse + near_offset is where it enters a slab, side * inverse + far_offset where
-/// it leaves it. The offsets are apart by more than rounding can add up to, the boxes too are wider (simd_box): a box
+/// it leaves it. The offsets are apart by more than rounding can add up to, the boxes too are wider (padded_box): a box
 /// is never missed that holds what the primitive tests find.
 struct BoxRay {
   float inverse[3], near_offset[3], far_offset[3];
@@ -47,16 +47,16 @@ ALHAZEN_INLINE BoxRay box_ray(const Ray<Real>& ray) {
 }
 
 /// Where a ray enters and leaves the boxes of a node's children.
-struct SimdEntry {
-  Lanes<float, simd_children> near, far;
+struct ChildIntervals {
+  Lanes<float, bvh8_width> near, far;
 
   /// A bit for each child that is entered.
   ALHAZEN_INLINE uint32_t children() const { return less_equal(near, far); }
 };
 
 /// Up to t_max.
-ALHAZEN_INLINE SimdEntry enter_children(const SimdNode& node, const BoxRay& ray, float t_max) {
-  using V = Lanes<float, simd_children>;
+ALHAZEN_INLINE ChildIntervals intersect_children(const Bvh8Node& node, const BoxRay& ray, float t_max) {
+  using V = Lanes<float, bvh8_width>;
   const auto side = [&](int axis, uint32_t row, float offset) {
     return fused_multiply_add(V::load(node.bounds[row]), V::all(ray.inverse[axis]), V::all(offset));
   };
@@ -69,30 +69,30 @@ ALHAZEN_INLINE SimdEntry enter_children(const SimdNode& node, const BoxRay& ray,
 
 /// For each octant of directions, the children from the one that a ray meets last to the one that it meets first, as
 /// far as their slots say (compile/bvh/octant_slots.h).
-struct SimdOrders {
-  uint32_t of_octant[8][simd_children];
+struct OctantOrders {
+  uint32_t of_octant[8][bvh8_width];
 };
 
-inline constexpr SimdOrders simd_orders = [] {
-  SimdOrders orders{};
+inline constexpr OctantOrders octant_orders = [] {
+  OctantOrders orders{};
   for (uint32_t octant = 0; octant < 8; ++octant)
     for (uint32_t i = 0; i < 8; ++i) orders.of_octant[octant][i] = (7 - i) ^ octant;
   return orders;
 }();
 
 /// One level of the tree leaves at most 7 children behind.
-inline constexpr int max_simd_depth = max_bvh_depth + 4;
-inline constexpr int simd_stack_size = (simd_children - 1) * max_simd_depth + simd_children;
+inline constexpr int max_bvh8_depth = max_bvh2_depth + 4;
+inline constexpr int bvh8_stack_size = (bvh8_width - 1) * max_bvh8_depth + bvh8_width;
 
 /// Boxes are entered up to a little beyond a hit at t, whose own distance is rounded.
 template <class Real>
-ALHAZEN_INLINE float simd_limit(Real t) {
+ALHAZEN_INLINE float box_t_max(Real t) {
   return static_cast<float>(t) * (1 + 8 * box_slack);
 }
 
 /// Whether there is a ray at all: what comes of infinities meets nothing.
 template <class Real>
-ALHAZEN_INLINE bool can_walk(const Ray<Real>& ray) {
+ALHAZEN_INLINE bool has_finite_origin(const Ray<Real>& ray) {
   return max_component(abs(ray.origin)) < infinity<Real>;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// One ray on its way through the BVH of bvh8/node.h, a step at a time, and two ways to keep what it has yet to visit.
+// One ray on its way through the BVH of bvh8_root.h, a step at a time, and two ways to keep what it has yet to visit.
 
 #include <bit>
 #include <type_traits>
@@ -15,11 +15,11 @@ template <bool any_hit>
 class NearestFirst {
  public:
   /// Puts the children entered aside but for the nearest, which becomes `current`. False where none is entered.
-  ALHAZEN_INLINE bool push(const SimdNode& node, const BoxRay& ray, float t_max, int& height, uint32_t& current) {
-    const SimdEntry entry = enter_children(node, ray, t_max);
+  ALHAZEN_INLINE bool push(const Bvh8Node& node, const BoxRay& ray, float t_max, int& height, uint32_t& current) {
+    const ChildIntervals entry = intersect_children(node, ray, t_max);
     uint32_t entered = entry.children();
     if (entered == 0) return false;
-    float t[simd_children];
+    float t[bvh8_width];
     entry.near.store(t);
     const auto next = [&]() -> uint64_t {
       const int child = std::countr_zero(entered);
@@ -61,7 +61,7 @@ class NearestFirst {
   }
 
  private:
-  uint64_t entries_[simd_stack_size];
+  uint64_t entries_[bvh8_stack_size];
 };
 
 /// Children in the order of the ray's octant, without a branch that nobody can foresee: for rays that take turns, where
@@ -70,18 +70,18 @@ template <bool any_hit>
 class OctantFirst {
  public:
   /// Puts all children entered aside.
-  ALHAZEN_INLINE bool push(const SimdNode& node, const BoxRay& ray, float t_max, int& height, uint32_t&) {
-    const SimdEntry entry = enter_children(node, ray, t_max);
+  ALHAZEN_INLINE bool push(const Bvh8Node& node, const BoxRay& ray, float t_max, int& height, uint32_t&) {
+    const ChildIntervals entry = intersect_children(node, ray, t_max);
     uint32_t entered;
     if constexpr (any_hit) {
       entered = entry.children();
       store_set_lanes(node.child, entered, child_ + height);
     } else {
-      const uint32_t(&order)[simd_children] = simd_orders.of_octant[ray.octant];
-      const SimdEntry ordered{permuted(entry.near, order), permuted(entry.far, order)};
+      const uint32_t(&order)[bvh8_width] = octant_orders.of_octant[ray.octant];
+      const ChildIntervals ordered{permuted(entry.near, order), permuted(entry.far, order)};
       entered = ordered.children();
-      float t[simd_children];
-      uint32_t child[simd_children];
+      float t[bvh8_width];
+      uint32_t child[bvh8_width];
       ordered.near.store(t);
       permute(node.child, order, child);
       store_set_lanes(t, entered, t_ + height);
@@ -102,13 +102,13 @@ class OctantFirst {
   }
 
  private:
-  float t_[any_hit ? 1 : simd_stack_size];
-  uint32_t child_[simd_stack_size];
+  float t_[any_hit ? 1 : bvh8_stack_size];
+  uint32_t child_[bvh8_stack_size];
 };
 
 /// `instances`: whether the scene has any; where it has none, nothing is paid for them.
 template <bool any_hit, bool instances, class Real, class Stack>
-class alignas(64) SimdWalk {
+class alignas(64) Bvh8Traversal {
  public:
   /// `stack` lies elsewhere: walks side by side are to be few cache lines each.
   ALHAZEN_INLINE void use(Stack* stack) { stack_ = stack; }
@@ -118,11 +118,11 @@ class alignas(64) SimdWalk {
     box_ = box_ray(ray);
     sheared_ = scene.triangle_blocks_count > 0 ? shear_ray(ray) : ShearedRay<Real>{};
     hit_ = no_hit_before(t_max);
-    t_max_ = simd_limit(t_max);
+    t_max_ = box_t_max(t_max);
     height_ = 0;
     found_ = false;
     // Nothing to visit but an empty leaf where there is no tree, or no ray.
-    current_ = scene.simd_nodes_count > 0 && can_walk(ray) ? 0 : SimdChild::nothing;
+    current_ = scene.bvh8_nodes_count > 0 && has_finite_origin(ray) ? 0 : Bvh8Child::nothing;
     if constexpr (instances)
       within_ = {};
     else
@@ -131,15 +131,15 @@ class alignas(64) SimdWalk {
 
   /// Visits what is next; false when the walk is over.
   ALHAZEN_INLINE bool step(const SceneView<Real>& scene) {
-    if (SimdChild::kind(current_) == SimdChild::node) {
-      if (stack_->push(scene.simd_nodes[current_], box_, t_max_, height_, current_)) return true;
+    if (Bvh8Child::kind(current_) == Bvh8Child::node) {
+      if (stack_->push(scene.bvh8_nodes[current_], box_, t_max_, height_, current_)) return true;
     } else if (enter_if_instance(scene)) {
       return true;
     } else if (intersect_leaf(scene, current_, *ray_, sheared_, hit_)) {
       if constexpr (instances) hit_.instance = within_.instance;
       found_ = true;
       if (any_hit) return false;
-      t_max_ = simd_limit(hit_.t);
+      t_max_ = box_t_max(hit_.t);
     }
     if (stack_->pop(t_max_, within_.base, height_, current_)) return true;
     return leave_if_within();
@@ -163,7 +163,7 @@ class alignas(64) SimdWalk {
 
   ALHAZEN_INLINE bool enter_if_instance([[maybe_unused]] const SceneView<Real>& scene) {
     if constexpr (instances) {
-      if (!SimdChild::is_instance(current_)) return false;
+      if (!Bvh8Child::is_instance(current_)) return false;
       enter_instance(scene);
       return true;
     }
@@ -175,19 +175,20 @@ class alignas(64) SimdWalk {
     return false;
   }
 
-  ALHAZEN_INLINE void walk_along(const Ray<Real>& ray) {
+  ALHAZEN_INLINE void set_ray(const Ray<Real>& ray) {
     box_ = box_ray(ray);
     sheared_ = shear_ray(ray);
   }
 
   /// Goes on at the root of the object, whose triangles the sheared ray alone is tested against.
   ALHAZEN_NOINLINE void enter_instance(const SceneView<Real>& scene) {
-    const uint32_t instance = SimdChild::first(current_);
+    const uint32_t instance = Bvh8Child::first(current_);
     const Ray<Real> inner = object_ray(scene, instance, *ray_);
-    walk_along(inner);
+    set_ray(inner);
     within_ = {instance, height_, hit_.primitive};
     hit_.primitive = bound_within(instance, hit_);
-    current_ = can_walk(inner) ? scene.objects[scene.instances[instance].object].simd_node : SimdChild::nothing;
+    current_ =
+        has_finite_origin(inner) ? scene.objects[scene.instances[instance].object].bvh8_root : Bvh8Child::nothing;
   }
 
   /// Goes on with what was put aside before; false where there is nothing.
@@ -195,7 +196,7 @@ class alignas(64) SimdWalk {
     if (hit_.instance != within_.instance) hit_.primitive = within_.outer;
     within_ = {};
     if (!stack_->pop(t_max_, 0, height_, current_)) return false;
-    walk_along(*ray_);
+    set_ray(*ray_);
     return true;
   }
 

@@ -10,13 +10,13 @@ namespace ALHAZEN_CORE {
 
 /// Nodes: `bits` has in the high byte which of the siblings are to be visited, by priority, in the low byte which of
 /// them are nodes; they begin at `base`. Primitives: a bit for each of 24 from `base` on.
-struct WideGroup {
+struct CwbvhGroup {
   uint32_t base, bits;
 };
 
 /// A walk puts at most one group aside a level, and a level of the wide tree takes at least one of the binary tree,
 /// whose leaves are split in up to two more.
-inline constexpr int max_wide_depth = max_bvh_depth + 2;
+inline constexpr int max_cwbvh_depth = max_bvh2_depth + 2;
 
 ALHAZEN_HD inline uint32_t highest_bit(uint32_t x) {
 #if defined(__CUDA_ARCH__)
@@ -53,8 +53,8 @@ ALHAZEN_HD ALHAZEN_INLINE uint32_t byte_of(const uint32_t words[2], uint32_t chi
 }
 
 /// Which children the ray enters before t_max: high byte the nodes by priority, below a bit for each primitive.
-ALHAZEN_HD ALHAZEN_INLINE uint32_t enter_children(const WideNode& node, const SlabRay<float>& ray, uint32_t octant,
-                                                  float t_max) {
+ALHAZEN_HD ALHAZEN_INLINE uint32_t intersect_children(const CwbvhNode& node, const SlabRay<float>& ray, uint32_t octant,
+                                                      float t_max) {
   constexpr float raise = 1 + 2 * rounding_bound<float>(3);
   const float scale[3] = {power_of_two(node.exponents_and_inner & 255u),
                           power_of_two(node.exponents_and_inner >> 8 & 255u),
@@ -63,7 +63,7 @@ ALHAZEN_HD ALHAZEN_INLINE uint32_t enter_children(const WideNode& node, const Sl
 #if defined(__CUDA_ARCH__)
 #pragma unroll
 #endif
-  for (uint32_t child = 0; child < WideNode::children; ++child) {
+  for (uint32_t child = 0; child < CwbvhNode::children; ++child) {
     const uint32_t meta = byte_of(node.meta, child);
     float t_near = 0, t_far = t_max;
 #if defined(__CUDA_ARCH__)
@@ -86,7 +86,7 @@ ALHAZEN_HD ALHAZEN_INLINE uint32_t enter_children(const WideNode& node, const Sl
   return hits;
 }
 
-ALHAZEN_HD inline bool intersect_primitive(const WidePrimitive& primitive, const Ray<float>& ray,
+ALHAZEN_HD inline bool intersect_primitive(const CwbvhPrimitive& primitive, const Ray<float>& ray,
                                            const ShearedRay<float>& sheared, Hit<float>& hit) {
   Hit<float> found{hit.t, 0, 0, primitive.id};
   bool met = false;
@@ -115,24 +115,24 @@ ALHAZEN_HD ALHAZEN_INLINE uint32_t octant_of(const SlabRay<float>& ray) {
 
 /// Walks the tree. With `any_hit` it ends at the first primitive met before `hit.t`.
 template <bool any_hit, class Stacks>
-ALHAZEN_HD bool traverse_wide_bvh(const SceneView<float>& scene, const Ray<float>& ray, const Stacks& stacks,
-                                  Hit<float>& hit) {
+ALHAZEN_HD bool traverse_cwbvh(const SceneView<float>& scene, const Ray<float>& ray, const Stacks& stacks,
+                               Hit<float>& hit) {
   constexpr uint32_t to_visit = 0xff000000u, root = 0x80000000u;
-  if (scene.wide_nodes_count == 0) return false;
-  WalkSpace<float> space(ray);
+  if (scene.cwbvh_nodes_count == 0) return false;
+  TraversalSpace<float> space(ray);
   uint32_t octant = octant_of(space.slabs);
-  auto stack = stacks.template make<WideGroup, 2 * max_wide_depth + 2>();
+  auto stack = stacks.template make<CwbvhGroup, 2 * max_cwbvh_depth + 2>();
   bool found = false;
-  WideGroup nodes{0, root};
+  CwbvhGroup nodes{0, root};
   for (;;) {
-    WideGroup primitives{};
+    CwbvhGroup primitives{};
     if (nodes.bits & to_visit) {
       const uint32_t bit = highest_bit(nodes.bits);
       nodes.bits &= ~(1u << bit);
       if (nodes.bits & to_visit) stack.push(nodes);
       const uint32_t slot = (bit - 24) ^ (7u - octant);
-      const WideNode node = scene.wide_nodes[nodes.base + count_bits(nodes.bits & ((1u << slot) - 1))];
-      const uint32_t hits = enter_children(node, space.slabs, octant, hit.t);
+      const CwbvhNode node = scene.cwbvh_nodes[nodes.base + count_bits(nodes.bits & ((1u << slot) - 1))];
+      const uint32_t hits = intersect_children(node, space.slabs, octant, hit.t);
       primitives = {node.first_primitive, hits & ~to_visit};
       nodes = {node.first_child, (hits & to_visit) | node.exponents_and_inner >> 24};
     } else {  // primitives that were put aside for an instance
@@ -142,13 +142,13 @@ ALHAZEN_HD bool traverse_wide_bvh(const SceneView<float>& scene, const Ray<float
     while (primitives.bits != 0) {
       const uint32_t i = highest_bit(primitives.bits);
       primitives.bits &= ~(1u << i);
-      const WidePrimitive primitive = scene.wide_primitives[primitives.base + i];
+      const CwbvhPrimitive primitive = scene.cwbvh_primitives[primitives.base + i];
       if (primitive.id.kind() == PrimitiveKind::instance) {
         if (nodes.bits & to_visit) stack.push(nodes);
         if (primitives.bits != 0) stack.push(primitives);
         space.enter(scene, ray, primitive.id.index(), stack.height(), hit);
         octant = octant_of(space.slabs);
-        nodes = {scene.objects[scene.instances[space.instance].object].wide_node, root};
+        nodes = {scene.objects[scene.instances[space.instance].object].cwbvh_root, root};
         break;
       }
       if (!intersect_primitive(primitive, ray, space.sheared, hit)) continue;
@@ -166,23 +166,23 @@ ALHAZEN_HD bool traverse_wide_bvh(const SceneView<float>& scene, const Ray<float
   }
 }
 
-/// As BvhIntersector, over the wide BVH.
+/// As Bvh2Intersector, over the wide BVH.
 template <class Stacks = LocalStacks>
-class WideBvhIntersector {
+class CwbvhIntersector {
  public:
-  ALHAZEN_HD explicit WideBvhIntersector(const SceneView<float>& scene, const Stacks& stacks = {})
+  ALHAZEN_HD explicit CwbvhIntersector(const SceneView<float>& scene, const Stacks& stacks = {})
       : scene_(&scene), stacks_(stacks) {}
 
   ALHAZEN_HD bool closest_hit(const Ray<float>& ray, float t_max, Hit<float>& hit) const {
     hit = no_hit_before(t_max);
-    const bool found = traverse_wide_bvh<false>(*scene_, ray, stacks_, hit);
+    const bool found = traverse_cwbvh<false>(*scene_, ray, stacks_, hit);
     if (!found) hit.primitive = PrimitiveId();
     return found;
   }
 
   ALHAZEN_HD bool occluded(const Ray<float>& ray, float t_max) const {
     Hit<float> hit = no_hit_before(t_max);
-    return traverse_wide_bvh<true>(*scene_, ray, stacks_, hit);
+    return traverse_cwbvh<true>(*scene_, ray, stacks_, hit);
   }
 
  private:

@@ -11,12 +11,12 @@
 namespace ALHAZEN_CORE {
 
 template <class Real>
-class FewPrimitives {
+class BruteForcePackets {
  public:
-  explicit FewPrimitives(const SceneView<Real>& scene)
+  explicit BruteForcePackets(const SceneView<Real>& scene)
       : triangles_(scene.triangles_count), spheres_(scene.spheres_count), moving_(scene.moving_spheres_count) {
-    is_few_ = scene.instances_count == 0 && triangles_ <= most_triangles && spheres_ + moving_ <= most_spheres &&
-              triangles_ * most_spheres + (spheres_ + moving_) * most_triangles <= most_triangles * most_spheres &&
+    is_few_ = scene.instances_count == 0 && triangles_ <= max_triangles && spheres_ + moving_ <= max_spheres &&
+              triangles_ * max_spheres + (spheres_ + moving_) * max_triangles <= max_triangles * max_spheres &&
               take_triangles(scene);
     if (!is_few_) return;
     for (uint32_t i = 0; i < spheres_; ++i) sphere_[i] = {scene.spheres[i].center, {}, scene.spheres[i].radius};
@@ -27,9 +27,9 @@ class FewPrimitives {
   }
 
   /// Whether the scene is one of those; else nothing else may be called.
-  bool is_few() const { return is_few_; }
+  bool is_worthwhile() const { return is_few_; }
 
-  /// As SimdBvhIntersector::trace. `alone(i)` is called for queries that are better off with a tree.
+  /// As Bvh8Intersector::trace. `alone(i)` is called for queries that are better off with a tree.
   template <bool any_hit, class RayOf, class Limit, class Answer, class Alone>
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer, const Alone& alone) const {
     for (uint32_t first = 0; first < count; first += width) {
@@ -44,8 +44,8 @@ class FewPrimitives {
  private:
   static constexpr uint32_t width = most_register_bytes / sizeof(Real);
   /// Where a tree is as fast, measured on scenes of triangles only and of spheres only.
-  static constexpr uint32_t most_triangles = 7 * width, most_spheres = 8 * width;
-  static constexpr uint32_t most_vertices = most_triangles;
+  static constexpr uint32_t max_triangles = 7 * width, max_spheres = 8 * width;
+  static constexpr uint32_t max_vertices = max_triangles;
   using V = Lanes<Real, static_cast<int>(width)>;
 
   /// The rays of a group, a row a coordinate.
@@ -74,7 +74,7 @@ class FewPrimitives {
         uint32_t at = vertices_;  // searched from the last on: neighbours share them
         while (at > 0 && __builtin_memcmp(&vertex_[at - 1], &p, sizeof(p)) != 0) --at;
         if (at == 0) {
-          if (vertices_ == most_vertices) return false;
+          if (vertices_ == max_vertices) return false;
           vertex_[vertices_++] = p;
           at = vertices_;
         }
@@ -96,14 +96,14 @@ class FewPrimitives {
       }
       rays.time[i] = r.time;
       rays.left[i] = r.left.bits < triangles_ ? static_cast<Real>(r.left.bits) : Real(-1);
-      rays.limit[i] = i < size && can_walk(r) ? t_max(from) : Real(0);
+      rays.limit[i] = i < size && has_finite_origin(r) ? t_max(from) : Real(0);
     }
     const uint32_t wanted = (1u << (size - 1)) * 2 - 1;
     Met met;
     met.t = V::load(rays.limit);
     met.b1 = met.b2 = met.which = V::all(0);
-    if (triangles_ > 0) meet_triangles<any_hit>(rays, wanted, met);
-    if (spheres_ + moving_ > 0) meet_spheres<any_hit>(rays, wanted, met);
+    if (triangles_ > 0) intersect_triangles<any_hit>(rays, wanted, met);
+    if (spheres_ + moving_ > 0) intersect_spheres<any_hit>(rays, wanted, met);
     alignas(64) Real t[width], b1[width], b2[width], which[width];
     met.t.store(t);
     met.b1.store(b1);
@@ -118,7 +118,7 @@ class FewPrimitives {
   // Primitives come in the order of their identifiers, so that of those at the same distance the lowest is kept.
 
   template <bool any_hit>
-  ALHAZEN_INLINE void meet_triangles(const Rays& rays, uint32_t wanted, Met& met) const {
+  ALHAZEN_INLINE void intersect_triangles(const Rays& rays, uint32_t wanted, Met& met) const {
     const V d[3] = {V::load(rays.direction[0]), V::load(rays.direction[1]), V::load(rays.direction[2])};
     // The rays whose directions are longest along x, and along y.
     const uint32_t x_over_y = less(magnitude(d[1]), magnitude(d[0]));
@@ -135,7 +135,7 @@ class FewPrimitives {
     const V inverse = V::all(1) / direction[2];
     const V shear[3] = {direction[0] * inverse, direction[1] * inverse, inverse};
     const V left = V::load(rays.left);
-    ShearedLanes<V> sheared[most_vertices];
+    ShearedLanes<V> sheared[max_vertices];
     for (uint32_t i = 0; i < vertices_; ++i) {
       V p[3];
       turned(V::all(vertex_[i].x), V::all(vertex_[i].y), V::all(vertex_[i].z), p);
@@ -156,7 +156,7 @@ class FewPrimitives {
   }
 
   template <bool any_hit>
-  ALHAZEN_INLINE void meet_spheres(const Rays& rays, uint32_t wanted, Met& met) const {
+  ALHAZEN_INLINE void intersect_spheres(const Rays& rays, uint32_t wanted, Met& met) const {
     const V direction[3] = {V::load(rays.direction[0]), V::load(rays.direction[1]), V::load(rays.direction[2])};
     for (uint32_t i = 0; i < spheres_ + moving_; ++i) {
       if (any_hit && (wanted & ~met.lanes) == 0) return;
@@ -194,10 +194,10 @@ class FewPrimitives {
 
   uint32_t triangles_, spheres_, moving_;
   bool is_few_;
-  Triangle triangle_[most_triangles];
+  Triangle triangle_[max_triangles];
   uint32_t vertices_ = 0;
-  Vec3<Real> vertex_[most_vertices];
-  Sphere sphere_[most_spheres];
+  Vec3<Real> vertex_[max_vertices];
+  Sphere sphere_[max_spheres];
 };
 
 }  // namespace ALHAZEN_CORE

@@ -11,30 +11,31 @@
 namespace alhazen::test {
 
 template <class Any>
-struct BinaryTree {
+struct Bvh2Engine {
   using Real = Any;
-  using Intersector = BvhIntersector<Any>;
+  using Intersector = Bvh2Intersector<Any>;
 };
-struct WideTree {
+struct CwbvhEngine {
   using Real = float;
-  using Intersector = WideBvhIntersector<>;
+  using Intersector = CwbvhIntersector<>;
 };
 
 template <class Any>
-struct SimdTree {
+struct Bvh8Engine {
   using Real = Any;
-  using Intersector = SimdBvhIntersector<Any>;
+  using Intersector = Bvh8Intersector<Any>;
 };
 
 /// The same as compiled for one of the instruction sets.
 template <class Any, InstructionSet set>
-struct IsaTree {
+struct IsaEngine {
   using Real = Any;
   using Intersector = IsaIntersector<Any, set>;
 };
 
-using Trees = ::testing::Types<BinaryTree<float>, BinaryTree<double>, WideTree, SimdTree<float>, SimdTree<double>,
-                               IsaTree<float, InstructionSet::avx2>, IsaTree<double, InstructionSet::avx2>,
-                               IsaTree<float, InstructionSet::avx512>, IsaTree<double, InstructionSet::avx512>>;
+using Trees =
+    ::testing::Types<Bvh2Engine<float>, Bvh2Engine<double>, CwbvhEngine, Bvh8Engine<float>, Bvh8Engine<double>,
+                     IsaEngine<float, InstructionSet::avx2>, IsaEngine<double, InstructionSet::avx2>,
+                     IsaEngine<float, InstructionSet::avx512>, IsaEngine<double, InstructionSet::avx512>>;
 
 }  // namespace alhazen::test

@@ -8,9 +8,9 @@
 namespace ALHAZEN_CORE {
 
 template <class Real>
-class LinearIntersector {
+class BruteForceIntersector {
  public:
-  explicit LinearIntersector(const SceneView<Real>& scene, const void* = nullptr) : scene_(&scene) {}
+  explicit BruteForceIntersector(const SceneView<Real>& scene, const void* = nullptr) : scene_(&scene) {}
 
   /// The nearest hit before t_max; among hits at the same distance that of the lowest primitive.
   bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {

@@ -10,7 +10,7 @@
 namespace alhazen::test {
 namespace {
 
-Bounds3<float> box_of(const WidePrimitive& p) {
+Bounds3<float> box_of(const CwbvhPrimitive& p) {
   Bounds3<float> box;
   if (p.id.kind() == PrimitiveKind::triangle) {
     box.extend(p.a);
@@ -26,16 +26,16 @@ Bounds3<float> box_of(const WidePrimitive& p) {
 
 class Walk {
  public:
-  explicit Walk(const SceneView<float>& scene) : scene_(scene), seen_(scene.wide_primitives_count) {}
+  explicit Walk(const SceneView<float>& scene) : scene_(scene), seen_(scene.cwbvh_primitives_count) {}
 
   /// Checks everything below a node, and returns its box.
   Bounds3<float> below(uint32_t index, int depth) {
     deepest_ = std::max(deepest_, depth);
     ++nodes_;
-    const WideNode& node = scene_.wide_nodes[index];
+    const CwbvhNode& node = scene_.cwbvh_nodes[index];
     Bounds3<float> all;
     uint32_t next_child = node.first_child, next_primitive = 0;
-    for (uint32_t child = 0; child < WideNode::children; ++child) {
+    for (uint32_t child = 0; child < CwbvhNode::children; ++child) {
       const uint32_t meta = byte_of(node.meta, child);
       const bool is_node = node.exponents_and_inner >> (24 + child) & 1;
       if (meta == 0) {
@@ -53,7 +53,7 @@ class Walk {
         for (uint32_t i = 0; i < count; ++i) {
           const uint32_t place = node.first_primitive + next_primitive + i;
           ++seen_.at(place);
-          box.extend(box_of(scene_.wide_primitives[place]));
+          box.extend(box_of(scene_.cwbvh_primitives[place]));
         }
         next_primitive += count;
       }
@@ -66,12 +66,12 @@ class Walk {
 
   void expect_all_seen() const {
     for (const int times : seen_) ASSERT_EQ(times, 1);
-    EXPECT_EQ(nodes_, scene_.wide_nodes_count);
-    EXPECT_LE(deepest_, max_wide_depth);
+    EXPECT_EQ(nodes_, scene_.cwbvh_nodes_count);
+    EXPECT_LE(deepest_, max_cwbvh_depth);
   }
 
  private:
-  static void expect_held(const WideNode& node, uint32_t child, const Bounds3<float>& box) {
+  static void expect_held(const CwbvhNode& node, uint32_t child, const Bounds3<float>& box) {
     for (int axis = 0; axis < 3; ++axis) {
       const float scale = power_of_two(node.exponents_and_inner >> (8 * axis) & 255u);
       ASSERT_LE(box_coordinate(node.origin[axis], scale, byte_of(node.low[axis], child)), box.low[axis]);
@@ -86,26 +86,26 @@ class Walk {
 };
 
 void check(const CompiledScene<float>& scene) {
-  ASSERT_EQ(scene.view.wide_primitives_count, scene.view.primitives_count);
-  ASSERT_EQ(scene.view.wide_nodes_count == 0, scene.view.primitives_count == 0);
-  if (scene.view.wide_nodes_count == 0) return;
+  ASSERT_EQ(scene.view.cwbvh_primitives_count, scene.view.primitives_count);
+  ASSERT_EQ(scene.view.cwbvh_nodes_count == 0, scene.view.primitives_count == 0);
+  if (scene.view.cwbvh_nodes_count == 0) return;
   Walk walk(scene.view);
   walk.below(0, 1);
   walk.expect_all_seen();
 }
 
-TEST(WideBvh, OfMixedPrimitives) {
+TEST(Cwbvh, OfMixedPrimitives) {
   for (const int count : {1, 2, 3, 8, 50, 2000}) check(mixed_primitives(21, count).flat<float>());
 }
 
-TEST(WideBvh, OfNothingAndOfOne) {
+TEST(Cwbvh, OfNothingAndOfOne) {
   check(PrimitiveScene().flat<float>());
   PrimitiveScene one;
   one.add_triangle({0, 0, 1}, {1, 0, 1}, {0, 1, 1});  // flat in z
   check(one.flat<float>());
 }
 
-TEST(WideBvh, OfHugeRangesOfSizes) {
+TEST(Cwbvh, OfHugeRangesOfSizes) {
   Random random(22);
   PrimitiveScene scene;
   for (int i = 0; i < 500; ++i) {
@@ -118,23 +118,24 @@ TEST(WideBvh, OfHugeRangesOfSizes) {
 }
 
 /// The binary tree's leaves hold up to eight primitives that no plane separates.
-TEST(WideBvh, OfPrimitivesInOnePlace) {
+TEST(Cwbvh, OfPrimitivesInOnePlace) {
   PrimitiveScene scene;
   for (int i = 0; i < 1000; ++i) scene.add_sphere({1, 2, 3}, 1);
   check(scene.flat<float>());
 }
 
-TEST(WideBvh, IsSmallerThanTheBinaryOne) {
+TEST(Cwbvh, IsSmallerThanTheBinaryOne) {
   const CompiledScene<float> scene = mixed_primitives(23, 3000).flat<float>();
-  EXPECT_LT(scene.view.wide_nodes_count * sizeof(WideNode), scene.view.nodes_count * sizeof(BvhNode<float>) / 2);
+  EXPECT_LT(scene.view.cwbvh_nodes_count * sizeof(CwbvhNode),
+            scene.view.bvh2_nodes_count * sizeof(Bvh2Node<float>) / 2);
 }
 
-TEST(WideBvh, IsMadeOnlyWhereItIsAskedFor) {
+TEST(Cwbvh, IsMadeOnlyWhereItIsAskedFor) {
   Diagnostics diagnostics;
   const CompiledScene<float> scene = compile_scene<float>(
       described_scene("WorldBegin\nAreaLightSource \"diffuse\"\nShape \"sphere\"\n"), {}, diagnostics);
-  EXPECT_EQ(scene.view.nodes_count, 1u);
-  EXPECT_EQ(scene.view.wide_nodes_count, 0u);
+  EXPECT_EQ(scene.view.bvh2_nodes_count, 1u);
+  EXPECT_EQ(scene.view.cwbvh_nodes_count, 0u);
 }
 
 }  // namespace
