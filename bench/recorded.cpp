@@ -6,7 +6,7 @@
 #include <random>
 
 #include "compile/compile_scene.h"
-#include "core/bvh/bvh8/traversal.h"
+#include "core/bvh/bvh8/intersector.h"
 #include "core/integrators/camera_sample.h"
 #include "core/sampling/sobol.h"
 #include "io/pbrt/pbrt.h"
@@ -73,9 +73,8 @@ Scene read_bench_scene(const std::string& name) {
 template <class Real>
 Recorded<Real>::Recorded(const std::string& name) {
   Diagnostics diagnostics;
-  flat =
-      compile_scene<Real>(read_bench_scene(name),
-                          CompileOptions{bench_width, bench_height, 0, {.binary = false, .simd = true}}, diagnostics);
+  flat = compile_scene<Real>(read_bench_scene(name), CompileOptions{bench_width, bench_height, 0, {BvhLayout::bvh8}},
+                             diagnostics);
   const Bvh8Intersector<Real> intersector(flat.view);
   for (uint32_t y = 0; y < bench_height; ++y)
     for (uint32_t x = 0; x < bench_width; ++x)

@@ -36,7 +36,7 @@ struct SpheresScene {
     SpheresScene loaded;
     loaded.settings = resolve_settings(asked, scene);
     loaded.flat = compile_scene<Real>(
-        std::move(scene), CompileOptions{image_size, image_size, 0, {.binary = false, .simd = true}}, diagnostics);
+        std::move(scene), CompileOptions{image_size, image_size, 0, {BvhLayout::bvh8}}, diagnostics);
     return loaded;
   }
 };

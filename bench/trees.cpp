@@ -13,15 +13,15 @@
 namespace alhazen {
 namespace {
 
-CompiledScene<float> read_mesh(bool wide_bvh) {
+CompiledScene<float> read_mesh(const BvhLayouts& layouts) {
   const char* file = std::getenv("ALHAZEN_BENCH_MESH");
   Diagnostics diagnostics;
   Scene scene = read_scene(file ? file : ALHAZEN_SOURCE_DIR "/scenes/knot.ply.gz", diagnostics);
-  return compile_scene<float>(std::move(scene), CompileOptions{64, 64, 0, {.wide = wide_bvh}}, diagnostics);
+  return compile_scene<float>(std::move(scene), CompileOptions{64, 64, 0, layouts}, diagnostics);
 }
 
 const CompiledScene<float>& mesh() {
-  static const CompiledScene<float> flat = read_mesh(true);
+  static const CompiledScene<float> flat = read_mesh({BvhLayout::bvh2, BvhLayout::cwbvh});
   return flat;
 }
 
@@ -55,25 +55,28 @@ void closest_hit(benchmark::State& state) {
                                                benchmark::Counter::kAvgIterations);
 }
 
-void build(benchmark::State& state, bool wide_bvh) {
+void build(benchmark::State& state, const BvhLayouts& layouts) {
   for (auto _ : state) {
-    const CompiledScene<float> flat = read_mesh(wide_bvh);
+    const CompiledScene<float> flat = read_mesh(layouts);
     state.SetIterationTime(flat.statistics.build_seconds);
   }
   const SceneView<float>& view = mesh().view;
-  const uint64_t bytes =
-      wide_bvh ? view.cwbvh_nodes_count * sizeof(CwbvhNode) : view.bvh2_nodes_count * sizeof(Bvh2Node<float>);
+  const uint64_t bytes = layouts.has(BvhLayout::cwbvh) ? view.cwbvh_nodes_count * sizeof(CwbvhNode)
+                                                       : view.bvh2_nodes_count * sizeof(Bvh2Node<float>);
   state.counters["triangles"] = static_cast<double>(view.triangles_count);
   state.counters["bytes a triangle"] = static_cast<double>(bytes) / static_cast<double>(view.triangles_count);
 }
 
-BENCHMARK_CAPTURE(build, binary, false)->Name("mesh/build binary")->UseManualTime()->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(build, wide, true)
-    ->Name("mesh/build binary and wide")
+BENCHMARK_CAPTURE(build, bvh2, {BvhLayout::bvh2})
+    ->Name("mesh/build bvh2")
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(closest_hit<Bvh2Intersector<float>>)->Name("mesh/closest hit binary")->Unit(benchmark::kMillisecond);
-BENCHMARK(closest_hit<CwbvhIntersector<>>)->Name("mesh/closest hit wide")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(build, cwbvh, {BvhLayout::bvh2, BvhLayout::cwbvh})
+    ->Name("mesh/build bvh2 and cwbvh")
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(closest_hit<Bvh2Intersector<float>>)->Name("mesh/closest hit bvh2")->Unit(benchmark::kMillisecond);
+BENCHMARK(closest_hit<CwbvhIntersector<>>)->Name("mesh/closest hit cwbvh")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace alhazen

@@ -46,7 +46,7 @@ void build_ours(benchmark::State& state, const std::string& scene) {
   for (auto _ : state) {
     Diagnostics diagnostics;
     const CompiledScene<Real> flat = compile_scene<Real>(
-        read_bench_scene(scene), CompileOptions{64, 64, processors(), {.binary = false, .simd = true}}, diagnostics);
+        read_bench_scene(scene), CompileOptions{64, 64, processors(), {BvhLayout::bvh8}}, diagnostics);
     state.SetIterationTime(flat.statistics.build_seconds);
     bytes = static_cast<double>(flat.statistics.tree_bytes) / static_cast<double>(flat.statistics.triangles);
   }
@@ -56,8 +56,8 @@ void build_ours(benchmark::State& state, const std::string& scene) {
 #if defined(ALHAZEN_WITH_EMBREE)
 void build_embree(benchmark::State& state, const std::string& scene) {
   Diagnostics diagnostics;
-  const CompiledScene<float> flat = compile_scene<float>(
-      read_bench_scene(scene), CompileOptions{64, 64, processors(), {.binary = false}}, diagnostics);
+  const CompiledScene<float> flat =
+      compile_scene<float>(read_bench_scene(scene), CompileOptions{64, 64, processors(), {}}, diagnostics);
   for (auto _ : state) PlainEmbree(flat.view, processors());
 }
 #endif

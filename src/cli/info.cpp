@@ -51,7 +51,7 @@ void show(const InfoOptions& options) {
   const size_t materials = scene.materials.size(), textures = scene.textures.size(), images = scene.images.size(),
                meshes = scene.meshes.size(), instances = scene.instances.size();
   const char* filter = name_of(scene.filter.type);
-  CompileOptions as_on_cpus{.trees = {.binary = false, .simd = true}};
+  CompileOptions as_on_cpus{.layouts = {BvhLayout::bvh8}};
   as_on_cpus.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
   const SceneStatistics sizes = compile_scene<float>(std::move(scene), as_on_cpus, diagnostics).statistics;
   const nlohmann::ordered_json j{{"scene", options.scene},

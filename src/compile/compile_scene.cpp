@@ -86,7 +86,7 @@ class SceneCompiler {
     if (has_one_sided_) split_coincident_sides(out_);
     const bool checks_lost_light = options_.path_segments > 0 && may_lose_light(out_.view());
     CompileOptions options = options_;
-    if (has_one_sided_ || checks_lost_light) options.trees.binary = true;
+    if (has_one_sided_ || checks_lost_light) options.layouts.add(BvhLayout::bvh2);
     build_trees(options, out_, flat.statistics);
     add_triangle_emitters(out_);
     assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
@@ -96,7 +96,7 @@ class SceneCompiler {
     if (checks_lost_light)
       if (const auto lost = find_lost_light(whole_view(flat), options_.path_segments))
         warn_of_lost_light(*lost, scene_, surface_shapes_[lost->surface]->where, diagnostics_);
-    if (options_.trees.binary || out_.bvh2_nodes.empty()) return;
+    if (options_.layouts.has(BvhLayout::bvh2) || out_.bvh2_nodes.empty()) return;
     flat.statistics.tree_bytes -= out_.bvh2_nodes.size() * sizeof(out_.bvh2_nodes[0]);
     flat.statistics.nodes = out_.bvh8_nodes.size();
     std::vector<Bvh2Node<Real>>().swap(out_.bvh2_nodes);

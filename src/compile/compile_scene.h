@@ -2,22 +2,17 @@
 
 // Compiles the scene description: validates it, applies transforms, places instances and builds BVHs.
 
+#include "compile/bvh/layout.h"
 #include "compile/compiled_scene.h"
 #include "scene/scene.h"
 
 namespace alhazen {
 
-/// Selects the acceleration structures. The binary BVH is used by tests and by GPUs in double, the compressed wide one
-/// by GPUs in float, the SIMD one by CPUs.
-struct Trees {
-  bool binary = true, wide = false, simd = false;
-};
-
 /// Overrides of the description by the command line or a caller.
 struct CompileOptions {
   int64_t width = 0, height = 0;  ///< 0: as in the scene
   int threads = 0;                ///< for the BVH; 0: OpenMP's default
-  Trees trees;
+  BvhLayouts layouts{BvhLayout::bvh2};
   /// Instances with at most this many triangles in total are copied into the world, where traversal is faster.
   uint64_t max_copied_triangles = 1u << 17;
   uint64_t texture_budget = 0;  ///< bytes that images may take; 0: no limit

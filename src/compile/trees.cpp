@@ -95,10 +95,10 @@ class TreeBuilder {
 
   /// Trees over triangles from `first` on and, in the world's, over spheres and instances.
   void build(std::vector<Bounds3<Real>> boxes, uint32_t first, uint32_t triangles) {
-    const Trees& trees = options_.trees;
+    const BvhLayouts& layouts = options_.layouts;
     Bvh2<Real> tree;
-    if (trees.binary || trees.wide || trees.simd) {
-      Bvh2Options options = trees.simd ? Bvh2Options::for_collapse(options_.threads) : Bvh2Options{};
+    if (!layouts.empty()) {
+      Bvh2Options options = layouts.has(BvhLayout::bvh8) ? Bvh2Options::for_collapse(options_.threads) : Bvh2Options{};
       options.threads = options_.threads;
       if (boxes.size() > triangles + out_.spheres.size() + out_.moving_spheres.size())
         options.max_leaf = 1;  // an instance is to be alone in its leaf
@@ -110,16 +110,16 @@ class TreeBuilder {
     }
     const uint32_t first_primitive = static_cast<uint32_t>(out_.primitives.size());
     order_primitives(tree.order, first, triangles);
-    if (trees.wide || trees.simd) {
+    if (layouts.has(BvhLayout::cwbvh) || layouts.has(BvhLayout::bvh8)) {
       std::vector<Bounds3<Real>> ordered(tree.order.size());
 #pragma omp parallel for if (ordered.size() > 65'536)
       for (size_t i = 0; i < ordered.size(); ++i) ordered[i] = boxes[tree.order[i]];
       std::vector<Bounds3<Real>>().swap(boxes);
       if constexpr (sizeof(Real) == sizeof(float))
-        if (trees.wide) add_cwbvh(tree.nodes, ordered, first_primitive);
-      if (trees.simd) build_bvh8<Real>(tree.nodes, ordered, first_primitive, options_.threads, out_);
+        if (layouts.has(BvhLayout::cwbvh)) add_cwbvh(tree.nodes, ordered, first_primitive);
+      if (layouts.has(BvhLayout::bvh8)) build_bvh8<Real>(tree.nodes, ordered, first_primitive, options_.threads, out_);
     }
-    if (trees.binary) add_nodes(std::move(tree.nodes), first_primitive);
+    if (layouts.has(BvhLayout::bvh2)) add_nodes(std::move(tree.nodes), first_primitive);
   }
 
   void add_nodes(std::vector<Bvh2Node<Real>> nodes, uint32_t first_primitive) {
@@ -134,16 +134,16 @@ class TreeBuilder {
 
   void add_cwbvh(const std::vector<Bvh2Node<float>>& nodes, const std::vector<Bounds3<float>>& boxes,
                  uint32_t first_primitive) {
-    Cwbvh wide = build_cwbvh(nodes, boxes);
+    Cwbvh cwbvh = build_cwbvh(nodes, boxes);
     const uint32_t base = static_cast<uint32_t>(out_.cwbvh_nodes.size());
     const uint32_t primitive_base = static_cast<uint32_t>(out_.cwbvh_primitives.size());
-    for (CwbvhNode& node : wide.nodes) {
+    for (CwbvhNode& node : cwbvh.nodes) {
       node.first_child += base;
       node.first_primitive += primitive_base;
     }
-    out_.cwbvh_nodes.insert(out_.cwbvh_nodes.end(), wide.nodes.begin(), wide.nodes.end());
-    out_.cwbvh_primitives.reserve(primitive_base + wide.primitives.size());
-    for (const uint32_t place : wide.primitives)
+    out_.cwbvh_nodes.insert(out_.cwbvh_nodes.end(), cwbvh.nodes.begin(), cwbvh.nodes.end());
+    out_.cwbvh_primitives.reserve(primitive_base + cwbvh.primitives.size());
+    for (const uint32_t place : cwbvh.primitives)
       out_.cwbvh_primitives.push_back(cwbvh_primitive(out_.primitives[first_primitive + place]));
   }
 
@@ -213,7 +213,7 @@ void build_trees(const CompileOptions& options, SceneArrays<Real>& out, SceneSta
   out.primitives.reserve(out.triangles.size() + out.spheres.size() + out.moving_spheres.size() + out.instances.size());
   TreeBuilder<Real>(options, out).run();
   const auto bytes = [](const auto& array) { return array.size() * sizeof(array[0]); };
-  statistics.nodes = options.trees.binary ? out.bvh2_nodes.size() : out.bvh8_nodes.size();
+  statistics.nodes = options.layouts.has(BvhLayout::bvh2) ? out.bvh2_nodes.size() : out.bvh8_nodes.size();
   statistics.tree_bytes = bytes(out.bvh2_nodes) + bytes(out.cwbvh_nodes) + bytes(out.cwbvh_primitives) +
                           bytes(out.bvh8_nodes) + bytes(out.triangle_blocks) + bytes(out.sphere_blocks) +
                           bytes(out.moving_sphere_blocks) + bytes(out.instances);

@@ -50,7 +50,7 @@ class Backend {
   /// What takes a moment and does not depend on the scene, such as starting a GPU. Called once, before the first pass.
   virtual void start(const RenderSettings&) {}
   /// What rays are traced by.
-  virtual Trees wanted_trees(const RenderSettings&) const { return {.binary = false, .simd = true}; }
+  virtual BvhLayouts wanted_layouts(const RenderSettings&) const { return {BvhLayout::bvh8}; }
   /// Builds what rays are traced by, where that is not our own BVH; counts as building it. Called once, after start().
   virtual void prepare(const CompiledScene<float>&) {}
   virtual void prepare(const CompiledScene<double>&) {}

@@ -221,7 +221,7 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   std::future<void> started =
       std::async(is_on_gpu ? std::launch::async : std::launch::deferred, [&] { backend->start(settings); });
   const int build_threads = is_on_gpu ? 0 : settings.threads;
-  CompileOptions options{settings.width, settings.height, build_threads, backend->wanted_trees(settings)};
+  CompileOptions options{settings.width, settings.height, build_threads, backend->wanted_layouts(settings)};
   options.texture_budget = settings.texture_budget;
   options.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
   const CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);

@@ -8,9 +8,9 @@
 
 namespace alhazen {
 
-#define ALHAZEN_DECLARE_STUDY_KERNEL(set)                     \
-  namespace set {                                             \
-  RawKernel select_study_kernel(bool linear, bool in_double); \
+#define ALHAZEN_DECLARE_STUDY_KERNEL(set)                          \
+  namespace set {                                                  \
+  RawKernel select_study_kernel(bool brute_force, bool in_double); \
   }
 ALHAZEN_DECLARE_STUDY_KERNEL(baseline)
 #if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
@@ -30,9 +30,10 @@ RenderStatistics render(Scene&& scene, const RenderSettings& settings, Queries q
                         const std::function<bool()>& go_on, double& processor_seconds, Diagnostics& diagnostics) {
   RenderStatistics statistics;
   statistics.settings = settings;
-  const CompiledScene<Real> flat = compile_scene<Real>(
-      std::move(scene), {settings.width, settings.height, settings.threads, {.binary = queries == Queries::binary_bvh}},
-      diagnostics);
+  BvhLayouts layouts;
+  if (queries == Queries::binary_bvh) layouts.add(BvhLayout::bvh2);
+  const CompiledScene<Real> flat =
+      compile_scene<Real>(std::move(scene), {settings.width, settings.height, settings.threads, layouts}, diagnostics);
   statistics.scene_sizes = flat.statistics;
   statistics.build_seconds = flat.statistics.build_seconds;
   const auto select = ALHAZEN_KERNEL_OF(instruction_sets().back(), select_study_kernel);

@@ -137,8 +137,8 @@ TEST(CudaOnHostWideBvh, GivesAllButTheSameBits) {
       Scene scene = parity_scene(name);
       const RenderSettings settings = resolve_settings(host_settings(serial, strategy), scene);
       Diagnostics diagnostics;
-      const CompiledScene<float> flat =
-          compile_scene<float>(std::move(scene), {settings.width, settings.height, 1, {.wide = true}}, diagnostics);
+      const CompiledScene<float> flat = compile_scene<float>(
+          std::move(scene), {settings.width, settings.height, 1, {BvhLayout::bvh2, BvhLayout::cwbvh}}, diagnostics);
       ASSERT_GT(flat.view.cwbvh_nodes_count, 0u);
       auto film = std::make_unique<Film<float>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
       RenderControl control(1);

@@ -47,7 +47,7 @@ Outcome render_in_passes(Scene scene, const Settings& asked, const std::vector<u
   Diagnostics diagnostics;
   const RenderSettings settings = resolve_settings(asked, scene);
   const CompiledScene<Real> flat =
-      compile_scene<Real>(std::move(scene), {settings.width, settings.height, 1, {.simd = true}}, diagnostics);
+      compile_scene<Real>(std::move(scene), {settings.width, settings.height, 1, {BvhLayout::bvh8}}, diagnostics);
   Rendering rendering;
   auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
   RenderControl control(settings.threads);

@@ -22,7 +22,7 @@ CompiledScene<Real> compiled_scene(Scene scene, int threads = 1) {
   Diagnostics diagnostics;
   CompileOptions options;
   options.threads = threads;
-  options.trees = {.binary = true, .wide = true, .simd = true};
+  options.layouts = {BvhLayout::bvh2, BvhLayout::bvh8, BvhLayout::cwbvh};
   options.in_render_space = false;
   CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
   expect_no_warnings(diagnostics);

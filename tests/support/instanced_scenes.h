@@ -63,7 +63,7 @@ CompiledScene<Real> flat_instanced_scene(const Scene& scene, bool as_copies) {
   Diagnostics diagnostics;
   CompileOptions options;
   options.threads = 1;
-  options.trees = {.binary = true, .wide = true, .simd = true};
+  options.layouts = {BvhLayout::bvh2, BvhLayout::bvh8, BvhLayout::cwbvh};
   options.in_render_space = false;
   options.max_copied_triangles = as_copies ? ~uint64_t{0} : 0;
   CompiledScene<Real> flat = compile_scene<Real>(Scene(scene), options, diagnostics);

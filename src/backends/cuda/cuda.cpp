@@ -21,8 +21,10 @@ class CudaBackend final : public DeviceBackend {
     return description;
   }
 
-  Trees wanted_trees(const RenderSettings& settings) const override {
-    return {.binary = true, .wide = settings.device != host_device};
+  BvhLayouts wanted_layouts(const RenderSettings& settings) const override {
+    BvhLayouts layouts{BvhLayout::bvh2};
+    if (settings.device != host_device) layouts.add(BvhLayout::cwbvh);
+    return layouts;
   }
 
  protected:

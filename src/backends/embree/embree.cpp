@@ -41,7 +41,7 @@ class EmbreeBackend final : public Backend {
   }
 
 #if defined(ALHAZEN_WITH_EMBREE)
-  Trees wanted_trees(const RenderSettings&) const override { return {.binary = false}; }
+  BvhLayouts wanted_layouts(const RenderSettings&) const override { return {}; }
   void start(const RenderSettings& settings) override { threads_ = settings.threads; }
   void prepare(const CompiledScene<float>& scene) override { scene_.emplace(scene.view, threads_); }
 

@@ -34,7 +34,7 @@ std::vector<Diagnostics::Warning> warnings_of(const std::string& text, uint32_t 
   options.threads = 1;
   options.path_segments = path_segments;
   options.max_copied_triangles = 0;  // instances are not copied
-  options.trees = {.binary = false, .wide = false, .simd = true};
+  options.layouts = {BvhLayout::bvh8};
   const CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
   EXPECT_EQ(flat.view.bvh2_nodes_count, 0u);  // trees that were not requested are not kept
   return diagnostics.warnings();

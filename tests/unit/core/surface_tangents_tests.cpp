@@ -79,7 +79,7 @@ CompiledScene<Real> scene_of(Scene scene) {
   CompileOptions options;
   options.threads = 1;
   options.max_copied_triangles = 0;
-  options.trees = {.binary = true, .wide = false, .simd = false};
+  options.layouts = {BvhLayout::bvh2};
   CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
   expect_no_warnings(diagnostics);
   return flat;

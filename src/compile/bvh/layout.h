@@ -1,0 +1,34 @@
+#pragma once
+
+// Which layouts of the BVH a scene is compiled to.
+
+#include <cstdint>
+#include <initializer_list>
+
+namespace alhazen {
+
+enum class BvhLayout : uint32_t {
+  bvh2,   ///< binary: GPUs in double, tests
+  bvh8,   ///< 8 children a node: CPUs
+  cwbvh,  ///< 8 children a node, compressed: GPUs in float
+};
+
+/// A set of them; empty for backends that build a tree of their own.
+class BvhLayouts {
+ public:
+  constexpr BvhLayouts() = default;
+  constexpr BvhLayouts(std::initializer_list<BvhLayout> layouts) {
+    for (const BvhLayout layout : layouts) add(layout);
+  }
+
+  constexpr void add(BvhLayout layout) { bits_ |= bit(layout); }
+  constexpr bool has(BvhLayout layout) const { return (bits_ & bit(layout)) != 0; }
+  constexpr bool empty() const { return bits_ == 0; }
+
+ private:
+  static constexpr uint32_t bit(BvhLayout layout) { return 1u << static_cast<uint32_t>(layout); }
+
+  uint32_t bits_ = 0;
+};
+
+}  // namespace alhazen
