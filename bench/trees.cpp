@@ -39,7 +39,7 @@ std::vector<Ray<float>> incoherent_rays() {
   return rays;
 }
 
-template <class Intersector>
+template <RayIntersector<float> Intersector>
 void closest_hit(benchmark::State& state) {
   static const std::vector<Ray<float>> rays = incoherent_rays();
   const Intersector intersector(mesh().view);

@@ -1,7 +1,8 @@
 // Compiled once per instruction set, in its namespace.
 
-#include "core/bvh/bvh8/traversal.h"
+#include "core/bvh/bvh8/intersector.h"
 #include "kernels/query.h"
+#include "render/kernels/instances.h"
 #if defined(ALHAZEN_WITH_EMBREE)
 #include "backends/embree/intersector.h"
 #endif
@@ -10,9 +11,9 @@ namespace ALHAZEN_CORE {
 
 namespace {
 
-template <class Intersector, class Real>
+template <class Real, RayIntersector<Real> Intersector>
 uint64_t trace_singly(const void* scene, const void* tracer, const void* queries, uint32_t count, bool any_hit) {
-  const Intersector intersector(*static_cast<const SceneView<Real>*>(scene), tracer);
+  const Intersector intersector = make_intersector<Intersector>(*static_cast<const SceneView<Real>*>(scene), tracer);
   const Query<Real>* const query = static_cast<const Query<Real>*>(queries);
   uint64_t hits = 0;
   for (uint32_t i = 0; i < count; ++i) {
@@ -82,7 +83,7 @@ template <class Real>
 TraceQueries select(Call call) {
   switch (call) {
     case Call::one:
-      return trace_singly<Bvh8Intersector<Real>, Real>;
+      return trace_singly<Real, Bvh8Intersector<Real>>;
     case Call::many:
       return trace_together<Real, false>;
     case Call::coherent:
@@ -94,7 +95,7 @@ TraceQueries select(Call call) {
       break;
     case Call::embree_backend:
 #if defined(ALHAZEN_WITH_EMBREE)
-      if constexpr (sizeof(Real) == sizeof(float)) return trace_singly<EmbreeIntersector, float>;
+      if constexpr (sizeof(Real) == sizeof(float)) return trace_singly<float, EmbreeIntersector>;
 #endif
       break;
   }

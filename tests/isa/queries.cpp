@@ -1,6 +1,6 @@
 // Compiled once per instruction set, in its namespace.
 
-#include "core/bvh/bvh8/traversal.h"
+#include "core/bvh/bvh8/intersector.h"
 #include "isa/request.h"
 
 namespace ALHAZEN_CORE {

@@ -2,6 +2,7 @@
 
 // Ray queries to the CPU's BVH, as compiled for each instruction set (queries.cpp).
 
+#include "core/bvh/ray_intersector.h"
 #include "isa/request.h"
 #include "render/sample_kernel.h"
 
@@ -50,6 +51,7 @@ class IsaIntersector {
  private:
   const SceneView<Real>* scene_;
 };
+static_assert(RayIntersector<IsaIntersector<float, InstructionSet::baseline>, float>);
 
 }  // namespace test
 }  // namespace alhazen

@@ -28,7 +28,7 @@ Ray<float> random_ray(Random& random, double size) {
 
 void expect_what_looking_at_every_primitive_finds(const CompiledScene<float>& scene, size_t rays) {
   const EmbreeScene embree(scene.view, 1);
-  const EmbreeIntersector intersector(scene.view, &embree.tracer());
+  const EmbreeIntersector intersector(scene.view, embree.tracer());
   const BruteForceIntersector<float> brute_force(scene.view);
   Random random(8);
   size_t hit_count = 0, different = 0;
@@ -72,7 +72,7 @@ TEST(Embree, HitsInstances) {
 TEST(Embree, IsNotHurtByNothing) {
   const CompiledScene<float> scene = test::PrimitiveScene().flat<float>();
   const EmbreeScene embree(scene.view, 1);
-  const EmbreeIntersector intersector(scene.view, &embree.tracer());
+  const EmbreeIntersector intersector(scene.view, embree.tracer());
   Hit<float> hit;
   EXPECT_FALSE(intersector.closest_hit({{}, {0, 0, 1}}, infinity<float>, hit));
   EXPECT_FALSE(intersector.occluded({{}, {0, 0, 1}}, infinity<float>));
@@ -81,7 +81,7 @@ TEST(Embree, IsNotHurtByNothing) {
 TEST(Embree, IsNotAskedAboutRaysOutOfItsRange) {
   const CompiledScene<float> scene = test::mixed_primitives(7, 50).flat<float>();
   const EmbreeScene embree(scene.view, 1);
-  const EmbreeIntersector intersector(scene.view, &embree.tracer());
+  const EmbreeIntersector intersector(scene.view, embree.tracer());
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const float odd : {nan, infinity<float>, -infinity<float>, 1e19f, -3e38f})
     for (int place = 0; place < 7; ++place) {

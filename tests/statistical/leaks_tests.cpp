@@ -119,7 +119,7 @@ struct LeavingRays {
   }
 };
 
-template <class Intersector, class Real>
+template <class Real, RayIntersector<Real> Intersector>
 size_t count_hits(const Intersector& intersector, const std::vector<Ray<Real>>& rays) {
   size_t hits = 0;
   for (const Ray<Real>& ray : rays) {
@@ -163,7 +163,7 @@ void count(const SceneView<Real>& view, const LeavingRays<Real>& rays, Tallies& 
     add("wide tree", [&](const Rays& of) { return count_hits(CwbvhIntersector<>(view), of); });
 #if defined(ALHAZEN_WITH_EMBREE)
     const EmbreeScene embree(view, 1);
-    const EmbreeIntersector intersector(view, &embree.tracer());
+    const EmbreeIntersector intersector(view, embree.tracer());
     add("Embree", [&](const Rays& of) { return count_hits(intersector, of); });
 #endif
   }

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/bvh/bvh8/traversal.h"
+#include "core/bvh/bvh8/intersector.h"
 #include "core/bvh/cwbvh/traversal.h"
 #include "isa/queries.h"
 
@@ -33,7 +33,7 @@ struct IsaEngine {
   using Intersector = IsaIntersector<Any, set>;
 };
 
-using Trees =
+using Engines =
     ::testing::Types<Bvh2Engine<float>, Bvh2Engine<double>, CwbvhEngine, Bvh8Engine<float>, Bvh8Engine<double>,
                      IsaEngine<float, InstructionSet::avx2>, IsaEngine<double, InstructionSet::avx2>,
                      IsaEngine<float, InstructionSet::avx512>, IsaEngine<double, InstructionSet::avx512>>;

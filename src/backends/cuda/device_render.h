@@ -21,23 +21,23 @@ namespace alhazen::cuda {
 struct Bvh2Tracing {
   static constexpr bool by_launch_of_pixels = false;  ///< whether there is no schedule but a launch of all pixels
 
-  template <class Real, class Stacks>
+  template <class Real, StackMaker Stacks>
   ALHAZEN_HD static Bvh2Intersector<Real, Stacks> intersector(const SceneView<Real>& scene, const Stacks& stacks) {
     return Bvh2Intersector<Real, Stacks>(scene, stacks);
   }
 };
 
-/// Ray queries by the compressed wide BVH.
+/// Ray queries by the compressed wide BVH, of floats alone.
 struct CwbvhTracing {
   static constexpr bool by_launch_of_pixels = false;
 
-  template <class Stacks>
+  template <StackMaker Stacks>
   ALHAZEN_HD static CwbvhIntersector<Stacks> intersector(const SceneView<float>& scene, const Stacks& stacks) {
     return CwbvhIntersector<Stacks>(scene, stacks);
   }
 };
 
-template <class Executor, class Tracing, class Real>
+template <KernelExecutor Executor, class Tracing, class Real>
 class DeviceRender {
  public:
   DeviceRender(Executor& executor, const RowShare& share)
@@ -223,6 +223,7 @@ class DeviceRender {
   }
 
   template <IntegratorKind kind>
+  requires LaunchesKernel<Executor, PixelKernel<Tracing, kind, Real>>
   void run_pixels(const RenderSettings& settings, const Launch<Real>& launch) {
     const bool chunks = settings.strategy == "chunk";
     PixelKernel<Tracing, kind, Real> kernel{launch, chunks ? settings.chunk.x : 1, chunks ? settings.chunk.y : 1,
@@ -234,6 +235,7 @@ class DeviceRender {
   }
 
   template <IntegratorKind kind>
+  requires LaunchesResidentKernel<Executor, PersistentKernel<Tracing, kind, Real>>
   void run_persistent(const Launch<Real>& launch, const ItemGrid& grid) {
     using Kernel = PersistentKernel<Tracing, kind, Real>;
     executor_.clear(counter_.data(), sizeof(uint32_t));

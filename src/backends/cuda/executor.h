@@ -1,15 +1,8 @@
 #pragma once
 
-// What runs kernels. An `Executor` is a device with one queue of work:
-//   allocate(bytes), release(memory), free_bytes()          its memory; throws RenderError where there is not enough
-//   upload(to, from, bytes), download(...), clear(...)      in the order of the queue; download waits for it
-//   launch(kernel, threads, block)                          at least so many threads, in blocks of that size
-//   resident_threads<Kernel>(block)                         how many threads of a kernel run at a time
-//   wait()                                                  until the queue is empty
-//   Range(name)                                             names what happens while it lives, for profilers
-//   first_items                                             items of the first slice, before any speed is known
-// GPUs are one (cuda_executor.cuh), the host the other (host_executor.h).
+// What runs kernels.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -19,11 +12,41 @@ struct Extent {
   uint32_t width = 1, height = 1;
 };
 
+/// A device with one queue of work: a GPU (cuda_executor.cuh) or the host in its place (host_executor.h). allocate()
+/// throws RenderError where there is not enough memory. upload(), download() and clear() are in the order of the queue;
+/// download() and wait() return when it is empty. A Range names what happens while it lives, for profilers.
+/// `first_items` are those of the first slice, before any speed is known.
+template <class Executor>
+concept KernelExecutor = requires(Executor& executor, const Executor& unchanged, void* memory, const void* source,
+                                  size_t bytes) {
+  requires std::constructible_from<typename Executor::Range, const char*>;
+  { Executor::first_items } -> std::convertible_to<uint64_t>;
+  { executor.allocate(bytes) } -> std::same_as<void*>;
+  executor.release(memory);
+  { unchanged.free_bytes() } -> std::same_as<size_t>;
+  executor.upload(memory, source, bytes);
+  executor.download(memory, source, bytes);
+  executor.clear(memory, bytes);
+  executor.wait();
+};
+
+/// Launches at least `threads` threads of this kernel, in blocks of that size.
+template <class Executor, class Kernel>
+concept LaunchesKernel = KernelExecutor<Executor> && requires(Executor& executor, const Kernel& kernel, Extent extent) {
+  executor.launch(kernel, extent, extent);
+};
+
+/// The same, and tells how many of its threads run at a time.
+template <class Executor, class Kernel>
+concept LaunchesResidentKernel = LaunchesKernel<Executor, Kernel> && requires(Executor& executor, uint32_t block) {
+  { executor.template resident_threads<Kernel>(block) } -> std::same_as<uint32_t>;
+};
+
 /// Threads of a block where nobody asked for another number.
 inline constexpr uint32_t usual_block = 128;
 
 /// Memory of an executor for elements of one type.
-template <class Executor, class T>
+template <KernelExecutor Executor, class T>
 class Buffer {
  public:
   explicit Buffer(Executor& executor) : executor_(&executor) {}

@@ -8,6 +8,8 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <bit>
+
 #include "core/math/ray.h"
 #include "core/shapes/shape_records.h"
 
@@ -25,7 +27,7 @@ inline constexpr float max_embree_coordinate = 1.844e18f;
 inline bool is_traced_by_embree(const Ray<float>& ray, float t_max) {
   const Vec3<float> size = abs(ray.origin) + abs(ray.direction);
   return size.x <= max_embree_coordinate && size.y <= max_embree_coordinate && size.z <= max_embree_coordinate &&
-         t_max >= 0;
+         t_max > 0;
 }
 
 /// What the intersector is handed besides the scene.
@@ -47,7 +49,9 @@ struct EmbreeQuery {
   float t_max;
 };
 
+/// Embree's interval is closed at tfar: the float below t_max > 0 keeps ours open.
 inline RTCRay embree_ray(const Ray<float>& ray, float t_max) {
+  const float t_far = std::bit_cast<float>(std::bit_cast<uint32_t>(t_max) - 1);
   return {ray.origin.x,
           ray.origin.y,
           ray.origin.z,
@@ -56,7 +60,7 @@ inline RTCRay embree_ray(const Ray<float>& ray, float t_max) {
           ray.direction.y,
           ray.direction.z,
           ray.time,
-          t_max,
+          t_far,
           ~0u,
           0,
           0};
@@ -79,7 +83,7 @@ inline void intersect_1(RTCScene scene, const Ray<float>& ray, RTCRayHit& query)
 #endif
 }
 
-/// tfar is negative afterwards where something was met.
+/// tfar is negative afterwards where something is hit.
 inline void occluded_1(RTCScene scene, const Ray<float>& ray, RTCRay& query) {
   EmbreeQuery of;
   of.ray = &ray;

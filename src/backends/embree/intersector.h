@@ -1,17 +1,19 @@
 #pragma once
 
-// The ray queries that integrators ask, answered by Embree. The identifiers of its geometries are our kinds of
-// primitives; from embree_instances on they are instances.
+// Ray queries by Embree. The identifiers of its geometries are our kinds of primitives; from embree_instances on they
+// are instances.
 
 #include "backends/embree/api.h"
-#include "core/bvh/bvh2/traversal.h"
+#include "core/bvh/ray_intersector.h"
+#include "core/scene_view.h"
 
 namespace ALHAZEN_CORE {
 
 class EmbreeIntersector {
  public:
-  EmbreeIntersector(const SceneView<float>& view, const void* tracer)
-      : view_(&view), scene_(static_cast<const EmbreeTracer*>(tracer)->scene) {}
+  using Tracer = EmbreeTracer;
+
+  EmbreeIntersector(const SceneView<float>& view, const Tracer& tracer) : view_(&view), scene_(tracer.scene) {}
 
   bool closest_hit(const Ray<float>& ray, float t_max, Hit<float>& hit) const {
     if (!is_traced_by_embree(ray, t_max)) return false;
@@ -34,21 +36,6 @@ class EmbreeIntersector {
     return query.tfar < 0;
   }
 
-  /// Many queries, as core/bvh/bvh8/traversal.h has it; one after the other.
-  template <bool any_hit, class RayOf, class Limit, class Answer>
-  void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    for (uint32_t i = 0; i < count; ++i) {
-      Hit<float> hit;
-      const bool found = any_hit ? t_max(i) > 0 && occluded(ray(i), t_max(i)) : closest_hit(ray(i), t_max(i), hit);
-      answer(i, found, hit);
-    }
-  }
-
-  template <class RayOf, class Limit, class Answer>
-  void trace_coherent(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    trace<false>(count, ray, t_max, answer);
-  }
-
  private:
   void set_instance(const RTCHit& of, Hit<float>& hit) const {
     hit.instance = of.instID[0] - embree_instances;
@@ -59,5 +46,6 @@ class EmbreeIntersector {
   const SceneView<float>* view_;
   RTCScene scene_;
 };
+static_assert(RayIntersector<EmbreeIntersector, float>);
 
 }  // namespace ALHAZEN_CORE

@@ -6,8 +6,8 @@
 namespace ALHAZEN_CORE {
 
 RawKernel select_embree_kernel(uint32_t integrator, uint32_t sampler) {
-  return select_kernel<EmbreeIntersector, float>(static_cast<IntegratorKind>(integrator),
-                                                 static_cast<SamplerType>(sampler));
+  return select_kernel<SequentialBatches<float, EmbreeIntersector>, float>(static_cast<IntegratorKind>(integrator),
+                                                                           static_cast<SamplerType>(sampler));
 }
 
 }  // namespace ALHAZEN_CORE

@@ -35,7 +35,7 @@ struct SceneTraits {
 
 inline constexpr unsigned build_flags = OPTIX_BUILD_FLAG_ALLOW_COMPACTION | OPTIX_BUILD_FLAG_PREFER_FAST_TRACE;
 
-template <class Executor>
+template <cuda::KernelExecutor Executor>
 class Acceleration {
  public:
   Acceleration(const OptixFunctionTable& functions, Executor& executor)

@@ -7,7 +7,7 @@
 
 namespace alhazen::optix {
 
-template <class Executor>
+template <cuda::KernelExecutor Executor>
 class Denoiser {
  public:
   Denoiser(const OptixFunctionTable& functions, const Context& context, Executor& executor)

@@ -10,7 +10,7 @@
 
 namespace alhazen::optix {
 
-template <class Base>
+template <cuda::KernelExecutor Base>
 class OptixExecutor : public Base {
  public:
   template <class... Arguments>

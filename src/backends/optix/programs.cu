@@ -15,7 +15,7 @@ __constant__ __align__(16) unsigned char params[sizeof(OptixParams)];
 
 __device__ inline const OptixParams& launch_params() { return *reinterpret_cast<const OptixParams*>(params); }
 
-/// Ray queries as integrators ask them.
+/// Answers ray queries by optixTrace.
 ///
 /// What OptiX says of spheres is checked by our own, robust test: the built-in one works in float from the sphere's
 /// centre, and on a ground of radius 1000 may meet the surface that the ray has just left. Of triangles that one is
@@ -26,8 +26,8 @@ class OptixIntersector {
   __device__ OptixIntersector(const SceneView<float>& scene, const Stacks&) : scene_(&scene) {}
 
   __device__ bool closest_hit(const Ray<float>& ray, float t_max, Hit<float>& hit) const {
-    hit.t = t_max;
-    hit.primitive = {};
+    hit = end_of_interval(t_max);
+    bool found = false;
     float t_min = 0;
     for (int attempt = 0; attempt < most_attempts && t_min < hit.t; ++attempt) {
       Hit<float> met;
@@ -38,21 +38,22 @@ class OptixIntersector {
           continue;
         }
         hit = met;
-        break;
+        return true;
       }
       // Where our own test meets the sphere later or not at all, something else may stand in between.
       t_min = met.t + beyond(met);
-      if (intersects_sphere(ray, met.primitive, hit) && hit.t <= met.t) break;
+      if (!intersects_sphere(ray, met.primitive, hit)) continue;
+      found = true;
+      if (hit.t <= met.t) break;
     }
-    return !hit.primitive.is_none();
+    return found;
   }
 
   __device__ bool occluded(const Ray<float>& ray, float t_max) const {
     constexpr unsigned flags = OPTIX_RAY_FLAG_DISABLE_ANYHIT | OPTIX_RAY_FLAG_TERMINATE_ON_FIRST_HIT;
     // Free is free; of what is in between, hit programs alone say what it is.
     if (!is_anything_between(ray, t_max, flags | OPTIX_RAY_FLAG_DISABLE_CLOSESTHIT)) return false;
-    Hit<float> met, own;
-    own.t = t_max;
+    Hit<float> met, own = end_of_interval(t_max);
     if (!trace(ray, 0, t_max, flags, met)) return false;
     const bool is_triangle = met.primitive.kind() == PrimitiveKind::triangle;
     if (is_triangle ? !is_left(ray, met) : intersects_sphere(ray, met.primitive, own)) return true;
@@ -104,6 +105,8 @@ class OptixIntersector {
 
   const SceneView<float>* scene_;
 };
+
+static_assert(RayIntersector<OptixIntersector, float>);
 
 struct OptixStacks {
   using Intersector = OptixIntersector;

@@ -4,7 +4,7 @@
 
 #include "compile/bvh/collapse.h"
 #include "compile/bvh/octant_slots.h"
-#include "core/bvh/bvh8/traversal.h"
+#include "core/bvh/bvh8/intersector.h"
 #include "util/diagnostics.h"
 
 namespace alhazen {

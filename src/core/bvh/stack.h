@@ -1,13 +1,30 @@
 #pragma once
 
-// Where a walk through a tree keeps what it has yet to visit. On a CPU that is an array of the thread; on a GPU its
-// first entries lie in shared memory (backends/cuda/device_thread.cuh).
+// The stack of a traversal. On a CPU it is an array of the thread; on a GPU its first entries are in shared memory
+// (backends/cuda/device_thread.cuh).
+
+#include <concepts>
+#include <cstdint>
 
 #include "core/math/platform.h"
 
 namespace ALHAZEN_CORE {
 
-/// A stack of at most `capacity` entries, which the caller knows to be enough.
+template <class Stack, class Entry>
+concept TraversalStack = requires(Stack& stack, const Stack& unchanged, const Entry& entry) {
+  { unchanged.height() } -> std::same_as<int>;
+  stack.push(entry);
+  { stack.pop() } -> std::same_as<Entry>;
+};
+
+/// Makes the stacks of one thread, one at a time: `make<Entry, capacity>()`. The caller knows the capacity to be
+/// enough.
+template <class Maker>
+concept StackMaker = requires(const Maker& stacks) {
+  { stacks.template make<uint32_t, 64>() } -> TraversalStack<uint32_t>;
+};
+
+/// A stack of at most `capacity` entries.
 template <class Entry, int capacity>
 class LocalStack {
  public:
@@ -23,12 +40,12 @@ class LocalStack {
   Entry entries_[capacity];
 };
 
-/// Makes the stacks of one thread, one at a time.
 struct LocalStacks {
   template <class Entry, int capacity>
   ALHAZEN_HD LocalStack<Entry, capacity> make() const {
     return {};
   }
 };
+static_assert(StackMaker<LocalStacks>);
 
 }  // namespace ALHAZEN_CORE

@@ -5,6 +5,7 @@
 // generated for all paths at once; then each path is shaded. A new sample takes the slot of a path that has ended.
 // Each path does what `integrate` does, in the same order and with the same bits.
 
+#include "core/bvh/ray_intersector.h"
 #include "core/integrators/camera_rays.h"
 #include "core/integrators/diffuse_surfaces.h"
 #include "core/integrators/hit_points.h"
@@ -12,7 +13,7 @@
 namespace ALHAZEN_CORE {
 
 /// `Pixel` and `End` are those of integrate_batch.
-template <IntegratorKind kind, class Sampler, class Real, class Intersector, class Pixel, class End>
+template <IntegratorKind kind, class Sampler, class Real, BatchIntersector<Real> Intersector, class Pixel, class End>
 class PathBatch {
  public:
   PathBatch(const SceneView<Real>& scene, const Intersector& intersector, uint32_t seed, uint32_t max_segments,
@@ -257,7 +258,7 @@ class PathBatch {
 /// Takes `count` samples. `pixel(i)` returns the pixel and sample number of sample i. `end(i, record, filter_weight)`
 /// is called once for each, in any order, before the scene's exposure is applied. Records keep the first hit if
 /// requested.
-template <IntegratorKind kind, class Sampler, class Real, class Intersector, class Pixel, class End>
+template <IntegratorKind kind, class Sampler, class Real, BatchIntersector<Real> Intersector, class Pixel, class End>
 void integrate_batch(const SceneView<Real>& scene, const Intersector& intersector, uint32_t seed, uint32_t max_segments,
                      bool wants_first_hit, uint32_t count, const Pixel& pixel, const End& end) {
   PathBatch<kind, Sampler, Real, Intersector, Pixel, End> batch(scene, intersector, seed, max_segments, wants_first_hit,

@@ -53,7 +53,7 @@ using StateOf = std::conditional_t<kind == IntegratorKind::path, PathState<Real>
 
 /// Traces one segment of a path: intersects, adds emission and direct light, scatters. Returns false when the path has
 /// ended.
-template <class Real, class Intersector, class Sampler, class State, class Record>
+template <class Real, RayIntersector<Real> Intersector, class Sampler, class State, class Record>
 ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& intersector, const Sampler& sampler,
                              uint32_t max_segments, State& path, Record& record) {
   ++record.segments;
@@ -70,7 +70,7 @@ ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& in
 }
 
 /// Radiance along `ray` by the integrator `kind`, over at most `max_segments` >= 1 segments.
-template <IntegratorKind kind, class Real, class Intersector, class Sampler>
+template <IntegratorKind kind, class Real, RayIntersector<Real> Intersector, class Sampler>
 ALHAZEN_HD SampleRecord<Real> integrate(const SceneView<Real>& scene, const Intersector& intersector,
                                         const Sampler& sampler, const Ray<Real>& ray, uint32_t max_segments) {
   SampleRecord<Real> record;

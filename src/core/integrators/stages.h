@@ -3,6 +3,7 @@
 // The stages of every integrator: compute the shading point, add emission, add direct light, scatter. A megakernel runs
 // them in sequence; the wavefront runs one kernel each. A `Record` is a PathRecord that also takes the first hit.
 
+#include "core/bvh/ray_intersector.h"
 #include "core/integrators/sample_record.h"
 #include "core/integrators/transparency.h"
 #include "core/lights/light.h"
@@ -138,13 +139,13 @@ ALHAZEN_HD ALHAZEN_HOT ShadowRay<Real> shadow_ray(const SurfaceInteraction<Real>
   return shadow;
 }
 
-template <class Real, class Intersector>
+template <class Real, RayIntersector<Real> Intersector>
 ALHAZEN_HD bool is_free(const Intersector& intersector, const ShadowRay<Real>& shadow) {
   return !(shadow.t_max > 0) || !intersector.occluded(shadow.ray, shadow.t_max);
 }
 
 /// Visibility of a light: 0 or 1 unless some material lets shadow rays through.
-template <class Real, class Intersector>
+template <class Real, RayIntersector<Real> Intersector>
 ALHAZEN_HD Real free_share(const SceneView<Real>& scene, const Intersector& intersector,
                            const ShadowRay<Real>& shadow) {
   if (scene.lets_light_through) return transmittance(scene, intersector, shadow.ray, shadow.t_max);

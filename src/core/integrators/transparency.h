@@ -6,6 +6,7 @@
 // and if all lights are delta lights, shadow rays leave a room that the camera looks into from outside through all of
 // its walls. Scenes without such surfaces run none of this code.
 
+#include "core/bvh/ray_intersector.h"
 #include "core/materials/bsdf.h"
 #include "core/math/ray.h"
 #include "core/sampling/hash.h"
@@ -111,7 +112,7 @@ ALHAZEN_HD ALHAZEN_COLD bool passes(const SceneView<Real>& scene, const Hit<Real
 }
 
 /// Fraction of light that arrives along the ray over the distance `t_max`.
-template <class Real, class Intersector>
+template <class Real, RayIntersector<Real> Intersector>
 ALHAZEN_HD Real transmittance(const SceneView<Real>& scene, const Intersector& intersector, Ray<Real> ray, Real t_max) {
   Real transmitted = 1;
   Hit<Real> hit;
@@ -128,7 +129,7 @@ ALHAZEN_HD Real transmittance(const SceneView<Real>& scene, const Intersector& i
 }
 
 /// Finds the closest hit that stops the ray; the ray may then start behind surfaces that it passed through.
-template <class Real, class Intersector>
+template <class Real, RayIntersector<Real> Intersector>
 ALHAZEN_HD bool closest_stop(const SceneView<Real>& scene, const Intersector& intersector, RayKind kind, Ray<Real>& ray,
                              Hit<Real>& hit, Real& travelled) {
   for (uint32_t i = 0; i < max_transparent_hits && intersector.closest_hit(ray, infinity<Real>, hit); ++i)

@@ -102,13 +102,4 @@ ALHAZEN_HD Vec3<Real> world_position_error(const InstanceRecord<Real>& instance,
          transformed_extent(instance.world_from_object, object_error + way_back);
 }
 
-/// The primitive that a search within `instance` has to come before at the distance of `hit`: of hits at the same
-/// distance that of the lowest primitive counts, of the same primitive that of the lowest instance.
-template <class Real>
-ALHAZEN_HD PrimitiveId bound_within(uint32_t instance, const Hit<Real>& hit) {
-  PrimitiveId bound = hit.primitive;
-  bound.bits += instance < hit.instance ? 1 : 0;
-  return bound;
-}
-
 }  // namespace ALHAZEN_CORE

@@ -2,7 +2,7 @@
 
 // The definition of the sample kernels, for the files that instantiate it.
 
-#include "core/bvh/bvh8/traversal.h"
+#include "core/bvh/bvh8/intersector.h"
 #include "core/film/block_sum.h"
 #include "core/integrators/batch.h"
 #include "core/sampling/any_sampler.h"
@@ -11,7 +11,7 @@
 namespace ALHAZEN_CORE {
 
 /// Takes one sample after the other, for recursive integrators.
-template <IntegratorKind kind, class Sampler, class Intersector, class Real>
+template <IntegratorKind kind, class Sampler, class Real, RayIntersector<Real> Intersector>
 void take_blocks_singly(const KernelRequest& request, const SceneView<Real>& scene, const Intersector& intersector,
                         BlockSum<Real>* sums) {
   for (uint32_t b = 0; b < request.block_count; ++b) {
@@ -24,7 +24,7 @@ void take_blocks_singly(const KernelRequest& request, const SceneView<Real>& sce
   }
 }
 
-template <IntegratorKind kind, class Sampler, class Intersector, class Real>
+template <IntegratorKind kind, class Sampler, class Real, BatchIntersector<Real> Intersector>
 void take_blocks_together(const KernelRequest& request, const SceneView<Real>& scene, const Intersector& intersector,
                           BlockSum<Real>* sums) {
   // Every block has space for samples_per_block records, whether or not it uses them all.
@@ -62,17 +62,26 @@ void take_blocks_together(const KernelRequest& request, const SceneView<Real>& s
       }
 }
 
-/// `Intersector` is constructed from the scene and the tracer and answers the ray queries.
+/// Constructs the intersector from the scene and, if it names the type of one, the tracer.
+template <class Intersector, class Real>
+ALHAZEN_INLINE Intersector make_intersector(const SceneView<Real>& scene, [[maybe_unused]] const void* tracer) {
+  if constexpr (requires { typename Intersector::Tracer; })
+    return Intersector(scene, *static_cast<const typename Intersector::Tracer*>(tracer));
+  else
+    return Intersector(scene);
+}
+
 template <IntegratorKind kind, class Sampler, class Intersector, class Real>
+requires BatchIntersector<Intersector, Real>
 void take_blocks(const KernelRequest& request) {
   const SceneView<Real>& scene = *static_cast<const SceneView<Real>*>(request.scene);
-  const Intersector intersector(scene, request.tracer);
+  const Intersector intersector = make_intersector<Intersector>(scene, request.tracer);
   BlockSum<Real>* const sums = static_cast<BlockSum<Real>*>(request.sums);
   for (uint32_t b = 0; b < request.block_count; ++b) sums[b] = {};
   if constexpr (kind == IntegratorKind::path || kind == IntegratorKind::iterative)
-    take_blocks_together<kind, Sampler, Intersector, Real>(request, scene, intersector, sums);
+    take_blocks_together<kind, Sampler>(request, scene, intersector, sums);
   else
-    take_blocks_singly<kind, Sampler, Intersector, Real>(request, scene, intersector, sums);
+    take_blocks_singly<kind, Sampler>(request, scene, intersector, sums);
 }
 
 template <class Sampler, class Intersector, class Real>

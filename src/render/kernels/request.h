@@ -16,7 +16,7 @@ inline constexpr uint32_t most_blocks_per_request = 256;
 
 struct KernelRequest {
   const void* scene;   ///< SceneView<Real>
-  const void* tracer;  ///< further arguments of the intersector
+  const void* tracer;  ///< Intersector::Tracer, if it has one
   void* sums;          ///< BlockSum<Real>, one per block
   const BlockRequest* blocks;
   uint32_t block_count;

@@ -13,7 +13,7 @@ namespace {
 
 template <class Tree>
 class BvhOf : public ::testing::Test {};
-TYPED_TEST_SUITE(BvhOf, Trees);
+TYPED_TEST_SUITE(BvhOf, Engines);
 
 template <class Real>
 Ray<Real> ray_from(const Vec3d& origin, const Vec3d& direction, double time = 0) {

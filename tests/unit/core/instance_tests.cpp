@@ -23,7 +23,7 @@ Ray<Real> random_ray(Random& random) {
 
 template <class Tree>
 class InstancesInTree : public ::testing::Test {};
-TYPED_TEST_SUITE(InstancesInTree, Trees);
+TYPED_TEST_SUITE(InstancesInTree, Engines);
 
 TYPED_TEST(InstancesInTree, AreHitAsByTheLinearScan) {
   using Real = typename TypeParam::Real;

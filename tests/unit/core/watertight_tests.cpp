@@ -70,7 +70,7 @@ const Vec3d far_away{1.5e5, -1.5e5, 1.5e5};
 
 template <class Tree>
 class WatertightOf : public ::testing::Test {};
-TYPED_TEST_SUITE(WatertightOf, Trees);
+TYPED_TEST_SUITE(WatertightOf, Engines);
 
 TYPED_TEST(WatertightOf, Icosphere) { check_watertight<TypeParam>(0, 1, {}, 1); }
 TYPED_TEST(WatertightOf, IcosphereFarAway) { check_watertight<TypeParam>(0, 100, far_away, 2); }

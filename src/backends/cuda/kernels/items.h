@@ -37,7 +37,7 @@ ALHAZEN_HD inline Item item_at(const ItemGrid& grid, uint32_t index) {
 }
 
 /// Takes the next item that there is anything to do for. False: the queue is empty.
-template <class Thread, class Real>
+template <QueueThread Thread, class Real>
 ALHAZEN_HD bool claim_item(const Thread& thread, const Launch<Real>& launch, const ItemGrid& grid, uint32_t* next_item,
                            uint32_t& index, Item& item) {
   for (;;) {
@@ -57,7 +57,7 @@ struct FoldKernel {
   ItemGrid grid;
   const BlockSum<Real>* sums;  ///< one an item
 
-  template <class Thread>
+  template <QueueThread Thread>
   ALHAZEN_HD void operator()(const Thread& thread) const {
     const uint32_t pixel = thread.index();
     if (pixel >= grid.width * grid.rows) return;

@@ -1,18 +1,33 @@
 #pragma once
 
 // What kernels are given: the scene, the film, and which pixels and samples. A kernel is an object whose operator()
-// runs once a thread. A `Thread` says who it is and does what threads do together:
-//   x(), y(), index()      its place in the launch
-//   stacks()               makes its traversal stack (core/bvh/stack.h)
-//   increment(counter)     adds 1 to a counter that all threads share; returns what it was before
-//   add(total, value)      adds to a sum that all threads share
-// A GPU thread is one (device_thread.cuh), an iteration of a loop on the host another (host_executor.h).
+// runs once a thread.
+
+#include <concepts>
 
 #include "core/film/film_view.h"
 #include "core/integrators/camera_sample.h"
 #include "core/sampling/any_sampler.h"
 
 namespace alhazen::cuda {
+
+/// A thread of a launch of pixels. x() and y() are its place in the launch, stacks() makes what its intersector
+/// traverses by, add() adds to a sum that all threads share.
+template <class Thread>
+concept PixelThread = requires(const Thread& thread, unsigned long long* total, uint32_t value) {
+  { thread.x() } -> std::same_as<uint32_t>;
+  { thread.y() } -> std::same_as<uint32_t>;
+  thread.stacks();
+  thread.add(total, value);
+};
+
+/// A thread that takes work from queues too. index() is its place in a launch of one dimension; increment() adds 1 to a
+/// counter that all threads share and returns what it was before.
+template <class Thread>
+concept QueueThread = PixelThread<Thread> && requires(const Thread& thread, uint32_t* counter) {
+  { thread.index() } -> std::same_as<uint32_t>;
+  { thread.increment(counter) } -> std::same_as<uint32_t>;
+};
 
 /// The rows of a window that one device renders: bands of rows dealt to the devices in turn, counted without gaps.
 struct RowShare {
@@ -74,7 +89,7 @@ struct Launch {
 };
 
 /// Adds a finished block to the film and to the totals.
-template <class Thread, class Real>
+template <PixelThread Thread, class Real>
 ALHAZEN_HD void finish_block(const Thread& thread, const Launch<Real>& launch, size_t film_pixel,
                              const BlockSum<Real>& sum) {
   launch.film.add(film_pixel, sum);

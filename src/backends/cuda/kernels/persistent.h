@@ -15,7 +15,7 @@ struct PersistentKernel {
   uint32_t* next_item;   ///< 0 at the start
   BlockSum<Real>* sums;  ///< one an item
 
-  template <class Thread>
+  template <QueueThread Thread>
   ALHAZEN_HD void operator()(const Thread& thread) const {
     const auto intersector = Tracing::intersector(launch.scene, thread.stacks());
     AnySampler sampler(launch.sampler, 0, 0, 0, 0);

@@ -18,7 +18,7 @@ struct PixelKernel {
   ALHAZEN_HD uint32_t chunk_width() const { return (launch.width + chunks_x - 1) / chunks_x; }
   ALHAZEN_HD uint32_t chunk_height() const { return (launch.slice.rows + chunks_y - 1) / chunks_y; }
 
-  template <class Thread>
+  template <PixelThread Thread>
   ALHAZEN_HD void operator()(const Thread& thread) const {
     const uint32_t x = thread.x(), y = thread.y();
     if (x >= chunk_width() || y >= chunk_height()) return;
@@ -28,7 +28,7 @@ struct PixelKernel {
   }
 
  private:
-  template <class Thread>
+  template <PixelThread Thread>
   ALHAZEN_HD void render_pixel(const Thread& thread, uint32_t x, uint32_t row, BlockSum<Real>& sum) const {
     const size_t film_pixel = launch.film_index(x, row);
     for (uint32_t block = 0; block < launch.slice.blocks(); ++block) {
@@ -40,7 +40,7 @@ struct PixelKernel {
     }
   }
 
-  template <class Thread>
+  template <PixelThread Thread>
   ALHAZEN_HD void take_sample(const Thread& thread, uint32_t x, uint32_t row, uint32_t sample,
                               BlockSum<Real>& sum) const {
     const auto intersector = Tracing::intersector(launch.scene, thread.stacks());

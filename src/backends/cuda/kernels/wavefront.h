@@ -118,7 +118,7 @@ struct Slots {
 };
 
 /// Puts `slot` at the end of a queue.
-template <class Thread>
+template <QueueThread Thread>
 ALHAZEN_HD void push(const Thread& thread, uint32_t* queue, uint32_t* length, uint32_t slot) {
   queue[thread.increment(length)] = slot;
 }
@@ -144,7 +144,7 @@ template <class Real>
 struct StartKernel {
   WavefrontStage<Real> stage;
 
-  template <class Thread>
+  template <QueueThread Thread>
   ALHAZEN_HD void operator()(const Thread& thread) const {
     const uint32_t slot = thread.index();
     if (slot == 0) *stage.slots.counts = QueueCounts{0, {0, 0}, stage.slots.count, 0, {}};
@@ -161,7 +161,7 @@ template <IntegratorKind kind, class Real>
 struct GenerateKernel {
   WavefrontStage<Real> stage;
 
-  template <class Thread>
+  template <QueueThread Thread>
   ALHAZEN_HD void operator()(const Thread& thread) const {
     const Slots<Real>& slots = stage.slots;
     const Launch<Real>& launch = stage.launch;
@@ -206,7 +206,7 @@ template <class Real>
 struct ResetKernel {
   WavefrontStage<Real> stage;
 
-  template <class Thread>
+  template <QueueThread Thread>
   ALHAZEN_HD void operator()(const Thread& thread) const {
     if (thread.index() != 0) return;
     QueueCounts& counts = *stage.slots.counts;
@@ -220,7 +220,7 @@ template <class Tracing, IntegratorKind kind, class Real>
 struct IntersectKernel {
   WavefrontStage<Real> stage;
 
-  template <class Thread>
+  template <QueueThread Thread>
   ALHAZEN_HD void operator()(const Thread& thread) const {
     const Slots<Real>& slots = stage.slots;
     if (thread.index() >= slots.counts->rays[stage.parity]) return;
@@ -260,7 +260,7 @@ template <IntegratorKind kind, class Real>
 struct ShadeKernel {
   WavefrontStage<Real> stage;
 
-  template <class Thread>
+  template <QueueThread Thread>
   ALHAZEN_HD void operator()(const Thread& thread) const {
     const Slots<Real>& slots = stage.slots;
     uint32_t place = thread.index();
@@ -274,7 +274,7 @@ struct ShadeKernel {
   }
 
  private:
-  template <class Thread>
+  template <QueueThread Thread>
   ALHAZEN_HD void shade_slot(const Thread& thread, uint32_t slot) const {
     const Slots<Real>& slots = stage.slots;
     const Hit<Real> hit{slots.hit_t[slot], slots.hit_b1[slot], slots.hit_b2[slot], slots.hit_primitive[slot],
@@ -295,7 +295,7 @@ struct ShadeKernel {
       push(thread, slots.ended_queue, &slots.counts->ended, slot);
   }
 
-  template <class Thread>
+  template <QueueThread Thread>
   ALHAZEN_HD void queue_shadow(const Thread& thread, uint32_t slot, const ShadowRay<Real>& shadow,
                                const Vec3<Real>& radiance) const {
     const Slots<Real>& slots = stage.slots;
@@ -318,7 +318,7 @@ template <class Tracing, class Real>
 struct ShadowKernel {
   WavefrontStage<Real> stage;
 
-  template <class Thread>
+  template <QueueThread Thread>
   ALHAZEN_HD void operator()(const Thread& thread) const {
     const Slots<Real>& slots = stage.slots;
     if (thread.index() >= slots.counts->shadows) return;

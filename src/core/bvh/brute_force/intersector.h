@@ -1,7 +1,7 @@
 #pragma once
 
-// The ray queries answered by looking at every primitive in turn, as the report's Algorithm 5 does: the reference that
-// the BVH is measured against, in results and in time.
+// Ray queries by a test of every primitive, as the report's Algorithm 5 has them: the reference that the BVHs are
+// measured against, in results and in time.
 
 #include "core/bvh/bvh2/traversal.h"
 
@@ -10,33 +10,16 @@ namespace ALHAZEN_CORE {
 template <class Real>
 class BruteForceIntersector {
  public:
-  explicit BruteForceIntersector(const SceneView<Real>& scene, const void* = nullptr) : scene_(&scene) {}
+  explicit BruteForceIntersector(const SceneView<Real>& scene) : scene_(&scene) {}
 
-  /// The nearest hit before t_max; among hits at the same distance that of the lowest primitive.
   bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
-    hit = no_hit_before(t_max);
+    hit = end_of_interval(t_max);
     return search<false>(ray, hit);
   }
 
-  /// Whether anything stands before t_max.
   bool occluded(const Ray<Real>& ray, Real t_max) const {
-    Hit<Real> hit = no_hit_before(t_max);
+    Hit<Real> hit = end_of_interval(t_max);
     return search<true>(ray, hit);
-  }
-
-  /// Many queries, one after the other (core/bvh/bvh8/traversal.h).
-  template <bool any_hit, class RayOf, class Limit, class Answer>
-  void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    for (uint32_t i = 0; i < count; ++i) {
-      Hit<Real> hit;
-      const bool found = any_hit ? occluded(ray(i), t_max(i)) : closest_hit(ray(i), t_max(i), hit);
-      answer(i, found, hit);
-    }
-  }
-
-  template <class RayOf, class Limit, class Answer>
-  void trace_coherent(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    trace<false>(count, ray, t_max, answer);
   }
 
  private:
@@ -71,5 +54,7 @@ class BruteForceIntersector {
 
   const SceneView<Real>* scene_;
 };
+static_assert(RayIntersector<BruteForceIntersector<float>, float> &&
+              RayIntersector<BruteForceIntersector<double>, double>);
 
 }  // namespace ALHAZEN_CORE

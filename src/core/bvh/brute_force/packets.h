@@ -1,7 +1,8 @@
 #pragma once
 
-// Scenes of so few primitives that a tree is not worth its branches: as many rays at a time as a register has numbers,
-// against every primitive. What a ray meets does not depend on the others, and is what a tree would find.
+// Brute force for scenes of so few primitives that a tree is not worth its branches: packets of as many rays as a
+// register has numbers, against every primitive. What a ray hits does not depend on the others, and is what a tree
+// finds.
 
 #include <bit>
 
@@ -15,10 +16,10 @@ class BruteForcePackets {
  public:
   explicit BruteForcePackets(const SceneView<Real>& scene)
       : triangles_(scene.triangles_count), spheres_(scene.spheres_count), moving_(scene.moving_spheres_count) {
-    is_few_ = scene.instances_count == 0 && triangles_ <= max_triangles && spheres_ + moving_ <= max_spheres &&
-              triangles_ * max_spheres + (spheres_ + moving_) * max_triangles <= max_triangles * max_spheres &&
-              take_triangles(scene);
-    if (!is_few_) return;
+    is_worthwhile_ = scene.instances_count == 0 && triangles_ <= max_triangles && spheres_ + moving_ <= max_spheres &&
+                     triangles_ * max_spheres + (spheres_ + moving_) * max_triangles <= max_triangles * max_spheres &&
+                     take_triangles(scene);
+    if (!is_worthwhile_) return;
     for (uint32_t i = 0; i < spheres_; ++i) sphere_[i] = {scene.spheres[i].center, {}, scene.spheres[i].radius};
     for (uint32_t i = 0; i < moving_; ++i) {
       const MovingSphereRecord<Real>& sphere = scene.moving_spheres[i];
@@ -26,24 +27,24 @@ class BruteForcePackets {
     }
   }
 
-  /// Whether the scene is one of those; else nothing else may be called.
-  bool is_worthwhile() const { return is_few_; }
+  /// Whether the scene is one of those; where it is not, nothing else may be called.
+  bool is_worthwhile() const { return is_worthwhile_; }
 
-  /// As Bvh8Intersector::trace. `alone(i)` is called for queries that are better off with a tree.
-  template <bool any_hit, class RayOf, class Limit, class Answer, class Alone>
-  void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer, const Alone& alone) const {
+  /// Traces a batch (ray_intersector.h), but for the queries that a tree answers faster: those are left to `single(i)`.
+  template <bool any_hit, class RayOf, class Limit, class Answer, class Single>
+  void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer, const Single& single) const {
     for (uint32_t first = 0; first < count; first += width) {
       const uint32_t some = count - first < width ? count - first : width;
       if (some > width / 4)
         trace_group<any_hit>(first, some, ray, t_max, answer);
       else
-        for (uint32_t i = first; i < count; ++i) alone(i);
+        for (uint32_t i = first; i < count; ++i) single(i);
     }
   }
 
  private:
   static constexpr uint32_t width = most_register_bytes / sizeof(Real);
-  /// Where a tree is as fast, measured on scenes of triangles only and of spheres only.
+  /// A tree is as fast with this many, measured on scenes of triangles only and of spheres only.
   static constexpr uint32_t max_triangles = 7 * width, max_spheres = 8 * width;
   static constexpr uint32_t max_vertices = max_triangles;
   using V = Lanes<Real, static_cast<int>(width)>;
@@ -51,11 +52,11 @@ class BruteForcePackets {
   /// The rays of a group, a row a coordinate.
   struct Rays {
     alignas(64) Real origin[3][width], direction[3][width], time[width], limit[width];
-    alignas(64) Real left[width];  ///< the triangle that the ray starts from, counted as in Met; or -1
+    alignas(64) Real left[width];  ///< the triangle that the ray leaves, counted as in Hits; or -1
   };
 
-  /// What the rays have met so far: primitives are counted through, triangles before spheres before moving ones.
-  struct Met {
+  /// The nearest hits so far. Primitives are counted through: triangles, spheres, moving spheres.
+  struct Hits {
     V t, b1, b2, which;
     uint32_t lanes = 0;
 
@@ -66,12 +67,12 @@ class BruteForcePackets {
     }
   };
 
-  /// Of vertices in one place only one is kept. False where there are too many.
+  /// Keeps one of the vertices in one place. False where there are too many.
   bool take_triangles(const SceneView<Real>& scene) {
     for (uint32_t i = 0; i < triangles_; ++i)
       for (int v = 0; v < 3; ++v) {
         const Vec3<Real>& p = scene.positions[scene.triangles[i].vertex[v]];
-        uint32_t at = vertices_;  // searched from the last on: neighbours share them
+        uint32_t at = vertices_;  // from the last on: neighbours share them
         while (at > 0 && __builtin_memcmp(&vertex_[at - 1], &p, sizeof(p)) != 0) --at;
         if (at == 0) {
           if (vertices_ == max_vertices) return false;
@@ -99,28 +100,28 @@ class BruteForcePackets {
       rays.limit[i] = i < size && has_finite_origin(r) ? t_max(from) : Real(0);
     }
     const uint32_t wanted = (1u << (size - 1)) * 2 - 1;
-    Met met;
-    met.t = V::load(rays.limit);
-    met.b1 = met.b2 = met.which = V::all(0);
-    if (triangles_ > 0) intersect_triangles<any_hit>(rays, wanted, met);
-    if (spheres_ + moving_ > 0) intersect_spheres<any_hit>(rays, wanted, met);
+    Hits hits;
+    hits.t = V::load(rays.limit);
+    hits.b1 = hits.b2 = hits.which = V::all(0);
+    if (triangles_ > 0) intersect_triangles<any_hit>(rays, wanted, hits);
+    if (spheres_ + moving_ > 0) intersect_spheres<any_hit>(rays, wanted, hits);
     alignas(64) Real t[width], b1[width], b2[width], which[width];
-    met.t.store(t);
-    met.b1.store(b1);
-    met.b2.store(b2);
-    met.which.store(which);
+    hits.t.store(t);
+    hits.b1.store(b1);
+    hits.b2.store(b2);
+    hits.which.store(which);
     for (uint32_t i = 0; i < size; ++i) {
-      const bool found = met.lanes >> i & 1;
+      const bool found = hits.lanes >> i & 1;
       answer(first + i, found, Hit<Real>{t[i], b1[i], b2[i], primitive(static_cast<uint32_t>(which[i])), no_instance});
     }
   }
 
-  // Primitives come in the order of their identifiers, so that of those at the same distance the lowest is kept.
+  // Primitives are tested in the order of their identifiers, so that a tie goes to the lowest.
 
   template <bool any_hit>
-  ALHAZEN_INLINE void intersect_triangles(const Rays& rays, uint32_t wanted, Met& met) const {
+  ALHAZEN_INLINE void intersect_triangles(const Rays& rays, uint32_t wanted, Hits& hits) const {
     const V d[3] = {V::load(rays.direction[0]), V::load(rays.direction[1]), V::load(rays.direction[2])};
-    // The rays whose directions are longest along x, and along y.
+    // Rays whose directions are longest along x, and along y.
     const uint32_t x_over_y = less(magnitude(d[1]), magnitude(d[0]));
     const uint32_t along_x = x_over_y & less(magnitude(d[2]), magnitude(d[0]));
     const uint32_t along_y = ~x_over_y & less(magnitude(d[2]), magnitude(d[1]));
@@ -145,21 +146,21 @@ class BruteForcePackets {
       const uint32_t* const v = triangle_[i].vertex;
       const TriangleLanes<V> at(sheared[v[0]], sheared[v[1]], sheared[v[2]], shear[2]);
       if (at.inside == 0) continue;
-      uint32_t lanes = at.inside & less(V::all(0), at.t) & less(at.t, met.t);
+      uint32_t lanes = at.inside & less(V::all(0), at.t) & less(at.t, hits.t);
       if (lanes == 0) continue;
       lanes &= ~equal(left, V::all(static_cast<Real>(i)));
-      met.take(lanes, at.t, static_cast<Real>(i));
-      met.b1 = choose(lanes, at.e[1] * at.inverse, met.b1);
-      met.b2 = choose(lanes, at.e[2] * at.inverse, met.b2);
-      if (any_hit && (wanted & ~met.lanes) == 0) return;
+      hits.take(lanes, at.t, static_cast<Real>(i));
+      hits.b1 = choose(lanes, at.e[1] * at.inverse, hits.b1);
+      hits.b2 = choose(lanes, at.e[2] * at.inverse, hits.b2);
+      if (any_hit && (wanted & ~hits.lanes) == 0) return;
     }
   }
 
   template <bool any_hit>
-  ALHAZEN_INLINE void intersect_spheres(const Rays& rays, uint32_t wanted, Met& met) const {
+  ALHAZEN_INLINE void intersect_spheres(const Rays& rays, uint32_t wanted, Hits& hits) const {
     const V direction[3] = {V::load(rays.direction[0]), V::load(rays.direction[1]), V::load(rays.direction[2])};
     for (uint32_t i = 0; i < spheres_ + moving_; ++i) {
-      if (any_hit && (wanted & ~met.lanes) == 0) return;
+      if (any_hit && (wanted & ~hits.lanes) == 0) return;
       const Sphere& sphere = sphere_[i];
       const auto from_center = [&](int axis) {
         const V center = i < spheres_ ? V::all(sphere.center[axis])
@@ -169,11 +170,11 @@ class BruteForcePackets {
       const V f[3] = {from_center(0), from_center(1), from_center(2)};
       const SphereLanes<V> at(f, direction, V::all(sphere.radius));
       if (at.crossed == 0) continue;
-      const uint32_t lanes = at.crossed & less(V::all(0), at.t) & less(at.t, met.t);
+      const uint32_t lanes = at.crossed & less(V::all(0), at.t) & less(at.t, hits.t);
       if (lanes == 0) continue;
-      met.take(lanes, at.t, static_cast<Real>(triangles_ + i));
-      met.b1 = choose(lanes, V::all(0), met.b1);
-      met.b2 = choose(lanes, V::all(0), met.b2);
+      hits.take(lanes, at.t, static_cast<Real>(triangles_ + i));
+      hits.b1 = choose(lanes, V::all(0), hits.b1);
+      hits.b2 = choose(lanes, V::all(0), hits.b2);
     }
   }
 
@@ -193,7 +194,7 @@ class BruteForcePackets {
   };
 
   uint32_t triangles_, spheres_, moving_;
-  bool is_few_;
+  bool is_worthwhile_;
   Triangle triangle_[max_triangles];
   uint32_t vertices_ = 0;
   Vec3<Real> vertex_[max_vertices];

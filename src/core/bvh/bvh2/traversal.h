@@ -2,6 +2,7 @@
 
 // Closest-hit and any-hit queries over the binary BVH: nearer child first, a short stack of node indices.
 
+#include "core/bvh/ray_intersector.h"
 #include "core/bvh/stack.h"
 #include "core/scene_view.h"
 #include "core/shapes/instance.h"
@@ -10,8 +11,8 @@
 
 namespace ALHAZEN_CORE {
 
-/// A ray as the slab test wants it: reciprocals of its direction (infinite where a component is zero, which the test
-/// bears), and for each axis which of a node's planes it meets first.
+/// What the slab test needs of a ray: reciprocals of its direction, infinite where a component is zero, and for each
+/// axis whether it enters a box by the high plane.
 template <class Real>
 struct SlabRay {
   Vec3<Real> origin;
@@ -26,8 +27,7 @@ ALHAZEN_HD SlabRay<Real> slab_ray(const Ray<Real>& ray) {
 }
 
 /// Distance at which the ray enters the box, or infinity where it misses it or enters beyond t_max. Conservative: the
-/// far distance is raised by its rounding (Ize 2013, "Robust BVH Ray Traversal"). A NaN (origin on a slab's plane,
-/// direction within it) counts as inside.
+/// far distance is raised by its rounding (Ize 2013, "Robust BVH Ray Traversal").
 template <class Real>
 ALHAZEN_HD ALHAZEN_INLINE Real intersect_box(const Bvh2Node<Real>& node, const SlabRay<Real>& ray, Real t_max) {
   constexpr Real raise = 1 + 2 * rounding_bound<Real>(3);
@@ -42,66 +42,54 @@ ALHAZEN_HD ALHAZEN_INLINE Real intersect_box(const Bvh2Node<Real>& node, const S
   return t_near <= t_far ? t_near : infinity<Real>;
 }
 
-/// What a search for the nearest hit before t_max begins with: no primitive is lower than this one.
-template <class Real>
-ALHAZEN_HD Hit<Real> no_hit_before(Real t_max) {
-  return {t_max, 0, 0, PrimitiveId(PrimitiveKind::triangle, 0), 0};
-}
-
-/// Of hits at the same distance that of the lowest primitive counts, whatever the order in which a tree is walked.
-template <class Real>
-ALHAZEN_HD ALHAZEN_INLINE bool is_nearer(Real t, PrimitiveId primitive, const Hit<Real>& hit) {
-  return t < hit.t || (t == hit.t && primitive.bits < hit.primitive.bits);
-}
-
-/// Tests one primitive that is no instance; on a hit nearer than `hit` replaces it by one of the world. Of triangles
-/// the sheared ray alone is looked at.
+/// Tests one primitive that is no instance; a hit that is nearer than `hit` replaces it, outside of any instance.
+/// Triangles are tested against `sheared` alone.
 template <class Real>
 ALHAZEN_HD bool intersect_primitive(const SceneView<Real>& scene, PrimitiveId primitive, const Ray<Real>& ray,
                                     const ShearedRay<Real>& sheared, Hit<Real>& hit) {
   Hit<Real> found{hit.t, 0, 0, primitive};
-  bool met = false;
+  bool is_hit = false;
   switch (primitive.kind()) {
     case PrimitiveKind::triangle: {
       if (primitive == sheared.left) return false;
       const uint32_t* v = scene.triangles[primitive.index()].vertex;
-      met = intersect_triangle(sheared, scene.positions[v[0]], scene.positions[v[1]], scene.positions[v[2]], hit.t,
-                               found.t, found.b1, found.b2);
+      is_hit = intersect_triangle(sheared, scene.positions[v[0]], scene.positions[v[1]], scene.positions[v[2]], hit.t,
+                                  found.t, found.b1, found.b2);
       break;
     }
     case PrimitiveKind::sphere: {
       const SphereRecord<Real>& s = scene.spheres[primitive.index()];
-      met = intersect_sphere(ray, s.center, s.radius, hit.t, found.t);
+      is_hit = intersect_sphere(ray, s.center, s.radius, hit.t, found.t);
       break;
     }
     case PrimitiveKind::moving_sphere: {
       const MovingSphereRecord<Real>& s = scene.moving_spheres[primitive.index()];
-      met = intersect_sphere(ray, s.center + s.motion * ray.time, s.radius, hit.t, found.t);
+      is_hit = intersect_sphere(ray, s.center + s.motion * ray.time, s.radius, hit.t, found.t);
       break;
     }
     case PrimitiveKind::instance:
       break;
   }
-  if (!met || !is_nearer(found.t, primitive, hit)) return false;
+  if (!is_hit || !is_nearer(found.t, primitive, hit)) return false;
   hit = found;
   return true;
 }
 
-/// A node that is yet to be visited, and where the ray enters it.
+/// A node that is yet to be visited, and the distance at which the ray enters it.
 template <class Real>
 struct Bvh2StackEntry {
   uint32_t node;
   Real t;
 };
 
-/// A ray in the space where it is walked, and which instance that is of: what is above `base` on the stack lies in it.
+/// A ray in the space of the world or of an instance. Stack entries above `base` are nodes of that instance.
 template <class Real>
 struct TraversalSpace {
   SlabRay<Real> slabs;
   ShearedRay<Real> sheared;
   uint32_t instance = no_instance;
   int base = 0;
-  PrimitiveId outer;  ///< what the hit was before
+  PrimitiveId outer;  ///< hit.primitive before bound_within
 
   ALHAZEN_HD explicit TraversalSpace(const Ray<Real>& ray) : slabs(slab_ray(ray)), sheared(shear_ray(ray)) {}
 
@@ -125,8 +113,8 @@ struct TraversalSpace {
   }
 };
 
-/// Walks the tree. With `any_hit` it ends at the first primitive met before `hit.t`. Instances are alone in their leaf.
-template <bool any_hit, class Real, class Stacks>
+/// Traverses the tree; with `any_hit` it ends at the first hit. An instance is alone in its leaf.
+template <bool any_hit, class Real, StackMaker Stacks>
 ALHAZEN_HD bool traverse_bvh2(const SceneView<Real>& scene, const Ray<Real>& ray, const Stacks& stacks,
                               Hit<Real>& hit) {
   if (scene.bvh2_nodes_count == 0) return false;
@@ -175,24 +163,20 @@ ALHAZEN_HD bool traverse_bvh2(const SceneView<Real>& scene, const Ray<Real>& ray
   }
 }
 
-/// The ray queries that integrators ask, answered by the BVH. Embree or OptiX stand in its place.
-template <class Real, class Stacks = LocalStacks>
+/// Answers ray queries by the binary BVH.
+template <class Real, StackMaker Stacks = LocalStacks>
 class Bvh2Intersector {
  public:
   ALHAZEN_HD explicit Bvh2Intersector(const SceneView<Real>& scene, const Stacks& stacks = {})
       : scene_(&scene), stacks_(stacks) {}
 
-  /// The nearest hit before t_max; among hits at the same distance that of the lowest primitive.
   ALHAZEN_HD bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
-    hit = no_hit_before(t_max);
-    const bool found = traverse_bvh2<false>(*scene_, ray, stacks_, hit);
-    if (!found) hit.primitive = PrimitiveId();
-    return found;
+    hit = end_of_interval(t_max);
+    return traverse_bvh2<false>(*scene_, ray, stacks_, hit);
   }
 
-  /// Whether anything stands before t_max.
   ALHAZEN_HD bool occluded(const Ray<Real>& ray, Real t_max) const {
-    Hit<Real> hit = no_hit_before(t_max);
+    Hit<Real> hit = end_of_interval(t_max);
     return traverse_bvh2<true>(*scene_, ray, stacks_, hit);
   }
 
@@ -200,5 +184,6 @@ class Bvh2Intersector {
   const SceneView<Real>* scene_;
   Stacks stacks_;
 };
+static_assert(RayIntersector<Bvh2Intersector<float>, float> && RayIntersector<Bvh2Intersector<double>, double>);
 
 }  // namespace ALHAZEN_CORE

@@ -1,21 +1,21 @@
 #pragma once
 
-// A ray against a block of primitives at once.
+// Tests of a ray against a block of primitives at once.
 
 #include "core/bvh/bvh8/node.h"
 #include "core/bvh/bvh8/primitive_tests.h"
 
 namespace ALHAZEN_CORE {
 
-/// Of `lanes`, which might be hit, replaces `hit` by the nearest at a distance in (0, hit.t]. `left` is skipped.
-template <class Met, class Real>
-ALHAZEN_INLINE bool take_nearest(const Met& met, uint32_t lanes, const uint32_t* index, PrimitiveKind kind,
+/// Replaces `hit` by the nearest hit of `lanes` that comes before it (is_nearer); skips `left`.
+template <class HitLanes, class Real>
+ALHAZEN_INLINE bool take_nearest(const HitLanes& hits, uint32_t lanes, const uint32_t* index, PrimitiveKind kind,
                                  PrimitiveId left, Hit<Real>& hit) {
-  using V = decltype(met.t);
-  lanes &= less(V::all(0), met.t) & less_equal(met.t, V::all(hit.t));
+  using V = decltype(hits.t);
+  lanes &= less(V::all(0), hits.t) & less_equal(hits.t, V::all(hit.t));
   if (lanes == 0) return false;
   Real distance[sizeof(V) / sizeof(Real)];
-  met.t.store(distance);
+  hits.t.store(distance);
   int nearest = -1;
   for (; lanes != 0; lanes &= lanes - 1) {
     const int lane = std::countr_zero(lanes);
@@ -26,7 +26,7 @@ ALHAZEN_INLINE bool take_nearest(const Met& met, uint32_t lanes, const uint32_t*
     nearest = lane;
   }
   if (nearest < 0) return false;
-  met.fill(nearest, hit);
+  hits.fill(nearest, hit);
   return true;
 }
 
@@ -37,18 +37,18 @@ ALHAZEN_INLINE bool intersect_block(const TriangleBlock<Real>& block, const Ray<
   const int axis[3] = {ray.kx, ray.ky, ray.kz};
   const V origin[3] = {V::all(ray.origin.x), V::all(ray.origin.y), V::all(ray.origin.z)};
   const V shear[3] = {V::all(ray.shear.x), V::all(ray.shear.y), V::all(ray.shear.z)};
-  const TriangleLanes<V> met([&](int v, int k) { return V::load(block.vertex[v][axis[k]]); }, origin, shear);
-  if (met.inside == 0) return false;
-  return take_nearest(met, met.inside, block.index, PrimitiveKind::triangle, ray.left, hit);
+  const TriangleLanes<V> hits([&](int v, int k) { return V::load(block.vertex[v][axis[k]]); }, origin, shear);
+  if (hits.inside == 0) return false;
+  return take_nearest(hits, hits.inside, block.index, PrimitiveKind::triangle, ray.left, hit);
 }
 
 template <class V, class Real>
 ALHAZEN_INLINE bool intersect_spheres(const V (&f)[3], const Real* radii, const uint32_t* index, PrimitiveKind kind,
                                       const Ray<Real>& ray, Hit<Real>& hit) {
   const V d[3] = {V::all(ray.direction.x), V::all(ray.direction.y), V::all(ray.direction.z)};
-  const SphereLanes<V> met(f, d, V::load(radii));
-  if (met.crossed == 0) return false;
-  return take_nearest(met, met.crossed, index, kind, PrimitiveId(), hit);
+  const SphereLanes<V> hits(f, d, V::load(radii));
+  if (hits.crossed == 0) return false;
+  return take_nearest(hits, hits.crossed, index, kind, PrimitiveId(), hit);
 }
 
 template <class Real>
@@ -75,14 +75,14 @@ ALHAZEN_INLINE bool intersect_block(const MovingSphereBlock<Real>& block, const 
 template <class Block, class Real>
 ALHAZEN_INLINE bool intersect_blocks(const Block* blocks, uint32_t child, const Ray<Real>& ray,
                                      const ShearedRay<Real>& sheared, Hit<Real>& hit) {
-  bool met = false;
+  bool is_hit = false;
   const Block* block = blocks + Bvh8Child::first(child);
   for (const Block* const end = block + Bvh8Child::blocks(child); block != end; ++block)
-    met |= intersect_block(*block, ray, sheared, hit);
-  return met;
+    is_hit |= intersect_block(*block, ray, sheared, hit);
+  return is_hit;
 }
 
-/// All that a child that is no node holds.
+/// Tests all primitives of a child that is a leaf.
 template <class Real>
 ALHAZEN_INLINE bool intersect_leaf(const SceneView<Real>& scene, uint32_t child, const Ray<Real>& ray,
                                    const ShearedRay<Real>& sheared, Hit<Real>& hit) {

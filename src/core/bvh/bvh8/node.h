@@ -1,7 +1,7 @@
 #pragma once
 
-// The BVH that CPUs walk: 8 children a node, primitives of one kind in blocks, all laid out as SIMD instructions take
-// them. Boxes are float in both precisions, so that double costs no more than its primitives do.
+// The BVH of CPUs: 8 children a node, primitives of one kind in blocks, as structures of arrays for SIMD instructions.
+// Boxes are float in both precisions, so that double costs no more than its primitives do.
 
 #include <cstdint>
 
@@ -11,7 +11,7 @@ namespace ALHAZEN_CORE {
 
 inline constexpr int bvh8_width = 8;
 
-/// What stands below a node: another node, or blocks of primitives of one kind.
+/// A child of a node: another node, or a leaf of blocks of primitives of one kind.
 struct Bvh8Child {
   enum Kind : uint32_t { node = 0, triangles = 1, spheres = 2, moving_spheres = 3 };
   static constexpr uint32_t index_bits = 26, max_blocks = 15;
@@ -22,11 +22,11 @@ struct Bvh8Child {
   static constexpr Kind kind(uint32_t child) { return static_cast<Kind>(child >> 30); }
   static constexpr uint32_t blocks(uint32_t child) { return child >> index_bits & max_blocks; }
   static constexpr uint32_t first(uint32_t child) { return child & ((1u << index_bits) - 1); }
-  /// An instance: no blocks of spheres, and its index.
+  /// An instance is told apart by a leaf of no spheres, which holds its index.
   static constexpr uint32_t instance(uint32_t index) { return pack(spheres, 0, index); }
   static constexpr bool is_instance(uint32_t child) { return child >> index_bits == instance(0) >> index_bits; }
   static constexpr uint32_t max_index_count = 1u << index_bits;
-  /// Stands in the places that a node leaves free.
+  /// An empty leaf: fills the slots that a node leaves free.
   static constexpr uint32_t nothing = 1u << 30;
 };
 
@@ -35,7 +35,7 @@ struct alignas(32) Bvh8Node {
   uint32_t child[bvh8_width];
 };
 
-/// Lanes that hold no triangle have all their vertices in one point, which is never met.
+/// Lanes without a triangle have all three vertices in one point, which is never hit.
 template <class Real>
 struct TriangleBlock {
   static constexpr int lanes = 4;
@@ -43,7 +43,7 @@ struct TriangleBlock {
   uint32_t index[lanes];     ///< in SceneView::triangles
 };
 
-/// Lanes that hold no sphere have a radius that is not a number.
+/// Lanes without a sphere have a radius that is NaN.
 template <class Real>
 struct SphereBlock {
   static constexpr int lanes = 8;

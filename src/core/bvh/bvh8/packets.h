@@ -1,8 +1,8 @@
 #pragma once
 
-// Closest-hit queries of rays that go much the same way, such as camera rays of one pixel: as many at a time as a
-// register has floats, walking the BVH of bvh8_root.h together. A node's children are each tested against all rays;
-// where few rays are left, each of them against all children. What a ray meets does not depend on the others.
+// Closest hits of coherent rays, such as camera rays of one pixel: a packet of as many as a register has floats
+// traverses the BVH8. A node's children are each tested against all rays; where few rays are active, each ray against
+// all children. What a ray hits does not depend on the others.
 
 #include <bit>
 
@@ -19,8 +19,8 @@ class RayPacket {
 
   static constexpr int width = most_register_bytes / static_cast<int>(sizeof(float));
 
-  /// `ray(i)` and `t_max(i)` for i below `count` <= width. False where the rays go so different ways that they are
-  /// better off alone: then nothing else may be called.
+  /// `ray(i)` and `t_max(i)` for i below `count` <= width. False where the rays are not coherent enough for a
+  /// packet: then nothing else may be called.
   template <class RayOf, class Limit>
   ALHAZEN_INLINE bool load(uint32_t count, const RayOf& ray, const Limit& t_max) {
     for (uint32_t i = 0; i < width; ++i) {
@@ -35,16 +35,16 @@ class RayPacket {
         float_direction_[axis][i] = static_cast<float>(r.direction[axis]);
       }
       time_[i] = r.time;
-      hits_[i] = no_hit_before(t_max(from));
+      hits_[i] = end_of_interval(t_max(from));
       hits_[i].instance = no_instance;  // packets are for scenes without
       limit_[i] = box_t_max(hits_[i].t);
     }
     active_ = (1u << (count - 1)) * 2 - 1;
-    met_ = 0;
+    hit_rays_ = 0;
     return make_box_rays() && shear();
   }
 
-  void walk(const SceneView<Real>& scene) {
+  void traverse(const SceneView<Real>& scene) {
     if (scene.bvh8_nodes_count == 0) return;
     height_ = 0;
     uint32_t child = 0, rays = active_;
@@ -56,7 +56,7 @@ class RayPacket {
     } while (pop(child, rays));
   }
 
-  bool found(uint32_t i) const { return met_ >> i & 1; }
+  bool found(uint32_t i) const { return hit_rays_ >> i & 1; }
   const Hit<Real>& hit(uint32_t i) const { return hits_[i]; }
 
  private:
@@ -64,7 +64,7 @@ class RayPacket {
   using V = Lanes<Real, width>;
   static constexpr uint32_t all_rays = (1u << (width - 1)) * 2 - 1;
 
-  /// What box_ray does, for all of them. False where they do not lie in one octant, or are none.
+  /// box_ray of all rays. False where they are not of one octant or not finite.
   ALHAZEN_INLINE bool make_box_rays() {
     const F zero = F::all(0), most = F::all(infinity<float>);
     F reach = zero;
@@ -86,7 +86,7 @@ class RayPacket {
     return true;
   }
 
-  /// What shear_ray does. False where their directions are not longest along the same axis.
+  /// shear_ray of all rays. False where their directions are not longest along the same axis.
   ALHAZEN_INLINE bool shear() {
     const V x = magnitude(V::load(direction_[0])), y = magnitude(V::load(direction_[1])),
             z = magnitude(V::load(direction_[2]));
@@ -123,14 +123,14 @@ class RayPacket {
             left_[ray]};
   }
 
-  /// So few rays are tested one by one.
-  static constexpr int few = width / 4;
+  /// Up to this many active rays are tested singly.
+  static constexpr int max_single_rays = width / 4;
 
-  /// Puts the children that rays enter on the stack, the nearest on top, near being where the first of its rays does.
+  /// Pushes the children that are entered, the nearest last, by the entry of the first ray of each.
   ALHAZEN_INLINE void enter(const Bvh8Node& node, uint32_t rays) {
     alignas(64) float entry[bvh8_width][width];
     uint32_t entered[bvh8_width];
-    if (std::popcount(rays) <= few)
+    if (std::popcount(rays) <= max_single_rays)
       enter_singly(node, rays, entry, entered);
     else
       enter_together(node, rays, entry, entered);
@@ -191,7 +191,7 @@ class RayPacket {
     }
   }
 
-  /// The next child with those of its rays that have met nothing nearer since.
+  /// Pops the next child, with those of its rays that have no nearer hit since.
   ALHAZEN_INLINE bool pop(uint32_t& child, uint32_t& rays) {
     while (height_ > 0) {
       --height_;
@@ -220,8 +220,8 @@ class RayPacket {
     for (const Block* const end = block + Bvh8Child::blocks(child); block != end; ++block) {
       const int primitives = count_of(*block);
       if (std::popcount(rays) <= primitives) {
-        for (uint32_t left = rays; left != 0; left &= left - 1) {
-          const int ray = std::countr_zero(left);
+        for (uint32_t active = rays; active != 0; active &= active - 1) {
+          const int ray = std::countr_zero(active);
           if (intersect_block(*block, *rays_[ray], sheared_ray_of(ray), hits_[ray])) note_hit(ray);
         }
       } else {
@@ -230,7 +230,7 @@ class RayPacket {
     }
   }
 
-  /// How many primitives a block holds: the places behind them repeat the last.
+  /// How many primitives a block holds: the lanes behind them repeat the last.
   template <class Block>
   static ALHAZEN_INLINE int count_of(const Block& block) {
     int count = 1;
@@ -241,9 +241,9 @@ class RayPacket {
   ALHAZEN_INLINE void intersect_primitive_of(const TriangleBlock<Real>& block, int p, uint32_t rays) {
     const V origin[3] = {V::load(origin_[axis_[0]]), V::load(origin_[axis_[1]]), V::load(origin_[axis_[2]])};
     const V shear[3] = {V::load(shear_[0]), V::load(shear_[1]), V::load(shear_[2])};
-    const TriangleLanes<V> met([&](int v, int k) { return V::all(block.vertex[v][axis_[k]][p]); }, origin, shear);
-    if ((met.inside & rays) == 0) return;
-    take(met, met.inside & rays, PrimitiveId(PrimitiveKind::triangle, block.index[p]));
+    const TriangleLanes<V> hits([&](int v, int k) { return V::all(block.vertex[v][axis_[k]][p]); }, origin, shear);
+    if ((hits.inside & rays) == 0) return;
+    take(hits, hits.inside & rays, PrimitiveId(PrimitiveKind::triangle, block.index[p]));
   }
 
   ALHAZEN_INLINE void intersect_primitive_of(const SphereBlock<Real>& block, int p, uint32_t rays) {
@@ -263,24 +263,24 @@ class RayPacket {
 
   ALHAZEN_INLINE void intersect_sphere_of(const V (&f)[3], Real radius, PrimitiveId id, uint32_t rays) {
     const V direction[3] = {V::load(direction_[0]), V::load(direction_[1]), V::load(direction_[2])};
-    const SphereLanes<V> met(f, direction, V::all(radius));
-    if ((met.crossed & rays) == 0) return;
-    take(met, met.crossed & rays, id);
+    const SphereLanes<V> hits(f, direction, V::all(radius));
+    if ((hits.crossed & rays) == 0) return;
+    take(hits, hits.crossed & rays, id);
   }
 
-  /// What take_nearest does, where a lane is a ray. Only triangles are skipped, by their `left` alone: packets are for
-  /// scenes without instances.
-  template <class Met>
-  ALHAZEN_INLINE void take(const Met& met, uint32_t rays, PrimitiveId id) {
-    rays &= less(V::all(0), met.t);
+  /// take_nearest where a lane is a ray. Packets are for scenes without instances, so `left` alone says what is
+  /// skipped.
+  template <class HitLanes>
+  ALHAZEN_INLINE void take(const HitLanes& hits, uint32_t rays, PrimitiveId id) {
+    rays &= less(V::all(0), hits.t);
     if (rays == 0) return;
     Real distance[width];
-    met.t.store(distance);
+    hits.t.store(distance);
     for (; rays != 0; rays &= rays - 1) {
       const int ray = std::countr_zero(rays);
       Hit<Real>& hit = hits_[ray];
       if (id == left_[ray] || !is_nearer(distance[ray], id, hit)) continue;
-      met.fill(ray, hit);
+      hits.fill(ray, hit);
       hit.t = distance[ray];
       hit.primitive = id;
       note_hit(ray);
@@ -288,7 +288,7 @@ class RayPacket {
   }
 
   ALHAZEN_INLINE void note_hit(int ray) {
-    met_ |= 1u << ray;
+    hit_rays_ |= 1u << ray;
     limit_[ray] = box_t_max(hits_[ray].t);
   }
 
@@ -297,16 +297,16 @@ class RayPacket {
   };
 
   const Bvh8Prefetch<Real>& prefetch_;
-  // A row a coordinate, a place in it a ray.
+  // A row a coordinate, a column a ray.
   alignas(64) float inverse_[3][width], near_offset_[3][width], far_offset_[3][width], limit_[width];
   alignas(64) float float_origin_[3][width], float_direction_[3][width];
   alignas(64) Real origin_[3][width], direction_[3][width], shear_[3][width], time_[width];
   uint32_t near_row_[3];
   int axis_[3];  ///< kx, ky, kz
-  uint32_t active_ = 0, met_ = 0;
+  uint32_t active_ = 0, hit_rays_ = 0;
   int height_ = 0;
   const Ray<Real>* rays_[width];
-  PrimitiveId left_[width];  ///< where that is a triangle
+  PrimitiveId left_[width];  ///< Ray::left where it is a triangle
   Hit<Real> hits_[width];
   F stack_entry_[bvh8_stack_size];
   Entry stack_[bvh8_stack_size];

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the next step of a walk reads is asked for before it is needed.
+// Prefetches what the next step of a traversal reads.
 
 #include <cstddef>
 
@@ -9,7 +9,7 @@
 
 namespace ALHAZEN_CORE {
 
-/// Where the children of each kind lie, for fetching them without a branch.
+/// The arrays of the kinds of children, so that one is prefetched without a branch.
 template <class Real>
 class Bvh8Prefetch {
  public:

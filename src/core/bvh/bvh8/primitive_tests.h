@@ -1,8 +1,8 @@
 #pragma once
 
-// The primitive tests of core/shapes on several lanes, operation by operation, so that hits are the same to the last
-// bit, whatever the instruction set. A lane is a pair of a ray and a primitive: one ray and many primitives
-// (simd_blocks.h) or many rays and one primitive (simd_packet.h).
+// The primitive tests of core/shapes/ on several lanes, operation by operation, so that hits are the same to the last
+// bit by every instruction set. A lane is a pair of a ray and a primitive: one ray and many primitives (blocks.h), or
+// many rays and one primitive (packets.h).
 
 #include <bit>
 
@@ -11,7 +11,7 @@
 
 namespace ALHAZEN_CORE {
 
-/// Vertices as seen along the rays, about their origins; z is yet to be scaled by the third of `shear`.
+/// Vertices in the sheared spaces of the rays; z is yet to be scaled by the third of `shear`.
 template <class V>
 struct ShearedLanes {
   V x, y, z;
@@ -25,12 +25,12 @@ struct ShearedLanes {
   }
 };
 
-/// Where the rays meet the triangles' planes (Woop, Benthin, Wald 2013).
+/// Watertight intersections of rays and triangles (Woop, Benthin, Wald 2013).
 template <class V>
 struct TriangleLanes {
   V e[3];  ///< edge functions
   V inverse, t;
-  uint32_t inside = 0;  ///< a bit for each lane; where none is set, `inverse` and `t` are not there
+  uint32_t inside = 0;  ///< a bit a lane; where none is set, `inverse` and `t` are not computed
 
   /// `vertex(v, k)` is coordinate k of vertex v; k is 0 to 2 and stands for the ray's axes kx, ky, kz.
   template <class Vertex>
@@ -46,7 +46,7 @@ struct TriangleLanes {
     e[2] = a.x * b.y - a.y * b.x;
     inside = less_equal(zero, smaller(smaller(e[0], e[1]), e[2])) | less_equal(larger(larger(e[0], e[1]), e[2]), zero);
     if (inside == 0) return;
-    // Where the sum is 0, t is infinite or not a number, and not taken.
+    // Where the sum is 0, t is infinite or NaN, and no hit.
     inverse = V::all(1) / (e[0] + e[1] + e[2]);
     t = (e[0] * (a.z * scale) + e[1] * (b.z * scale) + e[2] * (c.z * scale)) * inverse;
   }
@@ -68,13 +68,13 @@ struct TriangleLanes {
   }
 };
 
-/// Where the rays meet the spheres.
+/// Intersections of rays and spheres.
 template <class V>
 struct SphereLanes {
   V t;
-  uint32_t crossed = 0;  ///< a bit for each lane that might be met; where none is set, `t` is not there
+  uint32_t crossed = 0;  ///< a bit a lane that may be hit; where none is set, `t` is not computed
 
-  /// Spheres about `f` from their centres to the rays' origins.
+  /// `f` leads from the centres to the origins of the rays.
   ALHAZEN_INLINE SphereLanes(const V (&f)[3], const V (&d)[3], const V& radius) {
     const V zero = V::all(0);
     const V b = zero - (f[0] * d[0] + f[1] * d[1] + f[2] * d[2]);
@@ -84,7 +84,7 @@ struct SphereLanes {
     crossed = less_equal(zero, discriminant);
     if (crossed == 0) return;
     const V c = f[0] * f[0] + f[1] * f[1] + f[2] * f[2] - radius * radius;
-    // Of what lies behind rays that begin outside both distances are negative: no need to wait for them.
+    // Behind a ray that begins outside both distances are negative: no need to compute them.
     crossed &= ~(less(b, zero) & less(zero, c));
     if (crossed == 0) return;
     const V root = square_root(discriminant);

@@ -1,6 +1,6 @@
 #pragma once
 
-// A ray and the boxes of a Bvh8Node, and what of the walk is the same for one ray and for many.
+// A ray against the boxes of a Bvh8Node, and what traversals of one ray and of packets share.
 
 #include <bit>
 
@@ -12,19 +12,19 @@
 
 namespace ALHAZEN_CORE {
 
-/// A ray as boxes are tested: side * inverse + near_offset is where it enters a slab, side * inverse + far_offset where
-/// it leaves it. The offsets are apart by more than rounding can add up to, the boxes too are wider (padded_box): a box
-/// is never missed that holds what the primitive tests find.
+/// A ray for the slab test: it enters a slab at side * inverse + near_offset and leaves it at side * inverse +
+/// far_offset. The offsets differ by more than rounding adds up to, and boxes are padded (padded_box), so a box that
+/// holds what a primitive test finds is never missed.
 struct BoxRay {
   float inverse[3], near_offset[3], far_offset[3];
-  uint32_t near_row[3];  ///< which bounds of a node the ray meets first
+  uint32_t near_row[3];  ///< the bounds of a node by which the ray enters
   uint32_t octant;       ///< a bit for each axis along which the direction is negative
 };
 
 /// Relative widening of rays and of boxes: a few times the rounding of float.
 inline constexpr float box_slack = 4e-7f;
 
-/// Directions this close to a slab's plane do not leave it, and the offsets of coordinates up to 1e20 stay finite.
+/// Smaller components of directions are raised to this, so that offsets of coordinates up to 1e20 stay finite.
 inline constexpr float least_direction = 1e-18f;
 
 template <class Real>
@@ -46,7 +46,7 @@ ALHAZEN_INLINE BoxRay box_ray(const Ray<Real>& ray) {
   return b;
 }
 
-/// Where a ray enters and leaves the boxes of a node's children.
+/// The distances at which a ray enters and leaves the boxes of a node's children.
 struct ChildIntervals {
   Lanes<float, bvh8_width> near, far;
 
@@ -54,7 +54,7 @@ struct ChildIntervals {
   ALHAZEN_INLINE uint32_t children() const { return less_equal(near, far); }
 };
 
-/// Up to t_max.
+/// Clipped to [0, t_max].
 ALHAZEN_INLINE ChildIntervals intersect_children(const Bvh8Node& node, const BoxRay& ray, float t_max) {
   using V = Lanes<float, bvh8_width>;
   const auto side = [&](int axis, uint32_t row, float offset) {
@@ -62,13 +62,13 @@ ALHAZEN_INLINE ChildIntervals intersect_children(const Bvh8Node& node, const Box
   };
   const auto near = [&](int axis) { return side(axis, ray.near_row[axis], ray.near_offset[axis]); };
   const auto far = [&](int axis) { return side(axis, ray.near_row[axis] ^ 1, ray.far_offset[axis]); };
-  // A number that is none counts as inside.
+  // NaN counts as inside.
   return {larger(larger(near(0), near(1)), larger(near(2), V::all(0))),
           smaller(smaller(far(0), far(1)), smaller(far(2), V::all(t_max)))};
 }
 
-/// For each octant of directions, the children from the one that a ray meets last to the one that it meets first, as
-/// far as their slots say (compile/bvh/octant_slots.h).
+/// For each octant of directions, the children from the farthest to the nearest, as far as their slots tell
+/// (compile/bvh/octant_slots.h).
 struct OctantOrders {
   uint32_t of_octant[8][bvh8_width];
 };
@@ -80,17 +80,17 @@ inline constexpr OctantOrders octant_orders = [] {
   return orders;
 }();
 
-/// One level of the tree leaves at most 7 children behind.
+/// A level of the tree leaves at most 7 children on the stack.
 inline constexpr int max_bvh8_depth = max_bvh2_depth + 4;
 inline constexpr int bvh8_stack_size = (bvh8_width - 1) * max_bvh8_depth + bvh8_width;
 
-/// Boxes are entered up to a little beyond a hit at t, whose own distance is rounded.
+/// The t_max of box tests after a hit at t: a little beyond, since t is rounded.
 template <class Real>
 ALHAZEN_INLINE float box_t_max(Real t) {
   return static_cast<float>(t) * (1 + 8 * box_slack);
 }
 
-/// Whether there is a ray at all: what comes of infinities meets nothing.
+/// Where this is false, the ray hits nothing and is not traversed.
 template <class Real>
 ALHAZEN_INLINE bool has_finite_origin(const Ray<Real>& ray) {
   return max_component(abs(ray.origin)) < infinity<Real>;

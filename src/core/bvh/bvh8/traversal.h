@@ -1,153 +1,224 @@
 #pragma once
 
-// Closest-hit and any-hit queries over the BVH of bvh8_root.h, for one ray or for many at a time. In a tree larger than
-// the caches many are walked in turns, a step each, what the next step of a ray reads being fetched while the others
-// have theirs: so the waits for memory and for each other's results overlap. Rays that go much the same way walk in
-// packets (simd_packet.h), unless there are instances. What a ray meets does not depend on the others.
+// Traversal of the BVH8 by one ray, a step at a time, over one of two kinds of stacks.
 
 #include <bit>
+#include <concepts>
+#include <type_traits>
 
-#include "core/bvh/brute_force/packets.h"
-#include "core/bvh/bvh8/packets.h"
-#include "core/bvh/bvh8/prefetch.h"
-#include "core/bvh/bvh8/walk.h"
+#include "core/bvh/bvh8/blocks.h"
+#include "core/bvh/bvh8/ray.h"
 
 namespace ALHAZEN_CORE {
 
-/// How many rays take turns.
-inline constexpr uint32_t interleaved_rays = 12;
-
-/// In a tree no larger than this, which the caches near a core hold, there is little to wait for: rays walk alone.
-inline constexpr size_t max_cached_bytes = size_t{1} << 19;
-
-/// The ray queries that integrators ask, answered by the BVH of CPUs.
-template <class Real>
-class Bvh8Intersector {
+/// Visits the nearest child first; sorts by branches, since speculation hides latencies while a ray is alone.
+template <bool any_hit>
+class NearestFirst {
  public:
-  explicit Bvh8Intersector(const SceneView<Real>& scene, const void* = nullptr)
-      : scene_(&scene), few_(scene), fits_cache_(bytes(scene) <= max_cached_bytes) {}
-
-  /// The nearest hit before t_max; among hits at the same distance that of the lowest primitive.
-  bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
-    return has_instances() ? walk<false, true>(ray, t_max, hit) : walk<false, false>(ray, t_max, hit);
-  }
-
-  /// Whether anything stands before t_max.
-  bool occluded(const Ray<Real>& ray, Real t_max) const {
-    Hit<Real> hit;
-    return has_instances() ? walk<true, true>(ray, t_max, hit) : walk<true, false>(ray, t_max, hit);
-  }
-
-  /// `ray(i)` and `t_max(i)` are query i of `count`; `answer(i, found, hit)` is called once for each, in any order, and
-  /// need not look at the hit of an any-hit query.
-  template <bool any_hit, class RayOf, class Limit, class Answer>
-  void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    if (few_.is_worthwhile())
-      few_.template trace<any_hit>(count, ray, t_max, answer, [&](uint32_t i) {
-        Hit<Real> hit;
-        const bool found = walk<any_hit, false>(ray(i), t_max(i), hit);
-        answer(i, found, hit);
-      });
-    else if (has_instances())
-      trace_interleaved<any_hit, true>(count, ray, t_max, answer);
-    else if (fits_cache_)
-      trace_single<any_hit>(count, ray, t_max, answer);
-    else
-      trace_interleaved<any_hit>(count, ray, t_max, answer);
-  }
-
-  /// The same for closest hits of rays of which neighbours go much the same way.
-  template <class RayOf, class Limit, class Answer>
-  void trace_coherent(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    if (has_instances()) return trace_interleaved<false, true>(count, ray, t_max, answer);
-    constexpr uint32_t width = RayPacket<Real>::width;
-    const Bvh8Prefetch<Real> prefetch(*scene_);
-    RayPacket<Real> packet(prefetch);
-    for (uint32_t first = 0; first < count; first += width) {
-      const uint32_t some = count - first < width ? count - first : width;
-      const auto ray_of = [&](uint32_t i) -> const Ray<Real>& { return ray(first + i); };
-      const auto limit_of = [&](uint32_t i) { return t_max(first + i); };
-      const auto answer_of = [&](uint32_t i, bool found, const Hit<Real>& hit) { answer(first + i, found, hit); };
-      if (some <= width / 4 || !packet.load(some, ray_of, limit_of)) {
-        trace<false>(some, ray_of, limit_of, answer_of);
-        continue;
+  /// Pushes all children entered but the nearest, which becomes `current`. False where none is entered.
+  ALHAZEN_INLINE bool push(const Bvh8Node& node, const BoxRay& ray, float t_max, int& height, uint32_t& current) {
+    const ChildIntervals entry = intersect_children(node, ray, t_max);
+    uint32_t entered = entry.children();
+    if (entered == 0) return false;
+    float t[bvh8_width];
+    entry.near.store(t);
+    const auto next = [&]() -> uint64_t {
+      const int child = std::countr_zero(entered);
+      entered &= entered - 1;
+      // Distances from 0 on sort as their bits do.
+      return any_hit ? node.child[child]
+                     : static_cast<uint64_t>(std::bit_cast<uint32_t>(t[child])) << 32 | node.child[child];
+    };
+    uint64_t nearest = next();
+    if constexpr (any_hit) {
+      for (; entered != 0; nearest = next()) entries_[height++] = nearest;
+    } else if (entered != 0) {
+      const uint64_t second = next();
+      const int base = height;
+      entries_[height++] = larger(nearest, second);
+      nearest = smaller(nearest, second);
+      while (entered != 0) {
+        const uint64_t another = next();
+        const uint64_t farther = larger(nearest, another);
+        nearest = smaller(nearest, another);
+        int place = height++;
+        for (; place > base && entries_[place - 1] < farther; --place) entries_[place] = entries_[place - 1];
+        entries_[place] = farther;
       }
-      packet.walk(*scene_);
-      for (uint32_t i = 0; i < some; ++i) answer_of(i, packet.found(i), packet.hit(i));
     }
+    current = static_cast<uint32_t>(nearest);
+    return true;
   }
 
-  /// What `trace` does where the tree is larger than the caches.
-  template <bool any_hit, bool instances = false, class RayOf, class Limit, class Answer>
-  void trace_interleaved(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    const Bvh8Prefetch<Real> prefetch(*scene_);
-    Bvh8Traversal<any_hit, instances, Real, OctantFirst<any_hit>> walks[interleaved_rays];
-    OctantFirst<any_hit> stacks[interleaved_rays];
-    uint32_t query[interleaved_rays], live = 0, next = 0;
-    for (; live < interleaved_rays && next < count; ++live, ++next) {
-      query[live] = next;
-      walks[live].use(&stacks[live]);
-      walks[live].start(*scene_, ray(next), t_max(next));
+  /// Pops the next child above `base` that t_max leaves.
+  ALHAZEN_INLINE bool pop(float t_max, int base, int& height, uint32_t& current) const {
+    while (height > base) {
+      const uint64_t entry = entries_[--height];
+      if (!any_hit && !(std::bit_cast<float>(static_cast<uint32_t>(entry >> 32)) <= t_max)) continue;
+      current = static_cast<uint32_t>(entry);
+      return true;
     }
-    uint32_t order[interleaved_rays];
-    for (uint32_t i = 0; i < live; ++i) order[i] = i;
-    while (live > 0)
-      for (uint32_t i = 0; i < live; ++i) {
-        const uint32_t w = order[i];
-        auto& walk = walks[w];
-        if (walk.step(*scene_)) {
-          prefetch(walk.current());
-          continue;
-        }
-        answer(query[w], walk.found(), walk.hit());
-        if (next < count) {
-          query[w] = next;
-          walk.start(*scene_, ray(next), t_max(next));
-          ++next;
-        } else {
-          order[i--] = order[--live];
-        }
-      }
+    return false;
   }
 
  private:
-  bool has_instances() const { return scene_->instances_count > 0; }
+  uint64_t entries_[bvh8_stack_size];
+};
 
-  template <bool any_hit, class RayOf, class Limit, class Answer>
-  void trace_single(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    // A hit is handed over one ray later: what has just been written cannot be copied at once.
-    Hit<Real> hits[2];
-    bool found = false;
-    for (uint32_t i = 0; i < count; ++i) {
-      const bool found_before = found;
-      found = walk<any_hit, false>(ray(i), t_max(i), hits[i & 1]);
-      if (i > 0) answer(i - 1, found_before, hits[(i - 1) & 1]);
+/// Visits children in the order of the ray's octant, without a branch that cannot be predicted: for interleaved rays,
+/// all of which would wait for a misprediction.
+template <bool any_hit>
+class OctantFirst {
+ public:
+  /// Pushes all children entered.
+  ALHAZEN_INLINE bool push(const Bvh8Node& node, const BoxRay& ray, float t_max, int& height, uint32_t&) {
+    const ChildIntervals entry = intersect_children(node, ray, t_max);
+    uint32_t entered;
+    if constexpr (any_hit) {
+      entered = entry.children();
+      store_set_lanes(node.child, entered, child_ + height);
+    } else {
+      const uint32_t(&order)[bvh8_width] = octant_orders.of_octant[ray.octant];
+      const ChildIntervals ordered{permuted(entry.near, order), permuted(entry.far, order)};
+      entered = ordered.children();
+      float t[bvh8_width];
+      uint32_t child[bvh8_width];
+      ordered.near.store(t);
+      permute(node.child, order, child);
+      store_set_lanes(t, entered, t_ + height);
+      store_set_lanes(child, entered, child_ + height);
     }
-    if (count > 0) answer(count - 1, found, hits[(count - 1) & 1]);
+    height += std::popcount(entered);
+    return false;
   }
 
-  template <bool any_hit, bool instances>
-  bool walk(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
-    Bvh8Traversal<any_hit, instances, Real, NearestFirst<any_hit>> walk;
-    NearestFirst<any_hit> stack;
-    walk.use(&stack);
-    walk.start(*scene_, ray, t_max);
-    while (walk.step(*scene_)) {
+  ALHAZEN_INLINE bool pop(float t_max, int base, int& height, uint32_t& current) const {
+    while (height > base) {
+      --height;
+      if (!any_hit && !(t_[height] <= t_max)) continue;
+      current = child_[height];
+      return true;
     }
-    hit = walk.hit();
-    if (!walk.found()) hit.primitive = PrimitiveId();
-    return walk.found();
+    return false;
   }
 
-  static size_t bytes(const SceneView<Real>& scene) {
-    return scene.bvh8_nodes_count * sizeof(Bvh8Node) + scene.triangle_blocks_count * sizeof(TriangleBlock<Real>) +
-           scene.sphere_blocks_count * sizeof(SphereBlock<Real>) +
-           scene.moving_sphere_blocks_count * sizeof(MovingSphereBlock<Real>);
+ private:
+  float t_[any_hit ? 1 : bvh8_stack_size];
+  uint32_t child_[bvh8_stack_size];
+};
+
+/// Keeps the children that are yet to be visited. push() returns whether `current` is set to the next one.
+template <class Stack>
+concept Bvh8Stack = requires(Stack& stack, const Stack& unchanged, const Bvh8Node& node, const BoxRay& ray, float t_max,
+                             int base, int& height, uint32_t& current) {
+  { stack.push(node, ray, t_max, height, current) } -> std::same_as<bool>;
+  { unchanged.pop(t_max, base, height, current) } -> std::same_as<bool>;
+};
+
+/// Code for instances is compiled in by `instances` alone.
+template <bool any_hit, bool instances, class Real, Bvh8Stack Stack>
+class alignas(64) Bvh8Traversal {
+ public:
+  /// The stack is apart, so that interleaved traversals are a few cache lines each.
+  ALHAZEN_INLINE void use(Stack* stack) { stack_ = stack; }
+
+  ALHAZEN_INLINE void start(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max) {
+    ray_ = &ray;
+    box_ = box_ray(ray);
+    sheared_ = scene.triangle_blocks_count > 0 ? shear_ray(ray) : ShearedRay<Real>{};
+    hit_ = end_of_interval(t_max);
+    t_max_ = box_t_max(t_max);
+    height_ = 0;
+    found_ = false;
+    // An empty leaf where there is no tree or the ray hits nothing.
+    current_ = scene.bvh8_nodes_count > 0 && has_finite_origin(ray) ? 0 : Bvh8Child::nothing;
+    if constexpr (instances)
+      space_ = {};
+    else
+      hit_.instance = no_instance;
   }
 
-  const SceneView<Real>* scene_;
-  BruteForcePackets<Real> few_;
-  bool fits_cache_;
+  /// Visits the current child; false when the traversal has ended.
+  ALHAZEN_INLINE bool step(const SceneView<Real>& scene) {
+    if (Bvh8Child::kind(current_) == Bvh8Child::node) {
+      if (stack_->push(scene.bvh8_nodes[current_], box_, t_max_, height_, current_)) return true;
+    } else if (enter_if_instance(scene)) {
+      return true;
+    } else if (intersect_leaf(scene, current_, *ray_, sheared_, hit_)) {
+      if constexpr (instances) hit_.instance = space_.instance;
+      found_ = true;
+      if (any_hit) return false;
+      t_max_ = box_t_max(hit_.t);
+    }
+    if (stack_->pop(t_max_, space_.base, height_, current_)) return true;
+    return leave_if_in_instance();
+  }
+
+  uint32_t current() const { return current_; }
+  bool found() const { return found_; }
+  const Hit<Real>& hit() const { return hit_; }
+
+ private:
+  /// The instance that is traversed: stack entries above `base` are its.
+  struct Space {
+    uint32_t instance = no_instance;
+    int base = 0;
+    PrimitiveId outer;  ///< hit_.primitive before bound_within
+  };
+  struct World {
+    static constexpr uint32_t instance = no_instance;
+    static constexpr int base = 0;
+  };
+
+  ALHAZEN_INLINE bool enter_if_instance([[maybe_unused]] const SceneView<Real>& scene) {
+    if constexpr (instances) {
+      if (!Bvh8Child::is_instance(current_)) return false;
+      enter_instance(scene);
+      return true;
+    }
+    return false;
+  }
+
+  ALHAZEN_INLINE bool leave_if_in_instance() {
+    if constexpr (instances) return space_.instance != no_instance && leave_instance();
+    return false;
+  }
+
+  ALHAZEN_INLINE void set_ray(const Ray<Real>& ray) {
+    box_ = box_ray(ray);
+    sheared_ = shear_ray(ray);
+  }
+
+  /// Continues at the root of the object.
+  ALHAZEN_NOINLINE void enter_instance(const SceneView<Real>& scene) {
+    const uint32_t instance = Bvh8Child::first(current_);
+    const Ray<Real> inner = object_ray(scene, instance, *ray_);
+    set_ray(inner);
+    space_ = {instance, height_, hit_.primitive};
+    hit_.primitive = bound_within(instance, hit_);
+    current_ =
+        has_finite_origin(inner) ? scene.objects[scene.instances[instance].object].bvh8_root : Bvh8Child::nothing;
+  }
+
+  /// Continues in the world; false where nothing is left on the stack.
+  ALHAZEN_NOINLINE bool leave_instance() {
+    if (hit_.instance != space_.instance) hit_.primitive = space_.outer;
+    space_ = {};
+    if (!stack_->pop(t_max_, 0, height_, current_)) return false;
+    set_ray(*ray_);
+    return true;
+  }
+
+  BoxRay box_;
+  float t_max_;
+  uint32_t current_;
+  int height_;
+  bool found_;
+  const Ray<Real>* ray_;
+  Hit<Real> hit_;
+  ShearedRay<Real> sheared_;
+  Stack* stack_;
+  [[no_unique_address]] std::conditional_t<instances, Space, World> space_;
 };
 
 }  // namespace ALHAZEN_CORE

@@ -1,7 +1,7 @@
 #pragma once
 
-// The compressed wide BVH for GPUs: eight children a node, their boxes in bytes (Ylitie, Karras, Laine 2017, "Efficient
-// Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", section 3).
+// The compressed wide BVH for GPUs: 8 children a node, their boxes quantized to bytes (Ylitie, Karras, Laine 2017,
+// "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", section 3).
 
 #include "core/shapes/shape_records.h"
 
@@ -14,8 +14,8 @@ struct alignas(16) CwbvhNode {
 
   Vec3<float> origin;
   uint32_t exponents_and_inner;  ///< three exponents, biased by 127; high byte: bit i says that child i is a node
-  uint32_t first_child;          ///< in cwbvh_nodes; children that are nodes follow each other
-  uint32_t first_primitive;      ///< in cwbvh_primitives; those of all leaves among the children follow each other
+  uint32_t first_child;          ///< in cwbvh_nodes; children that are nodes are neighbours there
+  uint32_t first_primitive;      ///< in cwbvh_primitives; those of all leaves among the children are neighbours
   /// A byte a child. Absent: 0. A node: 1 in the three high bits, 24 + i in the others. A leaf: its number of
   /// primitives in unary, and where they begin after first_primitive.
   uint32_t meta[2];
@@ -23,8 +23,8 @@ struct alignas(16) CwbvhNode {
 };
 static_assert(sizeof(CwbvhNode) == 80);
 
-/// A primitive with its coordinates, so that a ray needs to look nowhere else. Triangle: a, b, c are its vertices.
-/// Sphere: centre a, radius b.x. Moving sphere: centre a, radius b.x, motion c. Of an instance the id alone counts.
+/// A copy of a primitive, so that its test reads no other array. Triangle: vertices a, b, c. Sphere: centre a, radius
+/// b.x. Moving sphere: centre a, radius b.x, motion c. Instance: the id alone.
 struct alignas(16) CwbvhPrimitive {
   Vec3<float> a;
   PrimitiveId id;

@@ -1,21 +1,21 @@
 #pragma once
 
-// Closest-hit and any-hit queries over the compressed wide BVH: children in the order of the ray's octant, a stack of
-// groups of siblings (Ylitie, Karras, Laine 2017, section 4). Boxes are tested as the binary BVH's are (traversal.h).
+// Traversal of the compressed wide BVH: children in the order of the ray's octant, a stack of groups of siblings
+// (Ylitie, Karras, Laine 2017, section 4). Boxes are tested as those of the binary BVH are (bvh2/traversal.h).
 
 #include "core/bvh/bvh2/traversal.h"
 #include "core/bvh/cwbvh/node.h"
 
 namespace ALHAZEN_CORE {
 
-/// Nodes: `bits` has in the high byte which of the siblings are to be visited, by priority, in the low byte which of
-/// them are nodes; they begin at `base`. Primitives: a bit for each of 24 from `base` on.
+/// Siblings that are yet to be visited. Of nodes the high byte of `bits` says which, by priority, and the low byte
+/// which of all 8 are nodes, the first of them at `base`. Of primitives bit i stands for the one at `base` + i.
 struct CwbvhGroup {
   uint32_t base, bits;
 };
 
-/// A walk puts at most one group aside a level, and a level of the wide tree takes at least one of the binary tree,
-/// whose leaves are split in up to two more.
+/// A traversal pushes at most one group a level, and each level stands for at least one of the binary tree, whose
+/// leaves are split into up to two more.
 inline constexpr int max_cwbvh_depth = max_bvh2_depth + 2;
 
 ALHAZEN_HD inline uint32_t highest_bit(uint32_t x) {
@@ -43,7 +43,7 @@ ALHAZEN_HD inline float power_of_two(uint32_t biased) {
 #endif
 }
 
-/// A coordinate of a child's box. The builder makes boxes conservative as rounded here.
+/// A coordinate of a child's box. The builder makes boxes conservative for this rounding.
 ALHAZEN_HD ALHAZEN_INLINE float box_coordinate(float origin, float scale, uint32_t steps) {
   return origin + static_cast<float>(steps) * scale;
 }
@@ -52,7 +52,7 @@ ALHAZEN_HD ALHAZEN_INLINE uint32_t byte_of(const uint32_t words[2], uint32_t chi
   return words[child / 4] >> (8 * (child % 4)) & 255u;
 }
 
-/// Which children the ray enters before t_max: high byte the nodes by priority, below a bit for each primitive.
+/// Children that the ray enters before t_max: nodes by priority in the high byte, below it a bit a primitive.
 ALHAZEN_HD ALHAZEN_INLINE uint32_t intersect_children(const CwbvhNode& node, const SlabRay<float>& ray, uint32_t octant,
                                                       float t_max) {
   constexpr float raise = 1 + 2 * rounding_bound<float>(3);
@@ -89,22 +89,22 @@ ALHAZEN_HD ALHAZEN_INLINE uint32_t intersect_children(const CwbvhNode& node, con
 ALHAZEN_HD inline bool intersect_primitive(const CwbvhPrimitive& primitive, const Ray<float>& ray,
                                            const ShearedRay<float>& sheared, Hit<float>& hit) {
   Hit<float> found{hit.t, 0, 0, primitive.id};
-  bool met = false;
+  bool is_hit = false;
   switch (primitive.id.kind()) {
     case PrimitiveKind::triangle:
-      met = primitive.id != sheared.left &&
-            intersect_triangle(sheared, primitive.a, primitive.b, primitive.c, hit.t, found.t, found.b1, found.b2);
+      is_hit = primitive.id != sheared.left &&
+               intersect_triangle(sheared, primitive.a, primitive.b, primitive.c, hit.t, found.t, found.b1, found.b2);
       break;
     case PrimitiveKind::sphere:
-      met = intersect_sphere(ray, primitive.a, primitive.b.x, hit.t, found.t);
+      is_hit = intersect_sphere(ray, primitive.a, primitive.b.x, hit.t, found.t);
       break;
     case PrimitiveKind::moving_sphere:
-      met = intersect_sphere(ray, primitive.a + primitive.c * ray.time, primitive.b.x, hit.t, found.t);
+      is_hit = intersect_sphere(ray, primitive.a + primitive.c * ray.time, primitive.b.x, hit.t, found.t);
       break;
     case PrimitiveKind::instance:
       break;
   }
-  if (!met || !is_nearer(found.t, primitive.id, hit)) return false;
+  if (!is_hit || !is_nearer(found.t, primitive.id, hit)) return false;
   hit = found;
   return true;
 }
@@ -113,8 +113,8 @@ ALHAZEN_HD ALHAZEN_INLINE uint32_t octant_of(const SlabRay<float>& ray) {
   return (ray.from_high[0] ? 1u : 0u) | (ray.from_high[1] ? 2u : 0u) | (ray.from_high[2] ? 4u : 0u);
 }
 
-/// Walks the tree. With `any_hit` it ends at the first primitive met before `hit.t`.
-template <bool any_hit, class Stacks>
+/// Traverses the tree; with `any_hit` it ends at the first hit.
+template <bool any_hit, StackMaker Stacks>
 ALHAZEN_HD bool traverse_cwbvh(const SceneView<float>& scene, const Ray<float>& ray, const Stacks& stacks,
                                Hit<float>& hit) {
   constexpr uint32_t to_visit = 0xff000000u, root = 0x80000000u;
@@ -135,7 +135,7 @@ ALHAZEN_HD bool traverse_cwbvh(const SceneView<float>& scene, const Ray<float>& 
       const uint32_t hits = intersect_children(node, space.slabs, octant, hit.t);
       primitives = {node.first_primitive, hits & ~to_visit};
       nodes = {node.first_child, (hits & to_visit) | node.exponents_and_inner >> 24};
-    } else {  // primitives that were put aside for an instance
+    } else {  // primitives that were pushed when an instance was entered
       primitives = nodes;
       nodes.bits = 0;
     }
@@ -166,22 +166,20 @@ ALHAZEN_HD bool traverse_cwbvh(const SceneView<float>& scene, const Ray<float>& 
   }
 }
 
-/// As Bvh2Intersector, over the wide BVH.
-template <class Stacks = LocalStacks>
+/// Answers ray queries by the compressed wide BVH.
+template <StackMaker Stacks = LocalStacks>
 class CwbvhIntersector {
  public:
   ALHAZEN_HD explicit CwbvhIntersector(const SceneView<float>& scene, const Stacks& stacks = {})
       : scene_(&scene), stacks_(stacks) {}
 
   ALHAZEN_HD bool closest_hit(const Ray<float>& ray, float t_max, Hit<float>& hit) const {
-    hit = no_hit_before(t_max);
-    const bool found = traverse_cwbvh<false>(*scene_, ray, stacks_, hit);
-    if (!found) hit.primitive = PrimitiveId();
-    return found;
+    hit = end_of_interval(t_max);
+    return traverse_cwbvh<false>(*scene_, ray, stacks_, hit);
   }
 
   ALHAZEN_HD bool occluded(const Ray<float>& ray, float t_max) const {
-    Hit<float> hit = no_hit_before(t_max);
+    Hit<float> hit = end_of_interval(t_max);
     return traverse_cwbvh<true>(*scene_, ray, stacks_, hit);
   }
 
@@ -189,5 +187,6 @@ class CwbvhIntersector {
   const SceneView<float>* scene_;
   Stacks stacks_;
 };
+static_assert(RayIntersector<CwbvhIntersector<>, float>);
 
 }  // namespace ALHAZEN_CORE

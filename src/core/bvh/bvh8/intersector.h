@@ -1,0 +1,147 @@
+#pragma once
+
+// Ray queries by the BVH8, for one ray or for many at a time. In a tree larger than the caches 12 rays are interleaved,
+// a step each, and what the next step of a ray reads is prefetched meanwhile, so that latencies overlap. Coherent rays
+// are traced in packets (packets.h), unless there are instances. What a ray hits does not depend on the others.
+
+#include <bit>
+
+#include "core/bvh/brute_force/packets.h"
+#include "core/bvh/bvh8/packets.h"
+#include "core/bvh/bvh8/prefetch.h"
+#include "core/bvh/bvh8/traversal.h"
+
+namespace ALHAZEN_CORE {
+
+/// Rays that are traversed in turn by one core.
+inline constexpr uint32_t interleaved_rays = 12;
+
+/// A tree up to this size stays in the caches of a core, where there is little latency to hide: rays are traced singly.
+inline constexpr size_t max_cached_bytes = size_t{1} << 19;
+
+/// Answers ray queries by the BVH of CPUs.
+template <class Real>
+class Bvh8Intersector {
+ public:
+  explicit Bvh8Intersector(const SceneView<Real>& scene)
+      : scene_(&scene), brute_force_(scene), fits_cache_(bytes(scene) <= max_cached_bytes) {}
+
+  bool closest_hit(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
+    return has_instances() ? traverse<false, true>(ray, t_max, hit) : traverse<false, false>(ray, t_max, hit);
+  }
+
+  bool occluded(const Ray<Real>& ray, Real t_max) const {
+    Hit<Real> hit;
+    return has_instances() ? traverse<true, true>(ray, t_max, hit) : traverse<true, false>(ray, t_max, hit);
+  }
+
+  template <bool any_hit, class RayOf, class Limit, class Answer>
+  void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
+    if (brute_force_.is_worthwhile())
+      brute_force_.template trace<any_hit>(count, ray, t_max, answer, [&](uint32_t i) {
+        Hit<Real> hit;
+        const bool found = traverse<any_hit, false>(ray(i), t_max(i), hit);
+        answer(i, found, hit);
+      });
+    else if (has_instances())
+      trace_interleaved<any_hit, true>(count, ray, t_max, answer);
+    else if (fits_cache_)
+      trace_single<any_hit>(count, ray, t_max, answer);
+    else
+      trace_interleaved<any_hit>(count, ray, t_max, answer);
+  }
+
+  template <class RayOf, class Limit, class Answer>
+  void trace_coherent(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
+    if (has_instances()) return trace_interleaved<false, true>(count, ray, t_max, answer);
+    constexpr uint32_t width = RayPacket<Real>::width;
+    const Bvh8Prefetch<Real> prefetch(*scene_);
+    RayPacket<Real> packet(prefetch);
+    for (uint32_t first = 0; first < count; first += width) {
+      const uint32_t size = count - first < width ? count - first : width;
+      const auto ray_of = [&](uint32_t i) -> const Ray<Real>& { return ray(first + i); };
+      const auto limit_of = [&](uint32_t i) { return t_max(first + i); };
+      const auto answer_of = [&](uint32_t i, bool found, const Hit<Real>& hit) { answer(first + i, found, hit); };
+      if (size <= width / 4 || !packet.load(size, ray_of, limit_of)) {
+        trace<false>(size, ray_of, limit_of, answer_of);
+        continue;
+      }
+      packet.traverse(*scene_);
+      for (uint32_t i = 0; i < size; ++i) answer_of(i, packet.found(i), packet.hit(i));
+    }
+  }
+
+  /// What `trace` does in a tree larger than the caches.
+  template <bool any_hit, bool instances = false, class RayOf, class Limit, class Answer>
+  void trace_interleaved(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
+    const Bvh8Prefetch<Real> prefetch(*scene_);
+    Bvh8Traversal<any_hit, instances, Real, OctantFirst<any_hit>> traversals[interleaved_rays];
+    OctantFirst<any_hit> stacks[interleaved_rays];
+    uint32_t query[interleaved_rays], live = 0, next = 0;
+    for (; live < interleaved_rays && next < count; ++live, ++next) {
+      query[live] = next;
+      traversals[live].use(&stacks[live]);
+      traversals[live].start(*scene_, ray(next), t_max(next));
+    }
+    uint32_t order[interleaved_rays];
+    for (uint32_t i = 0; i < live; ++i) order[i] = i;
+    while (live > 0)
+      for (uint32_t i = 0; i < live; ++i) {
+        const uint32_t w = order[i];
+        auto& traversal = traversals[w];
+        if (traversal.step(*scene_)) {
+          prefetch(traversal.current());
+          continue;
+        }
+        answer(query[w], traversal.found(), traversal.hit());
+        if (next < count) {
+          query[w] = next;
+          traversal.start(*scene_, ray(next), t_max(next));
+          ++next;
+        } else {
+          order[i--] = order[--live];
+        }
+      }
+  }
+
+ private:
+  bool has_instances() const { return scene_->instances_count > 0; }
+
+  template <bool any_hit, class RayOf, class Limit, class Answer>
+  void trace_single(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
+    // A hit is answered one ray later: a copy of what has just been stored would wait for store forwarding.
+    Hit<Real> hits[2];
+    bool found = false;
+    for (uint32_t i = 0; i < count; ++i) {
+      const bool found_before = found;
+      found = traverse<any_hit, false>(ray(i), t_max(i), hits[i & 1]);
+      if (i > 0) answer(i - 1, found_before, hits[(i - 1) & 1]);
+    }
+    if (count > 0) answer(count - 1, found, hits[(count - 1) & 1]);
+  }
+
+  template <bool any_hit, bool instances>
+  bool traverse(const Ray<Real>& ray, Real t_max, Hit<Real>& hit) const {
+    Bvh8Traversal<any_hit, instances, Real, NearestFirst<any_hit>> traversal;
+    NearestFirst<any_hit> stack;
+    traversal.use(&stack);
+    traversal.start(*scene_, ray, t_max);
+    while (traversal.step(*scene_)) {
+    }
+    hit = traversal.hit();
+    return traversal.found();
+  }
+
+  static size_t bytes(const SceneView<Real>& scene) {
+    return scene.bvh8_nodes_count * sizeof(Bvh8Node) + scene.triangle_blocks_count * sizeof(TriangleBlock<Real>) +
+           scene.sphere_blocks_count * sizeof(SphereBlock<Real>) +
+           scene.moving_sphere_blocks_count * sizeof(MovingSphereBlock<Real>);
+  }
+
+  const SceneView<Real>* scene_;
+  BruteForcePackets<Real> brute_force_;
+  bool fits_cache_;
+};
+static_assert(BatchIntersector<Bvh8Intersector<float>, float> && BatchIntersector<Bvh8Intersector<double>, double>);
+
+}  // namespace ALHAZEN_CORE
