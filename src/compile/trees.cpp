@@ -1,5 +1,6 @@
 #include "compile/trees.h"
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <numeric>
@@ -8,6 +9,7 @@
 #include "compile/bvh/bvh8_builder.h"
 #include "compile/bvh/cwbvh_builder.h"
 #include "compile/bvh/reinsertion.h"
+#include "core/bvh/cwbvh/primitive.h"
 #include "core/shapes/instance.h"
 
 namespace alhazen {
@@ -22,42 +24,37 @@ class TreeBuilder {
   void run() {
     const uint32_t in_world =
         out_.objects.empty() ? static_cast<uint32_t>(out_.triangles.size()) : out_.objects.front().first_triangle;
-    std::vector<Bounds3<Real>> boxes = triangle_boxes(0, in_world);
-    add_sphere_boxes(boxes);
-    add_instance_boxes(boxes);
-    build(std::move(boxes), 0, in_world);
+    PrimitiveCounts counts{};
+#define ALHAZEN_COUNT(X, kind, Record, records, Block, blocks) \
+  counts[static_cast<uint32_t>(PrimitiveKind::kind)] = static_cast<uint32_t>(out_.records.size());
+    ALHAZEN_PRIMITIVES(ALHAZEN_COUNT, )
+#undef ALHAZEN_COUNT
+    counts[0] = in_world;
+    build(0, counts, out_.instances.size() > 0);
     for (ObjectRecord& object : out_.objects) {
       object.first_primitive = static_cast<uint32_t>(out_.primitives.size());
       object.bvh2_root = static_cast<uint32_t>(out_.bvh2_nodes.size());
       object.cwbvh_root = static_cast<uint32_t>(out_.cwbvh_nodes.size());
       object.bvh8_root = static_cast<uint32_t>(out_.bvh8_nodes.size());
-      build(triangle_boxes(object.first_triangle, object.triangle_count), object.first_triangle, object.triangle_count);
+      build(object.first_triangle, {object.triangle_count}, false);
     }
   }
 
  private:
-  std::vector<Bounds3<Real>> triangle_boxes(uint32_t first, uint32_t count) const {
-    std::vector<Bounds3<Real>> boxes;
-    boxes.reserve(count + out_.spheres.size() + out_.moving_spheres.size() + out_.instances.size());
-    for (uint32_t i = first; i < first + count; ++i) {
-      Bounds3<Real> box;
-      for (const uint32_t v : out_.triangles[i].vertex) box.extend(out_.positions[v]);
-      boxes.push_back(box);
-    }
-    return boxes;
-  }
+  /// How many primitives of each kind a tree is over, by PrimitiveKind.
+  using PrimitiveCounts = std::array<uint32_t, primitive_kinds>;
 
-  void add_sphere_boxes(std::vector<Bounds3<Real>>& boxes) const {
-    const auto sphere_box = [](const Vec3<Real>& center, Real radius) {
-      // Wider by what rounding of centre +- radius can lose.
-      const Vec3<Real> r = splat(radius) + (abs(center) + splat(radius)) * (2 * std::numeric_limits<Real>::epsilon());
-      return Bounds3<Real>{center - r, center + r};
-    };
-    for (const SphereRecord<Real>& s : out_.spheres) boxes.push_back(sphere_box(s.center, s.radius));
-    for (const MovingSphereRecord<Real>& s : out_.moving_spheres) {
-      boxes.push_back(sphere_box(s.center, s.radius));
-      boxes.back().extend(sphere_box(s.center + s.motion, s.radius));
-    }
+  /// Boxes of triangles from `first` on and of all other primitives of the counted kinds, kind by kind.
+  std::vector<Bounds3<Real>> primitive_boxes(uint32_t first, const PrimitiveCounts& counts) const {
+    const SceneView<Real> view = out_.view();
+    std::vector<Bounds3<Real>> boxes;
+    boxes.reserve(std::accumulate(counts.begin(), counts.end(), out_.instances.size()));
+    for (uint32_t kind = 0; kind < primitive_kinds; ++kind)
+      for (uint32_t i = 0; i < counts[kind]; ++i) {
+        const PrimitiveId id(static_cast<PrimitiveKind>(kind), kind == 0 ? first + i : i);
+        boxes.push_back(visit_primitive(view, id, [&](const auto& record) { return bounds_of(view, record); }));
+      }
+    return boxes;
   }
 
   /// Boxes about the corners of the objects' own, wider by what rounding of the ways there and back can lose.
@@ -93,15 +90,16 @@ class TreeBuilder {
     return box;
   }
 
-  /// Trees over triangles from `first` on and, in the world's, over spheres and instances.
-  void build(std::vector<Bounds3<Real>> boxes, uint32_t first, uint32_t triangles) {
+  /// Trees over triangles from `first` on, the other kinds that are counted, and instances.
+  void build(uint32_t first, const PrimitiveCounts& counts, bool has_instances) {
     const BvhLayouts& layouts = options_.layouts;
+    std::vector<Bounds3<Real>> boxes = primitive_boxes(first, counts);
+    if (has_instances) add_instance_boxes(boxes);
     Bvh2<Real> tree;
     if (!layouts.empty()) {
       Bvh2Options options = layouts.has(BvhLayout::bvh8) ? Bvh2Options::for_collapse(options_.threads) : Bvh2Options{};
       options.threads = options_.threads;
-      if (boxes.size() > triangles + out_.spheres.size() + out_.moving_spheres.size())
-        options.max_leaf = 1;  // an instance is to be alone in its leaf
+      if (has_instances) options.max_leaf = 1;  // an instance is to be alone in its leaf
       tree = build_bvh2<Real>(boxes, options);
       reinsert_subtrees(tree, options_.threads);
     } else {
@@ -109,7 +107,7 @@ class TreeBuilder {
       std::iota(tree.order.begin(), tree.order.end(), 0u);
     }
     const uint32_t first_primitive = static_cast<uint32_t>(out_.primitives.size());
-    order_primitives(tree.order, first, triangles);
+    order_primitives(tree.order, first, counts);
     if (layouts.has(BvhLayout::cwbvh) || layouts.has(BvhLayout::bvh8)) {
       std::vector<Bounds3<Real>> ordered(tree.order.size());
 #pragma omp parallel for if (ordered.size() > 65'536)
@@ -135,6 +133,7 @@ class TreeBuilder {
   void add_cwbvh(const std::vector<Bvh2Node<float>>& nodes, const std::vector<Bounds3<float>>& boxes,
                  uint32_t first_primitive) {
     Cwbvh cwbvh = build_cwbvh(nodes, boxes);
+    const SceneView<Real> view = out_.view();
     const uint32_t base = static_cast<uint32_t>(out_.cwbvh_nodes.size());
     const uint32_t primitive_base = static_cast<uint32_t>(out_.cwbvh_primitives.size());
     for (CwbvhNode& node : cwbvh.nodes) {
@@ -144,59 +143,24 @@ class TreeBuilder {
     out_.cwbvh_nodes.insert(out_.cwbvh_nodes.end(), cwbvh.nodes.begin(), cwbvh.nodes.end());
     out_.cwbvh_primitives.reserve(primitive_base + cwbvh.primitives.size());
     for (const uint32_t place : cwbvh.primitives)
-      out_.cwbvh_primitives.push_back(cwbvh_primitive(out_.primitives[first_primitive + place]));
+      out_.cwbvh_primitives.push_back(cwbvh_primitive(view, out_.primitives[first_primitive + place]));
   }
 
-  CwbvhPrimitive cwbvh_primitive(PrimitiveId id) const {
-    CwbvhPrimitive primitive{};
-    primitive.id = id;
-    switch (id.kind()) {
-      case PrimitiveKind::triangle: {
-        const uint32_t* v = out_.triangles[id.index()].vertex;
-        primitive.a = convert<float>(out_.positions[v[0]]);
-        primitive.b = convert<float>(out_.positions[v[1]]);
-        primitive.c = convert<float>(out_.positions[v[2]]);
-        break;
-      }
-      case PrimitiveKind::sphere: {
-        const SphereRecord<Real>& s = out_.spheres[id.index()];
-        primitive.a = convert<float>(s.center);
-        primitive.b.x = static_cast<float>(s.radius);
-        break;
-      }
-      case PrimitiveKind::moving_sphere: {
-        const MovingSphereRecord<Real>& s = out_.moving_spheres[id.index()];
-        primitive.a = convert<float>(s.center);
-        primitive.b.x = static_cast<float>(s.radius);
-        primitive.c = convert<float>(s.motion);
-        break;
-      }
-      case PrimitiveKind::instance:
-        break;
-    }
-    return primitive;
-  }
-
-  /// Lays triangles down in the order of the leaves, so that a leaf's triangles are neighbours in memory.
-  void order_primitives(const std::vector<uint32_t>& order, uint32_t first, uint32_t triangles) {
-    const uint32_t spheres = static_cast<uint32_t>(out_.spheres.size());
-    const uint32_t moving_spheres = static_cast<uint32_t>(out_.moving_spheres.size());
+  /// Names the primitives in the order of the leaves, and brings triangles into that order, so that those of a leaf are
+  /// neighbours in memory.
+  void order_primitives(const std::vector<uint32_t>& order, uint32_t first, const PrimitiveCounts& counts) {
     std::vector<TriangleRecord> ordered;
-    ordered.reserve(triangles);
+    ordered.reserve(counts[0]);
     for (uint32_t i : order) {
-      if (i < triangles) {
-        const uint32_t place = first + static_cast<uint32_t>(ordered.size());
-        out_.primitives.emplace_back(PrimitiveKind::triangle, place);
-        ordered.push_back(out_.triangles[first + i]);
-        const uint32_t light = out_.surfaces[ordered.back().surface].light;
-        if (light != no_light) out_.lights[light].primitive = place;
-      } else if ((i -= triangles) < spheres) {
-        out_.primitives.emplace_back(PrimitiveKind::sphere, i);
-      } else if ((i -= spheres) < moving_spheres) {
-        out_.primitives.emplace_back(PrimitiveKind::moving_sphere, i);
-      } else {
-        out_.primitives.emplace_back(PrimitiveKind::instance, i - moving_spheres);
-      }
+      uint32_t kind = 0;
+      for (; kind < primitive_kinds && i >= counts[kind]; ++kind) i -= counts[kind];
+      out_.primitives.emplace_back(static_cast<PrimitiveKind>(kind), i);
+      if (kind > 0) continue;
+      const uint32_t place = first + static_cast<uint32_t>(ordered.size());
+      out_.primitives.back() = PrimitiveId(PrimitiveKind::triangle, place);
+      ordered.push_back(out_.triangles[first + i]);
+      const uint32_t light = out_.surfaces[ordered.back().surface].light;
+      if (light != no_light) out_.lights[light].primitive = place;
     }
     std::copy(ordered.begin(), ordered.end(), out_.triangles.begin() + first);
   }
@@ -210,13 +174,19 @@ class TreeBuilder {
 template <class Real>
 void build_trees(const CompileOptions& options, SceneArrays<Real>& out, SceneStatistics& statistics) {
   const auto start = std::chrono::steady_clock::now();
-  out.primitives.reserve(out.triangles.size() + out.spheres.size() + out.moving_spheres.size() + out.instances.size());
+  size_t primitives = out.instances.size();
+#define ALHAZEN_ADD(X, kind, Record, records, Block, blocks) primitives += out.records.size();
+  ALHAZEN_PRIMITIVES(ALHAZEN_ADD, )
+#undef ALHAZEN_ADD
+  out.primitives.reserve(primitives);
   TreeBuilder<Real>(options, out).run();
   const auto bytes = [](const auto& array) { return array.size() * sizeof(array[0]); };
   statistics.nodes = options.layouts.has(BvhLayout::bvh2) ? out.bvh2_nodes.size() : out.bvh8_nodes.size();
   statistics.tree_bytes = bytes(out.bvh2_nodes) + bytes(out.cwbvh_nodes) + bytes(out.cwbvh_primitives) +
-                          bytes(out.bvh8_nodes) + bytes(out.triangle_blocks) + bytes(out.sphere_blocks) +
-                          bytes(out.moving_sphere_blocks) + bytes(out.instances);
+                          bytes(out.bvh8_nodes) + bytes(out.instances);
+#define ALHAZEN_ADD(X, kind, Record, records, Block, blocks) statistics.tree_bytes += bytes(out.blocks);
+  ALHAZEN_PRIMITIVES(ALHAZEN_ADD, )
+#undef ALHAZEN_ADD
   statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

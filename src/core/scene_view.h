@@ -17,48 +17,47 @@
 
 namespace ALHAZEN_CORE {
 
-/// Lists every array of the scene once: ARRAY(element type, name). Storage, device pointers, memory report and checksum
-/// are generated from this list.
-#define ALHAZEN_SCENE_ARRAYS(ARRAY)                    \
-  ARRAY(Bvh2Node<Real>, bvh2_nodes)                    \
-  ARRAY(CwbvhNode, cwbvh_nodes)                        \
-  ARRAY(CwbvhPrimitive, cwbvh_primitives)              \
-  ARRAY(Bvh8Node, bvh8_nodes)                          \
-  ARRAY(TriangleBlock<Real>, triangle_blocks)          \
-  ARRAY(SphereBlock<Real>, sphere_blocks)              \
-  ARRAY(MovingSphereBlock<Real>, moving_sphere_blocks) \
-  ARRAY(PrimitiveId, primitives)                       \
-  ARRAY(TriangleRecord, triangles)                     \
-  ARRAY(Vec3<Real>, positions)                         \
-  ARRAY(Vec3<Real>, normals)                           \
-  ARRAY(Vec2<Real>, uvs)                               \
-  ARRAY(AttributesRecord, vertex_attributes)           \
-  ARRAY(VertexColour, vertex_colours)                  \
-  ARRAY(VertexTangent, vertex_tangents)                \
-  ARRAY(SphereRecord<Real>, spheres)                   \
-  ARRAY(MovingSphereRecord<Real>, moving_spheres)      \
-  ARRAY(SphereFrame<Real>, sphere_frames)              \
-  ARRAY(ObjectRecord, objects)                         \
-  ARRAY(InstanceRecord<Real>, instances)               \
-  ARRAY(InstanceMotion<Real>, instance_motions)        \
-  ARRAY(SurfaceRecord, surfaces)                       \
-  ARRAY(MaterialRecord<Real>, materials)               \
-  ARRAY(LayersRecord<Real>, layers)                    \
-  ARRAY(Real, albedo_tables)                           \
-  ARRAY(TextureRecord<Real>, textures)                 \
-  ARRAY(TextureMapping<Real>, texture_mappings)        \
-  ARRAY(ImageRecord, images)                           \
-  ARRAY(uint8_t, texel_bytes)                          \
-  ARRAY(float, texel_floats)                           \
-  ARRAY(Real, srgb_decode_table)                       \
-  ARRAY(uint8_t, noise_permutation)                    \
-  ARRAY(LightRecord<Real>, lights)                     \
-  ARRAY(TriangleEmitter<Real>, triangle_emitters)      \
-  ARRAY(EnvironmentRecord<Real>, environments)         \
-  ARRAY(Real, environment_cdf)                         \
-  ARRAY(Real, light_cdf)                               \
-  ARRAY(LightTreeNode, light_tree)                     \
-  ARRAY(LightImageRecord<Real>, light_images)          \
+/// The two arrays of a kind of primitive.
+#define ALHAZEN_PRIMITIVE_ARRAYS(ARRAY, kind, Record, records, Block, blocks) \
+  ARRAY(Record, records) ARRAY(Block, blocks)
+
+/// Lists every array of the scene once: ARRAY(element type, name), those of primitives by their own list. Storage,
+/// device pointers, memory report and checksum are generated from it.
+#define ALHAZEN_SCENE_ARRAYS(ARRAY)                   \
+  ARRAY(Bvh2Node<Real>, bvh2_nodes)                   \
+  ARRAY(CwbvhNode, cwbvh_nodes)                       \
+  ARRAY(CwbvhPrimitive, cwbvh_primitives)             \
+  ARRAY(Bvh8Node, bvh8_nodes)                         \
+  ALHAZEN_PRIMITIVES(ALHAZEN_PRIMITIVE_ARRAYS, ARRAY) \
+  ARRAY(PrimitiveId, primitives)                      \
+  ARRAY(Vec3<Real>, positions)                        \
+  ARRAY(Vec3<Real>, normals)                          \
+  ARRAY(Vec2<Real>, uvs)                              \
+  ARRAY(AttributesRecord, vertex_attributes)          \
+  ARRAY(VertexColour, vertex_colours)                 \
+  ARRAY(VertexTangent, vertex_tangents)               \
+  ARRAY(SphereFrame<Real>, sphere_frames)             \
+  ARRAY(ObjectRecord, objects)                        \
+  ARRAY(InstanceRecord<Real>, instances)              \
+  ARRAY(InstanceMotion<Real>, instance_motions)       \
+  ARRAY(SurfaceRecord, surfaces)                      \
+  ARRAY(MaterialRecord<Real>, materials)              \
+  ARRAY(LayersRecord<Real>, layers)                   \
+  ARRAY(Real, albedo_tables)                          \
+  ARRAY(TextureRecord<Real>, textures)                \
+  ARRAY(TextureMapping<Real>, texture_mappings)       \
+  ARRAY(ImageRecord, images)                          \
+  ARRAY(uint8_t, texel_bytes)                         \
+  ARRAY(float, texel_floats)                          \
+  ARRAY(Real, srgb_decode_table)                      \
+  ARRAY(uint8_t, noise_permutation)                   \
+  ARRAY(LightRecord<Real>, lights)                    \
+  ARRAY(TriangleEmitter<Real>, triangle_emitters)     \
+  ARRAY(EnvironmentRecord<Real>, environments)        \
+  ARRAY(Real, environment_cdf)                        \
+  ARRAY(Real, light_cdf)                              \
+  ARRAY(LightTreeNode, light_tree)                    \
+  ARRAY(LightImageRecord<Real>, light_images)         \
   ARRAY(Real, filter_cdf)
 
 template <class Real>

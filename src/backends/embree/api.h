@@ -16,7 +16,7 @@
 namespace ALHAZEN_CORE {
 
 /// The geometry's identifier of the first instance; lower ones are kinds of primitives.
-inline constexpr uint32_t embree_instances = 4;
+inline constexpr uint32_t embree_instances = static_cast<uint32_t>(PrimitiveKind::instance);
 
 /// Embree takes no coordinate beyond this, its FLT_LARGE, and leaves out geometry that has one.
 inline constexpr float max_embree_coordinate = 1.844e18f;

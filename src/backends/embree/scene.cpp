@@ -14,29 +14,21 @@ namespace alhazen {
 
 namespace {
 
-struct Sphere {
-  Vec3<float> center;
-  float radius;
-};
-
 /// The sphere of number `index` at `time`.
 template <PrimitiveKind kind>
-Sphere sphere_at(const void* view, uint32_t index, float time) {
+Sphere<float> sphere_of(const void* view, uint32_t index, float time) {
   const SceneView<float>& scene = *static_cast<const SceneView<float>*>(view);
-  if constexpr (kind == PrimitiveKind::sphere) {
-    const SphereRecord<float>& s = scene.spheres[index];
-    return {s.center, s.radius};
-  } else {
-    const MovingSphereRecord<float>& s = scene.moving_spheres[index];
-    return {s.center + s.motion * time, s.radius};
-  }
+  if constexpr (kind == PrimitiveKind::sphere)
+    return sphere_at(scene.spheres[index], time);
+  else
+    return sphere_at(scene.moving_spheres[index], time);
 }
 
 /// Boxes are wider by what rounding of centre and radius can lose.
 template <PrimitiveKind kind>
 void sphere_bounds(const RTCBoundsFunctionArguments* arguments) {
-  const Sphere s =
-      sphere_at<kind>(arguments->geometryUserPtr, arguments->primID, static_cast<float>(arguments->timeStep));
+  const Sphere<float> s =
+      sphere_of<kind>(arguments->geometryUserPtr, arguments->primID, static_cast<float>(arguments->timeStep));
   const Vec3<float> r = splat(s.radius) + (abs(s.center) + splat(s.radius)) * 4e-7f;
   RTCBounds& box = *arguments->bounds_o;
   box.lower_x = s.center.x - r.x;
@@ -48,9 +40,9 @@ void sphere_bounds(const RTCBoundsFunctionArguments* arguments) {
 }
 
 template <PrimitiveKind kind>
-bool meet(const void* view, uint32_t index, const RTCRay& query, float& t) {
+bool intersect(const void* view, uint32_t index, const RTCRay& query, float& t) {
   const Ray<float> ray{{query.org_x, query.org_y, query.org_z}, {query.dir_x, query.dir_y, query.dir_z}, query.time};
-  const Sphere s = sphere_at<kind>(view, index, query.time);
+  const Sphere<float> s = sphere_of<kind>(view, index, query.time);
   return intersect_sphere(ray, s.center, s.radius, query.tfar, t);
 }
 
@@ -59,7 +51,7 @@ void intersect_sphere_n(const RTCIntersectFunctionNArguments* arguments) {
   if (arguments->valid[0] == 0) return;
   RTCRayHit& query = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);  // queries are of one ray each
   float t;
-  if (!meet<kind>(arguments->geometryUserPtr, arguments->primID, query.ray, t)) return;
+  if (!intersect<kind>(arguments->geometryUserPtr, arguments->primID, query.ray, t)) return;
   query.ray.tfar = t;
   query.hit.u = query.hit.v = 0;
   query.hit.geomID = arguments->geomID;
@@ -71,7 +63,7 @@ void occluded_sphere_n(const RTCOccludedFunctionNArguments* arguments) {
   if (arguments->valid[0] == 0) return;
   RTCRay& query = *reinterpret_cast<RTCRay*>(arguments->ray);
   float t;
-  if (meet<kind>(arguments->geometryUserPtr, arguments->primID, query, t)) query.tfar = -infinity<float>;
+  if (intersect<kind>(arguments->geometryUserPtr, arguments->primID, query, t)) query.tfar = -infinity<float>;
 }
 
 /// Along the ray, in double, where its origin and the vertices are exact; negative behind.

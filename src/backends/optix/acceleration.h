@@ -20,16 +20,25 @@ inline CUdeviceptr address(const void* pointer) { return reinterpret_cast<CUdevi
 
 /// What the programs must be compiled for.
 struct SceneTraits {
-  bool has[3]{};     ///< by PrimitiveKind, in the world or in objects
-  bool has_objects;  ///< which instances place
+  bool has[primitive_kinds];  ///< by PrimitiveKind, in the world or in objects
+  bool has_objects;           ///< which instances place
 
   explicit SceneTraits(const SceneView<float>& scene)
-      : has{scene.triangles_count > 0, scene.spheres_count > 0, scene.moving_spheres_count > 0},
-        has_objects(scene.instances_count > 0) {}
+      : has{
+#define ALHAZEN_HAS(X, kind, Record, records, Block, blocks) scene.records##_count > 0,
+            ALHAZEN_PRIMITIVES(ALHAZEN_HAS, )
+#undef ALHAZEN_HAS
+        },
+        has_objects(scene.instances_count > 0) {
+  }
   bool has_kind(PrimitiveKind kind) const { return has[static_cast<unsigned>(kind)]; }
   bool moves() const { return has_kind(PrimitiveKind::moving_sphere); }
   bool has_spheres() const { return has_kind(PrimitiveKind::sphere) || moves(); }
-  int kinds() const { return has[0] + has[1] + has[2]; }
+  int kinds() const {
+    int count = 0;
+    for (const bool has_this : has) count += has_this;
+    return count;
+  }
   bool has_instances() const { return kinds() > 1 || has_objects; }
 };
 
@@ -214,7 +223,7 @@ class Acceleration {
   const OptixFunctionTable& functions_;
   Executor& executor_;
   OptixDeviceContext context_ = nullptr;
-  std::array<Bytes, 3> structures_;
+  std::array<Bytes, primitive_kinds> structures_;
   std::vector<std::unique_ptr<Bytes>> objects_;
   Bytes top_;
   OptixTraversableHandle traversable_ = 0;

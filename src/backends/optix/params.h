@@ -33,7 +33,7 @@ struct OptixParams {
 /// Closest hits. Words of the payload: t, b1, b2, PrimitiveId, instance.
 inline constexpr unsigned closest_words = 5;
 /// Identifiers of OptiX's instances: below this the kinds of primitives of the world, from it on ours.
-inline constexpr unsigned first_instance_id = 3;
+inline constexpr unsigned first_instance_id = primitive_kinds;
 /// Whether anything is in between. One word: 1, or 0 where the ray missed everything.
 inline constexpr unsigned occlusion_words = 1;
 
@@ -41,12 +41,15 @@ inline constexpr unsigned occlusion_words = 1;
 enum RaygenRecord : unsigned { raygen_path, raygen_iterative };
 enum MissRecord : unsigned { miss_closest, miss_occlusion };
 inline constexpr unsigned raygen_records = 2, miss_records = 2;
-inline constexpr unsigned hit_records = 3;  ///< by PrimitiveKind
+inline constexpr unsigned hit_records = primitive_kinds;  ///< by PrimitiveKind
 
 inline constexpr const char* params_name = "params";
 inline constexpr const char* raygen_names[raygen_records] = {"__raygen__path", "__raygen__iterative"};
 inline constexpr const char* miss_occlusion_name = "__miss__occlusion";
-inline constexpr const char* closest_hit_names[hit_records] = {"__closesthit__triangle", "__closesthit__sphere",
-                                                               "__closesthit__moving_sphere"};
+inline constexpr const char* closest_hit_names[hit_records] = {
+#define ALHAZEN_NAME(X, kind, Record, records, Block, blocks) "__closesthit__" #kind,
+    ALHAZEN_PRIMITIVES(ALHAZEN_NAME, )
+#undef ALHAZEN_NAME
+};
 
 }  // namespace alhazen::optix

@@ -13,7 +13,7 @@ namespace alhazen {
 template <class Real>
 struct Bvh2 {
   std::vector<Bvh2Node<Real>> nodes;  ///< depth-first; empty where there were no boxes
-  /// Leaves refer to ranges of this: the boxes' indices in the order of the leaves.
+  /// The indices of the boxes in the order of the leaves, which refer to ranges of it.
   std::vector<uint32_t> order;
 };
 

@@ -11,20 +11,48 @@ namespace alhazen {
 
 namespace {
 
-Bvh8Child::Kind kind_of(PrimitiveId primitive) {
-  switch (primitive.kind()) {
-    case PrimitiveKind::sphere:
-      return Bvh8Child::spheres;
-    case PrimitiveKind::moving_sphere:
-      return Bvh8Child::moving_spheres;
-    default:
-      return Bvh8Child::triangles;
+/// Primitives of a block.
+template <class Real>
+uint32_t lanes_of(PrimitiveKind kind) {
+  switch (kind) {
+#define ALHAZEN_CASE(X, kind, Record, records, Block, blocks) \
+  case PrimitiveKind::kind:                                   \
+    return Block::lanes;
+    ALHAZEN_PRIMITIVES(ALHAZEN_CASE, )
+#undef ALHAZEN_CASE
+    case PrimitiveKind::instance:
+      break;
   }
+  return 1;
+}
+
+// What stands in a lane of a block. Lanes without a primitive hold numbers that are never hit.
+
+template <class Real>
+void set_lane(TriangleBlock<Real>& block, uint32_t lane, const SceneArrays<Real>& scene, const TriangleRecord& triangle,
+              bool is_there) {
+  for (int v = 0; v < 3; ++v)
+    for (int axis = 0; axis < 3; ++axis)
+      block.vertex[v][axis][lane] = scene.positions[triangle.vertex[is_there ? v : 0]][axis];
+}
+
+template <class Block, class Record, class Real>
+void set_sphere(Block& block, uint32_t lane, const SceneArrays<Real>&, const Record& sphere, bool is_there) {
+  for (int axis = 0; axis < 3; ++axis) block.center[axis][lane] = sphere.center[axis];
+  block.radius[lane] = is_there ? sphere.radius : std::numeric_limits<Real>::quiet_NaN();
 }
 
 template <class Real>
-uint32_t lanes_of(Bvh8Child::Kind kind) {
-  return static_cast<uint32_t>(kind == Bvh8Child::triangles ? TriangleBlock<Real>::lanes : SphereBlock<Real>::lanes);
+void set_lane(SphereBlock<Real>& block, uint32_t lane, const SceneArrays<Real>& scene, const SphereRecord<Real>& sphere,
+              bool is_there) {
+  set_sphere(block, lane, scene, sphere, is_there);
+}
+
+template <class Real>
+void set_lane(MovingSphereBlock<Real>& block, uint32_t lane, const SceneArrays<Real>& scene,
+              const MovingSphereRecord<Real>& sphere, bool is_there) {
+  set_sphere(block, lane, scene, sphere, is_there);
+  for (int axis = 0; axis < 3; ++axis) block.motion[axis][lane] = sphere.motion[axis];
 }
 
 /// The number of blocks, infinite for primitives of several kinds or more of them than pay. An instance is a leaf of
@@ -38,16 +66,16 @@ struct BlockCost {
   float operator()(uint32_t first, uint32_t count) const {
     if (count > max_primitives) return std::numeric_limits<float>::infinity();
     if (count == 1 && primitives[first].kind() == PrimitiveKind::instance) return instance_cost;
-    const Bvh8Child::Kind kind = kind_of(primitives[first]);
+    const PrimitiveKind kind = primitives[first].kind();
     for (uint32_t i = first; i < first + count; ++i)
-      if (kind_of(primitives[i]) != kind || primitives[i].kind() == PrimitiveKind::instance)
+      if (primitives[i].kind() != kind || kind == PrimitiveKind::instance)
         return std::numeric_limits<float>::infinity();
     const uint32_t lanes = lanes_of<Real>(kind);
     return static_cast<float>((count + lanes - 1) / lanes);
   }
 };
 
-/// The box in float, wider by what the box test and the primitive tests round.
+/// The box in float, padded by what the box test and the primitive tests round.
 template <class Real>
 Bounds3<float> padded_box(const Bounds3<Real>& box) {
   const Vec3<Real> far = max(abs(box.low), abs(box.high));
@@ -69,27 +97,28 @@ class Bvh8Builder {
 
   void run() {
     first_node_ = static_cast<uint32_t>(scene_.bvh8_nodes.size());
-    block_count_[Bvh8Child::triangles] = static_cast<uint32_t>(scene_.triangle_blocks.size());
-    block_count_[Bvh8Child::spheres] = static_cast<uint32_t>(scene_.sphere_blocks.size());
-    block_count_[Bvh8Child::moving_spheres] = static_cast<uint32_t>(scene_.moving_sphere_blocks.size());
+#define ALHAZEN_COUNT(X, kind, Record, records, Block, blocks) \
+  block_count_[Bvh8Child::records] = static_cast<uint32_t>(scene_.blocks.size());
+    ALHAZEN_PRIMITIVES(ALHAZEN_COUNT, )
+#undef ALHAZEN_COUNT
     plan();
     for (const size_t count : {first_node_ + plan_.size(), size_t{block_count_[Bvh8Child::triangles]}})
       if (count > Bvh8Child::max_index_count)
         throw InputError("the scene is too large: its tree would have more than 2^26 nodes or blocks of triangles");
     scene_.bvh8_nodes.resize(first_node_ + plan_.size());
-    scene_.triangle_blocks.resize(block_count_[Bvh8Child::triangles]);
-    scene_.sphere_blocks.resize(block_count_[Bvh8Child::spheres]);
-    scene_.moving_sphere_blocks.resize(block_count_[Bvh8Child::moving_spheres]);
+#define ALHAZEN_RESIZE(X, kind, Record, records, Block, blocks) scene_.blocks.resize(block_count_[Bvh8Child::records]);
+    ALHAZEN_PRIMITIVES(ALHAZEN_RESIZE, )
+#undef ALHAZEN_RESIZE
 #pragma omp parallel for schedule(dynamic, 1024) num_threads(threads_)
     for (size_t i = 0; i < plan_.size(); ++i) fill(i);
   }
 
  private:
-  /// A wide node to be: the binary node it stands for, and where what is below it begins.
+  /// A node to be filled: the binary node that it stands for, and where its children and their blocks begin.
   struct Planned {
     uint32_t binary;
     uint32_t first_node;
-    uint32_t first_block[4];  ///< by Bvh8Child::Kind
+    uint32_t first_block[Bvh8Child::kinds];  ///< by Bvh8Child::Kind
   };
 
   bool is_instance(uint32_t leaf) const { return primitives_[collapse_.first(leaf)].kind() == PrimitiveKind::instance; }
@@ -97,12 +126,13 @@ class Bvh8Builder {
   /// 0 for an instance.
   uint32_t blocks_of(uint32_t leaf, Bvh8Child::Kind& kind) const {
     if (is_instance(leaf)) return 0;
-    kind = kind_of(primitives_[collapse_.first(leaf)]);
-    const uint32_t lanes = lanes_of<Real>(kind);
+    const PrimitiveKind primitive = primitives_[collapse_.first(leaf)].kind();
+    kind = Bvh8Child::kind(primitive);
+    const uint32_t lanes = lanes_of<Real>(primitive);
     return (collapse_.count(leaf) + lanes - 1) / lanes;
   }
 
-  /// Places: siblings side by side, and a node's descendants close behind it.
+  /// Gives indices to nodes and blocks: siblings are neighbours, the descendants of a node are close behind it.
   void plan() {
     plan_.push_back({});
     std::vector<uint32_t> pending{0};
@@ -150,7 +180,7 @@ class Bvh8Builder {
         Bvh8Child::Kind kind{};
         const uint32_t blocks = blocks_of(children[c], kind);
         node.child[slot] = Bvh8Child::pack(kind, blocks, next.first_block[kind]);
-        fill_blocks(children[c], kind, next.first_block[kind], blocks);
+        fill_blocks(children[c], next.first_block[kind], blocks);
         next.first_block[kind] += blocks;
       } else {
         node.child[slot] = Bvh8Child::pack(Bvh8Child::node, 0, next.first_node++);
@@ -166,42 +196,28 @@ class Bvh8Builder {
     node.child[slot] = Bvh8Child::nothing;
   }
 
-  void fill_blocks(uint32_t leaf, Bvh8Child::Kind kind, uint32_t first_block, uint32_t blocks) {
-    const uint32_t lanes = lanes_of<Real>(kind);
-    const uint32_t first = collapse_.first(leaf), count = collapse_.count(leaf);
-    for (uint32_t i = 0; i < blocks * lanes; ++i) {
-      const uint32_t block = first_block + i / lanes, lane = i % lanes;
-      // Lanes that are left over hold the last primitive's numbers, but for what makes them none.
-      const uint32_t index = primitives_[first + std::min(i, count - 1)].index();
-      switch (kind) {
-        case Bvh8Child::spheres:
-          set_lane(scene_.sphere_blocks[block], lane, index, i < count, scene_.spheres[index]);
-          break;
-        case Bvh8Child::moving_spheres:
-          set_lane(scene_.moving_sphere_blocks[block], lane, index, i < count, scene_.moving_spheres[index]);
-          for (int axis = 0; axis < 3; ++axis)
-            scene_.moving_sphere_blocks[block].motion[axis][lane] = scene_.moving_spheres[index].motion[axis];
-          break;
-        default:
-          set_triangle(scene_.triangle_blocks[block], lane, index, i < count);
-          break;
-      }
+  void fill_blocks(uint32_t leaf, uint32_t first_block, uint32_t blocks) {
+    switch (primitives_[collapse_.first(leaf)].kind()) {
+#define ALHAZEN_CASE(X, kind, Record, records, Block, block_array) \
+  case PrimitiveKind::kind:                                        \
+    return fill_blocks(leaf, scene_.block_array.data() + first_block, blocks, scene_.records);
+      ALHAZEN_PRIMITIVES(ALHAZEN_CASE, )
+#undef ALHAZEN_CASE
+      case PrimitiveKind::instance:
+        break;
     }
   }
 
   template <class Block, class Record>
-  static void set_lane(Block& block, uint32_t lane, uint32_t index, bool is_there, const Record& sphere) {
-    for (int axis = 0; axis < 3; ++axis) block.center[axis][lane] = sphere.center[axis];
-    block.radius[lane] = is_there ? sphere.radius : std::numeric_limits<Real>::quiet_NaN();
-    block.index[lane] = index;
-  }
-
-  void set_triangle(TriangleBlock<Real>& block, uint32_t lane, uint32_t index, bool is_there) const {
-    const uint32_t* vertex = scene_.triangles[index].vertex;
-    for (int v = 0; v < 3; ++v)
-      for (int axis = 0; axis < 3; ++axis)
-        block.vertex[v][axis][lane] = scene_.positions[vertex[is_there ? v : 0]][axis];
-    block.index[lane] = index;
+  void fill_blocks(uint32_t leaf, Block* block, uint32_t blocks, const std::vector<Record>& records) const {
+    const uint32_t first = collapse_.first(leaf), count = collapse_.count(leaf);
+    for (uint32_t i = 0; i < blocks * Block::lanes; ++i) {
+      const uint32_t lane = i % Block::lanes;
+      // Lanes that are left over hold the index of the last primitive.
+      const uint32_t index = primitives_[first + std::min(i, count - 1)].index();
+      set_lane(block[i / Block::lanes], lane, scene_, records[index], i < count);
+      block[i / Block::lanes].index[lane] = index;
+    }
   }
 
   SceneArrays<Real>& scene_;
@@ -211,7 +227,7 @@ class Bvh8Builder {
   BlockCost<Real> cost_;
   BvhCollapse<Real, BlockCost<Real>> collapse_;
   std::vector<Planned> plan_;
-  uint32_t block_count_[4]{};
+  uint32_t block_count_[Bvh8Child::kinds]{};
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-// Makes the BVH that CPUs walk (core/bvh/bvh8/node.h) from the binary one.
+// Collapses the binary BVH into the BVH8 of CPUs (core/bvh/bvh8/node.h).
 
 #include <span>
 
@@ -8,7 +8,7 @@
 
 namespace alhazen {
 
-/// Appends to bvh8_nodes and the blocks of `scene` what stands for `tree`, a binary tree over the primitives from
+/// Appends to bvh8_nodes and the blocks of `scene` the collapsed `tree`, a binary tree over the primitives from
 /// `first_primitive` on, whose boxes are `boxes`; the root comes first. `threads` 0: as OpenMP has it. Throws
 /// InputError where there are more nodes or blocks than Bvh8Child can number.
 template <class Real>

@@ -1,7 +1,7 @@
 #pragma once
 
-// Which place among its 8 siblings a child of a wide node gets, so that a ray may visit them in an order that its
-// direction alone tells (Ylitie, Karras, Laine 2017, section 3.3): slot s ^ octant is the priority of slot s, the
+// The slots of the children of a node of 8, so that a ray visits them in an order that its direction alone gives
+// (Ylitie, Karras, Laine 2017, section 3.3): slot s ^ octant is the priority of slot s, the
 // lowest first, where `octant` has a bit for each axis along which the direction is negative.
 
 #include <array>

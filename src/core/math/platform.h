@@ -25,6 +25,13 @@
 #define ALHAZEN_INLINE inline
 #endif
 
+// Follows the parameters of a lambda in a hot loop.
+#if defined(__GNUC__) && !defined(__CUDACC__)
+#define ALHAZEN_INLINE_LAMBDA __attribute__((always_inline))
+#else
+#define ALHAZEN_INLINE_LAMBDA
+#endif
+
 // Rare parts of hot loops, which are better not inlined.
 #if defined(__GNUC__) && !defined(__CUDACC__)
 #define ALHAZEN_NOINLINE __attribute__((noinline))

@@ -83,23 +83,19 @@ ALHAZEN_HD MeshTangent<Real> mesh_tangent(const SceneView<Real>& scene, const Hi
   return tangent;
 }
 
-/// Area of (u, v) of set `uv_set` for an area of the surface, world space at `time`. 0: unknown.
+template <class Real, SphereRecordOf<Real> Record>
+ALHAZEN_HD Real uv_density_of(const SceneView<Real>& scene, const Record& record, const Hit<Real>&, Real,
+                              const Vec3<Real>& normal, uint32_t) {
+  if (record.frame == no_sphere_frame) return 0;
+  // u = phi / (2 pi), v = theta / pi, area = r^2 sin(theta) dtheta dphi.
+  const Real cosine = dot(normal, scene.sphere_frames[record.frame].z);
+  const Real sine = larger(safe_sqrt(1 - cosine * cosine), Real(1e-3));
+  return Real(0.5) * inv_pi<Real> * inv_pi<Real> / (record.radius * record.radius * sine);
+}
+
 template <class Real>
-ALHAZEN_HD Real uv_density(const SceneView<Real>& scene, const Hit<Real>& hit, Real time, const Vec3<Real>& normal,
-                           uint32_t uv_set) {
-  if (hit.primitive.is_none()) return 0;
-  const uint32_t index = hit.primitive.index();
-  if (hit.primitive.kind() != PrimitiveKind::triangle) {
-    const bool moves = hit.primitive.kind() == PrimitiveKind::moving_sphere;
-    const uint32_t frame = moves ? scene.moving_spheres[index].frame : scene.spheres[index].frame;
-    const Real radius = moves ? scene.moving_spheres[index].radius : scene.spheres[index].radius;
-    if (frame == no_sphere_frame) return 0;
-    // u = phi / (2 pi), v = theta / pi, area = r^2 sin(theta) dtheta dphi.
-    const Real cosine = dot(normal, scene.sphere_frames[frame].z);
-    const Real sine = larger(safe_sqrt(1 - cosine * cosine), Real(1e-3));
-    return Real(0.5) * inv_pi<Real> * inv_pi<Real> / (radius * radius * sine);
-  }
-  const TriangleRecord& triangle = scene.triangles[index];
+ALHAZEN_HD Real uv_density_of(const SceneView<Real>& scene, const TriangleRecord& triangle, const Hit<Real>& hit,
+                              Real time, const Vec3<Real>&, uint32_t uv_set) {
   const SurfaceRecord& surface = scene.surfaces[triangle.surface];
   const uint32_t* v = triangle.vertex;
   Vec2<Real> uv[3];
@@ -113,6 +109,15 @@ ALHAZEN_HD Real uv_density(const SceneView<Real>& scene, const Hit<Real>& hit, R
   const Vec3<Real> e1 = direction_in_world(scene, hit, time, scene.positions[v[1]] - p0);
   const Vec3<Real> e2 = direction_in_world(scene, hit, time, scene.positions[v[2]] - p0);
   return twice_uv_area / length(cross(e1, e2));
+}
+
+/// Area of (u, v) of set `uv_set` for an area of the surface, world space at `time`. 0: unknown.
+template <class Real>
+ALHAZEN_HD Real uv_density(const SceneView<Real>& scene, const Hit<Real>& hit, Real time, const Vec3<Real>& normal,
+                           uint32_t uv_set) {
+  if (hit.primitive.is_none()) return 0;
+  return visit_primitive(scene, hit.primitive,
+                         [&](const auto& record) { return uv_density_of(scene, record, hit, time, normal, uv_set); });
 }
 
 }  // namespace ALHAZEN_CORE

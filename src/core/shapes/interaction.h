@@ -4,8 +4,7 @@
 
 #include "core/scene_view.h"
 #include "core/shapes/instance.h"
-#include "core/shapes/sphere.h"
-#include "core/shapes/triangle.h"
+#include "core/shapes/primitives.h"
 
 namespace ALHAZEN_CORE {
 
@@ -22,30 +21,10 @@ struct SurfaceInteraction {
   uint32_t instance = no_instance;
 };
 
-/// Index into scene.surfaces.
-template <class Real>
-ALHAZEN_HD uint32_t surface_of(const SceneView<Real>& scene, PrimitiveId primitive) {
-  switch (primitive.kind()) {
-    case PrimitiveKind::sphere:
-      return scene.spheres[primitive.index()].surface;
-    case PrimitiveKind::moving_sphere:
-      return scene.moving_spheres[primitive.index()].surface;
-    default:
-      return scene.triangles[primitive.index()].surface;
-  }
-}
-
 /// Asks for the record of what was met, before anything of it is read. For CPUs.
 template <class Real>
 ALHAZEN_INLINE void prefetch_primitive(const SceneView<Real>& scene, PrimitiveId primitive) {
-  switch (primitive.kind()) {
-    case PrimitiveKind::sphere:
-      return __builtin_prefetch(scene.spheres + primitive.index());
-    case PrimitiveKind::moving_sphere:
-      return __builtin_prefetch(scene.moving_spheres + primitive.index());
-    default:
-      return __builtin_prefetch(scene.triangles + primitive.index());
-  }
+  visit_primitive(scene, primitive, [](const auto& record) ALHAZEN_INLINE_LAMBDA { __builtin_prefetch(&record); });
 }
 
 /// Asks for what the record refers to.
@@ -229,24 +208,22 @@ ALHAZEN_HD ALHAZEN_NOINLINE SurfaceInteraction<Real> triangle_interaction(const 
 
 /// The hit point is pushed onto the sphere along the radius, so its error depends on centre and radius alone, not on
 /// the distance that the ray came.
-template <class Real>
-ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> sphere_interaction(const SceneView<Real>& scene, const Ray<Real>& ray,
-                                                                   Real t, const Vec3<Real>& center, Real radius,
-                                                                   uint32_t surface, uint32_t frame) {
-  SurfaceInteraction<Real> si;
-  const Vec3<Real> outward = normalize(ray.origin - center + ray.direction * t);
+template <class Real, SphereRecordOf<Real> Record>
+ALHAZEN_HD ALHAZEN_HOT void set_interaction(const SceneView<Real>& scene, const Record& record, const Ray<Real>& ray,
+                                            const Hit<Real>& hit, SurfaceInteraction<Real>& si) {
+  const auto [center, radius] = sphere_at(record, ray.time);
+  const Vec3<Real> outward = normalize(ray.origin - center + ray.direction * hit.t);
   const Vec3<Real> from_center = outward * radius;
   si.position = center + from_center;
   si.position_error = (abs(center) + splat(radius)) * rounding_bound<Real>(8);
-  si.normal = scene.surfaces[surface].flip_normal ? -outward : outward;
+  si.normal = scene.surfaces[record.surface].flip_normal ? -outward : outward;
   si.shading_normal = si.normal;
   si.uv = {};
-  if (frame != no_sphere_frame) {
-    const SphereFrame<Real>& axes = scene.sphere_frames[frame];
+  if (record.frame != no_sphere_frame) {
+    const SphereFrame<Real>& axes = scene.sphere_frames[record.frame];
     si.uv = sphere_uv(Vec3<Real>{dot(outward, axes.x), dot(outward, axes.y), dot(outward, axes.z)});
   }
-  si.surface = surface;
-  return si;
+  si.surface = record.surface;
 }
 
 /// Where a triangle of an object was met, as the instance has it at `time`.
@@ -275,28 +252,21 @@ ALHAZEN_HD ALHAZEN_COLD SurfaceInteraction<Real> instance_interaction(const Scen
   return si;
 }
 
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT void set_interaction(const SceneView<Real>& scene, const TriangleRecord&, const Ray<Real>& ray,
+                                            const Hit<Real>& hit, SurfaceInteraction<Real>& si) {
+  if (hit.instance == no_instance)
+    si = triangle_interaction(scene, hit);
+  else
+    si = instance_interaction(scene, hit, ray.time);
+}
+
 /// Sets `si` in its place: a copy of what has just been written would wait for it.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT void meet_surface(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>& hit,
                                          SurfaceInteraction<Real>& si) {
-  switch (hit.primitive.kind()) {
-    case PrimitiveKind::sphere: {
-      const SphereRecord<Real>& s = scene.spheres[hit.primitive.index()];
-      si = sphere_interaction(scene, ray, hit.t, s.center, s.radius, s.surface, s.frame);
-      break;
-    }
-    case PrimitiveKind::moving_sphere: {
-      const MovingSphereRecord<Real>& s = scene.moving_spheres[hit.primitive.index()];
-      si = sphere_interaction(scene, ray, hit.t, s.center + s.motion * ray.time, s.radius, s.surface, s.frame);
-      break;
-    }
-    default:
-      if (hit.instance == no_instance)
-        si = triangle_interaction(scene, hit);
-      else
-        si = instance_interaction(scene, hit, ray.time);
-      break;
-  }
+  visit_primitive(scene, hit.primitive,
+                  [&](const auto& record) ALHAZEN_INLINE_LAMBDA { set_interaction(scene, record, ray, hit, si); });
   si.time = ray.time;
   si.primitive = hit.primitive;
   si.instance = hit.instance;

@@ -5,11 +5,21 @@
 #include <cstdint>
 
 #include "core/math/platform.h"
+#include "core/shapes/primitive_list.h"
 
 namespace ALHAZEN_CORE {
 
-/// Instances stand in the leaves of the world's tree alone; what is met is a primitive of their object.
-enum class PrimitiveKind : uint32_t { triangle = 0, sphere = 1, moving_sphere = 2, instance = 3 };
+/// An instance is in a leaf of the world's tree; what a ray hits is a primitive of its object.
+enum class PrimitiveKind : uint32_t {
+#define ALHAZEN_KIND(X, kind, Record, records, Block, blocks) kind,
+  ALHAZEN_PRIMITIVES(ALHAZEN_KIND, )
+#undef ALHAZEN_KIND
+      instance
+};
+
+/// Kinds without that of instances.
+inline constexpr uint32_t primitive_kinds = static_cast<uint32_t>(PrimitiveKind::instance);
+static_assert(primitive_kinds <= 3, "PrimitiveId and Bvh8Child have two bits for a kind");
 
 /// Kind in the two high bits, index into the array of that kind below.
 struct PrimitiveId {

@@ -2,14 +2,19 @@
 
 // Spheres: intersection that stays accurate for radii of thousands, and sampling by the cone that they subtend.
 
+#include <limits>
+
+#include "core/math/bounds.h"
 #include "core/math/frame.h"
 #include "core/math/ray.h"
 #include "core/math/scalar.h"
+#include "core/scene_view.h"
+#include "core/shapes/sheared_ray.h"
 
 namespace ALHAZEN_CORE {
 
-/// Meets the sphere at a distance in (0, t_max]: the discriminant from the vector to the closest point and the roots
-/// without cancellation (Haines, Gunther, Akenine-Moller 2019, Ray Tracing Gems ch. 7).
+/// Intersects the sphere: the discriminant from the vector to the closest point and the roots without cancellation
+/// (Haines, Gunther, Akenine-Moller 2019, Ray Tracing Gems ch. 7).
 template <class Real>
 ALHAZEN_HD bool intersect_sphere(const Ray<Real>& ray, const Vec3<Real>& center, Real radius, Real t_max, Real& t) {
   const Vec3<Real> f = ray.origin - center;
@@ -28,6 +33,52 @@ ALHAZEN_HD bool intersect_sphere(const Ray<Real>& ray, const Vec3<Real>& center,
   if (!(distance > 0 && distance <= t_max)) return false;
   t = distance;
   return true;
+}
+
+template <class Real>
+struct Sphere {
+  Vec3<Real> center;
+  Real radius;
+};
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_INLINE Sphere<Real> sphere_at(const SphereRecord<Real>& sphere, Real) {
+  return {sphere.center, sphere.radius};
+}
+
+/// Where it is at `time`.
+template <class Real>
+ALHAZEN_HD ALHAZEN_INLINE Sphere<Real> sphere_at(const MovingSphereRecord<Real>& sphere, Real time) {
+  return {sphere.center + sphere.motion * time, sphere.radius};
+}
+
+/// What is true of spheres whether they move or not.
+template <class Record, class Real>
+concept SphereRecordOf = requires(const Record& record, Real time) {
+  sphere_at(record, time);
+};
+
+template <class Real, SphereRecordOf<Real> Record>
+ALHAZEN_HD ALHAZEN_INLINE bool intersect_record(const SceneView<Real>&, const Record& record, PrimitiveId,
+                                                const Ray<Real>& ray, const ShearedRay<Real>&, Real t_max,
+                                                Hit<Real>& hit) {
+  const Sphere<Real> sphere = sphere_at(record, ray.time);
+  return intersect_sphere(ray, sphere.center, sphere.radius, t_max, hit.t);
+}
+
+/// Padded by what rounding of centre +- radius may lose.
+template <class Real>
+Bounds3<Real> bounds_of(const Sphere<Real>& sphere) {
+  const Vec3<Real> r =
+      splat(sphere.radius) + (abs(sphere.center) + splat(sphere.radius)) * (2 * std::numeric_limits<Real>::epsilon());
+  return {sphere.center - r, sphere.center + r};
+}
+
+template <class Real, SphereRecordOf<Real> Record>
+Bounds3<Real> bounds_of(const SceneView<Real>&, const Record& record) {
+  Bounds3<Real> box = bounds_of(sphere_at(record, Real(0)));
+  box.extend(bounds_of(sphere_at(record, Real(1))));
+  return box;
 }
 
 /// Cone of directions from `point` that meets the sphere: cosine of its half angle, and 1 minus that cosine without

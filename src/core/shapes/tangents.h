@@ -37,11 +37,11 @@ ALHAZEN_HD bool swaps_handedness(const Real (&m)[3][4]) {
 /// Those that the mesh brings along, of which only directions count, or else those of its uvs; in the world, where an
 /// instance that moves has them at the time of the ray.
 template <class Real>
-ALHAZEN_HD SurfaceTangents<Real> mesh_tangents(const SceneView<Real>& scene, const Hit<Real>& hit,
-                                               const SurfaceInteraction<Real>& si) {
+ALHAZEN_HD SurfaceTangents<Real> tangents_of(const SceneView<Real>& scene, const TriangleRecord& triangle,
+                                             const Hit<Real>& hit, const SurfaceInteraction<Real>& si) {
   MeshTangent<Real> mesh = mesh_tangent(scene, hit);
   SurfaceTangents<Real> own;
-  if (mesh.handedness == 0) own = triangle_tangents(scene, scene.triangles[hit.primitive.index()]);
+  if (mesh.handedness == 0) own = triangle_tangents(scene, triangle);
   if (hit.instance != no_instance) {
     const InstanceRecord<Real> instance = instance_at(scene, hit.instance, si.time);
     const auto& world = instance.world_from_object;
@@ -67,18 +67,19 @@ ALHAZEN_HD SurfaceTangents<Real> sphere_tangents(const SphereFrame<Real>& axes, 
   return {around * (2 * pi<Real>), up * pi<Real>};
 }
 
+template <class Real, SphereRecordOf<Real> Record>
+ALHAZEN_HD SurfaceTangents<Real> tangents_of(const SceneView<Real>& scene, const Record& record, const Hit<Real>&,
+                                             const SurfaceInteraction<Real>& si) {
+  if (record.frame == no_sphere_frame) return {};
+  const Vec3<Real> outward = scene.surfaces[si.surface].flip_normal ? -si.normal : si.normal;
+  return sphere_tangents(scene.sphere_frames[record.frame], record.radius, outward);
+}
+
 /// Zero where uv does not say.
 template <class Real>
 ALHAZEN_HD SurfaceTangents<Real> surface_tangents(const SceneView<Real>& scene, const Hit<Real>& hit,
                                                   const SurfaceInteraction<Real>& si) {
-  if (hit.primitive.kind() == PrimitiveKind::triangle) return mesh_tangents(scene, hit, si);
-  const bool moves = hit.primitive.kind() == PrimitiveKind::moving_sphere;
-  const uint32_t index = hit.primitive.index();
-  const uint32_t frame = moves ? scene.moving_spheres[index].frame : scene.spheres[index].frame;
-  if (frame == no_sphere_frame) return {};
-  const Real radius = moves ? scene.moving_spheres[index].radius : scene.spheres[index].radius;
-  const Vec3<Real> outward = scene.surfaces[si.surface].flip_normal ? -si.normal : si.normal;
-  return sphere_tangents(scene.sphere_frames[frame], radius, outward);
+  return visit_primitive(scene, hit.primitive, [&](const auto& record) { return tangents_of(scene, record, hit, si); });
 }
 
 /// A frame about `normal` whose tangent leans along dpdu; the bitangent is on the side of dpdv.

@@ -2,38 +2,17 @@
 
 // Watertight triangles (Woop, Benthin, Wald 2013, JCGT 2(1)), and triangles as lights sampled by area.
 
+#include "core/math/bounds.h"
 #include "core/math/ray.h"
 #include "core/math/scalar.h"
-#include "core/shapes/shape_records.h"
+#include "core/scene_view.h"
+#include "core/shapes/sheared_ray.h"
 
 namespace ALHAZEN_CORE {
 
-/// The ray as the triangle test wants it: axes permuted so that the direction is longest along the last, and the shear
-/// that turns the direction into that axis. Made once a ray.
-template <class Real>
-struct ShearedRay {
-  Vec3<Real> origin;  ///< along kx, ky and kz
-  Vec3<Real> shear;
-  int kx, ky, kz;
-  PrimitiveId left;  ///< the triangle that the ray starts from, where that is one of this space
-};
-
-template <class Real>
-ALHAZEN_HD ALHAZEN_HOT ShearedRay<Real> shear_ray(const Ray<Real>& ray) {
-  ShearedRay<Real> s;
-  s.kz = max_axis(abs(ray.direction));
-  s.kx = s.kz == 2 ? 0 : s.kz + 1;
-  s.ky = s.kx == 2 ? 0 : s.kx + 1;
-  s.origin = {ray.origin[s.kx], ray.origin[s.ky], ray.origin[s.kz]};
-  const Real inverse = Real(1) / ray.direction[s.kz];
-  s.shear = {ray.direction[s.kx] * inverse, ray.direction[s.ky] * inverse, inverse};
-  s.left = ray.left_instance == no_instance ? ray.left : PrimitiveId();
-  return s;
-}
-
-/// Intersects the triangle p0 p1 p2 at a distance in (0, t_max]: sets t and the barycentric weights. Rays through a
-/// shared edge or vertex always hit one of the triangles; degenerate triangles are never hit. The sign of a t that is
-/// within its rounding error is not sure: rays are spawned so that only that of the triangle they leave can be
+/// Intersects the triangle p0 p1 p2: sets t and the barycentric weights of p1 and p2. Rays through a shared edge or
+/// vertex always hit one of the triangles; degenerate triangles are never hit. The sign of a t that is within its
+/// rounding error is not sure: rays are spawned so that only that of the triangle they leave can be
 /// (`Ray::left`, `edge_clearance`).
 template <class Real>
 ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>& p0, const Vec3<Real>& p1,
@@ -57,6 +36,23 @@ ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>
   b1 = e.y * inverse_det;
   b2 = e.z * inverse_det;
   return true;
+}
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_INLINE bool intersect_record(const SceneView<Real>& scene, const TriangleRecord& triangle,
+                                                PrimitiveId id, const Ray<Real>&, const ShearedRay<Real>& sheared,
+                                                Real t_max, Hit<Real>& hit) {
+  if (id == sheared.left) return false;
+  const uint32_t* v = triangle.vertex;
+  return intersect_triangle(sheared, scene.positions[v[0]], scene.positions[v[1]], scene.positions[v[2]], t_max, hit.t,
+                            hit.b1, hit.b2);
+}
+
+template <class Real>
+Bounds3<Real> bounds_of(const SceneView<Real>& scene, const TriangleRecord& triangle) {
+  Bounds3<Real> box;
+  for (const uint32_t v : triangle.vertex) box.extend(scene.positions[v]);
+  return box;
 }
 
 /// A point on the triangle by area, from two uniform numbers: barycentric weights of vertices 0 and 1, pdf 1 / area

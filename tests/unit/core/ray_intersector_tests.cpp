@@ -55,13 +55,13 @@ using Intersectors = ::testing::Types<
 template <class Over>
 class RayIntersectors : public ::testing::Test {
  public:
-  using Real = typename Over::Real;
+  using RealOf = typename Over::Real;
 
-  static Ray<Real> ray_along_z(Real x) { return {{x, 0, 0}, {0, 0, 1}}; }
+  static Ray<RealOf> ray_along_z(RealOf x) { return {{x, 0, 0}, {0, 0, 1}}; }
 
   /// Whether there is a hit, which closest_hit and occluded must agree on.
-  static bool hits(const Over& over, const Ray<Real>& ray, Real t_max, Hit<Real>* hit = nullptr) {
-    Hit<Real> found;
+  static bool hits(const Over& over, const Ray<RealOf>& ray, RealOf t_max, Hit<RealOf>* hit = nullptr) {
+    Hit<RealOf> found;
     const bool is_hit = over.intersector.closest_hit(ray, t_max, found);
     EXPECT_EQ(over.intersector.occluded(ray, t_max), is_hit) << "t_max " << t_max;
     if (hit) *hit = found;
@@ -69,11 +69,11 @@ class RayIntersectors : public ::testing::Test {
   }
 
   /// A triangle across the z axis at z = 5, and a sphere about x = 10 that begins there.
-  static CompiledScene<Real> triangle_and_sphere() {
+  static CompiledScene<RealOf> triangle_and_sphere() {
     PrimitiveScene scene;
     scene.add_triangle({-1, -1, 5}, {1, -1, 5}, {0, 1, 5});
     scene.add_sphere({10, 0, 6}, 1);
-    return scene.flat<Real>();
+    return scene.flat<RealOf>();
   }
 };
 TYPED_TEST_SUITE(RayIntersectors, Intersectors);

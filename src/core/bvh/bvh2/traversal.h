@@ -6,8 +6,7 @@
 #include "core/bvh/stack.h"
 #include "core/scene_view.h"
 #include "core/shapes/instance.h"
-#include "core/shapes/sphere.h"
-#include "core/shapes/triangle.h"
+#include "core/shapes/primitives.h"
 
 namespace ALHAZEN_CORE {
 
@@ -40,39 +39,6 @@ ALHAZEN_HD ALHAZEN_INLINE Real intersect_box(const Bvh2Node<Real>& node, const S
     t_far = high < t_far ? high : t_far;
   }
   return t_near <= t_far ? t_near : infinity<Real>;
-}
-
-/// Tests one primitive that is no instance; a hit that is nearer than `hit` replaces it, outside of any instance.
-/// Triangles are tested against `sheared` alone.
-template <class Real>
-ALHAZEN_HD bool intersect_primitive(const SceneView<Real>& scene, PrimitiveId primitive, const Ray<Real>& ray,
-                                    const ShearedRay<Real>& sheared, Hit<Real>& hit) {
-  Hit<Real> found{hit.t, 0, 0, primitive};
-  bool is_hit = false;
-  switch (primitive.kind()) {
-    case PrimitiveKind::triangle: {
-      if (primitive == sheared.left) return false;
-      const uint32_t* v = scene.triangles[primitive.index()].vertex;
-      is_hit = intersect_triangle(sheared, scene.positions[v[0]], scene.positions[v[1]], scene.positions[v[2]], hit.t,
-                                  found.t, found.b1, found.b2);
-      break;
-    }
-    case PrimitiveKind::sphere: {
-      const SphereRecord<Real>& s = scene.spheres[primitive.index()];
-      is_hit = intersect_sphere(ray, s.center, s.radius, hit.t, found.t);
-      break;
-    }
-    case PrimitiveKind::moving_sphere: {
-      const MovingSphereRecord<Real>& s = scene.moving_spheres[primitive.index()];
-      is_hit = intersect_sphere(ray, s.center + s.motion * ray.time, s.radius, hit.t, found.t);
-      break;
-    }
-    case PrimitiveKind::instance:
-      break;
-  }
-  if (!is_hit || !is_nearer(found.t, primitive, hit)) return false;
-  hit = found;
-  return true;
 }
 
 /// A node that is yet to be visited, and the distance at which the ray enters it.

@@ -87,13 +87,15 @@ template <class Real>
 ALHAZEN_INLINE bool intersect_leaf(const SceneView<Real>& scene, uint32_t child, const Ray<Real>& ray,
                                    const ShearedRay<Real>& sheared, Hit<Real>& hit) {
   switch (Bvh8Child::kind(child)) {
-    case Bvh8Child::spheres:
-      return intersect_blocks(scene.sphere_blocks, child, ray, sheared, hit);
-    case Bvh8Child::moving_spheres:
-      return intersect_blocks(scene.moving_sphere_blocks, child, ray, sheared, hit);
+#define ALHAZEN_CASE(X, kind, Record, records, Block, blocks) \
+  case Bvh8Child::records:                                    \
+    return intersect_blocks(scene.blocks, child, ray, sheared, hit);
+    ALHAZEN_PRIMITIVES(ALHAZEN_CASE, )
+#undef ALHAZEN_CASE
     default:
-      return intersect_blocks(scene.triangle_blocks, child, ray, sheared, hit);
+      break;
   }
+  __builtin_unreachable();
 }
 
 }  // namespace ALHAZEN_CORE

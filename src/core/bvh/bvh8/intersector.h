@@ -133,9 +133,11 @@ class Bvh8Intersector {
   }
 
   static size_t bytes(const SceneView<Real>& scene) {
-    return scene.bvh8_nodes_count * sizeof(Bvh8Node) + scene.triangle_blocks_count * sizeof(TriangleBlock<Real>) +
-           scene.sphere_blocks_count * sizeof(SphereBlock<Real>) +
-           scene.moving_sphere_blocks_count * sizeof(MovingSphereBlock<Real>);
+    size_t bytes = scene.bvh8_nodes_count * sizeof(Bvh8Node);
+#define ALHAZEN_ADD(X, kind, Record, records, Block, blocks) bytes += scene.blocks##_count * sizeof(Block);
+    ALHAZEN_PRIMITIVES(ALHAZEN_ADD, )
+#undef ALHAZEN_ADD
+    return bytes;
   }
 
   const SceneView<Real>* scene_;

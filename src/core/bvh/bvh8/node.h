@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "core/math/platform.h"
+#include "core/shapes/primitive_id.h"
 
 namespace ALHAZEN_CORE {
 
@@ -13,11 +13,21 @@ inline constexpr int bvh8_width = 8;
 
 /// A child of a node: another node, or a leaf of blocks of primitives of one kind.
 struct Bvh8Child {
-  enum Kind : uint32_t { node = 0, triangles = 1, spheres = 2, moving_spheres = 3 };
+  enum Kind : uint32_t {
+    node,
+#define ALHAZEN_KIND(X, kind, Record, records, Block, blocks) records,
+    ALHAZEN_PRIMITIVES(ALHAZEN_KIND, )
+#undef ALHAZEN_KIND
+        kinds
+  };
   static constexpr uint32_t index_bits = 26, max_blocks = 15;
 
   static constexpr uint32_t pack(Kind kind, uint32_t blocks, uint32_t first) {
     return static_cast<uint32_t>(kind) << 30 | blocks << index_bits | first;
+  }
+  /// Of leaves of such primitives.
+  static constexpr Kind kind(PrimitiveKind primitive) {
+    return static_cast<Kind>(static_cast<uint32_t>(primitive) + 1);
   }
   static constexpr Kind kind(uint32_t child) { return static_cast<Kind>(child >> 30); }
   static constexpr uint32_t blocks(uint32_t child) { return child >> index_bits & max_blocks; }

@@ -205,13 +205,15 @@ class RayPacket {
 
   ALHAZEN_INLINE void intersect(const SceneView<Real>& scene, uint32_t child, uint32_t rays) {
     switch (Bvh8Child::kind(child)) {
-      case Bvh8Child::spheres:
-        return intersect_blocks_of(scene.sphere_blocks, child, rays);
-      case Bvh8Child::moving_spheres:
-        return intersect_blocks_of(scene.moving_sphere_blocks, child, rays);
+#define ALHAZEN_CASE(X, kind, Record, records, Block, blocks) \
+  case Bvh8Child::records:                                    \
+    return intersect_blocks_of(scene.blocks, child, rays);
+      ALHAZEN_PRIMITIVES(ALHAZEN_CASE, )
+#undef ALHAZEN_CASE
       default:
-        return intersect_blocks_of(scene.triangle_blocks, child, rays);
+        break;
     }
+    __builtin_unreachable();
   }
 
   template <class Block>

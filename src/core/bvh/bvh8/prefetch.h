@@ -14,12 +14,19 @@ template <class Real>
 class Bvh8Prefetch {
  public:
   ALHAZEN_INLINE explicit Bvh8Prefetch(const SceneView<Real>& scene)
-      : begin_{bytes_of(scene.bvh8_nodes), bytes_of(scene.triangle_blocks), bytes_of(scene.sphere_blocks),
-               bytes_of(scene.moving_sphere_blocks)} {}
+      : begin_{bytes_of(scene.bvh8_nodes),
+#define ALHAZEN_BEGIN(X, kind, Record, records, Block, blocks) bytes_of(scene.blocks),
+               ALHAZEN_PRIMITIVES(ALHAZEN_BEGIN, )
+#undef ALHAZEN_BEGIN
+        } {
+  }
 
   ALHAZEN_INLINE void operator()(uint32_t child) const {
-    constexpr size_t size[4] = {sizeof(Bvh8Node), sizeof(TriangleBlock<Real>), sizeof(SphereBlock<Real>),
-                                sizeof(MovingSphereBlock<Real>)};
+    constexpr size_t size[Bvh8Child::kinds] = {sizeof(Bvh8Node),
+#define ALHAZEN_SIZE(X, kind, Record, records, Block, blocks) sizeof(Block),
+                                               ALHAZEN_PRIMITIVES(ALHAZEN_SIZE, )
+#undef ALHAZEN_SIZE
+    };
     const char* const at = begin_[Bvh8Child::kind(child)] + Bvh8Child::first(child) * size[Bvh8Child::kind(child)];
     for (int line = 0; line < 3; ++line) __builtin_prefetch(at + 64 * line);
     __builtin_prefetch(at + sizeof(Bvh8Node) - 1);
@@ -28,7 +35,7 @@ class Bvh8Prefetch {
  private:
   static const char* bytes_of(const void* array) { return static_cast<const char*>(array); }
 
-  const char* begin_[4];
+  const char* begin_[Bvh8Child::kinds];
 };
 
 }  // namespace ALHAZEN_CORE

@@ -23,8 +23,7 @@ struct alignas(16) CwbvhNode {
 };
 static_assert(sizeof(CwbvhNode) == 80);
 
-/// A copy of a primitive, so that its test reads no other array. Triangle: vertices a, b, c. Sphere: centre a, radius
-/// b.x. Moving sphere: centre a, radius b.x, motion c. Instance: the id alone.
+/// A copy of a primitive, so that its test reads no other array; primitive.h says what the kinds keep where.
 struct alignas(16) CwbvhPrimitive {
   Vec3<float> a;
   PrimitiveId id;

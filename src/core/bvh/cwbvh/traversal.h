@@ -4,7 +4,7 @@
 // (Ylitie, Karras, Laine 2017, section 4). Boxes are tested as those of the binary BVH are (bvh2/traversal.h).
 
 #include "core/bvh/bvh2/traversal.h"
-#include "core/bvh/cwbvh/node.h"
+#include "core/bvh/cwbvh/primitive.h"
 
 namespace ALHAZEN_CORE {
 
@@ -84,29 +84,6 @@ ALHAZEN_HD ALHAZEN_INLINE uint32_t intersect_children(const CwbvhNode& node, con
     hits |= (meta >> 5) << (place >= 24 ? place ^ (7u - octant) : place);
   }
   return hits;
-}
-
-ALHAZEN_HD inline bool intersect_primitive(const CwbvhPrimitive& primitive, const Ray<float>& ray,
-                                           const ShearedRay<float>& sheared, Hit<float>& hit) {
-  Hit<float> found{hit.t, 0, 0, primitive.id};
-  bool is_hit = false;
-  switch (primitive.id.kind()) {
-    case PrimitiveKind::triangle:
-      is_hit = primitive.id != sheared.left &&
-               intersect_triangle(sheared, primitive.a, primitive.b, primitive.c, hit.t, found.t, found.b1, found.b2);
-      break;
-    case PrimitiveKind::sphere:
-      is_hit = intersect_sphere(ray, primitive.a, primitive.b.x, hit.t, found.t);
-      break;
-    case PrimitiveKind::moving_sphere:
-      is_hit = intersect_sphere(ray, primitive.a + primitive.c * ray.time, primitive.b.x, hit.t, found.t);
-      break;
-    case PrimitiveKind::instance:
-      break;
-  }
-  if (!is_hit || !is_nearer(found.t, primitive.id, hit)) return false;
-  hit = found;
-  return true;
 }
 
 ALHAZEN_HD ALHAZEN_INLINE uint32_t octant_of(const SlabRay<float>& ray) {

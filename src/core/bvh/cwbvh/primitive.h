@@ -1,0 +1,88 @@
+#pragma once
+
+// How each kind of primitive is copied into the leaves of the compressed wide BVH, and tested there. Of an instance the
+// identifier alone is kept.
+
+#include "core/bvh/cwbvh/node.h"
+#include "core/shapes/primitives.h"
+
+namespace ALHAZEN_CORE {
+
+template <class Real>
+void copy_to(CwbvhPrimitive& copy, const SceneView<Real>& scene, const TriangleRecord& triangle) {
+  copy.a = convert<float>(scene.positions[triangle.vertex[0]]);
+  copy.b = convert<float>(scene.positions[triangle.vertex[1]]);
+  copy.c = convert<float>(scene.positions[triangle.vertex[2]]);
+}
+
+template <class Real>
+void copy_to(CwbvhPrimitive& copy, const SceneView<Real>&, const SphereRecord<Real>& sphere) {
+  copy.a = convert<float>(sphere.center);
+  copy.b.x = static_cast<float>(sphere.radius);
+}
+
+template <class Real>
+void copy_to(CwbvhPrimitive& copy, const SceneView<Real>&, const MovingSphereRecord<Real>& sphere) {
+  copy.a = convert<float>(sphere.center);
+  copy.b.x = static_cast<float>(sphere.radius);
+  copy.c = convert<float>(sphere.motion);
+}
+
+template <class Real>
+CwbvhPrimitive cwbvh_primitive(const SceneView<Real>& scene, PrimitiveId id) {
+  CwbvhPrimitive copy{};
+  copy.id = id;
+  if (id.kind() != PrimitiveKind::instance)
+    visit_primitive(scene, id, [&](const auto& record) { copy_to(copy, scene, record); });
+  return copy;
+}
+
+/// The scalar test of a kind, from the copy.
+template <PrimitiveKind kind>
+struct CwbvhTest;
+
+template <>
+struct CwbvhTest<PrimitiveKind::triangle> {
+  ALHAZEN_HD static bool intersect(const CwbvhPrimitive& p, const Ray<float>&, const ShearedRay<float>& sheared,
+                                   float t_max, Hit<float>& hit) {
+    return p.id != sheared.left && intersect_triangle(sheared, p.a, p.b, p.c, t_max, hit.t, hit.b1, hit.b2);
+  }
+};
+
+template <>
+struct CwbvhTest<PrimitiveKind::sphere> {
+  ALHAZEN_HD static bool intersect(const CwbvhPrimitive& p, const Ray<float>& ray, const ShearedRay<float>&,
+                                   float t_max, Hit<float>& hit) {
+    return intersect_sphere(ray, p.a, p.b.x, t_max, hit.t);
+  }
+};
+
+template <>
+struct CwbvhTest<PrimitiveKind::moving_sphere> {
+  ALHAZEN_HD static bool intersect(const CwbvhPrimitive& p, const Ray<float>& ray, const ShearedRay<float>&,
+                                   float t_max, Hit<float>& hit) {
+    return intersect_sphere(ray, p.a + p.c * ray.time, p.b.x, t_max, hit.t);
+  }
+};
+
+/// intersect_primitive from the copy.
+ALHAZEN_HD inline bool intersect_primitive(const CwbvhPrimitive& primitive, const Ray<float>& ray,
+                                           const ShearedRay<float>& sheared, Hit<float>& hit) {
+  Hit<float> found{hit.t, 0, 0, primitive.id};
+  bool is_hit = false;
+  switch (primitive.id.kind()) {
+#define ALHAZEN_CASE(X, kind, Record, records, Block, blocks)                                  \
+  case PrimitiveKind::kind:                                                                    \
+    is_hit = CwbvhTest<PrimitiveKind::kind>::intersect(primitive, ray, sheared, hit.t, found); \
+    break;
+    ALHAZEN_PRIMITIVES(ALHAZEN_CASE, )
+#undef ALHAZEN_CASE
+    case PrimitiveKind::instance:
+      break;
+  }
+  if (!is_hit || !is_nearer(found.t, primitive.id, hit)) return false;
+  hit = found;
+  return true;
+}
+
+}  // namespace ALHAZEN_CORE

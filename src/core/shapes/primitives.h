@@ -1,0 +1,48 @@
+#pragma once
+
+// Dispatch over the kinds of primitives.
+
+#include "core/bvh/ray_intersector.h"
+#include "core/scene_view.h"
+#include "core/shapes/sphere.h"
+#include "core/shapes/triangle.h"
+
+namespace ALHAZEN_CORE {
+
+/// Calls `visit` with the record of a primitive that is no instance.
+template <class Real, class Visit>
+ALHAZEN_HD ALHAZEN_INLINE decltype(auto) visit_primitive(const SceneView<Real>& scene, PrimitiveId primitive,
+                                                         const Visit& visit) {
+  switch (primitive.kind()) {
+#define ALHAZEN_CASE(X, kind, Record, records, Block, blocks) \
+  case PrimitiveKind::kind:                                   \
+    return visit(scene.records[primitive.index()]);
+    ALHAZEN_PRIMITIVES(ALHAZEN_CASE, )
+#undef ALHAZEN_CASE
+    case PrimitiveKind::instance:
+      break;
+  }
+  __builtin_unreachable();
+}
+
+/// Index into scene.surfaces.
+template <class Real>
+ALHAZEN_HD uint32_t surface_of(const SceneView<Real>& scene, PrimitiveId primitive) {
+  return visit_primitive(scene, primitive, [](const auto& record) ALHAZEN_INLINE_LAMBDA { return record.surface; });
+}
+
+/// Tests one primitive that is no instance; a hit that is nearer than `hit` replaces it, outside of any instance.
+/// `sheared` is of the space of the primitive.
+template <class Real>
+ALHAZEN_HD bool intersect_primitive(const SceneView<Real>& scene, PrimitiveId primitive, const Ray<Real>& ray,
+                                    const ShearedRay<Real>& sheared, Hit<Real>& hit) {
+  Hit<Real> found{hit.t, 0, 0, primitive};
+  const bool is_hit = visit_primitive(scene, primitive, [&](const auto& record) ALHAZEN_INLINE_LAMBDA {
+    return intersect_record(scene, record, primitive, ray, sheared, hit.t, found);
+  });
+  if (!is_hit || !is_nearer(found.t, primitive, hit)) return false;
+  hit = found;
+  return true;
+}
+
+}  // namespace ALHAZEN_CORE

@@ -1,0 +1,33 @@
+#pragma once
+
+// A ray in the space where triangles are tested (Woop, Benthin, Wald 2013).
+
+#include "core/math/ray.h"
+#include "core/math/scalar.h"
+
+namespace ALHAZEN_CORE {
+
+/// What the triangle test needs of a ray, once a ray: axes permuted so that the direction is longest along the last,
+/// and the shear that turns the direction into that axis.
+template <class Real>
+struct ShearedRay {
+  Vec3<Real> origin;  ///< along kx, ky and kz
+  Vec3<Real> shear;
+  int kx, ky, kz;
+  PrimitiveId left;  ///< Ray::left where it is of this space
+};
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT ShearedRay<Real> shear_ray(const Ray<Real>& ray) {
+  ShearedRay<Real> s;
+  s.kz = max_axis(abs(ray.direction));
+  s.kx = s.kz == 2 ? 0 : s.kz + 1;
+  s.ky = s.kx == 2 ? 0 : s.kx + 1;
+  s.origin = {ray.origin[s.kx], ray.origin[s.ky], ray.origin[s.kz]};
+  const Real inverse = Real(1) / ray.direction[s.kz];
+  s.shear = {ray.direction[s.kx] * inverse, ray.direction[s.ky] * inverse, inverse};
+  s.left = ray.left_instance == no_instance ? ray.left : PrimitiveId();
+  return s;
+}
+
+}  // namespace ALHAZEN_CORE
