@@ -35,8 +35,8 @@ struct SpheresScene {
     asked.samples_per_pixel = samples;
     SpheresScene loaded;
     loaded.settings = resolve_settings(asked, scene);
-    loaded.flat = compile_scene<Real>(
-        std::move(scene), CompileOptions{image_size, image_size, 0, {BvhLayout::bvh8}}, diagnostics);
+    loaded.flat = compile_scene<Real>(std::move(scene), CompileOptions{image_size, image_size, 0, {BvhLayout::bvh8}},
+                                      diagnostics);
     return loaded;
   }
 };

@@ -58,14 +58,13 @@ class SceneCompiler {
     if (options_.in_render_space) move_to_render_space(scene_);
     compile_camera(scene_, width_, height_, out_, flat.view, diagnostics_);
     check_mixes(scene_);
-    needs_uv_ = materials_that_need_uv(scene_);
     fit_images(scene_, options_.texture_budget, diagnostics_);
-    emission_textures_ = compile_materials(scene_, out_);
+    materials_ = compile_materials(scene_, out_);
     for (const MaterialRecord<Real>& material : out_.materials) {
       if (material.features & MaterialFeatures::cutout) flat.view.has_cutouts = 1;
       if (material.opacity.count > 0) flat.view.lets_light_through = 1;
       if (material.features & MaterialFeatures::one_sided) has_one_sided_ = true;
-      if (has_lobes(material.kind)) flat.view.has_lobes = 1;
+      if (has_trait<&MaterialTraits::has_lobes>(material.kind)) flat.view.has_lobes = 1;
     }
     add_described_lights(scene_, out_, flat.view, light_measures_);
     place_shapes();
@@ -352,7 +351,7 @@ class SceneCompiler {
     if (!is_finite(light.radiance))
       throw InputError(shape.where, "the radiance of the light is not finite in this precision: reduce it");
     light.two_sided = emission.two_sided && material.double_sided ? 1 : 0;
-    if (emission.texture != no_index) light.texture = emission_textures_.at(emission.texture);
+    if (emission.texture != no_index) light.texture = materials_.emission.at(emission.texture);
     out_.lights.push_back(light);
     light_measures_.push_back(material.alpha == no_index ? area : 0);
     return static_cast<uint32_t>(out_.lights.size() - 1);
@@ -411,7 +410,8 @@ class SceneCompiler {
 
   uint32_t sphere_frame(const Shape& shape, const Transform& world_from_object) {
     const bool has_emission_texture = shape.emission && shape.emission->texture != no_index;
-    if (!has_emission_texture && (shape.material == no_index || !needs_uv_[shape.material])) return no_sphere_frame;
+    if (!has_emission_texture && (shape.material == no_index || !materials_.needs_uv[shape.material]))
+      return no_sphere_frame;
     const auto axis = [&](const Vec3d& a) { return convert<Real>(normalize(world_from_object.direction(a))); };
     out_.sphere_frames.push_back({axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})});
     return static_cast<uint32_t>(out_.sphere_frames.size() - 1);
@@ -535,13 +535,12 @@ class SceneCompiler {
   Diagnostics& diagnostics_;
   int64_t width_ = 0, height_ = 0;
   SceneArrays<Real> out_;
-  std::vector<bool> needs_uv_;
+  CompiledMaterials materials_;
   bool has_one_sided_ = false;
-  std::vector<const Shape*> surface_shapes_;     ///< by surface
-  std::vector<bool> is_object_;                  ///< by group
-  std::vector<uint32_t> uses_;                   ///< by mesh: placements still to come
-  std::vector<TextureRange> emission_textures_;  ///< by texture
-  std::vector<double> light_measures_;           ///< by light, see assign_light_probabilities
+  std::vector<const Shape*> surface_shapes_;  ///< by surface
+  std::vector<bool> is_object_;               ///< by group
+  std::vector<uint32_t> uses_;                ///< by mesh: placements still to come
+  std::vector<double> light_measures_;        ///< by light, see assign_light_probabilities
   uint64_t placed_shapes_ = 0, placed_triangles_ = 0;
   size_t without_area_ = 0;
   SourceLocation without_area_place_;

@@ -25,9 +25,7 @@ bool is_without_size(LightKind kind) {
          kind == LightKind::goniometric || kind == LightKind::projection;
 }
 
-bool may_be_sharp(MaterialKind kind) {
-  return kind != MaterialKind::diffuse && kind != MaterialKind::diffuse_transmission;
-}
+bool may_be_sharp(MaterialKind kind) { return has_trait<&MaterialTraits::may_be_sharp>(kind); }
 
 constexpr uint32_t no_object = 0xffffffffu;
 
@@ -221,9 +219,8 @@ class LostLightSearch {
       if (is_lost(spawn_ray(point.si, s.direction))) tally.lost += sent;
     }
     if (before > 0 || !(tally.lost > 0)) return;
-    const MaterialKind kind = point.bsdf.kind;
     tally.where.surface = point.si.surface;
-    tally.where.is_mirror = kind == MaterialKind::conductor || kind == MaterialKind::anisotropic_conductor;
+    tally.where.is_mirror = has_trait<&MaterialTraits::is_bare_metal>(point.bsdf.kind);
   }
 
   static bool is_sharp(const BsdfSample<Real>& s) {

@@ -9,13 +9,14 @@
 
 namespace alhazen {
 
-/// Fills images, texels, texture programs and materials of `out`; frees the texels of `scene`. A default material is
-/// appended for shapes without one; its index is scene.materials.size(). Returns the programs of emission textures, by
-/// index into scene.textures.
-template <class Real>
-std::vector<TextureRange> compile_materials(Scene& scene, SceneArrays<Real>& out);
+struct CompiledMaterials {
+  std::vector<TextureRange> emission;  ///< programs of emission textures, by index into scene.textures
+  std::vector<bool> needs_uv;          ///< by material: whether it, or one that it mixes, uses uv
+};
 
-/// By material: whether any of its textures, or of those of its mixed materials, uses uv. `scene` has no cyclic mixes.
-std::vector<bool> materials_that_need_uv(const Scene& scene);
+/// Fills images, texels, texture programs and materials of `out`; frees the texels of `scene`. A default material is
+/// appended for shapes without one; its index is scene.materials.size(). `scene` has no cyclic mixes.
+template <class Real>
+CompiledMaterials compile_materials(Scene& scene, SceneArrays<Real>& out);
 
 }  // namespace alhazen

@@ -42,7 +42,6 @@ namespace ALHAZEN_CORE {
   ARRAY(InstanceMotion<Real>, instance_motions)       \
   ARRAY(SurfaceRecord, surfaces)                      \
   ARRAY(MaterialRecord<Real>, materials)              \
-  ARRAY(LayersRecord<Real>, layers)                   \
   ARRAY(Real, albedo_tables)                          \
   ARRAY(TextureRecord<Real>, textures)                \
   ARRAY(TextureMapping<Real>, texture_mappings)       \

@@ -13,7 +13,7 @@ std::vector<uint32_t> order_of_mixes(const std::vector<Material>& materials, uin
     path.push_back(i);
     while (!path.empty()) {
       const uint32_t index = path.back();
-      const bool is_mix = materials[index].type == MaterialType::mix;
+      const bool is_mix = materials[index].kind == MaterialKind::mix;
       // A mix is visited twice: before its materials, and when they are done.
       if (states[index] != State::unknown || !is_mix) {
         if (states[index] == State::open) order.push_back(index);

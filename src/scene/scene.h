@@ -14,6 +14,7 @@
 #include "core/cameras/camera_kind.h"
 #include "core/integrators/integrator_kind.h"
 #include "core/lights/light_kind.h"
+#include "core/materials/material_record.h"
 #include "core/math/frame.h"
 #include "core/math/vec.h"
 #include "core/sampling/any_sampler.h"
@@ -77,19 +78,6 @@ struct Texture {
   Vec3d direction{0, 1, 0};  ///< direction_mix: unit length, world space
 };
 
-enum class MaterialType {
-  diffuse,     ///< Lambert
-  conductor,   ///< smooth or GGX-rough, with Fresnel reflectance from (eta, k) or from `reflectance`
-  dielectric,  ///< smooth or GGX-rough
-  principled,  ///< described by `Material::principled`
-  // pbrt's other materials.
-  coated_diffuse,        ///< a dielectric interface of `ior` and roughness_u, roughness_v over Lambert
-  coated_conductor,      ///< a dielectric interface of `coat_ior` and `coat_roughness` over a conductor
-  thin_dielectric,       ///< a clear pane
-  diffuse_transmission,  ///< Lambert, on both sides: `reflectance` and `transmittance`
-  mix,                   ///< one of `mixed`, chosen at random
-};
-
 /// Inputs of the principled material, to which glTF's metallic-roughness model and its extensions are mapped. All are
 /// textures; absent ones have the default given. Roughnesses are perceptual: alpha = roughness^2.
 struct Principled {
@@ -124,9 +112,11 @@ struct Principled {
   uint32_t diffuse_transmission_colour = no_index;  ///< (1, 1, 1)
 };
 
+/// A material of any kind. Members are of every kind unless they name those that they are of; coated_diffuse and
+/// coated_conductor are a dielectric interface over what diffuse and conductor say.
 struct Material {
   std::string name;
-  MaterialType type = MaterialType::diffuse;
+  MaterialKind kind = MaterialKind::diffuse;
   uint32_t reflectance = no_index;  ///< texture. diffuse; conductor if eta and k are not given
   uint32_t eta = no_index;          ///< texture. conductor: index of refraction relative to the outside
   uint32_t k = no_index;            ///< texture. conductor: absorption coefficient

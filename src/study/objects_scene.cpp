@@ -27,7 +27,7 @@ Scene cloud_of_spheres(uint64_t count, bool is_glass) {
   grey.value = {0.7, 0.7, 0.7};
   scene.textures.push_back(grey);
   Material material;
-  material.type = is_glass ? MaterialType::dielectric : MaterialType::diffuse;
+  material.kind = is_glass ? MaterialKind::dielectric : MaterialKind::diffuse;
   if (!is_glass) material.reflectance = 0;
   scene.materials.push_back(material);
   Light sky;

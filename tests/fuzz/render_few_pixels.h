@@ -44,8 +44,8 @@ inline uint64_t count_texels(const Scene& scene) {
 /// Layered materials have albedo tables computed for them, which takes a tenth of a second and more each.
 inline size_t count_coats(const Scene& scene) {
   return static_cast<size_t>(std::count_if(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
-    return m.type == MaterialType::coated_diffuse || m.type == MaterialType::coated_conductor ||
-           (m.type == MaterialType::principled && (m.principled.ior != 1.5 || m.principled.clearcoat != no_index));
+    return m.kind == MaterialKind::coated_diffuse || m.kind == MaterialKind::coated_conductor ||
+           (m.kind == MaterialKind::principled && (m.principled.ior != 1.5 || m.principled.clearcoat != no_index));
   }));
 }
 

@@ -130,7 +130,7 @@ TEST_P(Resume, RefusesAnotherScene) {
     for (Material& material : s.materials) material.ior += 0.125;
   }));
   EXPECT_TRUE(refused([](Scene& s) {
-    for (Material& material : s.materials) material.type = MaterialType::conductor;
+    for (Material& material : s.materials) material.kind = MaterialKind::conductor;
   }));
   EXPECT_TRUE(refused([](Scene& s) {
     for (Shape& shape : s.groups[0].shapes) shape.world_from_object.end = Transform::translate({0, 1, 0});

@@ -82,8 +82,8 @@ AttributeBegin Translate 0 0 1.5 Shape "trianglemesh" "point3 P" [ -2 -2 0  2 -2
 "integer indices" [ 0 1 2 0 2 3 ] "float alpha" 0.6 AttributeEnd
 )");
   for (Material& material : scene.materials) {
-    if (material.type != MaterialType::diffuse || material.alpha != no_index) continue;
-    material.type = MaterialType::principled;
+    if (material.kind != MaterialKind::diffuse || material.alpha != no_index) continue;
+    material.kind = MaterialKind::principled;
     Principled& p = material.principled;
     const auto constant = [&](double value) {
       Texture texture;

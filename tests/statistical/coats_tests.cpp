@@ -9,7 +9,7 @@ namespace alhazen::test {
 namespace {
 
 struct Coat {
-  MaterialType type = MaterialType::coated_diffuse;
+  MaterialKind kind = MaterialKind::coated_diffuse;
   double alpha = 0, metal_alpha = 0;
   double reflectance = 0.5, thickness = 0;
   int bounces = 0;  ///< 0: no limit
@@ -20,10 +20,10 @@ struct Coat {
     Scene scene;
     scene.coats = model;
     Material m;
-    m.type = type;
+    m.kind = kind;
     m.remap_roughness = false;
     m.reflectance = constant_in(scene, reflectance);
-    const uint32_t roughness = constant_in(scene, type == MaterialType::coated_diffuse ? alpha : metal_alpha);
+    const uint32_t roughness = constant_in(scene, kind == MaterialKind::coated_diffuse ? alpha : metal_alpha);
     m.roughness_u = m.roughness_v = roughness;
     m.coat_roughness = constant_in(scene, alpha);
     m.thickness = thickness;
@@ -41,13 +41,12 @@ struct Coat {
 /// Scatters light from `direction` at the base; returns the fraction that goes up again.
 double scatter_at_base(const Coat& coat, Vec3d& direction, Random& random) {
   const Vec3d up{-direction.x, -direction.y, -direction.z};
-  if (coat.type == MaterialType::coated_diffuse) {
+  if (coat.kind == MaterialKind::coated_diffuse) {
     direction = sample_cosine_hemisphere(random.uniform_2d<double>());
     return coat.reflectance;
   }
   const double k = absorption_for_reflectance(coat.reflectance) / 1.5;
-  const BsdfSample<double> s = sample_conductor(ConductorBsdf<double>{splat(1 / 1.5), splat(k), coat.metal_alpha}, up,
-                                                random.uniform_2d<double>());
+  const BsdfSample<double> s = ConductorBsdf<double>{splat(1 / 1.5), splat(k), coat.metal_alpha}.sample(up, 0, random.uniform_2d<double>());
   direction = s.direction;
   return s.pdf > 0 ? s.weight.y : 0;
 }
@@ -57,7 +56,7 @@ double walk(const Coat& coat, double cosine, Random& random) {
   const DielectricBsdf<double> interface { 1.5, coat.alpha };
   const auto cross = [&](const Vec3d& wo, Vec3d& direction) {
     const double u = random.uniform<double>();
-    const BsdfSample<double> s = sample_dielectric(interface, wo, u, random.uniform_2d<double>());
+    const BsdfSample<double> s = interface.sample(wo, u, random.uniform_2d<double>());
     direction = s.direction;
     return s.pdf > 0 ? s.weight.y * s.eta * s.eta : 0;
   };
@@ -134,7 +133,7 @@ TEST(CoatedConductor, HasAboutTheAlbedoOfARandomWalk) {
     for (const double metal_alpha : {0.0, 0.1, 0.3, 0.6})
       for (const double reflectance : {0.6, 0.95}) {
         Coat coat;
-        coat.type = MaterialType::coated_conductor;
+        coat.kind = MaterialKind::coated_conductor;
         coat.alpha = alpha, coat.metal_alpha = metal_alpha, coat.reflectance = reflectance;
         coat.thickness = 0.01, coat.bounces = 5;
         // One lobe represents all, and its Fresnel term is that of a smooth coat.
@@ -145,7 +144,7 @@ TEST(CoatedConductor, HasAboutTheAlbedoOfARandomWalk) {
 std::vector<Coat> rough_coats() {
   std::vector<Coat> coats(3);
   coats[0].alpha = 0.3, coats[0].thickness = 0.1;
-  coats[1].type = coats[2].type = MaterialType::coated_conductor;
+  coats[1].kind = coats[2].kind = MaterialKind::coated_conductor;
   coats[1].alpha = 0.4, coats[1].metal_alpha = 0.3;
   coats[2].alpha = 0.1, coats[2].metal_alpha = 0.5, coats[2].model = CoatModel::lossless;
   return coats;
@@ -188,11 +187,11 @@ TEST(CoatedConductor, TexturedRoughnessLooksLikeConstantOnes) {
   Random random(13);
   for (const double alpha : {0.0816, 0.25}) {
     Coat coat;
-    coat.type = MaterialType::coated_conductor;
+    coat.kind = MaterialKind::coated_conductor;
     coat.alpha = 0.1, coat.metal_alpha = alpha, coat.reflectance = 0.9;
     Scene scene;
     Material m;
-    m.type = coat.type;
+    m.kind = coat.kind;
     m.remap_roughness = false;
     m.reflectance = constant_in(scene, coat.reflectance);
     Texture product;

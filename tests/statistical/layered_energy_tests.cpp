@@ -177,9 +177,9 @@ TEST(ThinTransmission, BlursByTheIndex) {
   }
 }
 
-Material coat(Scene& scene, MaterialType type, double ior, double alpha_u, double alpha_v, double reflectance) {
+Material coat(Scene& scene, MaterialKind kind, double ior, double alpha_u, double alpha_v, double reflectance) {
   Material m;
-  m.type = type, m.ior = m.coat_ior = ior, m.remap_roughness = false;
+  m.kind = kind, m.ior = m.coat_ior = ior, m.remap_roughness = false;
   m.reflectance = constant_in(scene, reflectance);
   m.roughness_u = constant_in(scene, alpha_u);
   m.roughness_v = alpha_u == alpha_v ? m.roughness_u : constant_in(scene, alpha_v);
@@ -192,7 +192,7 @@ TEST(CoatFurnace, WhiteDiffuseBelowAnyIndexLosesNothing) {
   for (const double ior : {1e-6, 0.1, 0.5, 0.9, 0.9999, 1.0, 1.00001, 1.0001, 1.5, 3.0, 100.0, 1e6, 1e30})
     for (const auto& [u, v] : {std::pair{0.0, 0.0}, {0.1, 0.1}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.5}}) {
       Scene scene;
-      const FlatMaterial<float> material(scene, coat(scene, MaterialType::coated_diffuse, ior, u, v, 1));
+      const FlatMaterial<float> material(scene, coat(scene, MaterialKind::coated_diffuse, ior, u, v, 1));
       for (const double cosine : {1.0, 0.7, 0.3, -0.5}) {
         const Bsdf<float> bsdf = material.bsdf(cosine);
         const Albedo a = albedo_of(bsdf, direction_at(bsdf.frame, cosine, 0.3), effort(2048), random);
@@ -207,7 +207,7 @@ TEST(CoatFurnace, MetalBelowAnyIndexGainsNothing) {
   for (const double ior : {0.1, 0.5, 1.0, 1.5, 1e30})
     for (const auto& [u, v] : {std::pair{0.0, 0.0}, {0.1, 0.1}, {0.1, 0.6}}) {
       Scene scene;
-      const FlatMaterial<float> material(scene, coat(scene, MaterialType::coated_conductor, ior, u, v, 1));
+      const FlatMaterial<float> material(scene, coat(scene, MaterialKind::coated_conductor, ior, u, v, 1));
       for (const double cosine : {1.0, 0.7, 0.3, 0.05, 0.02, -0.5}) {
         const Bsdf<float> bsdf = material.bsdf(cosine);
         const Albedo a = albedo_of(bsdf, direction_at(bsdf.frame, cosine, 0.3), effort(2048), random);
@@ -220,15 +220,15 @@ TEST(CoatFurnace, MetalBelowAnyIndexGainsNothing) {
 /// Values that a file may contain though nobody intends them: results are still numbers.
 TEST(CoatFurnace, NoParameterMakesNumbersThatAreNone) {
   Random random(29);
-  for (const MaterialType type : {MaterialType::coated_diffuse, MaterialType::coated_conductor, MaterialType::conductor,
-                                  MaterialType::dielectric, MaterialType::thin_dielectric})
+  for (const MaterialKind kind : {MaterialKind::coated_diffuse, MaterialKind::coated_conductor, MaterialKind::conductor,
+                                  MaterialKind::dielectric, MaterialKind::thin_dielectric})
     for (const double ior : {1e-30, 1.0, 1e30})
       for (const double index : {-1e30, 0.0, 1e30})
         for (const double roughness : {-1.0, 10.0}) {
           Scene scene;
-          Material m = coat(scene, type, ior, roughness, roughness, 2);
+          Material m = coat(scene, kind, ior, roughness, roughness, 2);
           m.thickness = ior;
-          if (type != MaterialType::coated_diffuse)
+          if (kind != MaterialKind::coated_diffuse)
             m.reflectance = no_index, m.eta = constant_in(scene, index), m.k = constant_in(scene, 1e30);
           const FlatMaterial<float> material(scene, m);
           for (const double cosine : {1.0, 0.3, 1e-6, -0.4}) {
@@ -236,7 +236,7 @@ TEST(CoatFurnace, NoParameterMakesNumbersThatAreNone) {
             albedo_of(bsdf, direction_at(bsdf.frame, cosine, 0.3), 16, random);
             const BsdfValue<float> v = evaluate_bsdf(bsdf, direction_at(bsdf.frame, cosine, 0.3),
                                                      direction_at(bsdf.frame, 0.5, random.uniform<double>()));
-            EXPECT_TRUE(is_finite(v.value) && std::isfinite(v.pdf)) << static_cast<int>(type) << " " << ior;
+            EXPECT_TRUE(is_finite(v.value) && std::isfinite(v.pdf)) << static_cast<int>(kind) << " " << ior;
           }
         }
 }
@@ -255,7 +255,7 @@ TEST(LayeredEnergy, SamplesFollowTheirDensity) {
   all.emplace_back("sheet", principled_of<float>(v));
   Scene scene;
   all.emplace_back("coat of index 0.5",
-                   FlatMaterial<float>(scene, coat(scene, MaterialType::coated_diffuse, 0.5, 0.3, 0.3, 0.8)));
+                   FlatMaterial<float>(scene, coat(scene, MaterialKind::coated_diffuse, 0.5, 0.3, 0.3, 0.8)));
   for (const auto& [name, material] : all)
     for (const double cosine : {0.9, 0.4, -0.7}) {
       const Bsdf<float> bsdf = material.bsdf(cosine);

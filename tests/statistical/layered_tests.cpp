@@ -176,15 +176,16 @@ TYPED_TEST(Layered, SamplesFollowTheirDensity) {
 TYPED_TEST(Layered, SheetsAndAnisotropicOnesFollowTheirDensity) {
   using Real = TypeParam;
   Random random(5);
-  for (const MaterialKind kind :
-       {MaterialKind::anisotropic_conductor, MaterialKind::anisotropic_dielectric, MaterialKind::diffuse_transmission})
-    for (const double cosine : {0.9, 0.3, -0.5}) {
-      Bsdf<Real> bsdf{};
-      bsdf.kind = kind, bsdf.frame = tilted_frame<Real>(), bsdf.ior = Real(1.5);
-      bsdf.a = splat(Real(0.3)), bsdf.b = splat(Real(0.6)), bsdf.alpha = Real(0.5), bsdf.alpha_v = Real(0.15);
-      check_density(bsdf, direction_at(bsdf.frame, cosine, 0.7), random, 2 * 9,
-                    "kind " + std::to_string(static_cast<int>(kind)));
-    }
+  const Frame<Real> frame = tilted_frame<Real>();
+  const Vec2<Real> alpha{Real(0.5), Real(0.15)};
+  Bsdf<Real> metal{MaterialKind::anisotropic_conductor, frame}, glass{MaterialKind::anisotropic_dielectric, frame};
+  Bsdf<Real> sheet{MaterialKind::diffuse_transmission, frame};
+  metal.anisotropic_conductor = {splat(Real(0.3)), splat(Real(0.6)), alpha};
+  glass.anisotropic_dielectric = {Real(1.5), alpha};
+  sheet.diffuse_transmission = {splat(Real(0.3)), splat(Real(0.6))};
+  for (const auto& [name, bsdf] : {std::pair{"metal", metal}, {"glass", glass}, {"sheet", sheet}})
+    for (const double cosine : {0.9, 0.3, -0.5})
+      check_density(bsdf, direction_at(frame, cosine, 0.7), random, 2 * 9, name);
 }
 
 /// f(wo, wi) = f(wi, wo) for reflection without coat and sheen.
@@ -211,7 +212,7 @@ TYPED_TEST(Layered, Reciprocity) {
 TEST(Mix, OfItselfIsRefused) {
   Scene scene;
   scene.materials.resize(3);
-  scene.materials[0].type = scene.materials[1].type = MaterialType::mix;
+  scene.materials[0].kind = scene.materials[1].kind = MaterialKind::mix;
   scene.materials[0].mixed = {1, 2};
   scene.materials[1].mixed = {2, 2};
   EXPECT_NO_THROW(check_mixes(scene));
@@ -222,8 +223,8 @@ TEST(Mix, OfItselfIsRefused) {
 /// A pane transmits and reflects all light.
 TEST(ThinDielectric, LosesNothing) {
   Random random(9);
-  Bsdf<double> bsdf{};
-  bsdf.kind = MaterialKind::thin_dielectric, bsdf.frame = tilted_frame<double>(), bsdf.ior = 1.5;
+  Bsdf<double> bsdf{MaterialKind::thin_dielectric, tilted_frame<double>()};
+  bsdf.thin_dielectric.ior = 1.5;
   for (const double cosine : {1.0, 0.3, -0.05}) {
     const Vec3d wo = direction_at(bsdf.frame, cosine, 0.3);
     EXPECT_NEAR(energy_of(bsdf, wo, 1000, random).mean, 1, 1e-12);

@@ -23,19 +23,18 @@ struct NamedBsdf {
 
 template <class Real>
 NamedBsdf<Real> diffuse_bsdf(double albedo) {
-  return {"diffuse", {MaterialKind::diffuse, tilted_frame<Real>(), splat(static_cast<Real>(albedo)), {}, 0, 1}};
+  NamedBsdf<Real> named{"diffuse", {MaterialKind::diffuse, tilted_frame<Real>()}};
+  named.bsdf.diffuse = {splat(static_cast<Real>(albedo))};
+  return named;
 }
 
 /// Gold's index and absorption in the three channels.
 template <class Real>
 NamedBsdf<Real> metal_bsdf(double alpha) {
-  return {"metal, alpha " + std::to_string(alpha),
-          {MaterialKind::conductor,
-           tilted_frame<Real>(),
-           {Real(0.143), Real(0.375), Real(1.442)},
-           {Real(3.983), Real(2.386), Real(1.603)},
-           static_cast<Real>(alpha),
-           1}};
+  NamedBsdf<Real> named{"metal, alpha " + std::to_string(alpha), {MaterialKind::conductor, tilted_frame<Real>()}};
+  named.bsdf.conductor = {
+      {Real(0.143), Real(0.375), Real(1.442)}, {Real(3.983), Real(2.386), Real(1.603)}, static_cast<Real>(alpha)};
+  return named;
 }
 
 /// A conductor that reflects (nearly) everything at every angle.
@@ -43,15 +42,16 @@ template <class Real>
 NamedBsdf<Real> white_metal_bsdf(double alpha) {
   NamedBsdf<Real> white = metal_bsdf<Real>(alpha);
   white.name = "white " + white.name;
-  white.bsdf.a = splat(Real(1));
-  white.bsdf.b = splat(Real(1e6));
+  white.bsdf.conductor.eta = splat(Real(1));
+  white.bsdf.conductor.k = splat(Real(1e6));
   return white;
 }
 
 template <class Real>
 NamedBsdf<Real> glass_bsdf(double alpha, double ior = 1.5) {
-  return {"glass, alpha " + std::to_string(alpha),
-          {MaterialKind::dielectric, tilted_frame<Real>(), {}, {}, static_cast<Real>(alpha), static_cast<Real>(ior)}};
+  NamedBsdf<Real> named{"glass, alpha " + std::to_string(alpha), {MaterialKind::dielectric, tilted_frame<Real>()}};
+  named.bsdf.dielectric = {static_cast<Real>(ior), static_cast<Real>(alpha)};
+  return named;
 }
 
 /// The direction in frame space with that cosine to the normal; in world space.

@@ -31,7 +31,7 @@ inline uint32_t constant_in(Scene& scene, double value) {
 
 inline Material principled_material(Scene& scene, const PrincipledValues& values) {
   Material material;
-  material.type = MaterialType::principled;
+  material.kind = MaterialKind::principled;
   Principled& p = material.principled;
   p.base_colour = constant_in(scene, values.colour);
   p.metallic = constant_in(scene, values.metallic);
@@ -59,7 +59,6 @@ class FlatMaterial {
     scene.materials = {material};
     compile_materials(scene, arrays_);
     view_.materials = arrays_.materials.data();
-    view_.layers = arrays_.layers.data();
     view_.textures = arrays_.textures.data();
     view_.albedo_tables = arrays_.albedo_tables.data();
   }
@@ -68,10 +67,8 @@ class FlatMaterial {
   Bsdf<Real> bsdf(double cosine, Real u_channel = 0) const {
     Bsdf<Real> bsdf{};
     bsdf.frame = tilted_frame<Real>();
-    make_bsdf(view_, view_.materials[0], TexturePoint<Real>{}, bsdf);
-    if (bsdf.kind == MaterialKind::layered)
-      make_layered(view_, view_.materials[0], TexturePoint<Real>{}, static_cast<Real>(cosine), u_channel,
-                   Vec3<Real>{0, 0, 1}, bsdf.layered);
+    const auto view = [&] { return ClosureView<Real>{static_cast<Real>(cosine), u_channel, {0, 0, 1}}; };
+    make_bsdf(view_, view_.materials[0], TexturePoint<Real>{}, view, bsdf);
     return bsdf;
   }
 

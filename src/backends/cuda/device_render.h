@@ -247,7 +247,7 @@ class DeviceRender {
   bool run_wavefront(const RenderControl& control, const Launch<Real>& launch, const ItemGrid& grid) {
     WavefrontStage<Real> stage{launch, grid, make_slots(grid.count()), sums_.data(), 0};
     const Extent threads{stage.slots.count}, block{usual_block};
-    const Extent padded_threads{stage.slots.count + material_kinds * warp_lanes};
+    const Extent padded_threads{stage.slots.count + material_queues * warp_lanes};
     executor_.launch(StartKernel<Real>{stage}, threads, block);
     for (;;) {
       for (int round = 0; round < rounds_between_looks; ++round) {

@@ -6,7 +6,10 @@
 #include <tuple>
 
 #include "compile/tables/albedo_quadrature.h"
-#include "core/materials/layered.h"
+#include "core/materials/coated_diffuse.h"
+#include "core/materials/lobes/ggx_albedo.h"
+#include "core/materials/lobes/rough_glass.h"
+#include "core/materials/lobes/sheen.h"
 
 namespace alhazen {
 

@@ -6,8 +6,9 @@
 #include <tuple>
 
 #include "compile/tables/albedo_quadrature.h"
-#include "core/materials/layered.h"
 #include "core/materials/lobes/albedo_table.h"
+#include "core/materials/lobes/fresnel.h"
+#include "core/materials/lobes/microfacet.h"
 
 namespace alhazen {
 

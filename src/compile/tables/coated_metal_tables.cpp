@@ -6,9 +6,8 @@
 #include <tuple>
 
 #include "compile/tables/albedo_quadrature.h"
-#include "core/materials/coated_metal.h"
 #include "core/materials/dielectric.h"
-#include "core/materials/layered.h"
+#include "core/materials/lobes/coated_metal.h"
 #include "core/sampling/hash.h"
 
 namespace alhazen {

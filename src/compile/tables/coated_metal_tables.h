@@ -1,6 +1,6 @@
 #pragma once
 
-// Computes the tables of core/materials/coated_metal.h.
+// Computes the tables of core/materials/lobes/coated_metal.h.
 
 #include <optional>
 

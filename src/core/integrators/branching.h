@@ -35,7 +35,7 @@ ALHAZEN_HD Vec3<Real> cast_ray_branching(const SceneView<Real>& scene, const Int
     return radiance;
   }
   const Frame<Real>& frame = point.bsdf.frame;
-  DielectricBranches<Real> branches = dielectric_branches(point.bsdf.dielectric(), frame.to_local(point.wo),
+  DielectricBranches<Real> branches = dielectric_branches(point.bsdf.dielectric, frame.to_local(point.wo),
                                                           sampler.template get_2d<Real>(dimensions.bsdf_direction()));
   branches.reflected.direction = frame.to_world(branches.reflected.direction);
   branches.refracted.direction = frame.to_world(branches.refracted.direction);

@@ -23,7 +23,7 @@ class DiffuseSurfaces {
     indices_[count_++] = place;
     add_light(place, scene, point, sampler, VertexDimensions(path.vertex));
     if (scene.light_tree_count > 0) path.light_side = side_of_light(point);
-    reflectance_.set(place, point.bsdf.a);
+    reflectance_.set(place, point.bsdf.diffuse.reflectance);
     throughput_.set(place, path.throughput);
     eta_scale_[place] = path.eta_scale;
     vertex_[place] = path.vertex;
@@ -177,7 +177,7 @@ class DiffuseSurfaces {
   ALHAZEN_INLINE ShadingPoint<Real> point_at(const Points& points, uint32_t i) const {
     ShadingPoint<Real> point = points.bare_point(i);
     point.bsdf.kind = MaterialKind::diffuse;
-    point.bsdf.a = reflectance_[i];
+    point.bsdf.diffuse.reflectance = reflectance_[i];
     return point;
   }
   ALHAZEN_INLINE void set_light(uint32_t i, const LightSample<Real>& light) {

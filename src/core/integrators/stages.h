@@ -29,23 +29,14 @@ template <class Real>
 ALHAZEN_HD ALHAZEN_COLD const MaterialRecord<Real>& mixed_material(const SceneView<Real>& scene,
                                                                    const MaterialRecord<Real>& mix,
                                                                    const TexturePoint<Real>& at, uint32_t hash) {
+  const TextureEvaluator<Real> textures{scene, at};
   const MaterialRecord<Real>* material = &mix;
   // The scene compiler ensures that mixes are not cyclic; each level uses a new random number.
   for (uint32_t level = 0; material->kind == MaterialKind::mix; ++level) {
-    const Real amount = evaluate_texture(scene, material->amount, at).x;
-    const bool second = random_of_hit<Real>(combine32(hash, level), HitChoice::mix) < amount;
-    material = scene.materials + material->mixed[second ? 1 : 0];
+    const Real u = random_of_hit<Real>(combine32(hash, level), HitChoice::mix);
+    material = scene.materials + material->mix.select(textures, u);
   }
   return *material;
-}
-
-/// Builds the scattering function of a layered material, whose frame is set.
-template <class Real>
-ALHAZEN_HD ALHAZEN_COLD void add_layers(const SceneView<Real>& scene, const TexturePoint<Real>& at, uint32_t hash,
-                                        const Vec3<Real>& coat_normal, ShadingPoint<Real>& point) {
-  const Frame<Real>& frame = point.bsdf.frame;
-  make_layered(scene, *point.material, at, dot(point.wo, frame.normal), random_of_hit<Real>(hash, HitChoice::channel),
-               frame.to_local(coat_normal), point.bsdf.layered);
 }
 
 /// Sets what depends on the material at the hit `point.si`; `frame` is that about its consistent_shading_normal.
@@ -63,8 +54,12 @@ ALHAZEN_HD ALHAZEN_HOT void set_material(const SceneView<Real>& scene, const Ray
   point.bsdf.frame = frame;
   if (point.material->features & MaterialFeatures::tangents)
     point.bsdf.frame = detailed_frame(scene, *point.material, hit, at, point.wo, point.si, coat_normal);
-  make_bsdf(scene, *point.material, at, point.bsdf);
-  if (point.material->kind == MaterialKind::layered) add_layers(scene, at, hash_of_hit(ray, hit), coat_normal, point);
+  const auto view = [&] {
+    const Frame<Real>& f = point.bsdf.frame;
+    return ClosureView<Real>{dot(point.wo, f.normal), random_of_hit<Real>(hash_of_hit(ray, hit), HitChoice::channel),
+                             f.to_local(coat_normal)};
+  };
+  make_bsdf(scene, *point.material, at, view, point.bsdf);
 }
 
 template <class Real>
@@ -87,13 +82,11 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> surface_emission(const SceneView<Real>& scene,
   return radiance * emission_factor(scene, light, point_of_emission(point.si, hit));
 }
 
-/// The side of the surface from which light must handle_hit to be reflected back along the ray, as its normal; zero if
+/// The side of the surface from which light must arrive to be reflected back along the ray, as its normal; zero if
 /// the surface may transmit light.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> side_of_light(const ShadingPoint<Real>& point) {
-  const MaterialKind kind = point.bsdf.kind;
-  if (kind != MaterialKind::diffuse && kind != MaterialKind::conductor && kind != MaterialKind::anisotropic_conductor)
-    return {};
+  if (!has_trait<&MaterialTraits::is_one_sided>(point.bsdf.kind)) return {};
   return face_forward(point.si.normal, point.wo);
 }
 
@@ -204,7 +197,8 @@ template <class Real, class Sampler>
 ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> scatter(const ShadingPoint<Real>& point, const Sampler& sampler,
                                                 const VertexDimensions& dimensions) {
   // Random numbers that are not used are not generated.
-  const Real u_lobe = has_lobes(point.bsdf.kind) ? sampler.template get_1d<Real>(dimensions.bsdf_lobe()) : Real(0);
+  const bool has_lobes = has_trait<&MaterialTraits::has_lobes>(point.bsdf.kind);
+  const Real u_lobe = has_lobes ? sampler.template get_1d<Real>(dimensions.bsdf_lobe()) : Real(0);
   const Vec2<Real> u =
       point.bsdf.is_specular() ? Vec2<Real>{} : sampler.template get_2d<Real>(dimensions.bsdf_direction());
   BsdfSample<Real> s = sample_bsdf(point.bsdf, point.wo, u_lobe, u);

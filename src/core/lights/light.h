@@ -165,7 +165,7 @@ ALHAZEN_HD LightSample<Real> sample_point_light(const SceneView<Real>& scene, co
   return s;
 }
 
-/// Chooses one of the lights. `normal` is that of the side of the surface from which light must handle_hit; zero means
+/// Chooses one of the lights. `normal` is that of the side of the surface from which light must arrive; zero means
 /// any.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightChoice<Real> choose_light(const SceneView<Real>& scene, const Vec3<Real>& reference,

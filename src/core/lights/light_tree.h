@@ -33,15 +33,15 @@ ALHAZEN_HD ALHAZEN_HOT AngleOfCone<Real> clamped_difference(const AngleOfCone<Re
 }
 
 /// A bound, up to a factor common to all nodes, on the light that the node sends to `point` from anywhere in its sphere
-/// and for any normal in its cone. `normal` is that of the side from which light must handle_hit; zero means any side.
-/// The bound is 0 only if no light can handle_hit, up to rounding.
+/// and for any normal in its cone. `normal` is that of the side from which light must arrive; zero means any side.
+/// The bound is 0 only if no light can arrive, up to rounding.
 template <class Real>
 ALHAZEN_HD Real light_importance(const LightTreeNode& node, const Vec3<Real>& point, const Vec3<Real>& normal) {
   const Vec3<Real> to_point = point - convert<Real>(node.centre);
   const Real distance_squared = length_squared(to_point);
   const Real radius = static_cast<Real>(node.radius);
   const Real power = static_cast<Real>(node.power);
-  // Inside the sphere light may handle_hit from anywhere. A point on the sphere counts as inside, within the distance
+  // Inside the sphere light may arrive from anywhere. A point on the sphere counts as inside, within the distance
   // by which a ray's origin is offset from a surface: if the node is one emissive sphere, sampling has its point
   // rounded to one side, and the density query to the other.
   const Real slack = (max_component(abs(point)) + radius) * rounding_bound<Real>(32);

@@ -1,19 +1,61 @@
 #pragma once
 
 // Glass and other dielectrics: reflection and refraction at a smooth interface or at GGX microfacets (Walter et al.
-// 2007). Radiance is scaled by 1 / eta^2 when it is refracted, as camera paths need.
+// 2007). Radiance is scaled by 1 / eta^2 when it is refracted, as camera paths need. Where the roughness along the
+// tangent differs from that along the bitangent it is a kind of its own, so that the frequent one stays small.
 
+#include "core/materials/closure.h"
 #include "core/materials/lobes/fresnel.h"
 #include "core/materials/lobes/microfacet.h"
-#include "core/materials/sample.h"
+#include "core/textures/texture_record.h"
 
 namespace ALHAZEN_CORE {
+
+ALHAZEN_HD constexpr MaterialTraits dielectric_traits() { return {}; }
+ALHAZEN_HD constexpr MaterialTraits anisotropic_dielectric_traits() { return {}; }
+
+template <class Real>
+struct DielectricRecord {
+  Real ior;                  ///< inside relative to outside
+  TextureRange roughness;    ///< scalar; absent: smooth
+  uint32_t remap_roughness;  ///< 1: alpha = sqrt(roughness)
+};
+
+template <class Real>
+struct AnisotropicDielectricRecord {
+  Real ior;
+  TextureRange roughness_u, roughness_v;  ///< scalars, along the tangent and along the bitangent
+  uint32_t remap_roughness;               ///< 1: alpha = sqrt(roughness)
+};
 
 template <class Real, class Alpha = Real>
 struct DielectricBsdf {
   Real ior;     ///< inside (against the normal) relative to outside
   Alpha alpha;  ///< below smooth_alpha: a smooth interface
+
+  ALHAZEN_HD BsdfSample<Real> sample(const Vec3<Real>& wo, Real u_lobe, const Vec2<Real>& u) const;
+  ALHAZEN_HD BsdfValue<Real> evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const;
+  ALHAZEN_HD Vec3<Real> albedo() const { return splat(Real(1)); }
+  ALHAZEN_HD constexpr bool is_specular() const { return is_smooth(alpha) || ior == 1; }
 };
+
+template <class Real>
+using AnisotropicDielectricBsdf = DielectricBsdf<Real, Vec2<Real>>;
+
+template <class Real, class Textures>
+ALHAZEN_HD ALHAZEN_HOT void make_closure(const DielectricRecord<Real>& record, const Textures& textures,
+                                         DielectricBsdf<Real>& bsdf) {
+  bsdf.ior = record.ior;
+  bsdf.alpha = textures.alpha(record.roughness, record.remap_roughness);
+}
+
+template <class Real, class Textures>
+ALHAZEN_HD void make_closure(const AnisotropicDielectricRecord<Real>& record, const Textures& textures,
+                             const ClosureView<Real>&, AnisotropicDielectricBsdf<Real>& bsdf) {
+  bsdf.ior = record.ior;
+  bsdf.alpha = rough_alphas<Real>(textures.alpha(record.roughness_u, record.remap_roughness),
+                                  textures.alpha(record.roughness_v, record.remap_roughness));
+}
 
 /// Both ways on from an interface, for the microfacet normal that `u` picks. Their weights leave the Fresnel share out:
 /// the radiance that leaves is  rate * L(reflected) * weight + (1 - rate) * L(refracted) * weight.
@@ -62,11 +104,11 @@ ALHAZEN_HD DielectricBranches<Real> dielectric_branches(const DielectricBsdf<Rea
   return branches;
 }
 
-/// One of the two ways, reflection with the probability of its Fresnel share.
+/// Samples one of the two directions, reflection with the probability of its Fresnel term.
 template <class Real, class Alpha>
-ALHAZEN_HD BsdfSample<Real> sample_dielectric(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
-                                              Real u_lobe, const Vec2<Real>& u) {
-  const DielectricBranches<Real> branches = dielectric_branches(bsdf, wo, u);
+ALHAZEN_HD BsdfSample<Real> DielectricBsdf<Real, Alpha>::sample(const Vec3<Real>& wo, Real u_lobe,
+                                                                const Vec2<Real>& u) const {
+  const DielectricBranches<Real> branches = dielectric_branches(*this, wo, u);
   const bool reflect = u_lobe < branches.reflected_rate;
   BsdfSample<Real> s = reflect ? branches.reflected : branches.refracted;
   s.pdf *= reflect ? branches.reflected_rate : 1 - branches.reflected_rate;
@@ -111,11 +153,10 @@ ALHAZEN_HD ALHAZEN_HOT bool dielectric_facet(const DielectricBsdf<Real, Alpha>& 
 }
 
 template <class Real, class Alpha>
-ALHAZEN_HD BsdfValue<Real> evaluate_dielectric(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
-                                               const Vec3<Real>& wi) {
-  if (is_smooth(bsdf.alpha) || bsdf.ior == 1 || wo.z == 0 || wi.z == 0) return {};
+ALHAZEN_HD BsdfValue<Real> DielectricBsdf<Real, Alpha>::evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const {
+  if (is_specular() || wo.z == 0 || wi.z == 0) return {};
   DielectricFacet<Real> f;
-  if (!dielectric_facet(bsdf, wo, wi, f)) return {};
+  if (!dielectric_facet(*this, wo, wi, f)) return {};
   if (f.reflects) return {splat(f.rate * f.d * f.g2 / (4 * f.cos_n)), f.rate * f.density / (4 * f.cos_o)};
   const Real jacobian = -f.cos_i / sqr(f.cos_i + f.cos_o / f.eta);
   return {splat((1 - f.rate) * f.d * f.g2 * jacobian * f.cos_o / (f.cos_n * f.eta * f.eta)),

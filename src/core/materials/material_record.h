@@ -1,30 +1,67 @@
 #pragma once
 
-// How materials lie in memory.
+// The kinds of material, and how they are stored. Each kind has a file of this folder, which holds all that belongs to
+// it: the record (textures and numbers), the closure that it becomes at a point (make_closure), how that samples,
+// evaluates and what its albedo is, and the traits of the kind. What several kinds are made of is in lobes/.
 
 #include <cstdint>
 
-#include "core/materials/lobes/albedo_grid.h"
-#include "core/textures/texture_record.h"
+#include "core/materials/coated_conductor.h"
+#include "core/materials/coated_diffuse.h"
+#include "core/materials/conductor.h"
+#include "core/materials/dielectric.h"
+#include "core/materials/diffuse.h"
+#include "core/materials/diffuse_transmission.h"
+#include "core/materials/mix.h"
+#include "core/materials/principled.h"
+#include "core/materials/thin_dielectric.h"
 
 namespace ALHAZEN_CORE {
 
-/// `layered` and those after it are the rarer ones; GPUs shade them in one queue.
+/// Every kind of material, once: KIND(name, Name). Enumeration, storage and every `switch` expand from these lists.
+/// The kinds that most surfaces have are shaded inline, on GPUs each in a queue of its own.
+#define ALHAZEN_FREQUENT_MATERIALS(KIND) \
+  KIND(diffuse, Diffuse)                 \
+  KIND(conductor, Conductor)             \
+  KIND(dielectric, Dielectric)
+/// The others are shaded out of line, on GPUs in one queue. Anisotropic kinds are what conductors and dielectrics are
+/// compiled to whose roughness differs by direction; no file describes them.
+#define ALHAZEN_RARE_MATERIALS(KIND)                  \
+  KIND(principled, Principled)                        \
+  KIND(coated_diffuse, CoatedDiffuse)                 \
+  KIND(coated_conductor, CoatedConductor)             \
+  KIND(anisotropic_conductor, AnisotropicConductor)   \
+  KIND(anisotropic_dielectric, AnisotropicDielectric) \
+  KIND(thin_dielectric, ThinDielectric)               \
+  KIND(diffuse_transmission, DiffuseTransmission)
+/// These have closures; a mix is replaced by one of its materials before.
+#define ALHAZEN_SCATTERING_MATERIALS(KIND) ALHAZEN_FREQUENT_MATERIALS(KIND) ALHAZEN_RARE_MATERIALS(KIND)
+#define ALHAZEN_MATERIALS(KIND) ALHAZEN_SCATTERING_MATERIALS(KIND) KIND(mix, Mix)
+
 enum class MaterialKind : uint32_t {
-  diffuse,
-  conductor,
-  dielectric,
-  layered,                 ///< what its LayersRecord says: principled, coated diffuse, coated conductor
-  anisotropic_conductor,   ///< rough, alpha along the tangent differs
-  anisotropic_dielectric,  ///< the same
-  thin_dielectric,         ///< a pane: both of its sides at once, smooth
-  diffuse_transmission,    ///< Lambert on both sides
-  mix,                     ///< one of two materials, chosen at each hit
+#define ALHAZEN_KIND(name, Name) name,
+  ALHAZEN_MATERIALS(ALHAZEN_KIND)
+#undef ALHAZEN_KIND
 };
 
-/// True where a lobe is chosen at random before a direction is.
-ALHAZEN_HD constexpr bool has_lobes(MaterialKind kind) {
-  return kind != MaterialKind::diffuse && kind != MaterialKind::conductor;
+#define ALHAZEN_KIND(name, Name) +1
+inline constexpr uint32_t frequent_material_kinds = 0 ALHAZEN_FREQUENT_MATERIALS(ALHAZEN_KIND);
+#undef ALHAZEN_KIND
+
+/// The kinds of which a trait holds, a bit each.
+constexpr uint32_t kinds_with(bool MaterialTraits::*trait) {
+  uint32_t kinds = 0;
+#define ALHAZEN_KIND(name, Name) \
+  if (name##_traits().*trait) kinds |= 1u << static_cast<uint32_t>(MaterialKind::name);
+  ALHAZEN_MATERIALS(ALHAZEN_KIND)
+#undef ALHAZEN_KIND
+  return kinds;
+}
+
+template <bool MaterialTraits::*trait>
+ALHAZEN_HD constexpr bool has_trait(MaterialKind kind) {
+  constexpr uint32_t kinds = kinds_with(trait);
+  return (kinds >> static_cast<uint32_t>(kind) & 1) != 0;
 }
 
 /// What costs something only where it is asked for: bits of MaterialRecord::features.
@@ -38,53 +75,24 @@ struct MaterialFeatures {
   static constexpr uint32_t lit_through = 64;  ///< shadow rays that come from the front go through
 };
 
+/// A material: what all kinds have, and the record of its own kind.
 template <class Real>
 struct MaterialRecord {
   MaterialKind kind;
-  TextureRange reflectance;  ///< diffuse, diffuse_transmission; conductor without eta and k: colour at normal incidence
-  TextureRange eta, k;       ///< conductor, coated conductor
-  TextureRange roughness;    ///< scalar; absent: smooth. Of anisotropic kinds that along the tangent
-  uint32_t remap_roughness;  ///< 1: alpha = sqrt(roughness)
-  Real ior;                  ///< dielectric: inside relative to outside
-  uint32_t features;         ///< bits of MaterialFeatures
-  TextureRange roughness_v;  ///< anisotropic kinds
-  TextureRange transmittance;
+  uint32_t features;          ///< bits of MaterialFeatures
   TextureRange opacity;       ///< scalar: share of rays that are stopped; absent: 1
   TextureRange normal_map;    ///< encoded as 0.5 + 0.5 * n
   TextureRange displacement;  ///< scalar, scene units: tilts the normal
   Real normal_scale;
   Vec3<Real> absorption;  ///< per scene unit, behind the surface
-  uint32_t layers;        ///< layered: index into SceneView::layers
-  uint32_t mixed[2];      ///< mix: indices of materials
-  TextureRange amount;    ///< mix: share of the second
-};
+  union {
+#define ALHAZEN_KIND(name, Name) Name##Record<Real> name;
+    ALHAZEN_MATERIALS(ALHAZEN_KIND)
+#undef ALHAZEN_KIND
+  };
 
-enum class LayersType : uint32_t { principled, coated_diffuse, coated_conductor };
-
-/// Principled: textures that are absent have the values that Principled of scene/scene.h gives.
-template <class Real>
-struct LayersRecord {
-  LayersType type;
-  uint32_t thin;              ///< transmission does not refract: there are no grids of `glass`
-  uint32_t interface_albedo;  ///< coats: where in SceneView::albedo_tables that of the interface lies
-  uint32_t coat_albedo;       ///< the same of the clearcoat
-  TextureRange base_colour, metallic, specular, specular_colour, transmission;
-  TextureRange clearcoat, clearcoat_roughness, clearcoat_normal_map;
-  TextureRange sheen_colour, sheen_roughness;
-  TextureRange iridescence, iridescence_thickness;
-  TextureRange anisotropy, anisotropy_direction;
-  TextureRange diffuse_transmission, diffuse_transmission_colour;
-  Real rotation_cosine, rotation_sine;  ///< of the anisotropy
-  Real iridescence_ior, clearcoat_normal_scale, dispersion, clearcoat_ior;
-  uint32_t coat_transmission;  ///< coated diffuse: where in SceneView::albedo_tables what the coat lets through lies
-  uint32_t coated_metal;       ///< coated conductor: where its table of core/materials/coated_metal.h lies
-  uint32_t coat_varies, metal_varies;  ///< and whether that has many roughnesses of the two
-  Real bounces;                        ///< coated diffuse: light meets the base as often as this at most; 0: for ever
-  uint32_t is_anisotropic;             ///< the alphas of the base may differ
-  AlbedoGridRecord grid;               ///< GgxGrid; of a coated diffuse base whose alphas may differ CoatGrid
-  AlbedoGridRecord through_grid;       ///< GgxGrid of what goes through a sheet, or of coated metal's mean alpha
-  AlbedoGridRecord sheen_grid;
-  AlbedoGridRecord glass[3];  ///< principled, not thin: GlassGrid, of each channel where there is dispersion
+  /// Sets nothing: the record of one kind alone is in use.
+  MaterialRecord() {}
 };
 
 }  // namespace ALHAZEN_CORE

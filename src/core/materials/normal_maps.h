@@ -2,7 +2,7 @@
 
 // What bends the shading frame of a material that asks for it: normal maps, bumps, the turn of anisotropy.
 
-#include "core/materials/layer_parameters.h"
+#include "core/materials/texture_evaluator.h"
 #include "core/shapes/tangents.h"
 
 namespace ALHAZEN_CORE {
@@ -69,12 +69,12 @@ ALHAZEN_HD ALHAZEN_COLD Frame<Real> detailed_frame(const SceneView<Real>& scene,
                                                    Vec3<Real>& coat_normal) {
   const SurfaceTangents<Real> tangents = surface_tangents(scene, hit, si);
   const bool has_tangents = length_squared(tangents.dpdu) > 0;
-  const bool is_layered = material.kind == MaterialKind::layered;
+  const bool is_principled = material.kind == MaterialKind::principled;
   coat_normal = consistent_shading_normal(si, wo);
-  if (is_layered && has_tangents && scene.layers[material.layers].clearcoat_normal_map.count > 0) {
-    const LayersRecord<Real>& layers = scene.layers[material.layers];
+  const PrincipledRecord<Real>& principled = material.principled;
+  if (is_principled && has_tangents && principled.clearcoat_normal_map.count > 0) {
     SurfaceInteraction<Real> coat = si;
-    coat.shading_normal = mapped_normal(scene, layers.clearcoat_normal_map, layers.clearcoat_normal_scale, at,
+    coat.shading_normal = mapped_normal(scene, principled.clearcoat_normal_map, principled.clearcoat_normal_scale, at,
                                         frame_along(si.shading_normal, tangents));
     coat.shading_normal = reflecting_normal(coat.shading_normal, si.normal, wo);
     coat_normal = consistent_shading_normal(coat, wo);
@@ -87,14 +87,13 @@ ALHAZEN_HD ALHAZEN_COLD Frame<Real> detailed_frame(const SceneView<Real>& scene,
   if (has_tangents && (material.normal_map.count > 0 || material.displacement.count > 0))
     si.shading_normal = reflecting_normal(si.shading_normal, si.normal, wo);
   Frame<Real> frame = frame_along(consistent_shading_normal(si, wo), tangents);
-  if (!is_layered) return frame;
-  const LayersRecord<Real>& layers = scene.layers[material.layers];
-  if (layers.anisotropy_direction.count > 0) {
-    const Vec3<Real> d = evaluate_texture(scene, layers.anisotropy_direction, at) * Real(2) - splat(Real(1));
+  if (!is_principled) return frame;
+  if (principled.anisotropy_direction.count > 0) {
+    const Vec3<Real> d = evaluate_texture(scene, principled.anisotropy_direction, at) * Real(2) - splat(Real(1));
     const Real size = std::sqrt(d.x * d.x + d.y * d.y);
     if (size > 0) frame = turned(frame, d.x / size, d.y / size);
   }
-  return turned(frame, layers.rotation_cosine, layers.rotation_sine);
+  return turned(frame, principled.rotation_cosine, principled.rotation_sine);
 }
 
 }  // namespace ALHAZEN_CORE

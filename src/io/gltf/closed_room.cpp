@@ -85,7 +85,7 @@ bool light_closed_room(Scene& scene) {
     if (!is_emissive[i] || shape.emission) continue;
     const Material& material = scene.materials[shape.material];
     const uint32_t colour =
-        material.type == MaterialType::principled ? material.principled.base_colour : material.reflectance;
+        material.kind == MaterialKind::principled ? material.principled.base_colour : material.reflectance;
     shape.emission = Emission{{1, 1, 1}, material.double_sided, colour};
   }
   return true;

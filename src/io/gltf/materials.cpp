@@ -132,7 +132,7 @@ class MaterialReader {
     Principled& p = material_.principled;
     const Json* specular_glossiness = document_.extension(description_, "KHR_materials_pbrSpecularGlossiness");
     const Json* metallic_roughness = document_.object(description_, "pbrMetallicRoughness");
-    material_.type = MaterialType::principled;
+    material_.kind = MaterialKind::principled;
     if (specular_glossiness != nullptr) {
       read_base_colour(*specular_glossiness, "diffuseFactor", "diffuseTexture");
       read_specular_glossiness(*specular_glossiness);
@@ -194,7 +194,7 @@ class MaterialReader {
   void make_unlit() {
     use_.emission = Emission{white, material_.double_sided, material_.principled.base_colour};
     material_.principled = {};
-    material_.type = MaterialType::diffuse;
+    material_.kind = MaterialKind::diffuse;
     material_.reflectance = textures_.constant({0, 0, 0});
   }
 

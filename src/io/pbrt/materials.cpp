@@ -64,7 +64,7 @@ void read_conductor_indices(Build& build, ParameterList& list, const std::string
 }
 
 void read_conductor_colour(Build& build, ParameterList& list, const std::string& prefix, Material& material) {
-  material.type = MaterialType::conductor;
+  material.kind = MaterialKind::conductor;
   material.reflectance = colour_texture(build, list, "reflectance", ColourUse::albedo);
   if (material.reflectance == no_index)
     read_conductor_indices(build, list, prefix, material);
@@ -98,7 +98,7 @@ double read_ior(Build& build, ParameterList& list, const std::string& name, doub
 
 ReadMaterial read_dielectric(Build& build, ParameterList& list) {
   ReadMaterial read;
-  read.material.type = MaterialType::dielectric;
+  read.material.kind = MaterialKind::dielectric;
   read.material.ior = read_ior(build, list, "eta", 1.5);
   read_roughness(build, list, "", read.material);
   return read;
@@ -121,7 +121,7 @@ void read_coat(Build& build, ParameterList& list, Material& material) {
 
 ReadMaterial read_coated_diffuse(Build& build, ParameterList& list) {
   ReadMaterial read = read_diffuse(build, list);
-  read.material.type = MaterialType::coated_diffuse;
+  read.material.kind = MaterialKind::coated_diffuse;
   read.material.ior = read_ior(build, list, "eta", 1.5);
   read_roughness(build, list, "", read.material);
   read_coat(build, list, read.material);
@@ -135,7 +135,7 @@ ReadMaterial read_coated_conductor(Build& build, ParameterList& list) {
   read_conductor_colour(build, list, "conductor.", material);
   read_roughness(build, list, "interface.", interface);
   read_roughness(build, list, "conductor.", material);
-  material.type = MaterialType::coated_conductor;
+  material.kind = MaterialKind::coated_conductor;
   material.coat_ior = read_ior(build, list, "interface.eta", 1.5);
   material.coat_roughness = interface.roughness_u;
   if (interface.roughness_u != interface.roughness_v)
@@ -147,7 +147,7 @@ ReadMaterial read_coated_conductor(Build& build, ParameterList& list) {
 
 ReadMaterial read_thin_dielectric(Build& build, ParameterList& list) {
   ReadMaterial read;
-  read.material.type = MaterialType::thin_dielectric;
+  read.material.kind = MaterialKind::thin_dielectric;
   read.material.ior = read_ior(build, list, "eta", 1.5);
   return read;
 }
@@ -163,7 +163,7 @@ uint32_t scaled(Build& build, uint32_t texture, double scale) {
 
 ReadMaterial read_diffuse_transmission(Build& build, ParameterList& list) {
   ReadMaterial read;
-  read.material.type = MaterialType::diffuse_transmission;
+  read.material.kind = MaterialKind::diffuse_transmission;
   const double scale = list.number("scale", 1);
   read.material.reflectance =
       scaled(build, colour_texture_or(build, list, "reflectance", ColourUse::albedo, 0.25), scale);
@@ -174,7 +174,7 @@ ReadMaterial read_diffuse_transmission(Build& build, ParameterList& list) {
 
 ReadMaterial read_subsurface(Build& build, ParameterList& list) {
   ReadMaterial read = read_diffuse(build, list);
-  read.material.type = MaterialType::coated_diffuse;
+  read.material.kind = MaterialKind::coated_diffuse;
   read.material.ior = read_ior(build, list, "eta", 1.33);
   read_roughness(build, list, "", read.material);
   return read;
@@ -191,7 +191,7 @@ ReadMaterial read_mix(Build& build, ParameterList& list) {
   const Strings names = list.take_strings("materials");
   if (names.size() != 2) fail(place, "a mix takes two names: \"string materials\" [ \"a\" \"b\" ]");
   ReadMaterial read;
-  read.material.type = MaterialType::mix;
+  read.material.kind = MaterialKind::mix;
   read.material.amount = scalar_texture_or(build, list, "amount", 0.5);
   for (size_t i = 0; i < 2; ++i) read.material.mixed[i] = build.named_material(names[i], place).index;
   return read;
@@ -268,7 +268,7 @@ ReadMaterial read_material(Build& build, const std::string& kind, const Place& k
 void set_material(Build& build, const std::string& kind, ParameterList& list) {
   ReadMaterial read = read_material(build, kind, list.place(), list);
   build.state.material = static_cast<uint32_t>(build.scene.materials.size());
-  if (read.material.type == MaterialType::mix) build.mix_places[build.state.material] = list.place();
+  if (read.material.kind == MaterialKind::mix) build.mix_places[build.state.material] = list.place();
   build.scene.materials.push_back(std::move(read.material));
   build.scene.materials.back().name.clear();
   build.material_is_invisible.push_back(read.invisible);
@@ -282,7 +282,7 @@ void define_named_material(Build& build, const std::string& name, ParameterList&
   if (entry.defined) fail(list.place(), "material \"" + name + "\" is defined twice; rename one");
   ReadMaterial read = read_material(build, kind, list.place_of("type"), list);
   entry.defined = true;
-  if (read.material.type == MaterialType::mix) build.mix_places[entry.index] = list.place();
+  if (read.material.kind == MaterialKind::mix) build.mix_places[entry.index] = list.place();
   build.scene.materials[entry.index] = std::move(read.material);
   build.scene.materials[entry.index].name = name;
   build.material_is_invisible[entry.index] = read.invisible;
@@ -379,7 +379,7 @@ void finish_materials(Build& build) {
   for (const auto& [index, variant] : build.variants) {
     Material material = build.scene.materials[variant.base];
     if (variant.alpha != no_index) material.alpha = variant.alpha;
-    if (material.type == MaterialType::dielectric)
+    if (material.kind == MaterialKind::dielectric)
       material.absorption = variant.absorption;
     else if (!is_zero(variant.absorption) && !build.material_is_invisible[variant.base])
       build.warn(variant.medium_place, "a medium inside a surface that is not a dielectric is omitted");

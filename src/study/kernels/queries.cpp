@@ -9,7 +9,7 @@ namespace ALHAZEN_CORE {
 namespace {
 
 template <class Real>
-  /// Answers many queries one after the other (core/bvh/bvh8/traversal.h).
+/// Answers many queries one after the other (core/bvh/bvh8/traversal.h).
 RawKernel select_queries(bool brute_force) {
   using BruteForce = SequentialBatches<Real, BruteForceIntersector<Real>>;
   using Bvh2 = SequentialBatches<Real, Bvh2Intersector<Real>>;

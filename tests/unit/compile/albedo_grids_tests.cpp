@@ -7,7 +7,7 @@
 #include "compile/tables/albedo_grids.h"
 #include "compile/tables/albedo_quadrature.h"
 #include "compile/tables/albedo_tables.h"
-#include "core/materials/layered.h"
+#include "core/materials/lobes/ggx_albedo.h"
 
 namespace alhazen::test {
 namespace {

@@ -26,7 +26,7 @@ TEST(GltfMaterials, ReadTheMetallicRoughnessModel) {
   file.add_triangle_of(material);
   const ParsedGltf parsed = file.parse();
   const Material& m = parsed.material();
-  EXPECT_EQ(m.type, MaterialType::principled);
+  EXPECT_EQ(m.kind, MaterialKind::principled);
   EXPECT_EQ(m.name, "painted");
   EXPECT_TRUE(m.double_sided);
   EXPECT_EQ(m.alpha, no_index);

@@ -13,7 +13,7 @@ const Material& only_material(const Parsed& p) { return material_of(p, shapes(p)
 
 TEST(PbrtMaterials, DefaultIsHalfDiffuse) {
   const Parsed p = parse_world(sphere);
-  EXPECT_EQ(only_material(p).type, MaterialType::diffuse);
+  EXPECT_EQ(only_material(p).kind, MaterialKind::diffuse);
   expect_near(constant_of(p, only_material(p).reflectance), {0.5, 0.5, 0.5});
 }
 
@@ -28,7 +28,7 @@ TEST(PbrtMaterials, ConductorOfRgb) {
       "\"float vroughness\" [ 0.2 ] \"bool remaproughness\" false" +
       sphere);
   const Material& m = only_material(p);
-  EXPECT_EQ(m.type, MaterialType::conductor);
+  EXPECT_EQ(m.kind, MaterialKind::conductor);
   EXPECT_EQ(m.reflectance, no_index);
   expect_near(constant_of(p, m.eta), {0.2, 0.9, 1.1});
   expect_near(constant_of(p, m.k), {3.9, 2.4, 2.1});
@@ -66,7 +66,7 @@ TEST(PbrtMaterials, Dielectric) {
   const Parsed p = parse_world("Material \"dielectric\" \"float eta\" 1.33" + sphere +
                                "Material \"dielectric\" \"spectrum eta\" \"glass-BK7\" \"float roughness\" 0" + sphere +
                                "Material \"dielectric\" \"float vroughness\" 0.5" + sphere);
-  EXPECT_EQ(only_material(p).type, MaterialType::dielectric);
+  EXPECT_EQ(only_material(p).kind, MaterialKind::dielectric);
   EXPECT_EQ(only_material(p).ior, 1.33);
   EXPECT_NEAR(material_of(p, shapes(p)[1]).ior, 1.5168, 1e-3);
   EXPECT_EQ(material_of(p, shapes(p)[1]).roughness_u, no_index);
@@ -100,21 +100,21 @@ TEST(PbrtMaterials, AttributeSetsDefaults) {
 
 struct Replacement {
   std::string kind, parameters;
-  MaterialType type;
+  MaterialKind kind;
   double reflectance;
 };
 
 TEST(PbrtMaterials, ApproximatedOnesSaySoOnce) {
-  const std::vector<Replacement> cases{{"subsurface", "\"float scale\" 2", MaterialType::coated_diffuse, 0.5},
-                                       {"measured", "\"string filename\" \"x.bsdf\"", MaterialType::diffuse, 0.5},
-                                       {"hair", "\"float eumelanin\" 1.3", MaterialType::diffuse, 0.5}};
+  const std::vector<Replacement> cases{{"subsurface", "\"float scale\" 2", MaterialKind::coated_diffuse, 0.5},
+                                       {"measured", "\"string filename\" \"x.bsdf\"", MaterialKind::diffuse, 0.5},
+                                       {"hair", "\"float eumelanin\" 1.3", MaterialKind::diffuse, 0.5}};
   for (const Replacement& c : cases) {
     SCOPED_TRACE(c.kind);
     const Parsed p = parse_world("LightSource \"point\" Material \"" + c.kind + "\" " + c.parameters + sphere +
                                  "Material \"" + c.kind + "\" " + c.parameters + sphere);
     ASSERT_EQ(p.diagnostics.warnings().size(), 1u);
     EXPECT_TRUE(p.warned("test.pbrt:2:21: material \"" + c.kind + "\" is not supported"));
-    EXPECT_EQ(only_material(p).type, c.type);
+    EXPECT_EQ(only_material(p).type, c.kind);
     expect_near(constant_of(p, only_material(p).reflectance), splat(c.reflectance));
   }
 }
@@ -127,7 +127,7 @@ TEST(PbrtMaterials, CoatedDiffuse) {
                                sphere);
   EXPECT_EQ(p.diagnostics.warnings().size(), 0u);
   const Material& plain = only_material(p);
-  EXPECT_EQ(plain.type, MaterialType::coated_diffuse);
+  EXPECT_EQ(plain.kind, MaterialKind::coated_diffuse);
   EXPECT_EQ(plain.ior, 1.5);
   EXPECT_EQ(plain.thickness, 0.01);
   EXPECT_FALSE(plain.thickness_is_given);
@@ -151,7 +151,7 @@ TEST(PbrtMaterials, CoatedConductor) {
       sphere);
   EXPECT_EQ(p.diagnostics.warnings().size(), 0u);
   const Material& m = only_material(p);
-  EXPECT_EQ(m.type, MaterialType::coated_conductor);
+  EXPECT_EQ(m.kind, MaterialKind::coated_conductor);
   expect_near(constant_of(p, m.eta), {1, 2, 3});
   EXPECT_EQ(constant_of(p, m.roughness_u).x, 0.2);
   EXPECT_EQ(constant_of(p, m.coat_roughness).x, 0.1);
@@ -164,10 +164,10 @@ TEST(PbrtMaterials, SheetsAreRead) {
       "[ .4 .4 .4 ]" +
       sphere + "Material \"thindielectric\" \"float eta\" 1.3" + sphere);
   EXPECT_EQ(p.diagnostics.warnings().size(), 0u);
-  EXPECT_EQ(only_material(p).type, MaterialType::diffuse_transmission);
+  EXPECT_EQ(only_material(p).kind, MaterialKind::diffuse_transmission);
   expect_near(constant_of(p, only_material(p).reflectance), splat(0.25));
   expect_near(constant_of(p, only_material(p).transmittance), splat(0.4));
-  EXPECT_EQ(material_of(p, shapes(p)[1]).type, MaterialType::thin_dielectric);
+  EXPECT_EQ(material_of(p, shapes(p)[1]).kind, MaterialKind::thin_dielectric);
   EXPECT_EQ(material_of(p, shapes(p)[1]).ior, 1.3);
 }
 
@@ -178,10 +178,10 @@ TEST(PbrtMaterials, MixesAreOfNamedOnes) {
       "MakeNamedMaterial \"c\" \"string type\" \"mix\" \"string materials\" [ \"a\" \"b\" ]");
   EXPECT_EQ(p.diagnostics.warnings().size(), 0u);
   const Material& m = only_material(p);
-  EXPECT_EQ(m.type, MaterialType::mix);
+  EXPECT_EQ(m.kind, MaterialKind::mix);
   EXPECT_EQ(constant_of(p, m.amount).x, 0.25);
-  EXPECT_EQ(p.scene.materials[m.mixed[0]].type, MaterialType::dielectric);
-  EXPECT_EQ(p.scene.materials[m.mixed[1]].type, MaterialType::mix);
+  EXPECT_EQ(p.scene.materials[m.mixed[0]].kind, MaterialKind::dielectric);
+  EXPECT_EQ(p.scene.materials[m.mixed[1]].kind, MaterialKind::mix);
 }
 
 TEST(PbrtMaterials, MixesWithNothingLetRaysThrough) {
@@ -189,7 +189,7 @@ TEST(PbrtMaterials, MixesWithNothingLetRaysThrough) {
       "MakeNamedMaterial \"a\" \"string type\" \"dielectric\" MakeNamedMaterial \"b\" \"string type\" "
       "\"interface\"\nMaterial \"mix\" \"string materials\" [ \"b\" \"a\" ] \"float amount\" .25" +
       sphere);
-  EXPECT_EQ(only_material(p).type, MaterialType::dielectric);
+  EXPECT_EQ(only_material(p).kind, MaterialKind::dielectric);
   EXPECT_EQ(constant_of(p, only_material(p).alpha).x, 0.25);
 }
 

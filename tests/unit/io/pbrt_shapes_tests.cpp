@@ -223,7 +223,7 @@ TEST(PbrtShapes, Alpha) {
       "0.5\n"
       "MakeNamedMaterial \"later\" \"string type\" \"dielectric\"");
   ASSERT_EQ(shapes(half).size(), 3u);
-  EXPECT_EQ(material_of(half, shapes(half)[0]).type, MaterialType::dielectric);
+  EXPECT_EQ(material_of(half, shapes(half)[0]).kind, MaterialKind::dielectric);
   EXPECT_EQ(constant_of(half, material_of(half, shapes(half)[0]).alpha).x, 0.5);
   EXPECT_EQ(material_of(half, shapes(half)[1]).alpha, no_index);
   EXPECT_EQ(shapes(half)[0].material, shapes(half)[2].material);

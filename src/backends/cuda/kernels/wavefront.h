@@ -8,8 +8,9 @@
 
 namespace alhazen::cuda {
 
-/// Queues of shading: one each for the kinds that are met most, one for the others.
-inline constexpr uint32_t material_kinds = 4;
+/// Queues of shading: one each for the kinds of material that are frequent, one for the others.
+inline constexpr uint32_t material_queues = frequent_material_kinds + 1;
+static_assert(material_queues == 4, "as many queues as the list of arrays below has");
 inline constexpr uint32_t warp_lanes = 32;
 
 // clang-format does not know what separates these.
@@ -40,7 +41,7 @@ struct QueueCounts {
   uint32_t next_item;  ///< of the slice's items
   uint32_t rays[2];    ///< of this round and of the next, in turn
   uint32_t ended, shadows;
-  uint32_t materials[material_kinds];
+  uint32_t materials[material_queues];
 };
 
 template <class Real>
@@ -234,7 +235,7 @@ struct IntersectKernel {
       slots.hit_primitive[slot] = hit.primitive;
       slots.hit_instance[slot] = hit.instance;
       const uint32_t kind_met = static_cast<uint32_t>(material_kind(hit.primitive));
-      const uint32_t material = kind_met < material_kinds ? kind_met : material_kinds - 1;
+      const uint32_t material = kind_met < material_queues ? kind_met : material_queues - 1;
       push(thread, slots.material_queue(material), &slots.counts->materials[material], slot);
       return;
     }
@@ -264,7 +265,7 @@ struct ShadeKernel {
   ALHAZEN_HD void operator()(const Thread& thread) const {
     const Slots<Real>& slots = stage.slots;
     uint32_t place = thread.index();
-    for (uint32_t material = 0; material < material_kinds; ++material) {
+    for (uint32_t material = 0; material < material_queues; ++material) {
       const uint32_t length = slots.counts->materials[material];
       if (place < length) return shade_slot(thread, slots.material_queue(material)[place]);
       const uint32_t padded = (length + warp_lanes - 1) / warp_lanes * warp_lanes;

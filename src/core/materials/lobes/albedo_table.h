@@ -13,6 +13,17 @@ namespace ALHAZEN_CORE {
 template <class Real>
 inline constexpr Real least_layered_alpha = Real(1.5e-3);
 
+template <class Real>
+ALHAZEN_HD Real layered_alpha(Real alpha) {
+  return larger(alpha, least_layered_alpha<Real>);
+}
+
+/// Beyond these an interface reflects all light but a ten-thousandth, and rounding would have the rest.
+template <class Real>
+inline constexpr Real min_layered_ior = Real(0.01);
+template <class Real>
+inline constexpr Real max_layered_ior = Real(1e6);
+
 /// A table is `albedo_side` rows by alpha_coordinate, each of as many values by cosine_coordinate; after them as many
 /// means over all directions, weighted by the cosine, one a row.
 inline constexpr uint32_t albedo_side = 32;

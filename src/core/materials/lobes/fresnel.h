@@ -65,4 +65,11 @@ ALHAZEN_HD Vec3<Real> absorption_for_reflectance(const Vec3<Real>& reflectance) 
           absorption_for_reflectance(reflectance.z)};
 }
 
+/// (1 - cos)^5 of Schlick 1994.
+template <class Real>
+ALHAZEN_HD Real schlick_weight(Real cosine) {
+  const Real x = clamp(1 - cosine, Real(0), Real(1));
+  return x * x * x * x * x;
+}
+
 }  // namespace ALHAZEN_CORE

@@ -23,6 +23,18 @@ ALHAZEN_HD constexpr bool is_smooth(const Vec2<Real>& alpha) {
   return alpha.x < smooth_alpha<Real> && alpha.y < smooth_alpha<Real>;
 }
 
+/// The alphas of a surface that is not treated as smooth.
+template <class Real>
+ALHAZEN_HD constexpr Vec2<Real> rough_alphas(Real u, Real v) {
+  return {larger(u, smooth_alpha<Real>), larger(v, smooth_alpha<Real>)};
+}
+
+/// One alpha that stands for both where they differ a little or nothing depends on it much.
+template <class Real>
+ALHAZEN_HD Real mean_alpha(const Vec2<Real>& alpha) {
+  return std::sqrt(alpha.x * alpha.y);
+}
+
 /// The vector with x and y scaled by alpha.
 template <class Real>
 ALHAZEN_HD constexpr Vec3<Real> stretch(const Vec3<Real>& v, Real alpha) {
@@ -92,6 +104,32 @@ ALHAZEN_HD Vec3<Real> sample_visible_normal(const Vec3<Real>& w, const Alpha& al
   const Real pz = safe_sqrt(1 - p.x * p.x - p.y * p.y);
   const Vec3<Real> n = t1 * p.x + t2 * p.y + stretched * pz;
   return normalize(stretch(Vec3<Real>{n.x, n.y, larger(Real(1e-6), n.z)}, alpha));
+}
+
+/// GGX without its Fresnel term: f * cos of `i`, and the density of sampling it by visible normals.
+template <class Real>
+struct GgxReflection {
+  Real value = 0, pdf = 0;
+  Real cosine = 0;  ///< between the directions and the microfacet
+};
+
+template <class Real, class Alpha>
+ALHAZEN_HD GgxReflection<Real> ggx_reflection(const Vec3<Real>& o, const Vec3<Real>& i, const Alpha& alpha) {
+  GgxReflection<Real> r;
+  if (!(o.z > 0 && i.z > 0)) return r;
+  const Vec3<Real> m = normalize(o + i);
+  const Real d = ggx_d(m, alpha);
+  r.cosine = smaller(dot(o, m), Real(1));
+  r.value = d * ggx_g2(o, i, alpha) / (4 * o.z);
+  r.pdf = ggx_g1(o, alpha) * d / (4 * o.z);
+  return r;
+}
+
+/// The mirror image of `o` at a microfacet that it sees.
+template <class Real, class Alpha>
+ALHAZEN_HD Vec3<Real> sample_ggx_reflection(const Vec3<Real>& o, const Alpha& alpha, const Vec2<Real>& u) {
+  const Vec3<Real> m = sample_visible_normal(o, alpha, u);
+  return m * (2 * dot(o, m)) - o;
 }
 
 }  // namespace ALHAZEN_CORE

@@ -84,4 +84,22 @@ ALHAZEN_HD Vec3<Real> sample_glass(const GlassBsdf<Real>& glass, const Vec3<Real
   return u_lobe < rate ? branches.reflected.direction : branches.refracted.direction;
 }
 
+/// What microfacets of glass reflect where Fresnel's term of the bare one is `smooth` in this direction and the film
+/// has it reflect `wanted`: the one or the other scaled. The tint is part of what the film is over, and so of `wanted`:
+/// of what is reflected, that share which is owed to the film is not tinted again.
+template <class Real>
+ALHAZEN_HD void add_film_to_glass(GlassBsdf<Real>& glass, Real smooth, const Vec3<Real>& wanted, Real amount) {
+  for (int c = 0; c < 3; ++c) {
+    const Real bare = glass.by_fresnel[c] * smooth, with = bare + (wanted[c] - bare) * amount;
+    if (with > 0) glass.tint[c] = 1 - (1 - glass.tint[c]) * smaller(Real(1), bare * (1 - amount) / with);
+    if (with >= bare) {
+      const Real let_in = (1 - with) / larger(1 - bare, Real(1e-6));
+      glass.constant[c] = 1 - let_in;
+      glass.by_fresnel[c] *= let_in;
+    } else {
+      glass.by_fresnel[c] *= with / bare;
+    }
+  }
+}
+
 }  // namespace ALHAZEN_CORE

@@ -1,0 +1,24 @@
+#pragma once
+
+// One of two materials, chosen at random at each hit. It has no closure: the chosen material's is made in its place.
+
+#include "core/materials/closure.h"
+#include "core/textures/texture_record.h"
+
+namespace ALHAZEN_CORE {
+
+ALHAZEN_HD constexpr MaterialTraits mix_traits() { return {}; }
+
+template <class Real>
+struct MixRecord {
+  uint32_t materials[2];  ///< indices into SceneView::materials, which may be mixes in turn
+  TextureRange amount;    ///< scalar: probability of the second
+
+  /// The index of the material that the random number `u` chooses.
+  template <class Textures>
+  ALHAZEN_HD uint32_t select(const Textures& textures, Real u) const {
+    return materials[u < textures.value(amount).x ? 1 : 0];
+  }
+};
+
+}  // namespace ALHAZEN_CORE
