@@ -98,6 +98,11 @@ class MaterialBuilder {
     record.reflectance = range_or(material.reflectance, 0.5);
   }
 
+  void fill(const Material& material, OrenNayarRecord<Real>& record) {
+    record.reflectance = range_or(material.reflectance, 0.5);
+    record.roughness = range(material.roughness_u);
+  }
+
   void fill(const Material& material, ConductorRecord<Real>& record) {
     record.metal = metal_of(material);
     record.roughness = roughness_of(material);

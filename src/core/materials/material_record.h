@@ -13,6 +13,7 @@
 #include "core/materials/diffuse.h"
 #include "core/materials/diffuse_transmission.h"
 #include "core/materials/mix.h"
+#include "core/materials/oren_nayar.h"
 #include "core/materials/principled.h"
 #include "core/materials/thin_dielectric.h"
 
@@ -33,7 +34,8 @@ namespace ALHAZEN_CORE {
   KIND(anisotropic_conductor, AnisotropicConductor)   \
   KIND(anisotropic_dielectric, AnisotropicDielectric) \
   KIND(thin_dielectric, ThinDielectric)               \
-  KIND(diffuse_transmission, DiffuseTransmission)
+  KIND(diffuse_transmission, DiffuseTransmission)     \
+  KIND(oren_nayar, OrenNayar)
 /// These have closures; a mix is replaced by one of its materials before.
 #define ALHAZEN_SCATTERING_MATERIALS(KIND) ALHAZEN_FREQUENT_MATERIALS(KIND) ALHAZEN_RARE_MATERIALS(KIND)
 #define ALHAZEN_MATERIALS(KIND) ALHAZEN_SCATTERING_MATERIALS(KIND) KIND(mix, Mix)

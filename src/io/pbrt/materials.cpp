@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -75,6 +76,20 @@ void read_conductor_colour(Build& build, ParameterList& list, const std::string&
 ReadMaterial read_diffuse(Build& build, ParameterList& list) {
   ReadMaterial read;
   read.material.reflectance = colour_texture_or(build, list, "reflectance", ColourUse::albedo, 0.5);
+  return read;
+}
+
+/// `roughness` is our extension; where it is 0 the material is diffuse as pbrt has it.
+ReadMaterial read_rough_diffuse(Build& build, ParameterList& list) {
+  ReadMaterial read = read_diffuse(build, list);
+  const uint32_t roughness = scalar_texture(build, list, "roughness");
+  if (roughness == no_index) return read;
+  const std::optional<double> constant = constant_value(build, roughness);
+  if (constant && !(*constant >= 0 && *constant <= 1))
+    fail(list.place_of("roughness"), "\"roughness\" of a diffuse material must be between 0 and 1");
+  if (constant == 0.0) return read;
+  read.material.kind = MaterialKind::oren_nayar;
+  read.material.roughness_u = roughness;
   return read;
 }
 
@@ -212,7 +227,7 @@ constexpr const char* as_diffuse = "diffuse with its reflectance (0.5 if it has 
 constexpr const char* as_nothing = "its surfaces are omitted, as participating media are";
 
 const std::map<std::string, KnownMaterial> known_materials{
-    {"diffuse", {read_diffuse}},
+    {"diffuse", {read_rough_diffuse}},
     {"conductor", {read_conductor}},
     {"dielectric", {read_dielectric}},
     {"coateddiffuse", {read_coated_diffuse}},

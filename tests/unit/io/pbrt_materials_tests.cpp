@@ -22,6 +22,23 @@ TEST(PbrtMaterials, Diffuse) {
   expect_near(constant_of(p, only_material(p).reflectance), {0.1, 0.2, 0.3});
 }
 
+/// Our extension.
+TEST(PbrtMaterials, RoughDiffuse) {
+  const auto diffuse = [](const std::string& roughness) {
+    return parse_world("Texture \"map\" \"float\" \"constant\" \"float value\" 0.3 Material \"diffuse\" " + roughness +
+                       sphere);
+  };
+  const Parsed rough = diffuse("\"float roughness\" 0.4"), textured = diffuse("\"texture roughness\" \"map\"");
+  EXPECT_EQ(only_material(rough).kind, MaterialKind::oren_nayar);
+  expect_near(constant_of(rough, only_material(rough).roughness_u), {0.4, 0.4, 0.4});
+  EXPECT_EQ(only_material(textured).kind, MaterialKind::oren_nayar);
+  const Parsed smooth = diffuse("\"float roughness\" 0");
+  EXPECT_EQ(only_material(smooth).kind, MaterialKind::diffuse);
+  EXPECT_EQ(only_material(smooth).roughness_u, no_index);
+  for (const char* value : {"-0.1", "1.1"})
+    EXPECT_THROW(diffuse(std::string("\"float roughness\" ") + value), InputError) << value;
+}
+
 TEST(PbrtMaterials, ConductorOfRgb) {
   const Parsed p = parse_world(
       "Material \"conductor\" \"rgb eta\" [ .2 .9 1.1 ] \"rgb k\" [ 3.9 2.4 2.1 ] \"float uroughness\" 0.1 "
