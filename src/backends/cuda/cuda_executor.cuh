@@ -19,6 +19,23 @@ __global__ void run_kernel(const __grid_constant__ Kernel kernel) {
   kernel(DeviceThread(traversal_stacks));
 }
 
+/// The same of kernels that are launched in blocks of `usual_block` threads alone. So many registers may a thread take
+/// that `resident_blocks` of them fit on a multiprocessor at once.
+template <class Kernel>
+__global__ void __launch_bounds__(usual_block, Kernel::resident_blocks)
+    run_resident_kernel(const __grid_constant__ Kernel kernel) {
+  extern __shared__ uint4 traversal_stacks[];
+  kernel(DeviceThread(traversal_stacks));
+}
+
+template <class Kernel>
+constexpr auto kernel_function() {
+  if constexpr (requires { Kernel::resident_blocks; })
+    return run_resident_kernel<Kernel>;
+  else
+    return run_kernel<Kernel>;
+}
+
 class CudaExecutor {
  public:
   /// Enough to fill a large GPU, and little for a small one.
@@ -69,7 +86,7 @@ class CudaExecutor {
   template <class Kernel>
   uint32_t resident_threads(uint32_t block) {
     int blocks = 0, multiprocessors = 0;
-    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, run_kernel<Kernel>, static_cast<int>(block),
+    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel_function<Kernel>(), static_cast<int>(block),
                                                         stack_bytes(block)),
           "asking how many threads it runs");
     check(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device_), "asking what it is");
@@ -82,7 +99,7 @@ class CudaExecutor {
     if (block_threads > usual_block) check_block<Kernel>(block);
     const dim3 grid((threads.width + block.width - 1) / block.width,
                     (threads.height + block.height - 1) / block.height);
-    run_kernel<<<grid, dim3(block.width, block.height), stack_bytes(block_threads), stream_>>>(kernel);
+    kernel_function<Kernel>()<<<grid, dim3(block.width, block.height), stack_bytes(block_threads), stream_>>>(kernel);
     check(cudaGetLastError(), "launching");
   }
 
@@ -95,7 +112,7 @@ class CudaExecutor {
   template <class Kernel>
   static void check_block(Extent block) {
     cudaFuncAttributes attributes{};
-    check(cudaFuncGetAttributes(&attributes, run_kernel<Kernel>), "asking for a kernel");
+    check(cudaFuncGetAttributes(&attributes, kernel_function<Kernel>()), "asking for a kernel");
     const uint32_t threads = block.width * block.height;
     if (threads > static_cast<uint32_t>(attributes.maxThreadsPerBlock))
       throw InputError("a block of " + std::to_string(block.width) + "x" + std::to_string(block.height) +
@@ -105,7 +122,7 @@ class CudaExecutor {
                        " such threads in a block: give a smaller --block");
     const size_t bytes = stack_bytes(threads);
     if (bytes > 48 * 1024)
-      check(cudaFuncSetAttribute(run_kernel<Kernel>, cudaFuncAttributeMaxDynamicSharedMemorySize,
+      check(cudaFuncSetAttribute(kernel_function<Kernel>(), cudaFuncAttributeMaxDynamicSharedMemorySize,
                                  static_cast<int>(bytes)),
             "asking for shared memory");
   }

@@ -259,6 +259,9 @@ struct IntersectKernel {
 /// beginning with a warp of its own: at least as many warps more than slots as there are queues.
 template <IntegratorKind kind, class Real>
 struct ShadeKernel {
+  /// In float three fit without spilling, where the compiler left alone makes two of them.
+  static constexpr uint32_t resident_blocks = sizeof(Real) == sizeof(float) ? 3 : 1;
+
   WavefrontStage<Real> stage;
 
   template <QueueThread Thread>
