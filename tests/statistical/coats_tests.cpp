@@ -46,7 +46,8 @@ double scatter_at_base(const Coat& coat, Vec3d& direction, Random& random) {
     return coat.reflectance;
   }
   const double k = absorption_for_reflectance(coat.reflectance) / 1.5;
-  const BsdfSample<double> s = ConductorBsdf<double>{splat(1 / 1.5), splat(k), coat.metal_alpha}.sample(up, 0, random.uniform_2d<double>());
+  const BsdfSample<double> s =
+      ConductorBsdf<double>{splat(1 / 1.5), splat(k), coat.metal_alpha}.sample(up, 0, random.uniform_2d<double>());
   direction = s.direction;
   return s.pdf > 0 ? s.weight.y : 0;
 }

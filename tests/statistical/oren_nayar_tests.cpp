@@ -1,5 +1,5 @@
-// Rough diffuse surfaces: density, energy, reciprocity, the albedo of the paper, and Lambert's law where they are
-// smooth.
+// Tests the Oren-Nayar material: sampling density, energy conservation, reciprocity, the albedo of the paper, and the
+// Lambertian limit of roughness 0.
 
 #include "support/density_check.h"
 #include "support/layered_checks.h"
@@ -36,7 +36,7 @@ TYPED_TEST(OrenNayar, SamplesFollowTheirDensity) {
   }
 }
 
-/// The fit of the albedo errs by 0.1 %.
+/// The fit of the albedo has an error of 0.1 %.
 TYPED_TEST(OrenNayar, WhiteLosesNothing) {
   using Real = TypeParam;
   Random random(2);
@@ -49,8 +49,8 @@ TYPED_TEST(OrenNayar, WhiteLosesNothing) {
   }
 }
 
-/// Of colour: the closed form of single scattering (equation 17 of the paper), and what is left over of it scattered
-/// on.
+/// Compares the albedo for a reflectance below 1 with the closed form of single scattering (equation 17 of the paper)
+/// plus multiple scattering of the rest.
 TYPED_TEST(OrenNayar, AlbedoIsThatOfThePaper) {
   using Real = TypeParam;
   Random random(3);
@@ -68,7 +68,7 @@ TYPED_TEST(OrenNayar, AlbedoIsThatOfThePaper) {
     }
 }
 
-/// Few samples count much more than others: their density has the shape of the lobe.
+/// Weights are bounded, since the density follows the shape of the lobe.
 TYPED_TEST(OrenNayar, WeightsAreNearTheAlbedo) {
   using Real = TypeParam;
   Random random(4);
@@ -104,7 +104,7 @@ TYPED_TEST(OrenNayar, Reciprocity) {
   }
 }
 
-/// Where the roughness is 0 or next to it the values are those of Lambert's law.
+/// At a roughness of 0 or almost 0, the BRDF is Lambertian.
 TYPED_TEST(OrenNayar, SmoothIsLambert) {
   using Real = TypeParam;
   Random random(6);

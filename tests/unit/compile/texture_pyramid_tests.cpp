@@ -128,7 +128,7 @@ Real seen_at(const CompiledScene<Real>& scene, double x, double y) {
     if (hit.b1 < 0 || hit.b2 < 0 || hit.b1 + hit.b2 > 1) continue;
     const SurfaceInteraction<Real> si = surface_interaction(scene.view, ray, hit);
     const uint32_t material = scene.view.surfaces[si.surface].material;
-    return evaluate_texture(scene.view, scene.view.materials[material].reflectance, texture_point(si, hit)).x;
+    return evaluate_texture(scene.view, scene.view.materials[material].diffuse.reflectance, texture_point(si, hit)).x;
   }
   ADD_FAILURE() << "the floor was missed";
   return 0;

@@ -31,11 +31,11 @@ class Textures {
 
   Vec3d at(uint32_t texture, const Vec3d& position, const Vec2d& uv = {}) const {
     return convert<double>(evaluate_texture(
-        flat_.view, flat_.view.materials[texture].reflectance,
+        flat_.view, flat_.view.materials[texture].diffuse.reflectance,
         TexturePoint<Real>{convert<Real>(position), {static_cast<Real>(uv.x), static_cast<Real>(uv.y)}}));
   }
   Vec3d with_normal(uint32_t texture, const Vec3d& normal) const {
-    return convert<double>(evaluate_texture(flat_.view, flat_.view.materials[texture].reflectance,
+    return convert<double>(evaluate_texture(flat_.view, flat_.view.materials[texture].diffuse.reflectance,
                                             TexturePoint<Real>{{}, {}, convert<Real>(normal)}));
   }
   double at_uv(uint32_t texture, double u, double v) const { return at(texture, {}, {u, v}).x; }

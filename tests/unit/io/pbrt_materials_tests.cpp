@@ -116,7 +116,7 @@ TEST(PbrtMaterials, AttributeSetsDefaults) {
 }
 
 struct Replacement {
-  std::string kind, parameters;
+  std::string name, parameters;
   MaterialKind kind;
   double reflectance;
 };
@@ -126,12 +126,12 @@ TEST(PbrtMaterials, ApproximatedOnesSaySoOnce) {
                                        {"measured", "\"string filename\" \"x.bsdf\"", MaterialKind::diffuse, 0.5},
                                        {"hair", "\"float eumelanin\" 1.3", MaterialKind::diffuse, 0.5}};
   for (const Replacement& c : cases) {
-    SCOPED_TRACE(c.kind);
-    const Parsed p = parse_world("LightSource \"point\" Material \"" + c.kind + "\" " + c.parameters + sphere +
-                                 "Material \"" + c.kind + "\" " + c.parameters + sphere);
+    SCOPED_TRACE(c.name);
+    const Parsed p = parse_world("LightSource \"point\" Material \"" + c.name + "\" " + c.parameters + sphere +
+                                 "Material \"" + c.name + "\" " + c.parameters + sphere);
     ASSERT_EQ(p.diagnostics.warnings().size(), 1u);
-    EXPECT_TRUE(p.warned("test.pbrt:2:21: material \"" + c.kind + "\" is not supported"));
-    EXPECT_EQ(only_material(p).type, c.kind);
+    EXPECT_TRUE(p.warned("test.pbrt:2:21: material \"" + c.name + "\" is not supported"));
+    EXPECT_EQ(only_material(p).kind, c.kind);
     expect_near(constant_of(p, only_material(p).reflectance), splat(c.reflectance));
   }
 }

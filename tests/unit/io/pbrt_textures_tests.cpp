@@ -112,7 +112,7 @@ TEST(PbrtTextures, BilinearInterpolationOfFourValues) {
   CompiledScene<double> flat;
   arrays.move_into(flat);
   const auto at = [&](double u, double v) {
-    return evaluate_texture(flat.view, flat.view.materials[0].reflectance, TexturePoint<double>{{}, {u, v}}).x;
+    return evaluate_texture(flat.view, flat.view.materials[0].diffuse.reflectance, TexturePoint<double>{{}, {u, v}}).x;
   };
   EXPECT_NEAR(at(0, 0), 1, 1e-12);
   EXPECT_NEAR(at(0, 1), 2, 1e-12);
