@@ -21,7 +21,7 @@ bool roughness_differs_by_direction(const Material& material) {
          material.roughness_u != material.roughness_v;
 }
 
-/// The kind of the record that a described material becomes.
+/// Returns the kind of record to which a material is compiled.
 MaterialKind compiled_kind(const Material& material) {
   if (material.kind == MaterialKind::conductor && roughness_differs_by_direction(material))
     return MaterialKind::anisotropic_conductor;
@@ -30,7 +30,7 @@ MaterialKind compiled_kind(const Material& material) {
   return material.kind;
 }
 
-/// Absorption of what the surface bounds, per scene unit.
+/// Returns the absorption coefficient of the volume that the surface bounds, per scene unit.
 Vec3d absorption_of(const Material& material) {
   if (material.kind != MaterialKind::principled) return material.absorption;
   const Principled& p = material.principled;
@@ -40,7 +40,7 @@ Vec3d absorption_of(const Material& material) {
   return {channel(p.attenuation_colour.x), channel(p.attenuation_colour.y), channel(p.attenuation_colour.z)};
 }
 
-/// Whether the shading frame follows the tangents of the surface's uv.
+/// Returns whether the shading frame must be aligned with the tangents of the surface.
 bool follows_tangents(const Material& material) {
   if (material.normal_map != no_index || material.displacement != no_index) return true;
   if (material.kind == MaterialKind::principled)
@@ -48,19 +48,19 @@ bool follows_tangents(const Material& material) {
   return roughness_differs_by_direction(material);
 }
 
-/// The records of materials. A function `fill` for each kind makes the kind's own record.
+/// Makes the records of materials. Each kind has an overload of `fill`, which sets the record of that kind.
 template <class Real>
 class MaterialBuilder {
  public:
   MaterialBuilder(const Scene& scene, TextureBuilder<Real>& textures, SceneArrays<Real>& out)
       : scene_(scene), textures_(textures), out_(out), tables_(out) {}
 
-  /// Returns whether the material, but for what it mixes, depends on uv.
+  /// Adds a material, and returns whether it depends on uv, not counting the materials that it mixes.
   bool add(const Material& material) {
     static_assert(std::is_trivially_copyable_v<MaterialRecord<Real>>);
     depends_on_uv_ = false;
     MaterialRecord<Real> record;
-    // A scene's fingerprint is that of its bytes.
+    // The fingerprint of a scene is computed from its bytes, padding included.
     std::memset(static_cast<void*>(&record), 0, sizeof(record));
     record.kind = compiled_kind(material);
     fill_common(material, record);
@@ -175,7 +175,7 @@ class MaterialBuilder {
     CoatedMetal coat{ior, constant_alpha(material, record.coat_roughness), constant_alpha(material, record.roughness_u),
                      thickness_of(material), bounces_of(material)};
     if (record.is_anisotropic) {
-      // The table is that of the alphas' mean, which varies where one of them does.
+      // The table is computed for the mean of the alphas, which varies if one of them does.
       const Optional u = coat.metal_alpha, v = constant_alpha(material, record.roughness_v);
       coat.metal_alpha = u && v ? Optional(std::sqrt(*u * *v)) : std::nullopt;
       const auto lobe = [&](const Optional& alpha) {
@@ -195,7 +195,7 @@ class MaterialBuilder {
     const Principled& p = material.principled;
     const double ior = checked_ior(material, p.ior);
     record.ior = static_cast<Real>(ior);
-    // Sheets, and what has the index of its surroundings.
+    // Thin sheets, and bodies with the index of their surroundings.
     record.thin = p.thin || std::abs(record.ior - 1) < Real(1e-3) ? 1 : 0;
     record.base_colour = range(p.base_colour);
     record.metallic = range(p.metallic);
@@ -224,10 +224,10 @@ class MaterialBuilder {
     fill_grids(p, ior, record);
   }
 
-  /// Adds grids of albedo where the alphas differ, and of the glass of a body.
+  /// Adds the albedo grids of the base, of sheen, and of transmission.
   void fill_grids(const Principled& p, double ior, PrincipledRecord<Real>& record) {
     const Optional roughness = constant_of(p.roughness, 1), anisotropy = constant_of(p.anisotropy, 0);
-    // The alphas at any point are those of the tables, where they are constant.
+    // Constant alphas are those that the closure computes, so that the grids hold them exactly.
     const bool is_constant = roughness && anisotropy;
     const Vec2d alpha = is_constant ? principled_alpha(*roughness, *anisotropy) : Vec2d{};
     const auto grid_of = [&](AlbedoGrid::Kind kind, double index, const Vec2d& alphas) {
@@ -262,7 +262,8 @@ class MaterialBuilder {
     return {{}, bounded(range(material.eta)), bounded(range(material.k))};
   }
 
-  /// An index or absorption whose fourth power is a number in float too: beyond that it makes no difference.
+  /// Clamps a constant index or absorption coefficient so that its fourth power is finite in float; larger values make
+  /// no difference.
   TextureRange bounded(TextureRange index) {
     TextureRecord<Real>& record = out_.textures[index.first];
     if (index.count == 1 && record.kind == TextureKind::constant)
@@ -274,7 +275,7 @@ class MaterialBuilder {
     return range(material.roughness_u != no_index ? material.roughness_u : material.roughness_v);
   }
 
-  /// Of a layered kind, whose roughness may differ by direction.
+  /// Sets the roughness of a layered kind, which may be anisotropic.
   template <class Record>
   void fill_roughness(const Material& material, Record& record) {
     record.is_anisotropic = roughness_differs_by_direction(material) ? 1 : 0;
@@ -289,7 +290,7 @@ class MaterialBuilder {
   }
   int bounces_of(const Material& material) const { return loses_light() ? material.coat_bounces : 0; }
 
-  /// The program of a texture, of which it is noted whether it depends on uv.
+  /// Returns the program of a texture, and records whether it depends on uv.
   TextureRange range(uint32_t texture) {
     const TextureRange found = textures_.range(texture);
     depends_on_uv_ = depends_on_uv_ || textures_.depends_on_uv(texture);
@@ -299,7 +300,7 @@ class MaterialBuilder {
     return texture == no_index ? textures_.constant(fallback) : range(texture);
   }
 
-  /// Value of a scalar that is the same everywhere, in its range from 0 to 1.
+  /// Returns the value of a constant scalar, clamped to [0, 1], or nothing if it varies.
   Optional constant_of(TextureRange scalar) const {
     const TextureRecord<Real>& record = out_.textures[scalar.first];
     if (scalar.count > 1 || record.kind != TextureKind::constant) return std::nullopt;
@@ -309,7 +310,7 @@ class MaterialBuilder {
     return texture == no_index ? fallback : constant_of(range(texture));
   }
 
-  /// alpha of a layer whose roughness is the same everywhere.
+  /// Returns the alpha of a layer with constant roughness, or nothing if it varies.
   Optional constant_alpha(const Material& material, TextureRange roughness) const {
     if (roughness.count == 0) return least_layered_alpha<double>;
     const Optional value = constant_of(roughness);
@@ -317,8 +318,8 @@ class MaterialBuilder {
     return std::max(material.remap_roughness ? std::sqrt(*value) : *value, least_layered_alpha<double>);
   }
 
-  /// The index, or that from which on more of it makes no difference: an interface reflects everything. It is rounded
-  /// to the precision of the scene, so that its tables are those of the index that is met where they are looked up.
+  /// Returns the index, clamped to the limits beyond which an interface reflects almost everything. It is rounded to
+  /// the precision of the scene, so that tables are computed for the index with which they are looked up.
   static double checked_ior(const Material& material, double ior) {
     if (!(ior > 0) || !std::isfinite(ior))
       throw InputError("material '" + material.name + "': the index of refraction must be above 0");
@@ -329,10 +330,10 @@ class MaterialBuilder {
   TextureBuilder<Real>& textures_;
   SceneArrays<Real>& out_;
   StoredTables<Real> tables_;
-  bool depends_on_uv_ = false;  ///< of the material that is being added
+  bool depends_on_uv_ = false;  ///< of the material being added
 };
 
-/// Mixes need what the materials need that they are made of.
+/// Marks mixes that contain a material that needs uv.
 void pass_on_to_mixes(const Scene& scene, std::vector<bool>& needs_uv) {
   uint32_t of_itself = no_index;
   for (const uint32_t mix : order_of_mixes(scene.materials, of_itself))

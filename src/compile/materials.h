@@ -1,6 +1,6 @@
 #pragma once
 
-// The part of scene compilation that makes the records of images, textures and materials.
+// Compiles the images, textures and materials of a scene into records.
 
 #include <vector>
 
@@ -11,11 +11,11 @@ namespace alhazen {
 
 struct CompiledMaterials {
   std::vector<TextureRange> emission;  ///< programs of emission textures, by index into scene.textures
-  std::vector<bool> needs_uv;          ///< by material: whether it, or one that it mixes, uses uv
+  std::vector<bool> needs_uv;          ///< by material: whether it, or a material that it mixes, uses uv
 };
 
-/// Fills images, texels, texture programs and materials of `out`; frees the texels of `scene`. A default material is
-/// appended for shapes without one; its index is scene.materials.size(). `scene` has no cyclic mixes.
+/// Fills the images, texels, texture programs and materials of `out`, and frees the texels of `scene`. Appends a
+/// default material, with the index scene.materials.size(), for shapes without one. `scene` must have no cyclic mixes.
 template <class Real>
 CompiledMaterials compile_materials(Scene& scene, SceneArrays<Real>& out);
 

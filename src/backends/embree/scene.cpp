@@ -24,7 +24,7 @@ Sphere<float> sphere_of(const void* view, uint32_t index, float time) {
     return sphere_at(scene.moving_spheres[index], time);
 }
 
-/// Boxes are wider by what rounding of centre and radius can lose.
+/// Computes bounds padded by the rounding error of centre and radius.
 template <PrimitiveKind kind>
 void sphere_bounds(const RTCBoundsFunctionArguments* arguments) {
   const Sphere<float> s =
@@ -66,26 +66,25 @@ void occluded_sphere_n(const RTCOccludedFunctionNArguments* arguments) {
   if (intersect<kind>(arguments->geometryUserPtr, arguments->primID, query, t)) query.tfar = -infinity<float>;
 }
 
-/// Along the ray, in double, where its origin and the vertices are exact; negative behind.
+/// Returns the distance to the triangle's plane along the ray, negative if behind. It is computed in double.
 double plane_distance(const Ray<float>& ray, const Vec3<float>& a, const Vec3<float>& b, const Vec3<float>& c) {
   const Vec3d p = convert<double>(a);
   const Vec3d normal = cross(convert<double>(b) - p, convert<double>(c) - p);
   return dot(normal, p - convert<double>(ray.origin)) / dot(normal, convert<double>(ray.direction));
 }
 
-/// The largest coordinate of its origin, as a distance along the ray.
+/// Returns the largest coordinate of the ray's origin, as a distance along the ray.
 double reach_of_origin(const Ray<float>& ray) {
   return static_cast<double>(max_component(abs(ray.origin)) / length(ray.direction));
 }
 
-/// So much farther than the largest coordinate of its origin resolves, a ray is past the surface that it left.
+/// Distance beyond which a ray is clear of the surface that it starts on, relative to its origin's largest coordinate.
 constexpr double min_relative_distance = 1e-6;
 
-/// Skips the triangle that the ray leaves. Near the origin of the ray takes a triangle only where our own test does: so
-/// rays do not hit what joins that triangle either. Farther on Embree's word counts, where the plane is not beyond the
-/// end of the ray: at an edge of two triangles the one that our test finds is not always the one that Embree has found,
-/// and rejecting both would be a hole. Within an instance Embree has brought the ray into the object's space; ours is
-/// brought there by our own arithmetic.
+/// Rejects the triangle that the ray starts on. Near the ray's origin, it accepts only hits that our own test confirms,
+/// so that rays do not hit adjacent triangles either. Farther away it accepts Embree's hits up to the end of the ray:
+/// at a shared edge, our test and Embree may hit different triangles, and rejecting both would leave a hole. Within an
+/// instance, the ray is transformed to object space again with our own arithmetic.
 void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
   if (arguments->valid[0] == 0) return;
   const SceneView<float>& scene = *static_cast<const SceneView<float>*>(arguments->geometryUserPtr);
@@ -113,7 +112,7 @@ void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
     arguments->valid[0] = 0;
 }
 
-/// Half the sides of a box about the origin that holds some triangles.
+/// Returns half the extent of a box centred at the origin that holds these triangles.
 Vec3<float> reach_of_triangles(const SceneView<float>& view, uint32_t first, uint32_t count) {
   Vec3<float> reach{};
   for (uint32_t i = first; i < first + count; ++i)
@@ -121,7 +120,7 @@ Vec3<float> reach_of_triangles(const SceneView<float>& view, uint32_t first, uin
   return reach;
 }
 
-/// The same of all that rays start from: the camera, and what stands in the world itself.
+/// Returns the same for the camera and the primitives of the world, not counting instances.
 Vec3<float> reach_of_world(const SceneView<float>& view, uint32_t triangles) {
   const auto& camera = view.camera.world_from_camera;
   Vec3<float> reach =
@@ -135,17 +134,17 @@ Vec3<float> reach_of_world(const SceneView<float>& view, uint32_t triangles) {
   return reach;
 }
 
-/// Embree drops what its arithmetic makes smaller than it resolves: below this it has been seen to lose triangles.
+/// Extent below which Embree has been observed to lose triangles, due to the limited precision of its arithmetic.
 constexpr float min_embree_extent = 1e-8f;
 
-/// Whether some triangles are too small for Embree; none are not.
+/// Returns whether triangles are too small for Embree. An empty set is not.
 bool is_too_small(const Vec3<float>& reach) {
   const float extent = max_component(reach);
   return extent > 0 && extent < min_embree_extent;
 }
 
-/// Whether all of the scene is within Embree's range, in the world and in the space of each object, with room for what
-/// rounding adds.
+/// Returns whether the whole scene is within Embree's range in world space and in each object space, with a margin for
+/// rounding.
 bool is_in_range(const SceneView<float>& view, uint32_t triangles_in_world) {
   const std::array<float, 2> ends{0.0f, 1.0f};
   Vec3<float> world = reach_of_world(view, triangles_in_world), inside{};

@@ -11,7 +11,7 @@ namespace alhazen {
 
 namespace {
 
-/// The edge of a tile of strategy `tiles`, pixels.
+/// Edge length of a tile of strategy `tiles`, in pixels.
 constexpr int tile_size = 16;
 
 /// Sums the blocks of one pixel by all threads of a team; the sum is then taken in their order.

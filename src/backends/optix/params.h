@@ -34,7 +34,7 @@ struct OptixParams {
 inline constexpr unsigned closest_words = 5;
 /// Identifiers of OptiX's instances: below this the kinds of primitives of the world, from it on ours.
 inline constexpr unsigned first_instance_id = primitive_kinds;
-/// Whether anything is in between. One word: 1, or 0 where the ray missed everything.
+/// Occlusion. The payload is one word: 1, or 0 if the ray missed everything.
 inline constexpr unsigned occlusion_words = 1;
 
 // Records of the shader binding table, each no more than its header.

@@ -17,9 +17,9 @@ __device__ inline const OptixParams& launch_params() { return *reinterpret_cast<
 
 /// Answers ray queries by optixTrace.
 ///
-/// What OptiX says of spheres is checked by our own, robust test: the built-in one works in float from the sphere's
-/// centre, and on a ground of radius 1000 may meet the surface that the ray has just left. Of triangles that one is
-/// skipped (`Ray::left`).
+/// Hits on spheres are verified with our own, robust test: the built-in one works in float from the sphere's centre,
+/// and on a ground sphere of radius 1000 may hit the surface that the ray starts on. The triangle that the ray starts
+/// on is skipped (`Ray::left`).
 class OptixIntersector {
  public:
   template <class Stacks>
@@ -40,7 +40,7 @@ class OptixIntersector {
         hit = met;
         return true;
       }
-      // Where our own test meets the sphere later or not at all, something else may stand in between.
+      // If our own test hits the sphere farther away or not at all, another primitive may be closer.
       t_min = met.t + beyond(met);
       if (!intersects_sphere(ray, met.primitive, hit)) continue;
       found = true;
@@ -51,7 +51,7 @@ class OptixIntersector {
 
   __device__ bool occluded(const Ray<float>& ray, float t_max) const {
     constexpr unsigned flags = OPTIX_RAY_FLAG_DISABLE_ANYHIT | OPTIX_RAY_FLAG_TERMINATE_ON_FIRST_HIT;
-    // Free is free; of what is in between, hit programs alone say what it is.
+    // A miss is final. A hit is traced again, since only the hit programs return which primitive it is.
     if (!is_anything_between(ray, t_max, flags | OPTIX_RAY_FLAG_DISABLE_CLOSESTHIT)) return false;
     Hit<float> met, own = end_of_interval(t_max);
     if (!trace(ray, 0, t_max, flags, met)) return false;
@@ -63,7 +63,7 @@ class OptixIntersector {
  private:
   static constexpr int most_attempts = 8;
 
-  /// Whether that is the triangle which the ray starts from: it cannot be hit.
+  /// Returns whether the hit is on the triangle that the ray starts on, which cannot be hit.
   __device__ static bool is_left(const Ray<float>& ray, const Hit<float>& met) {
     return met.primitive == ray.left && met.instance == ray.left_instance;
   }
@@ -91,12 +91,12 @@ class OptixIntersector {
     return occluded != 0;
   }
 
-  /// Our own test of a sphere; on a hit nearer than `hit.t` replaces it.
+  /// Intersects a sphere with our own test; a hit that precedes `hit` replaces it.
   __device__ bool intersects_sphere(const Ray<float>& ray, PrimitiveId sphere, Hit<float>& hit) const {
     return intersect_primitive(*scene_, sphere, ray, ShearedRay<float>{}, hit);
   }
 
-  /// A step that leaves a point behind which OptiX met on a sphere.
+  /// Returns a step along the ray past a hit that OptiX found on a sphere.
   __device__ float beyond(const Hit<float>& met) const {
     const uint32_t index = met.primitive.index();
     const bool moves = met.primitive.kind() == PrimitiveKind::moving_sphere;

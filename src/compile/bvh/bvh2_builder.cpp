@@ -14,21 +14,21 @@ namespace alhazen {
 namespace {
 
 constexpr int max_bins = 16;
-/// From this depth on ranges are halved, which ends before max_bvh2_depth for any number of primitives.
+/// From this depth on, ranges are halved, which keeps the depth below max_bvh2_depth for any number of primitives.
 constexpr int halving_depth = max_bvh2_depth - 32;
 constexpr uint32_t task_size = 8192;
 /// Larger ranges are binned by all threads, in chunks whose number does not depend on the threads.
 constexpr uint32_t parallel_binning_size = 1u << 17;
 constexpr uint32_t binning_chunks = 16;
 
-/// Fewer bins for few primitives: most ranges are small, and sweeping over bins is what they cost.
+/// Returns the number of bins. Small ranges, which are the most frequent, use fewer bins to make the sweep cheaper.
 constexpr int bins_for(uint32_t count) { return count < 96 ? 4 + static_cast<int>(count / 8) : max_bins; }
 
 template <class Real>
 using Row = Lanes<Real, 4>;
 
-/// What is to be put into the tree: a box and its number, as SIMD instructions take them: two rows of four, of which
-/// the last is of no meaning to the box.
+/// A primitive's box and index in a layout for SIMD instructions: two rows of four, whose last element is not part of
+/// the box.
 template <class Real>
 struct Reference {
   Vec3<Real> low;
@@ -96,7 +96,7 @@ struct RangeBounds {
   }
 };
 
-/// From twice a centre to its bin on each axis.
+/// Maps twice a centre to its bin on each axis.
 template <class Real>
 class Binning {
  public:
@@ -126,7 +126,7 @@ class Binning {
 };
 
 struct Split {
-  int axis = -1;  ///< -1: a leaf is cheaper, or no plane parts the centres
+  int axis = -1;  ///< -1: a leaf is cheaper, or no plane separates the centres
   int bin = 0;    ///< the first bin of the right side
 };
 
@@ -183,7 +183,7 @@ class Builder {
     }
   }
 
-  /// `work(chunk, begin, end)` over equal parts of the range, as tasks.
+  /// Calls `work(chunk, begin, end)` for equal parts of the range, as tasks.
   template <class Work>
   static void for_chunks(uint32_t begin, uint32_t end, const Work& work) {
     const uint64_t count = end - begin;
@@ -201,7 +201,7 @@ class Builder {
   }
 
   void parallel_bins(uint32_t begin, uint32_t end, const Binning<Real>& binning, Bins<Real>& bins) const {
-    // Not in memory that may be lacking: what is thrown among threads ends the process.
+    // On the stack, since an allocation that throws within a task would end the process.
     std::array<Bins<Real>, binning_chunks> parts;
     for_chunks(begin, end, [&](uint32_t c, uint32_t b, uint32_t e) {
       parts[c].clear(bins.count);
@@ -299,7 +299,7 @@ class Builder {
 #pragma omp taskwait
   }
 
-  /// Threads number nodes in the order in which they come; this makes the order that of the tree alone.
+  /// Renumbers the nodes depth-first, since their order otherwise depends on the timing of the threads.
   void number_depth_first(uint32_t from, uint32_t to, std::vector<Bvh2Node<Real>>& out) const {
     Bvh2Node<Real> node = nodes_[from];
     const uint32_t children = node.first;

@@ -11,7 +11,7 @@ namespace alhazen {
 
 namespace {
 
-/// Primitives of a block.
+/// Returns the number of lanes in a block.
 template <class Real>
 uint32_t lanes_of(PrimitiveKind kind) {
   switch (kind) {
@@ -26,7 +26,7 @@ uint32_t lanes_of(PrimitiveKind kind) {
   return 1;
 }
 
-// What stands in a lane of a block. Lanes without a primitive hold numbers that are never hit.
+// Fills a lane of a block. Unused lanes hold values that are never hit.
 
 template <class Real>
 void set_lane(TriangleBlock<Real>& block, uint32_t lane, const SceneArrays<Real>& scene, const TriangleRecord& triangle,
@@ -55,8 +55,8 @@ void set_lane(MovingSphereBlock<Real>& block, uint32_t lane, const SceneArrays<R
   for (int axis = 0; axis < 3; ++axis) block.motion[axis][lane] = sphere.motion[axis];
 }
 
-/// The number of blocks, infinite for primitives of several kinds or more of them than pay. An instance is a leaf of
-/// its own, whatever it costs.
+/// The cost of a leaf: its number of blocks, or infinity if the primitives are of several kinds or too many. An
+/// instance always gets its own leaf.
 template <class Real>
 struct BlockCost {
   std::span<const PrimitiveId> primitives;
@@ -75,7 +75,7 @@ struct BlockCost {
   }
 };
 
-/// The box in float, padded by what the box test and the primitive tests round.
+/// Returns the box in float, padded by the rounding errors of the box test and the primitive tests.
 template <class Real>
 Bounds3<float> padded_box(const Bounds3<Real>& box) {
   const Vec3<Real> far = max(abs(box.low), abs(box.high));
@@ -114,7 +114,7 @@ class Bvh8Builder {
   }
 
  private:
-  /// A node to be filled: the binary node that it stands for, and where its children and their blocks begin.
+  /// A node to be filled: the binary node that it replaces, and the indices of its first child and blocks.
   struct Planned {
     uint32_t binary;
     uint32_t first_node;
@@ -123,7 +123,7 @@ class Bvh8Builder {
 
   bool is_instance(uint32_t leaf) const { return primitives_[collapse_.first(leaf)].kind() == PrimitiveKind::instance; }
 
-  /// 0 for an instance.
+  /// Returns the number of blocks of a leaf, or 0 for an instance.
   uint32_t blocks_of(uint32_t leaf, Bvh8Child::Kind& kind) const {
     if (is_instance(leaf)) return 0;
     const PrimitiveKind primitive = primitives_[collapse_.first(leaf)].kind();
@@ -132,7 +132,7 @@ class Bvh8Builder {
     return (collapse_.count(leaf) + lanes - 1) / lanes;
   }
 
-  /// Gives indices to nodes and blocks: siblings are neighbours, the descendants of a node are close behind it.
+  /// Assigns indices to nodes and blocks. Siblings are adjacent, and descendants follow closely.
   void plan() {
     plan_.push_back({});
     std::vector<uint32_t> pending{0};
@@ -213,7 +213,7 @@ class Bvh8Builder {
     const uint32_t first = collapse_.first(leaf), count = collapse_.count(leaf);
     for (uint32_t i = 0; i < blocks * Block::lanes; ++i) {
       const uint32_t lane = i % Block::lanes;
-      // Lanes that are left over hold the index of the last primitive.
+      // Unused lanes hold the index of the last primitive.
       const uint32_t index = primitives_[first + std::min(i, count - 1)].index();
       set_lane(block[i / Block::lanes], lane, scene_, records[index], i < count);
       block[i / Block::lanes].index[lane] = index;

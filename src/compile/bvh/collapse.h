@@ -1,8 +1,7 @@
 #pragma once
 
-// The cheapest way to stand for a binary BVH by nodes with up to 8 children and leaves: dynamic programming over the
-// binary tree (Ylitie, Karras, Laine 2017, section 3.2). What a leaf costs, and which ranges may be one, is the
-// caller's.
+// Collapses a binary BVH into nodes with up to 8 children and leaves at minimal SAH cost, by dynamic programming over
+// the binary tree (Ylitie, Karras, Laine 2017, section 3.2). The caller defines the cost of leaves.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +16,7 @@
 namespace alhazen {
 
 /// `LeafCost` maps a range (first, count) of primitives, in the order of the leaves, to the cost of a leaf of them in
-/// units of a visit to a wide node; infinite where there may be none. A single primitive is always a leaf.
+/// units of a visit to a wide node, or infinity if it may not be a leaf. A single primitive is always a leaf.
 template <class Real, class LeafCost>
 class BvhCollapse {
  public:
@@ -41,8 +40,8 @@ class BvhCollapse {
   uint32_t count(uint32_t node) const { return binary_[node].count; }
   bool makes_leaf(uint32_t node) const { return choices_[node].makes_leaf; }
 
-  /// The binary nodes that are the children of the wide node which stands for `node`; returns how many. A tree that is
-  /// one leaf is the only child of its root.
+  /// Sets `children` to the binary nodes that become the children of the wide node for `node`, and returns how many. If
+  /// the tree is one leaf, that is the only child of the root.
   uint32_t children_of(uint32_t node, uint32_t (&children)[max_children]) const {
     uint32_t count = 0;
     if (makes_leaf(node)) {
@@ -55,7 +54,7 @@ class BvhCollapse {
   }
 
  private:
-  static constexpr uint32_t max_roots = 7;  // of a forest that stands for one child and its siblings
+  static constexpr uint32_t max_roots = 7;  // of the forest that replaces one child of a node
   static constexpr uint32_t no_child = 0xffffffffu;
 
   /// The left child of an inner node is the next node.
@@ -65,7 +64,7 @@ class BvhCollapse {
     uint32_t right = no_child;
   };
 
-  /// The cheapest ways to stand for a binary node by a forest of at most i wide nodes and leaves, i from 1 to 7.
+  /// The cheapest forests of at most i wide nodes and leaves that replace a binary node, for i from 1 to 7.
   struct Choices {
     std::array<float, max_roots + 1> cost{};    ///< [i]
     std::array<uint8_t, max_roots + 2> left{};  ///< [i]: roots of the left child; 0: as with i - 1. [8]: of a node
@@ -166,7 +165,7 @@ class BvhCollapse {
     }
   }
 
-  /// The roots of the cheapest forest for binary node `index`.
+  /// Collects the roots of the cheapest forest for binary node `index`.
   void gather(uint32_t index, uint32_t roots, uint32_t (&children)[max_children], uint32_t& count) const {
     const Choices& c = choices_[index];
     while (roots > 1 && c.left[roots] == 0) --roots;

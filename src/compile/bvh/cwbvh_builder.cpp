@@ -12,14 +12,14 @@ namespace alhazen {
 
 namespace {
 
-/// A leaf of a few primitives, each at 0.3 of a visit to a wide node (the paper's ratio).
+/// The cost of a leaf: 0.3 of a visit to a wide node per primitive (the paper's ratio).
 struct CwbvhLeafCost {
   float operator()(uint32_t, uint32_t count) const {
     return count <= max_cwbvh_leaf ? 0.3f * static_cast<float>(count) : std::numeric_limits<float>::infinity();
   }
 };
 
-/// What has a place among the children of a wide node.
+/// A child of a wide node.
 struct Child {
   uint32_t node;
   uint32_t slot;
@@ -68,7 +68,7 @@ class Collapse {
     return all;
   }
 
-  /// Gives each child its slot, and sorts by slot.
+  /// Assigns a slot to each child, and sorts the children by slot.
   void assign_slots(uint32_t index, std::vector<Child>& children) const {
     const Vec3<float> middle = collapse_.box(index).center();
     Vec3<float> offsets[CwbvhNode::children];
@@ -95,7 +95,7 @@ class Collapse {
     return node;
   }
 
-  /// False where the steps are too small for some child's box.
+  /// Quantizes the boxes along one axis. Returns false if the steps are too small for some child's box.
   bool encode_axis(const std::vector<Child>& children, int axis, int exponent, CwbvhNode& node) const {
     const float origin = node.origin[axis], scale = std::ldexp(1.0f, exponent);
     uint32_t low[2]{}, high[2]{};
@@ -107,7 +107,7 @@ class Collapse {
       const double low_steps = std::floor(steps_to(box.low[axis])), high_steps = std::ceil(steps_to(box.high[axis]));
       if (!(high_steps <= 255)) return false;
       uint32_t down = static_cast<uint32_t>(std::clamp(low_steps, 0.0, 255.0)), up = static_cast<uint32_t>(high_steps);
-      // As rounded where rays are tested, the box must hold what it bounds.
+      // The box must stay conservative under the rounding of the traversal.
       while (down > 0 && box_coordinate(origin, scale, down) > box.low[axis]) --down;
       while (up <= 255 && box_coordinate(origin, scale, up) < box.high[axis]) ++up;
       if (up > 255) return false;

@@ -11,13 +11,13 @@
 namespace alhazen {
 
 struct Cwbvh {
-  std::vector<CwbvhNode> nodes;  ///< the root first; empty where there was no primitive
+  std::vector<CwbvhNode> nodes;  ///< the root first; empty if there are no primitives
   /// Positions in the binary tree's order of primitives, in the order of the leaves.
   std::vector<uint32_t> primitives;
 };
 
-/// `boxes` bound the primitives in the order of the binary tree's leaves. The collapse is the one of least surface area
-/// cost, by dynamic programming (Ylitie, Karras, Laine 2017, section 3.2).
+/// Collapses a binary tree with minimal SAH cost, by dynamic programming (Ylitie, Karras, Laine 2017, section 3.2).
+/// `boxes` bound the primitives in the order of the binary tree's leaves.
 Cwbvh build_cwbvh(std::span<const Bvh2Node<float>> nodes, std::span<const Bounds3<float>> boxes);
 
 }  // namespace alhazen

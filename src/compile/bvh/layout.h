@@ -1,6 +1,6 @@
 #pragma once
 
-// Which layouts of the BVH a scene is compiled to.
+// The BVH layouts that a scene is compiled to.
 
 #include <cstdint>
 #include <initializer_list>
@@ -9,11 +9,11 @@ namespace alhazen {
 
 enum class BvhLayout : uint32_t {
   bvh2,   ///< binary: GPUs in double, tests
-  bvh8,   ///< 8 children a node: CPUs
-  cwbvh,  ///< 8 children a node, compressed: GPUs in float
+  bvh8,   ///< 8 children per node: CPUs
+  cwbvh,  ///< 8 children per node, compressed: GPUs in float
 };
 
-/// A set of them; empty for backends that build a tree of their own.
+/// A set of layouts, which is empty for backends that build their own tree.
 class BvhLayouts {
  public:
   constexpr BvhLayouts() = default;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The slots of the children of a node of 8, so that a ray visits them in an order that its direction alone gives
+// Assigns the children of an 8-wide node to slots, so that the direction of a ray determines the order of its visits
 // (Ylitie, Karras, Laine 2017, section 3.3): slot s ^ octant is the priority of slot s, the
 // lowest first, where `octant` has a bit for each axis along which the direction is negative.
 
@@ -12,8 +12,8 @@
 
 namespace alhazen {
 
-/// The slots of `count` children by the way from the middle of their parent to theirs: each the slot whose octant it
-/// lies in, as far as slots are free, the clearest cases first.
+/// Returns the slots of `count` children, given the offsets of their centres from the centre of the parent. Each child
+/// takes the slot of its octant if that is free; the clearest cases choose first.
 template <class Real>
 std::array<uint32_t, 8> octant_slots(const Vec3<Real> (&offsets)[8], uint32_t count) {
   Real cost[8][8];

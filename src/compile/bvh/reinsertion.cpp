@@ -11,20 +11,20 @@ namespace alhazen {
 
 namespace {
 
-/// One in so many nodes is looked at in each round, those of the largest boxes.
+/// Each round considers one in `share` nodes, those with the largest boxes.
 constexpr size_t share = 20;
 constexpr int rounds = 2;
 /// Below this many nodes there is little to gain.
 constexpr size_t min_nodes = 8;
-/// Below this many it is not worth waking other threads.
+/// Below this many nodes it is not worth waking other threads.
 constexpr size_t min_shared_nodes = 8192;
-/// A search ends after so many nodes, where boxes overlap so much that bounds rule nothing out.
+/// A search stops after this many nodes, in case boxes overlap so much that the bounds prune little.
 constexpr int max_visits = 4096;
 
 template <class Real>
 struct Move {
   uint32_t from = 0, to = 0;
-  Real gain = 0;  ///< by how much the sum of all half areas falls
+  Real gain = 0;  ///< reduction of the sum of all half areas
 };
 
 template <class Real>
@@ -43,7 +43,7 @@ Bounds3<Real> united(Bounds3<Real> a, const Bounds3<Real>& b) {
   return a;
 }
 
-/// Children stand side by side, the first of a pair at an odd place.
+/// Siblings are adjacent, the first of a pair at an odd index.
 uint32_t sibling_of(uint32_t node) { return node % 2 == 1 ? node + 1 : node - 1; }
 uint32_t first_of_pair(uint32_t node) { return node % 2 == 1 ? node : node - 1; }
 
@@ -88,18 +88,18 @@ class Reinsertion {
 
   void set_parent_of_children(uint32_t node) { parents_[nodes_[node].first] = parents_[nodes_[node].first + 1] = node; }
 
-  /// Where the subtree would be put best: beside which node. Branch and bound over the rest of the tree, from the
-  /// subtree's sibling upwards.
+  /// Finds the best new sibling of the subtree by branch and bound over the rest of the tree, from the subtree's
+  /// sibling upwards.
   Move<Real> best_move(uint32_t from) const {
     struct Place {
-      Real gain;  ///< without what the box of a new parent there costs
+      Real gain;  ///< not counting the area of a new parent there
       uint32_t node;
     };
     Move<Real> best{from, 0, 0};
     if (parents_[from] == 0) return best;  // its parent is the root, which stays
     const Bounds3<Real> box = box_of(nodes_[from]);
     const Real area = box.half_area();
-    Place stack[max_visits + 1];  // each visit takes one and leaves two at most
+    Place stack[max_visits + 1];  // each visit pops one entry and pushes at most two
     int waiting = 0;
     uint32_t pivot = parents_[from], side = sibling_of(from);
     Bounds3<Real> without = box_of(nodes_[side]);  // the pivot's box once the subtree is gone
@@ -126,12 +126,12 @@ class Reinsertion {
       side = sibling_of(pivot);
       pivot = parents_[pivot];
     }
-    // Beside its sibling, or its own parent, it stands already.
+    // Reinsertion beside its sibling or its own parent would not change the tree.
     if (best.to == sibling_of(from) || best.to == parents_[from]) best.gain = 0;
     return best;
   }
 
-  /// Makes those that do not get into each other's way. False where there was none.
+  /// Makes the moves that do not conflict with a better one. Returns false if there was none.
   bool make(const std::vector<Move<Real>>& moves) {
     std::vector<bool> touched(nodes_.size());
     bool any = false;
@@ -146,7 +146,7 @@ class Reinsertion {
     return any;
   }
 
-  /// The sibling takes the place of the parent that both had; the pair's place becomes that of `from` and `to`.
+  /// Replaces the parent of `from` with its sibling, and uses the freed pair of nodes for `from` and the old `to`.
   void reinsert(uint32_t from, uint32_t to) {
     const uint32_t sibling = sibling_of(from), parent = parents_[from];
     const Bvh2Node<Real> destination = nodes_[to];
@@ -174,7 +174,7 @@ class Reinsertion {
     }
   }
 
-  /// The axis along which the centres are farthest apart.
+  /// Returns the axis along which the centres are farthest apart.
   static int widest_gap(const Bvh2Node<Real>& a, const Bvh2Node<Real>& b) {
     return max_axis(abs(box_of(a).center() - box_of(b).center()));
   }
@@ -183,7 +183,7 @@ class Reinsertion {
   std::vector<uint32_t> parents_;
 };
 
-/// Puts nodes and primitives in depth-first order again. False where the tree is too deep.
+/// Restores the depth-first order of nodes and primitives, unless the tree is too deep.
 template <class Real>
 class Renumbering {
  public:

@@ -1,7 +1,7 @@
 #pragma once
 
-// Optimizes a binary BVH by reinsertion: subtrees are moved to where they enlarge others less
-// (Bittner, Hapala, Havran 2013; in batches as by Meister and Bittner 2018). The same tree for any thread count.
+// Optimizes a binary BVH by reinserting subtrees where they reduce its surface area (Bittner, Hapala, Havran 2013), in
+// batches (Meister and Bittner 2018). The tree does not depend on the thread count.
 
 #include "compile/bvh/bvh2_builder.h"
 

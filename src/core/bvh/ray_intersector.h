@@ -1,16 +1,16 @@
 #pragma once
 
-// What a ray query answers: one contract for the BVHs, for brute force, and for Embree and OptiX in their place.
+// The contract of ray queries. It holds for the BVHs, for brute force, and for Embree and OptiX.
 //
-//   Interval  A hit has 0 < t < t_max: both ends are open. t_max may be infinite; where it is NaN or not positive,
+//   Interval  A hit has 0 < t < t_max: both ends are open. t_max may be infinite. If it is NaN or not positive,
 //             nothing is hit.
-//   Left      The triangle that the ray leaves (Ray::left) is not hit; spheres are.
-//   Ties      Of hits at the same t the lowest PrimitiveId counts, and of the same primitive the lowest instance. So a
-//             hit does not depend on the order in which primitives are tested. Embree and OptiX return any of them.
-//   NaN       A t that is NaN is no hit: a ray whose origin or direction has a component that is not finite hits
-//             nothing. Components of the direction may be 0 of either sign. Box tests take NaN for a hit, since only
-//             primitives say what is hit.
-//   Miss      What `hit` holds after a miss is unspecified.
+//   Left      The triangle that the ray starts on (Ray::left) is never hit; a sphere can be.
+//   Ties      Among hits at the same t, the lowest PrimitiveId wins, then the lowest instance. The result therefore
+//             does not depend on the order of the primitive tests. Embree and OptiX may return any of the tied hits.
+//   NaN       A hit with a NaN t is rejected: a ray with a non-finite component in its origin or direction hits
+//             nothing. Components of the direction may be +0 or -0. Box tests treat NaN as a hit; only primitive tests
+//             decide what is hit.
+//   Miss      After a miss, the contents of `hit` are unspecified.
 //
 // Tests of single primitives (core/shapes/) return t in (0, t_max], so that the caller can break a tie at t_max.
 
@@ -22,14 +22,14 @@
 
 namespace ALHAZEN_CORE {
 
-/// Answers queries of one ray at a time.
+/// Answers closest-hit and occlusion queries for one ray at a time.
 template <class Intersector, class Real>
 concept RayIntersector = requires(const Intersector& intersector, const Ray<Real>& ray, Real t_max, Hit<Real>& hit) {
   { intersector.closest_hit(ray, t_max, hit) } -> std::same_as<bool>;
   { intersector.occluded(ray, t_max) } -> std::same_as<bool>;
 };
 
-/// What a batch is asked by: `ray(i)` and `t_max(i)` are query i, `answer(i, found, hit)` receives what it finds.
+/// The callbacks of a batch: `ray(i)` and `t_max(i)` return query i, and `answer(i, found, hit)` receives its result.
 template <class Real>
 struct BatchQueries {
   struct RayOf {
@@ -43,9 +43,9 @@ struct BatchQueries {
   };
 };
 
-/// Answers many queries in one call too. `answer` is called once for each, in any order; where `any_hit` is set, its
-/// `hit` is unspecified. `trace_coherent` is for closest hits of rays of which neighbours have much the same origin and
-/// direction.
+/// Also answers many queries in one call. `answer` is called once per query, in any order; its `hit` is unspecified for
+/// any-hit queries. `trace_coherent` finds closest hits of coherent rays: neighbours have similar origins and
+/// directions.
 template <class Intersector, class Real>
 concept BatchIntersector = RayIntersector<Intersector, Real> &&
     requires(const Intersector& intersector, uint32_t count, const typename BatchQueries<Real>::RayOf& ray,
@@ -55,7 +55,7 @@ concept BatchIntersector = RayIntersector<Intersector, Real> &&
   intersector.trace_coherent(count, ray, t_max, answer);
 };
 
-/// Batches by an intersector of single rays, one query after the other.
+/// Implements batches with a single-ray intersector, one query after the other.
 template <class Real, RayIntersector<Real> Single>
 class SequentialBatches : public Single {
  public:
@@ -76,19 +76,21 @@ class SequentialBatches : public Single {
   }
 };
 
-/// Precedes every hit at t_max in the order of `is_nearer`: where a search begins with it, t_max is open.
+/// Returns the hit that a search starts with. In the order of `is_nearer`, it precedes every hit at t_max, which keeps
+/// the interval open there.
 template <class Real>
 ALHAZEN_HD Hit<Real> end_of_interval(Real t_max) {
   return {t_max, 0, 0, PrimitiveId(PrimitiveKind::triangle, 0), 0};
 }
 
-/// Whether a hit on `primitive` at t comes before `hit`, both of one space.
+/// Returns whether a hit on `primitive` at t precedes `hit`. Both must be in the same space.
 template <class Real>
 ALHAZEN_HD ALHAZEN_INLINE bool is_nearer(Real t, PrimitiveId primitive, const Hit<Real>& hit) {
   return t < hit.t || (t == hit.t && primitive.bits < hit.primitive.bits);
 }
 
-/// What stands for `hit.primitive` in a search within `instance`: is_nearer then breaks ties of instances too.
+/// Returns the primitive that replaces `hit.primitive` during a search within `instance`, so that is_nearer also breaks
+/// ties between instances.
 template <class Real>
 ALHAZEN_HD PrimitiveId bound_within(uint32_t instance, const Hit<Real>& hit) {
   PrimitiveId bound = hit.primitive;

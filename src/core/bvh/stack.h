@@ -1,6 +1,6 @@
 #pragma once
 
-// The stack of a traversal. On a CPU it is an array of the thread; on a GPU its first entries are in shared memory
+// The traversal stack. On a CPU it is a local array; on a GPU its first entries are in shared memory
 // (backends/cuda/device_thread.cuh).
 
 #include <concepts>
@@ -17,8 +17,8 @@ concept TraversalStack = requires(Stack& stack, const Stack& unchanged, const En
   { stack.pop() } -> std::same_as<Entry>;
 };
 
-/// Makes the stacks of one thread, one at a time: `make<Entry, capacity>()`. The caller knows the capacity to be
-/// enough.
+/// Makes the stacks of one thread, one at a time, with `make<Entry, capacity>()`. The caller guarantees that the
+/// capacity suffices.
 template <class Maker>
 concept StackMaker = requires(const Maker& stacks) {
   { stacks.template make<uint32_t, 64>() } -> TraversalStack<uint32_t>;
@@ -28,7 +28,7 @@ concept StackMaker = requires(const Maker& stacks) {
 template <class Entry, int capacity>
 class LocalStack {
  public:
-  // Not initialised: most of it is never used.
+  // The entries stay uninitialised, since most are never used.
   ALHAZEN_HD LocalStack() {}  // NOLINT
 
   ALHAZEN_HD int height() const { return height_; }

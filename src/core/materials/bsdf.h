@@ -1,8 +1,7 @@
 #pragma once
 
-// The scattering function at a point: a closure of any kind in its shading frame. One switch each for what the kinds
-// can do, which expands from the lists of core/materials/material_record.h. Directions are in world space and point
-// away from the surface.
+// The BSDF at a point: a closure of any kind in its shading frame. Each operation dispatches by a switch that expands
+// from the lists of core/materials/material_record.h. Directions are in world space and point away from the surface.
 
 #include "core/materials/material_record.h"
 #include "core/materials/texture_evaluator.h"
@@ -23,7 +22,7 @@ struct Bsdf {
   ALHAZEN_HD Bsdf() {}
   ALHAZEN_HD Bsdf(MaterialKind kind_, const Frame<Real>& frame_) : kind(kind_), frame(frame_) {}
 
-  /// True where light is only sent in single directions, so that sampling lights is of no use.
+  /// Returns whether the BSDF is a sum of Dirac delta distributions, for which sampling lights is useless.
   ALHAZEN_HD ALHAZEN_HOT bool is_specular() const {
     switch (kind) {
 #define ALHAZEN_KIND(name, Name) \
@@ -53,7 +52,8 @@ ALHAZEN_HD ALHAZEN_COLD void make_rare_bsdf(const SceneView<Real>& scene, const 
   }
 }
 
-/// Evaluates the textures. The frame is set already; `view` is a function that returns the ClosureView, which few need.
+/// Makes the closure of a material by evaluating its textures; the frame is already set. `view` is a function that
+/// returns the ClosureView, which only rare kinds need.
 template <class Real, class View>
 ALHAZEN_HD ALHAZEN_HOT void make_bsdf(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
                                       const TexturePoint<Real>& at, const View& view, Bsdf<Real>& bsdf) {
@@ -99,7 +99,7 @@ ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> sample_local_bsdf(const Bsdf<Real>& bsdf
   }
 }
 
-/// A direction for light that leaves along `wo`. pdf 0: absorbed.
+/// Samples an incident direction for light that leaves along `wo`. A pdf of 0 means that nothing was sampled.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> sample_bsdf(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, Real u_lobe,
                                                     const Vec2<Real>& u) {
@@ -123,7 +123,8 @@ ALHAZEN_HD ALHAZEN_COLD BsdfValue<Real> evaluate_rare_bsdf(const Bsdf<Real>& bsd
   }
 }
 
-/// f * |cos| for light from `wi` to `wo`, and the density of `sample_bsdf`. Zero for specular surfaces.
+/// Evaluates f * |cos| for light from `wi` to `wo`, and the density of `sample_bsdf` with respect to solid angle. Both
+/// are 0 for specular surfaces.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT BsdfValue<Real> evaluate_bsdf(const Bsdf<Real>& bsdf, const Vec3<Real>& wo,
                                                      const Vec3<Real>& wi) {
@@ -139,7 +140,7 @@ ALHAZEN_HD ALHAZEN_HOT BsdfValue<Real> evaluate_bsdf(const Bsdf<Real>& bsdf, con
   }
 }
 
-/// Share of light that the surface sends back at normal incidence, as a guide for denoisers.
+/// Returns an approximate albedo at normal incidence, as a guide for denoisers.
 template <class Real>
 ALHAZEN_HD Vec3<Real> bsdf_albedo(const Bsdf<Real>& bsdf) {
   switch (bsdf.kind) {

@@ -1,8 +1,8 @@
 #pragma once
 
-// What the kinds of material share: what they say of themselves, what their closures take and return. A closure is a
-// material with its textures evaluated at a point. Local coordinates: z along the shading normal, both directions
-// pointing away from the surface.
+// The interface that all kinds of material implement: their traits, and the arguments and results of their closures. A
+// closure is a material with its textures evaluated at a point. Directions are in local coordinates, with z along the
+// shading normal, and point away from the surface.
 
 #include <cstdint>
 
@@ -12,31 +12,31 @@
 
 namespace ALHAZEN_CORE {
 
-/// What a kind of material says of itself, by a function in its file.
+/// Static properties of a kind of material, returned by a function in the file of that kind.
 struct MaterialTraits {
-  bool has_lobes = true;       ///< samples a lobe by a random number before a direction
-  bool is_one_sided = false;   ///< known never to let light through; false is always right
-  bool may_be_sharp = true;    ///< may scatter into (nearly) a single direction
-  bool is_bare_metal = false;  ///< reflects by metal alone
+  bool has_lobes = true;       ///< uses a random number to select a lobe before it samples a direction
+  bool is_one_sided = false;   ///< never transmits light; false is always safe
+  bool may_be_sharp = true;    ///< may scatter into a single direction, or nearly so
+  bool is_bare_metal = false;  ///< is a conductor without a coat
 };
 
 template <class Real>
 struct BsdfSample {
   Vec3<Real> direction{};
-  Vec3<Real> weight{};    ///< f * |cos| / pdf; for a specular direction the limit of that
-  Real pdf = 0;           ///< over solid angle; of no meaning where specular; 0: nothing was sampled
-  Real eta = 1;           ///< index beyond the surface relative to this side if transmitted, else 1
-  uint32_t specular = 0;  ///< 1: light is sent in single directions alone
+  Vec3<Real> weight{};    ///< f * |cos| / pdf; its limit for a specular direction
+  Real pdf = 0;           ///< with respect to solid angle; no meaning if specular; 0: nothing was sampled
+  Real eta = 1;           ///< index of the far side relative to this side if transmitted, else 1
+  uint32_t specular = 0;  ///< 1: the direction follows a Dirac delta distribution
 };
 
-/// f * |cos| and the density with which `sample` would have returned the direction.
+/// f * |cos|, and the density with which `sample` returns the direction, with respect to solid angle.
 template <class Real>
 struct BsdfValue {
   Vec3<Real> value{};
   Real pdf = 0;
 };
 
-/// The sample of a direction that a lobe was sampled for, by what all lobes together say of it.
+/// Returns the sample for `wi`, drawn from one of the lobes, with the weight and the pdf of all lobes together.
 template <class Closure, class Real>
 ALHAZEN_HD BsdfSample<Real> evaluated_sample(const Closure& closure, const Vec3<Real>& wo, const Vec3<Real>& wi) {
   BsdfSample<Real> s;
@@ -48,15 +48,15 @@ ALHAZEN_HD BsdfSample<Real> evaluated_sample(const Closure& closure, const Vec3<
   return s;
 }
 
-/// From where a surface is seen, for the rare kinds whose closure depends on that.
+/// View-dependent arguments of the rare kinds whose closure needs them.
 template <class Real>
 struct ClosureView {
-  Real cosine;             ///< of the outgoing direction to the shading normal, negative from behind
-  Real u_channel;          ///< a random number that chooses a colour channel for dispersion
-  Vec3<Real> coat_normal;  ///< local; differs from z where the base is bent by a map and the coat is not
+  Real cosine;             ///< between the outgoing direction and the shading normal, negative from behind
+  Real u_channel;          ///< random number that selects a colour channel for dispersion
+  Vec3<Real> coat_normal;  ///< local; differs from z if a normal map perturbs only the base, or the coat differently
 };
 
-/// The frame about a coat's normal, where both directions were multiplied by `side` to lie above the surface.
+/// Returns the frame about the normal of a coat, for directions that were multiplied by `side` to be above the surface.
 template <class Real>
 ALHAZEN_HD Frame<Real> coat_frame(const Vec3<Real>& coat_normal, Real side) {
   return frame_about(Vec3<Real>{coat_normal.x * side, coat_normal.y * side, coat_normal.z});

@@ -1,8 +1,7 @@
 #pragma once
 
 // pbrt's coated conductor: a rough dielectric interface over metal, without a random walk between the two. Light that
-// the interface lets through leaves as one lobe (core/materials/lobes/coated_metal.h), wider than that of the bare
-// metal.
+// the interface transmits leaves in one lobe (core/materials/lobes/coated_metal.h), wider than that of the bare metal.
 
 #include "core/materials/closure.h"
 #include "core/materials/lobes/coated_metal.h"
@@ -17,16 +16,16 @@ ALHAZEN_HD constexpr MaterialTraits coated_conductor_traits() { return {}; }
 template <class Real>
 struct CoatedConductorRecord {
   MetalRecord metal;
-  TextureRange roughness_u, roughness_v;  ///< of the metal, scalars; v absent: as u; u absent: smooth
+  TextureRange roughness_u, roughness_v;  ///< scalars, of the metal; v absent: same as u; u absent: smooth
   TextureRange coat_roughness;            ///< scalar; absent: smooth
   uint32_t remap_roughness;               ///< 1: alpha = sqrt(roughness)
   uint32_t is_anisotropic;                ///< the alphas of the metal may differ
   Real coat_ior;
-  uint32_t coat_albedo;                ///< where in SceneView::albedo_tables that of the interface is
-  uint32_t coated_metal;               ///< and that of core/materials/lobes/coated_metal.h
-  uint32_t coat_varies, metal_varies;  ///< whether the latter has many roughnesses of the two
-  AlbedoGridRecord grid;               ///< GgxGrid of the lobe of the metal
-  AlbedoGridRecord mean_grid;          ///< where `is_anisotropic`: GgxGrid of its mean alpha
+  uint32_t coat_albedo;                ///< offset of the interface's table in SceneView::albedo_tables
+  uint32_t coated_metal;               ///< offset of the table of core/materials/lobes/coated_metal.h
+  uint32_t coat_varies, metal_varies;  ///< 1: that table has a dimension for this roughness
+  AlbedoGridRecord grid;               ///< GgxGrid of the metal lobe
+  AlbedoGridRecord mean_grid;          ///< if `is_anisotropic`: GgxGrid of the lobe's mean alpha
 };
 
 template <class Real>
@@ -34,12 +33,12 @@ struct CoatedConductorBsdf {
   Real coat_alpha, coat_ior;
   const Real* coat_albedo;
   Vec3<Real> coat_normal;      ///< local
-  Vec2<Real> alpha;            ///< of the lobe of the metal
+  Vec2<Real> alpha;            ///< of the metal lobe
   Vec3<Real> eta, k;           ///< of the metal relative to the coat
   AlbedoGridPlace<Real> grid;  ///< GgxGrid of `alpha`
   CoatedMetalPlace<Real> coated_metal;
-  bool is_anisotropic;              ///< the two of `alpha` may differ, while `coated_metal` is made for one
-  AlbedoGridPlace<Real> mean_grid;  ///< then GgxGrid of that one
+  bool is_anisotropic;              ///< the alphas may differ; `coated_metal` is tabulated for their mean
+  AlbedoGridPlace<Real> mean_grid;  ///< if anisotropic: GgxGrid of the mean alpha
 
   ALHAZEN_HD BsdfSample<Real> sample(const Vec3<Real>& wo, Real u_lobe, const Vec2<Real>& u) const;
   ALHAZEN_HD ALHAZEN_COLD BsdfValue<Real> evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const;
@@ -47,7 +46,7 @@ struct CoatedConductorBsdf {
   ALHAZEN_HD constexpr bool is_specular() const { return false; }
 };
 
-/// Index or absorption of a metal whose square and its square are finite numbers.
+/// Clamps an index or absorption coefficient so that its fourth power is finite.
 template <class Real>
 ALHAZEN_HD Vec3<Real> bounded_index(const Vec3<Real>& index) {
   return min(max(index, Vec3<Real>{}), splat(Real(1e8)));
@@ -76,7 +75,7 @@ ALHAZEN_HD ALHAZEN_COLD void make_closure(const CoatedConductorRecord<Real>& rec
   b.eta = bounded_index(b.eta / b.coat_ior), b.k = bounded_index(b.k / b.coat_ior);
 }
 
-/// Fresnel's term of the metal by a cosine outside of the coat.
+/// Returns the Fresnel reflectance of the metal for a cosine outside the coat.
 template <class Real>
 ALHAZEN_HD Vec3<Real> fresnel_of_metal(const CoatedConductorBsdf<Real>& b, Real cosine) {
   const Real cosine_within = safe_sqrt(1 - (1 - cosine * cosine) / (b.coat_ior * b.coat_ior));
@@ -88,15 +87,15 @@ ALHAZEN_HD Vec3<Real> CoatedConductorBsdf<Real>::albedo() const {
   return min(max(fresnel_of_metal(*this, Real(1)), Vec3<Real>{}), splat(Real(1)));
 }
 
-/// What depends on the outgoing direction alone.
+/// Terms that depend only on the outgoing direction.
 template <class Real>
 struct CoatedConductorLobes {
-  Real coat = 0, metal = 0;  ///< probabilities
+  Real coat = 0, metal = 0;  ///< sampling probabilities
   CoatedMetalFactors<Real> factors{1, 1};
 };
 
-/// Factors on the lobe of the metal. Their table is made for one alpha; where there are two, the lobe has another
-/// albedo.
+/// Returns the factors on the metal lobe. They are tabulated for a single alpha, so for anisotropic metal they are
+/// scaled by the ratio of the albedos.
 template <class Real>
 ALHAZEN_HD CoatedMetalFactors<Real> lobe_factors(const CoatedConductorBsdf<Real>& b, Real lobe_albedo,
                                                  const Vec3<Real>& o) {

@@ -1,8 +1,8 @@
 #pragma once
 
-// pbrt's coated diffuse material: a rough dielectric interface over Lambert's law, without a random walk between the
-// two. The interface lets light in and out by tables of albedo, and what the base sends up again is summed to the end
-// (docs/formats.md). It is reciprocal, and sends on as much light as arrives where nothing absorbs.
+// pbrt's coated diffuse material: a rough dielectric interface over a Lambertian base, without a random walk between
+// the two. Albedo tables give the reflectance and transmittance of the interface, and the interreflections below it are
+// summed in closed form (docs/formats.md). It is reciprocal; a lossless coat without absorption conserves energy.
 
 #include "core/materials/closure.h"
 #include "core/materials/lobes/albedo_grid.h"
@@ -14,7 +14,7 @@ namespace ALHAZEN_CORE {
 
 ALHAZEN_HD constexpr MaterialTraits coated_diffuse_traits() { return {}; }
 
-/// What an AlbedoGrid of a coat holds: what its interface reflects, and what it lets through to the base.
+/// Quantities in an AlbedoGrid of a coat: the albedo of its interface, and the fraction transmitted to the base.
 struct CoatGrid {
   static constexpr uint32_t interface = 0, transmission = 1;
 };
@@ -22,14 +22,14 @@ struct CoatGrid {
 template <class Real>
 struct CoatedDiffuseRecord {
   TextureRange reflectance;
-  TextureRange roughness_u, roughness_v;  ///< of the interface, scalars; v absent: as u; u absent: smooth
+  TextureRange roughness_u, roughness_v;  ///< scalars, of the interface; v absent: same as u; u absent: smooth
   uint32_t remap_roughness;               ///< 1: alpha = sqrt(roughness)
   uint32_t is_anisotropic;                ///< the alphas may differ
   Real ior;                               ///< of the coat
-  Real bounces;                           ///< light meets the base as often as this at most; 0: for ever
-  uint32_t interface_albedo;   ///< where in SceneView::albedo_tables the share of light is that the interface reflects
-  uint32_t coat_transmission;  ///< the same of what it lets through
-  AlbedoGridRecord grid;       ///< CoatGrid, in place of these tables where `is_anisotropic`
+  Real bounces;                           ///< maximum number of reflections by the base; 0: unlimited
+  uint32_t interface_albedo;              ///< offset of the interface's reflectance in SceneView::albedo_tables
+  uint32_t coat_transmission;             ///< the same for the coat's transmittance
+  AlbedoGridRecord grid;                  ///< CoatGrid, used instead of both tables if `is_anisotropic`
 };
 
 template <class Real>
@@ -40,9 +40,9 @@ struct CoatedDiffuseBsdf {
   const Real* interface_albedo;
   const Real* transmission;
   Real ior;
-  Vec3<Real> diffuse;  ///< share of what has entered that leaves the base and the coat again
-  Real diffuse_cone;   ///< sine beyond which little light leaves the coat
-  Real exit;           ///< 1 / (share of light that leaves from below, times ior^2)
+  Vec3<Real> diffuse;  ///< fraction of the light reaching the base that leaves the coat again
+  Real diffuse_cone;   ///< sine of the angle beyond which little light leaves the coat
+  Real exit;           ///< 1 / (fraction of diffuse light from below that leaves * ior^2)
 
   ALHAZEN_HD BsdfSample<Real> sample(const Vec3<Real>& wo, Real u_lobe, const Vec2<Real>& u) const;
   ALHAZEN_HD ALHAZEN_COLD BsdfValue<Real> evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const;
@@ -50,12 +50,12 @@ struct CoatedDiffuseBsdf {
   ALHAZEN_HD constexpr bool is_specular() const { return false; }
 };
 
-/// Of light that has come in: the share that a diffuse base sends out again, where the interface sends `back` that
-/// share of what meets it from below and lets `escape` out.
+/// Returns the fraction of the light reaching a diffuse base that leaves the coat again. Of diffuse light from below,
+/// the interface reflects the fraction `back` and transmits `escape`. `bounces` > 0 truncates the geometric series.
 template <class Real>
 ALHAZEN_HD Real below_coat(Real reflectance, Real back, Real escape, Real bounces) {
   const Real again = reflectance * back;
-  // 1 - again, where that is all rounding.
+  // 1 - again is never below reflectance * escape, but may cancel to rounding error.
   const Real rest = larger(larger(1 - again, reflectance * escape), Real(1e-30));
   return reflectance * escape * ((bounces > 0 ? 1 - std::pow(again, bounces) : Real(1)) / rest);
 }
@@ -70,7 +70,7 @@ ALHAZEN_HD ALHAZEN_COLD void make_closure(const CoatedDiffuseRecord<Real>& recor
   b.interface_albedo = textures.table(record.interface_albedo);
   b.transmission = textures.table(record.coat_transmission);
   const Real alpha = mean_alpha(b.alpha);
-  // With what a rough interface, and the table between its rows, lets out beyond the critical angle.
+  // A rough interface, and interpolation between rows of the table, transmit light beyond the critical angle.
   b.diffuse_cone = smaller(Real(1), b.ior + 3 * alpha + Real(0.015));
   const Real back = mean_albedo(b.transmission, alpha, CoatColumns::back);
   Real escape = 1 - back;
@@ -85,25 +85,25 @@ ALHAZEN_HD ALHAZEN_COLD void make_closure(const CoatedDiffuseRecord<Real>& recor
                below_coat(reflectance.z, back, escape, record.bounces)};
 }
 
-/// Share of light from `w` that the interface reflects.
+/// Returns the fraction of light from `w` that the interface reflects.
 template <class Real>
 ALHAZEN_HD Real interface_albedo(const CoatedDiffuseBsdf<Real>& b, const Vec3<Real>& w) {
   return b.is_anisotropic ? grid_albedo(b.grid, CoatGrid::interface, grid_direction(b.grid, w, b.ior))
                           : lookup_albedo(b.interface_albedo, w.z, b.alpha.x, b.ior);
 }
 
-/// Share of light from `w` that gets below the interface.
+/// Returns the fraction of light from `w` that reaches the base.
 template <class Real>
 ALHAZEN_HD Real coat_transmission(const CoatedDiffuseBsdf<Real>& b, const Vec3<Real>& w) {
   return b.is_anisotropic ? grid_albedo(b.grid, CoatGrid::transmission, grid_direction(b.grid, w, b.ior))
                           : lookup_albedo(b.transmission, w.z, b.alpha.x, b.ior);
 }
 
-/// What depends on the outgoing direction alone.
+/// Terms that depend only on the outgoing direction.
 template <class Real>
 struct CoatedDiffuseLobes {
-  Real specular, diffuse;  ///< probabilities
-  Real entering;           ///< share of light that gets to the base
+  Real specular, diffuse;  ///< sampling probabilities
+  Real entering;           ///< fraction of light that reaches the base
 };
 
 template <class Real>
@@ -118,8 +118,8 @@ ALHAZEN_HD ALHAZEN_COLD CoatedDiffuseLobes<Real> lobes_of(const CoatedDiffuseBsd
   return lobes;
 }
 
-/// Where light leaves a coat of an index below 1, which refracts it into a cone, most samples of the diffuse lobe go
-/// there.
+/// Probability of sampling the diffuse lobe within the cone into which a coat with an index below 1 refracts the light
+/// that leaves it.
 template <class Real>
 inline constexpr Real cone_rate = Real(0.9);
 
@@ -134,7 +134,7 @@ ALHAZEN_HD Vec3<Real> sample_diffuse_lobe(const CoatedDiffuseBsdf<Real>& b, cons
   return {dx, dy, safe_sqrt(1 - dx * dx - dy * dy)};
 }
 
-/// Density of that over the one of cosines.
+/// Returns the density of sample_diffuse_lobe relative to that of cosine-weighted sampling.
 template <class Real>
 ALHAZEN_HD Real diffuse_lobe_density(const CoatedDiffuseBsdf<Real>& b, const Vec3<Real>& i) {
   if (b.diffuse_cone >= 1) return 1;

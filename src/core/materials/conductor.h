@@ -1,8 +1,7 @@
 #pragma once
 
-// Metal: Fresnel reflection from a smooth surface or from GGX microfacets (single scattering). Where the roughness
-// along the tangent differs from that along the bitangent it is a kind of its own, so that the frequent one stays
-// small.
+// Conductors: Fresnel reflection from a smooth surface or from GGX microfacets (single scattering). Anisotropic
+// conductors are a kind of their own, so that the frequent, isotropic kind stays small.
 
 #include "core/materials/closure.h"
 #include "core/materials/lobes/fresnel.h"
@@ -26,14 +25,14 @@ struct ConductorRecord {
 template <class Real>
 struct AnisotropicConductorRecord {
   MetalRecord metal;
-  TextureRange roughness_u, roughness_v;  ///< scalars, along the tangent and along the bitangent
+  TextureRange roughness_u, roughness_v;  ///< scalars, along the tangent and the bitangent
   uint32_t remap_roughness;               ///< 1: alpha = sqrt(roughness)
 };
 
 template <class Real, class Alpha = Real>
 struct ConductorBsdf {
   Vec3<Real> eta, k;
-  Alpha alpha;  ///< below smooth_alpha: a mirror
+  Alpha alpha;  ///< below smooth_alpha: perfectly specular
 
   ALHAZEN_HD BsdfSample<Real> sample(const Vec3<Real>& wo, Real, const Vec2<Real>& u) const {
     BsdfSample<Real> s;

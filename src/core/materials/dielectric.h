@@ -1,8 +1,8 @@
 #pragma once
 
 // Glass and other dielectrics: reflection and refraction at a smooth interface or at GGX microfacets (Walter et al.
-// 2007). Radiance is scaled by 1 / eta^2 when it is refracted, as camera paths need. Where the roughness along the
-// tangent differs from that along the bitangent it is a kind of its own, so that the frequent one stays small.
+// 2007). Refraction scales radiance by 1 / eta^2, as paths from the camera require. Anisotropic dielectrics are a kind
+// of their own, so that the frequent, isotropic kind stays small.
 
 #include "core/materials/closure.h"
 #include "core/materials/lobes/fresnel.h"
@@ -24,7 +24,7 @@ struct DielectricRecord {
 template <class Real>
 struct AnisotropicDielectricRecord {
   Real ior;
-  TextureRange roughness_u, roughness_v;  ///< scalars, along the tangent and along the bitangent
+  TextureRange roughness_u, roughness_v;  ///< scalars, along the tangent and the bitangent
   uint32_t remap_roughness;               ///< 1: alpha = sqrt(roughness)
 };
 
@@ -57,11 +57,12 @@ ALHAZEN_HD void make_closure(const AnisotropicDielectricRecord<Real>& record, co
                                   textures.alpha(record.roughness_v, record.remap_roughness));
 }
 
-/// Both ways on from an interface, for the microfacet normal that `u` picks. Their weights leave the Fresnel share out:
-/// the radiance that leaves is  rate * L(reflected) * weight + (1 - rate) * L(refracted) * weight.
+/// The reflected and the refracted direction at a microfacet whose normal is sampled by `u`. Their weights and
+/// densities exclude the Fresnel reflectance: the outgoing radiance is
+/// rate * L(reflected) * weight + (1 - rate) * L(refracted) * weight.
 template <class Real>
 struct DielectricBranches {
-  BsdfSample<Real> reflected, refracted;  ///< pdf 0: that way is shut
+  BsdfSample<Real> reflected, refracted;  ///< pdf 0: there is no such direction
   Real reflected_rate = 1;
 };
 
@@ -70,7 +71,7 @@ ALHAZEN_HD DielectricBranches<Real> dielectric_branches(const DielectricBsdf<Rea
                                                         const Vec2<Real>& u) {
   DielectricBranches<Real> branches;
   if (wo.z == 0) return branches;
-  // Work on the side of wo: z towards it, eta the index of the other side relative to this one.
+  // Work on the side of wo, with z > 0 there; eta is the index of the other side relative to this one.
   const Real side = wo.z < 0 ? Real(-1) : Real(1);
   const Real eta = wo.z < 0 ? 1 / bsdf.ior : bsdf.ior;
   const Vec3<Real> o = wo * side;
@@ -104,7 +105,7 @@ ALHAZEN_HD DielectricBranches<Real> dielectric_branches(const DielectricBsdf<Rea
   return branches;
 }
 
-/// Samples one of the two directions, reflection with the probability of its Fresnel term.
+/// Samples one of the two directions; the probability of reflection is the Fresnel reflectance.
 template <class Real, class Alpha>
 ALHAZEN_HD BsdfSample<Real> DielectricBsdf<Real, Alpha>::sample(const Vec3<Real>& wo, Real u_lobe,
                                                                 const Vec2<Real>& u) const {
@@ -115,20 +116,20 @@ ALHAZEN_HD BsdfSample<Real> DielectricBsdf<Real, Alpha>::sample(const Vec3<Real>
   return s;
 }
 
-/// The microfacet that reflects or refracts one direction into the other.
+/// The microfacet that reflects or refracts `wo` into `wi`.
 template <class Real>
 struct DielectricFacet {
-  Real eta;           ///< index of the side beyond relative to that of wo
-  Real cos_o, cos_i;  ///< to the microfacet, whose normal lies on the side of wo
-  Real cos_n;         ///< of wo to the shading normal, above 0
-  Real rate;          ///< Fresnel share that is reflected
+  Real eta;           ///< index of the other side relative to that of wo
+  Real cos_o, cos_i;  ///< to the microfacet normal, which is on the side of wo
+  Real cos_n;         ///< between wo and the shading normal, > 0
+  Real rate;          ///< Fresnel reflectance
   Real d, g2;
-  Real density;  ///< of sampling the microfacet
+  Real density;  ///< of sampling the microfacet normal
   bool reflects;
-  bool total;  ///< no direction is refracted
+  bool total;  ///< total internal reflection
 };
 
-/// False where there is no such microfacet.
+/// Returns false if there is no such microfacet.
 template <class Real, class Alpha>
 ALHAZEN_HD ALHAZEN_HOT bool dielectric_facet(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
                                              const Vec3<Real>& wi, DielectricFacet<Real>& facet) {
@@ -142,7 +143,7 @@ ALHAZEN_HD ALHAZEN_HOT bool dielectric_facet(const DielectricBsdf<Real, Alpha>& 
   if (m.z < 0) m = -m;
   const Real cos_o = dot(o, m), cos_i = dot(i, m);
   if (!(cos_o > 0) || (reflect ? !(cos_i > 0) : !(cos_i < 0))) return false;
-  // Where both directions are known both cosines are: near the critical angle Snell's law would lose one of them.
+  // Refraction uses both known cosines: near the critical angle, Snell's law would lose the precision of one of them.
   Real cos_t = 1;
   facet.rate = reflect ? fresnel_dielectric(cos_o, eta, cos_t) : fresnel_of_cosines(cos_o, -cos_i, eta);
   facet.total = !(cos_t > 0);

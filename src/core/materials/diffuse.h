@@ -1,6 +1,6 @@
 #pragma once
 
-// Lambert's law: f = reflectance / pi, on the side from which it is seen.
+// Lambertian reflection, f = reflectance / pi, on both sides of the surface, without transmission.
 
 #include "core/materials/closure.h"
 #include "core/sampling/warp.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// A thin sheet that follows Lambert's law on both of its sides.
+// A thin sheet with Lambertian reflection and transmission.
 
 #include "core/materials/closure.h"
 #include "core/sampling/warp.h"
@@ -19,7 +19,7 @@ template <class Real>
 struct DiffuseTransmissionBsdf {
   Vec3<Real> reflectance, transmittance;
 
-  /// Probability of sampling reflection.
+  /// Returns the probability of sampling reflection.
   ALHAZEN_HD Real reflection_rate() const {
     const Real r = max_component(reflectance), t = max_component(transmittance);
     return r + t > 0 ? r / (r + t) : Real(1);
@@ -54,7 +54,7 @@ ALHAZEN_HD void make_closure(const DiffuseTransmissionRecord<Real>& record, cons
                              const ClosureView<Real>&, DiffuseTransmissionBsdf<Real>& bsdf) {
   bsdf.reflectance = textures.colour_or(record.reflectance, Real(0));
   bsdf.transmittance = textures.colour_or(record.transmittance, Real(0));
-  // No more than all of the light.
+  // Reflectance and transmittance must not sum to more than 1.
   const Vec3<Real> both = max(bsdf.reflectance + bsdf.transmittance, splat(Real(1)));
   bsdf.reflectance = bsdf.reflectance / both;
   bsdf.transmittance = bsdf.transmittance / both;

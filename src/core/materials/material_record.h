@@ -1,8 +1,8 @@
 #pragma once
 
-// The kinds of material, and how they are stored. Each kind has a file of this folder, which holds all that belongs to
-// it: the record (textures and numbers), the closure that it becomes at a point (make_closure), how that samples,
-// evaluates and what its albedo is, and the traits of the kind. What several kinds are made of is in lobes/.
+// The kinds of material, and how they are stored. Each kind is defined in a file of this folder: its record (textures
+// and numbers), the closure that make_closure creates at a point, with methods to sample and evaluate it and to return
+// its albedo, and the traits of the kind. Code shared by several kinds is in lobes/.
 
 #include <cstdint>
 
@@ -19,14 +19,14 @@
 
 namespace ALHAZEN_CORE {
 
-/// Every kind of material, once: KIND(name, Name). Enumeration, storage and every `switch` expand from these lists.
-/// The kinds that most surfaces have are shaded inline, on GPUs each in a queue of its own.
+/// Lists every kind of material once, as KIND(name, Name). The enumeration, the storage and every `switch` expand from
+/// these lists. The frequent kinds are shaded inline; on GPUs, each has a queue of its own.
 #define ALHAZEN_FREQUENT_MATERIALS(KIND) \
   KIND(diffuse, Diffuse)                 \
   KIND(conductor, Conductor)             \
   KIND(dielectric, Dielectric)
-/// The others are shaded out of line, on GPUs in one queue. Anisotropic kinds are what conductors and dielectrics are
-/// compiled to whose roughness differs by direction; no file describes them.
+/// The rare kinds are shaded out of line; on GPUs, they share one queue. No scene file names the anisotropic kinds:
+/// conductors and dielectrics whose roughness depends on direction are compiled to them.
 #define ALHAZEN_RARE_MATERIALS(KIND)                  \
   KIND(principled, Principled)                        \
   KIND(coated_diffuse, CoatedDiffuse)                 \
@@ -36,7 +36,7 @@ namespace ALHAZEN_CORE {
   KIND(thin_dielectric, ThinDielectric)               \
   KIND(diffuse_transmission, DiffuseTransmission)     \
   KIND(oren_nayar, OrenNayar)
-/// These have closures; a mix is replaced by one of its materials before.
+/// The kinds that have closures; a mix is replaced by one of its materials first.
 #define ALHAZEN_SCATTERING_MATERIALS(KIND) ALHAZEN_FREQUENT_MATERIALS(KIND) ALHAZEN_RARE_MATERIALS(KIND)
 #define ALHAZEN_MATERIALS(KIND) ALHAZEN_SCATTERING_MATERIALS(KIND) KIND(mix, Mix)
 
@@ -50,7 +50,7 @@ enum class MaterialKind : uint32_t {
 inline constexpr uint32_t frequent_material_kinds = 0 ALHAZEN_FREQUENT_MATERIALS(ALHAZEN_KIND);
 #undef ALHAZEN_KIND
 
-/// The kinds of which a trait holds, a bit each.
+/// Returns a bit mask of the kinds that have a trait.
 constexpr uint32_t kinds_with(bool MaterialTraits::*trait) {
   uint32_t kinds = 0;
 #define ALHAZEN_KIND(name, Name) \
@@ -66,25 +66,25 @@ ALHAZEN_HD constexpr bool has_trait(MaterialKind kind) {
   return (kinds >> static_cast<uint32_t>(kind) & 1) != 0;
 }
 
-/// What costs something only where it is asked for: bits of MaterialRecord::features.
+/// Bits of MaterialRecord::features, for features that cost time only if a material uses them.
 struct MaterialFeatures {
-  static constexpr uint32_t cutout = 1;        ///< may let rays through: by alpha, or as the four last bits say
-  static constexpr uint32_t tangents = 2;      ///< normal map, bump, anisotropy: the frame follows dp/du
-  static constexpr uint32_t absorbs = 4;       ///< so does what lies behind it, by MaterialRecord::absorption
-  static constexpr uint32_t one_sided = 8;     ///< rays of the camera that come from behind go through
-  static constexpr uint32_t absent = 16;       ///< lets all rays through: the back of it is what the camera looks at
-  static constexpr uint32_t half = 32;         ///< of one side, as is another in its place that looks the other way
-  static constexpr uint32_t lit_through = 64;  ///< shadow rays that come from the front go through
+  static constexpr uint32_t cutout = 1;        ///< may be transparent: by opacity, or by one of the last four bits
+  static constexpr uint32_t tangents = 2;      ///< normal map, bump map or anisotropy: the frame follows dp/du
+  static constexpr uint32_t absorbs = 4;       ///< bounds a medium that absorbs by MaterialRecord::absorption
+  static constexpr uint32_t one_sided = 8;     ///< transparent to camera rays from behind
+  static constexpr uint32_t absent = 16;       ///< transparent to all rays: the camera sees its back
+  static constexpr uint32_t half = 32;         ///< transparent from behind: coincides with an opposite surface
+  static constexpr uint32_t lit_through = 64;  ///< transparent to shadow rays from the front
 };
 
-/// A material: what all kinds have, and the record of its own kind.
+/// A material: members common to all kinds, and the record of its kind.
 template <class Real>
 struct MaterialRecord {
   MaterialKind kind;
   uint32_t features;          ///< bits of MaterialFeatures
-  TextureRange opacity;       ///< scalar: share of rays that are stopped; absent: 1
+  TextureRange opacity;       ///< scalar: fraction of rays that are stopped; absent: 1
   TextureRange normal_map;    ///< encoded as 0.5 + 0.5 * n
-  TextureRange displacement;  ///< scalar, scene units: tilts the normal
+  TextureRange displacement;  ///< scalar, scene units: perturbs the normal
   Real normal_scale;
   Vec3<Real> absorption;  ///< per scene unit, behind the surface
   union {
@@ -93,7 +93,7 @@ struct MaterialRecord {
 #undef ALHAZEN_KIND
   };
 
-  /// Sets nothing: the record of one kind alone is in use.
+  /// Initialises nothing: only the record of one kind is used.
   MaterialRecord() {}
 };
 

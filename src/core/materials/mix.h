@@ -1,6 +1,7 @@
 #pragma once
 
-// One of two materials, chosen at random at each hit. It has no closure: the chosen material's is made in its place.
+// A mix selects one of two materials at random at each hit. It has no closure of its own: that of the selected material
+// is made.
 
 #include "core/materials/closure.h"
 #include "core/textures/texture_record.h"
@@ -12,9 +13,9 @@ ALHAZEN_HD constexpr MaterialTraits mix_traits() { return {}; }
 template <class Real>
 struct MixRecord {
   uint32_t materials[2];  ///< indices into SceneView::materials, which may be mixes in turn
-  TextureRange amount;    ///< scalar: probability of the second
+  TextureRange amount;    ///< scalar: probability of the second material
 
-  /// The index of the material that the random number `u` chooses.
+  /// Returns the index of the material that the random number `u` selects.
   template <class Textures>
   ALHAZEN_HD uint32_t select(const Textures& textures, Real u) const {
     return materials[u < textures.value(amount).x ? 1 : 0];

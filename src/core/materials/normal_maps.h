@@ -1,13 +1,13 @@
 #pragma once
 
-// What bends the shading frame of a material that asks for it: normal maps, bumps, the turn of anisotropy.
+// Perturbation of the shading frame by normal maps and bump maps, and its rotation for anisotropy.
 
 #include "core/materials/texture_evaluator.h"
 #include "core/shapes/tangents.h"
 
 namespace ALHAZEN_CORE {
 
-/// A normal in the frame, as a texture of normals has it.
+/// Returns the normal of a normal map in world space; `frame` is the tangent space.
 template <class Real>
 ALHAZEN_HD Vec3<Real> mapped_normal(const SceneView<Real>& scene, TextureRange map, Real scale,
                                     const TexturePoint<Real>& at, const Frame<Real>& frame) {
@@ -16,8 +16,8 @@ ALHAZEN_HD Vec3<Real> mapped_normal(const SceneView<Real>& scene, TextureRange m
   return normalize(frame.to_world(local));
 }
 
-/// A bent normal, turned towards the geometric one as little as needed for the mirror direction of `wo` to stay above
-/// the surface: what reflects into the surface comes out black.
+/// Returns the perturbed normal `bent`, turned towards the geometric normal as little as needed for the mirror
+/// direction of `wo` to stay above the surface: reflections into the surface would be black.
 template <class Real>
 ALHAZEN_HD Vec3<Real> reflecting_normal(const Vec3<Real>& bent, const Vec3<Real>& geometric, const Vec3<Real>& wo) {
   const Real side = dot(wo, geometric) < 0 ? Real(-1) : Real(1);
@@ -35,7 +35,7 @@ ALHAZEN_HD Vec3<Real> reflecting_normal(const Vec3<Real>& bent, const Vec3<Real>
   return normalize(lerp(bent, geometric, outside));
 }
 
-/// The normal of the surface displaced along it (Blinn 1978, "Simulation of Wrinkled Surfaces").
+/// Returns the normal of the surface displaced along `normal` (Blinn 1978, "Simulation of Wrinkled Surfaces").
 template <class Real>
 ALHAZEN_HD Vec3<Real> bumped_normal(const SceneView<Real>& scene, TextureRange displacement,
                                     const TexturePoint<Real>& at, const SurfaceTangents<Real>& tangents,
@@ -60,8 +60,8 @@ ALHAZEN_HD Frame<Real> turned(const Frame<Real>& frame, Real cosine, Real sine) 
           frame.normal};
 }
 
-/// The shading frame, its normal towards `wo` as consistent_shading_normal has it; `si` takes the bent normal over.
-/// `coat_normal` receives the clearcoat's, in world space.
+/// Returns the shading frame, whose normal consistent_shading_normal makes consistent with `wo`. The perturbed normal
+/// is stored in `si`; `coat_normal` receives the normal of the clearcoat in world space.
 template <class Real>
 ALHAZEN_HD ALHAZEN_COLD Frame<Real> detailed_frame(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
                                                    const Hit<Real>& hit, const TexturePoint<Real>& at,

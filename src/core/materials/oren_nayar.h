@@ -1,8 +1,8 @@
 #pragma once
 
-// Rough diffuse surfaces: the energy-preserving model of Oren and Nayar's kind by Portsmouth, Kutz and Hill 2025 ("EON:
-// A Practical Energy-Preserving Rough Diffuse BRDF", JCGT 14(1)), and their sampling by a clipped linearly transformed
-// cosine beside a uniform lobe. Reciprocal; where the reflectance is 1 no light is lost.
+// Rough diffuse surfaces: the energy-preserving Oren-Nayar model of Portsmouth, Kutz and Hill 2025 ("EON: A Practical
+// Energy-Preserving Rough Diffuse BRDF", JCGT 14(1)), sampled as in the paper by a mixture of a clipped linearly
+// transformed cosine lobe and a uniform lobe. It is reciprocal, and conserves energy if the reflectance is 1.
 
 #include "core/materials/closure.h"
 #include "core/sampling/warp.h"
@@ -15,13 +15,13 @@ ALHAZEN_HD constexpr MaterialTraits oren_nayar_traits() { return {.is_one_sided 
 template <class Real>
 struct OrenNayarRecord {
   TextureRange reflectance;
-  TextureRange roughness;  ///< scalar, 0: Lambert's law
+  TextureRange roughness;  ///< scalar; 0: Lambertian
 };
 
 template <class Real>
 struct OrenNayarBsdf {
   Vec3<Real> reflectance;
-  Vec3<Real> multiple;  ///< what light becomes that is scattered more than once
+  Vec3<Real> multiple;  ///< albedo of multiple scattering
   Real roughness;
 
   ALHAZEN_HD BsdfSample<Real> sample(const Vec3<Real>& wo, Real u_lobe, const Vec2<Real>& u) const;
@@ -30,8 +30,8 @@ struct OrenNayarBsdf {
   ALHAZEN_HD constexpr bool is_specular() const { return false; }
 };
 
-/// Single scattering of roughness r, seen along the normal, has the albedo 1 / (1 + normal * r); of all directions its
-/// mean is (1 + mean * r) / (1 + normal * r).
+/// Constants of the single-scattering albedo for reflectance 1 and roughness r: along the normal it is
+/// 1 / (1 + normal * r), and its mean over all directions is (1 + mean * r) / (1 + normal * r).
 template <class Real>
 struct OrenNayarAlbedo {
   static constexpr Real normal = Real(0.5) - 2 * inv_pi<Real> / 3;
@@ -48,7 +48,7 @@ ALHAZEN_HD void make_closure(const OrenNayarRecord<Real>& record, const Textures
   b.multiple = b.reflectance * b.reflectance * mean / (splat(Real(1)) - b.reflectance * (1 - mean));
 }
 
-/// Light from a direction that single scattering leaves over, times (1 + Albedo::normal * r) / r: a fit of the paper.
+/// Returns 1 minus the directional albedo of single scattering, times (1 + Albedo::normal * r) / r, by the paper's fit.
 template <class Real>
 ALHAZEN_HD Real oren_nayar_missing(Real cosine) {
   const Real x = 1 - cosine;
@@ -63,17 +63,17 @@ ALHAZEN_HD Vec3<Real> OrenNayarBsdf<Real>::albedo() const {
   return reflectance * single + multiple * (1 - single);
 }
 
-/// The lobe that directions are sampled from: those of a cosine lobe, clipped where the matrix
-/// ((a, 0, b), (0, c, 0), (d, 0, 1)) would take them below the surface, transformed by that matrix. x points along `o`.
+/// The sampling density: a cosine lobe transformed by the matrix ((a, 0, b), (0, c, 0), (d, 0, 1)), clipped to the
+/// directions that this maps above the surface, mixed with a uniform lobe. `o` is in the plane of x > 0 and z.
 template <class Real>
 struct OrenNayarLobe {
   Real a, b, c, d;
-  Real kept;          ///< share of the cosine lobe that is not clipped
-  Real uniform_rate;  ///< probability of a uniform direction instead
+  Real kept;          ///< fraction of the cosine lobe that is not clipped
+  Real uniform_rate;  ///< probability of sampling the uniform lobe
   Real cosine, sine;  ///< of the azimuth of `o`
 };
 
-/// The fits of the paper. `o.z` > 0.
+/// Evaluates the fits of the paper for `o.z` > 0 and roughness `r`.
 template <class Real>
 ALHAZEN_HD OrenNayarLobe<Real> oren_nayar_lobe(const Vec3<Real>& o, Real r) {
   const Real mu = smaller(o.z, Real(1)), mu3 = mu * mu * mu;
@@ -85,7 +85,7 @@ ALHAZEN_HD OrenNayarLobe<Real> oren_nayar_lobe(const Vec3<Real>& o, Real r) {
   lobe.c = 1 + r * (Real(0.20013) + mu * (Real(-0.506373) + Real(0.261777) * mu));
   lobe.d = r * (Real(0.540852) + mu * (Real(-1.01625) + Real(0.475392) * mu)) /
            (Real(-1.0743) + mu * (Real(0.0725628) + mu));
-  lobe.d = smaller(lobe.d, Real(0));  // which rounding of the fit misses about the normal
+  lobe.d = smaller(lobe.d, Real(0));  // rounding makes it positive near the normal
   lobe.kept = Real(0.5) * (1 + 1 / std::sqrt(1 + lobe.d * lobe.d));
   lobe.uniform_rate =
       std::pow(r, Real(0.1)) * (Real(0.162925) + mu * (Real(-0.372058) + mu * (Real(0.538233) - Real(0.290822) * mu)));
@@ -104,7 +104,7 @@ ALHAZEN_HD Vec3<Real> sample_oren_nayar_lobe(const OrenNayarLobe<Real>& lobe, co
   return {lobe.cosine * w.x - lobe.sine * w.y, lobe.sine * w.x + lobe.cosine * w.y, w.z};
 }
 
-/// Density over solid angle with which that returns `i`.
+/// Returns the density of sample_oren_nayar_lobe at `i` with respect to solid angle.
 template <class Real>
 ALHAZEN_HD Real pdf_oren_nayar_lobe(const OrenNayarLobe<Real>& lobe, const Vec3<Real>& i) {
   const Real x = lobe.cosine * i.x + lobe.sine * i.y, y = lobe.cosine * i.y - lobe.sine * i.x;

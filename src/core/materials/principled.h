@@ -1,12 +1,12 @@
 #pragma once
 
 // The principled material of glTF 2.0 (appendix B and the KHR_materials extensions): a clearcoat over sheen over a base
-// that mixes metal and dielectric, the dielectric over diffuse or transmitted light. What a layer sends back by its
-// albedo (core/materials/lobes/albedo_grid.h) is kept from what lies below, so that all layers together send on as much
-// light as arrives where none of them absorbs. Light that metal scatters several times is given back by Kulla and
-// Conty's lobe, that of glass as core/materials/lobes/rough_glass.h does. Coat and sheen take their light by the
-// direction of the camera alone, so these are not reciprocal. There are no single directions: what is smooth has an
-// alpha of `least_layered_alpha`.
+// that mixes metal and dielectric, where the dielectric interface is over diffuse reflection or transmission. Each
+// layer attenuates the layers below by its directional albedo (core/materials/lobes/albedo_grid.h), so that all layers
+// together conserve energy if none of them absorbs. Multiple scattering is added by the lobe of Kulla and Conty for
+// metal, and by core/materials/lobes/rough_glass.h for glass. Clearcoat and sheen attenuate by the outgoing direction
+// alone, which is not reciprocal. No lobe is a Dirac delta distribution: smooth layers have the alpha
+// `least_layered_alpha`.
 
 #include "core/materials/closure.h"
 #include "core/materials/lobes/ggx_albedo.h"
@@ -20,7 +20,7 @@ namespace ALHAZEN_CORE {
 
 ALHAZEN_HD constexpr MaterialTraits principled_traits() { return {}; }
 
-/// Textures that are absent have the values that Principled of scene/scene.h gives.
+/// Absent textures have the default values documented at Principled in scene/scene.h.
 template <class Real>
 struct PrincipledRecord {
   TextureRange base_colour, metallic, roughness, specular, specular_colour, transmission;
@@ -30,42 +30,42 @@ struct PrincipledRecord {
   TextureRange anisotropy, anisotropy_direction;
   TextureRange diffuse_transmission, diffuse_transmission_colour;
   Real ior;
-  uint32_t thin;                        ///< transmission does not refract: there are no grids of `glass`
-  Real rotation_cosine, rotation_sine;  ///< of the anisotropy
+  uint32_t thin;                        ///< 1: transmission does not refract, and the grids of `glass` are unused
+  Real rotation_cosine, rotation_sine;  ///< of the direction of anisotropy
   Real iridescence_ior, clearcoat_normal_scale, dispersion;
-  uint32_t coat_albedo;           ///< where in SceneView::albedo_tables that of the clearcoat is
+  uint32_t coat_albedo;           ///< offset of the clearcoat's table in SceneView::albedo_tables
   AlbedoGridRecord grid;          ///< GgxGrid of the base
-  AlbedoGridRecord through_grid;  ///< thin: GgxGrid of what goes through
+  AlbedoGridRecord through_grid;  ///< if thin: GgxGrid of the transmission lobe
   AlbedoGridRecord sheen_grid;
-  AlbedoGridRecord glass[3];  ///< not thin: GlassGrid, of each channel where there is dispersion
+  AlbedoGridRecord glass[3];  ///< if not thin: GlassGrid of each channel
 };
 
-/// Index of the clearcoat.
+/// Index of refraction of the clearcoat.
 template <class Real>
 inline constexpr Real clearcoat_ior = Real(1.5);
 
-/// What is not used is not initialised.
+/// Members that are not used are not initialised.
 template <class Real>
 struct PrincipledBsdf {
   Vec2<Real> alpha;            ///< of the base
   AlbedoGridPlace<Real> grid;  ///< GgxGrid of the base
   // Dielectric
-  Real dielectric;  ///< share of the base that is a dielectric whose back does not refract
+  Real dielectric;  ///< fraction of the base that is dielectric without refraction
   Vec3<Real> f0;
-  Vec3<Real> kept_f0;  ///< by which it keeps light from what is below
+  Vec3<Real> kept_f0;  ///< f0 that determines the attenuation of the layers below
   Real f90;
   Real ior;
-  Vec3<Real> diffuse;          ///< colour below the interface, times the share of the base that has it
-  Vec3<Real> diffuse_through;  ///< the same of light that leaves diffusely on the other side
-  Real body_ior;               ///< index of what that side is filled with; 1: of a sheet
-  // Light that goes through
-  Vec3<Real> through;  ///< of a sheet: colour, times the share of the base
+  Vec3<Real> diffuse;          ///< diffuse colour below the interface, times its fraction of the base
+  Vec3<Real> diffuse_through;  ///< the same for diffuse transmission
+  Real body_ior;               ///< index of refraction on the other side; 1: thin sheet
+  // Transmission
+  Vec3<Real> through;  ///< if thin: colour, times its fraction of the base
   Vec2<Real> through_alpha;
-  AlbedoGridPlace<Real> through_grid;  ///< GgxGrid of that
-  Real glass;                          ///< share of the base that refracts
-  GlassBsdf<Real> refraction;          ///< of that
+  AlbedoGridPlace<Real> through_grid;  ///< GgxGrid of the transmission lobe
+  Real glass;                          ///< fraction of the base that refracts
+  GlassBsdf<Real> refraction;          ///< closure of that fraction
   // Metal
-  Real metal;  ///< share of the base
+  Real metal;  ///< fraction of the base
   Vec3<Real> metal_f0;
   // Layers above
   Real coat, coat_alpha;
@@ -73,7 +73,7 @@ struct PrincipledBsdf {
   Vec3<Real> coat_normal;  ///< local
   Vec3<Real> sheen;
   Real sheen_roughness;
-  AlbedoGridPlace<Real> sheen_grid;  ///< one quantity
+  AlbedoGridPlace<Real> sheen_grid;  ///< holds one quantity, the albedo
 
   ALHAZEN_HD BsdfSample<Real> sample(const Vec3<Real>& wo, Real u_lobe, const Vec2<Real>& u) const;
   ALHAZEN_HD ALHAZEN_COLD BsdfValue<Real> evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const;
@@ -81,15 +81,15 @@ struct PrincipledBsdf {
   ALHAZEN_HD constexpr bool is_specular() const { return false; }
 };
 
-/// Index of a channel (KHR_materials_dispersion).
+/// Returns the index of refraction of a channel (KHR_materials_dispersion).
 template <class Real>
 ALHAZEN_HD Real dispersed_ior(Real ior, Real dispersion, int channel) {
   const Real spread = (ior - 1) * Real(0.025) * dispersion;
   return clamp(ior + spread * static_cast<Real>(channel - 1), Real(1.0001), max_layered_ior<Real>);
 }
 
-/// Microfacets refract by their slope and the difference of the indices: a sheet of index 1 does not blur. That of
-/// glTF's default index, 1.5, blurs as much as it reflects.
+/// Returns the factor on alpha for transmission through a thin sheet. Microfacets deflect light in proportion to the
+/// difference of the indices: a sheet of index 1 does not blur. At glTF's default index, 1.5, the factor is 1.
 template <class Real>
 ALHAZEN_HD Real blur_by_ior(Real ior) {
   return smaller(Real(1), std::abs(2 * ior - 2));
@@ -101,20 +101,20 @@ ALHAZEN_HD Vec2<Real> thin_alpha(const Vec2<Real>& alpha, Real ior) {
   return {layered_alpha(alpha.x * scale), layered_alpha(alpha.y * scale)};
 }
 
-/// alphas of the principled material's base.
+/// Returns the alphas of the base.
 template <class Real>
 ALHAZEN_HD Vec2<Real> principled_alpha(Real roughness, Real anisotropy) {
   const Real alpha = layered_alpha(roughness * roughness);
   return {alpha + (1 - alpha) * anisotropy * anisotropy, alpha};
 }
 
-/// A film: what it makes of a reflectance at normal incidence, and how much of it there is.
+/// A thin film (KHR_materials_iridescence): its weight, index of refraction, and thickness in nanometres.
 template <class Real>
 struct FilmLayer {
   Real amount = 0, ior = 1, thickness = 0;
 };
 
-/// Reflectance with the film of an interface that reflects f0 at normal incidence.
+/// Returns the reflectance, with the film, of an interface whose reflectance at normal incidence is `f0`.
 template <class Real>
 ALHAZEN_HD Vec3<Real> film_reflectance(const FilmLayer<Real>& film, Real cosine, const Vec3<Real>& f0) {
   return film_reflectance(cosine, film.ior, film.thickness, f0);
@@ -131,7 +131,7 @@ ALHAZEN_HD FilmLayer<Real> film_of(const PrincipledRecord<Real>& record, const T
   return film;
 }
 
-/// The film changes what the base reflects, and a dielectric keeps from below it what it reflects in each channel.
+/// Applies the film to the reflectances of the base. The dielectric then attenuates the layers below per channel.
 template <class Real>
 ALHAZEN_HD void add_film(PrincipledBsdf<Real>& b, const FilmLayer<Real>& film, Real cosine) {
   const auto with_film = [&](const Vec3<Real>& f0) {
@@ -143,7 +143,7 @@ ALHAZEN_HD void add_film(PrincipledBsdf<Real>& b, const FilmLayer<Real>& film, R
   b.metal_f0 = min(with_film(b.metal_f0), splat(Real(1)));
 }
 
-/// Sets the interface of a body of glass and what it reflects, `reflection` times Fresnel's term.
+/// Sets the refracting interface of a body, whose reflectance is `reflection` times the Fresnel reflectance.
 template <class Real, class Textures>
 ALHAZEN_HD void add_refraction(const PrincipledRecord<Real>& record, const Textures& textures,
                                const ClosureView<Real>& view, const Vec3<Real>& reflection, const Vec3<Real>& f0,
@@ -151,7 +151,7 @@ ALHAZEN_HD void add_refraction(const PrincipledRecord<Real>& record, const Textu
   GlassBsdf<Real>& glass = b.refraction;
   int channel = 0;
   if (record.dispersion > 0) {
-    // Each ray sees one channel, with the index of that channel.
+    // One random channel is transmitted, refracted by the index of that channel.
     channel = view.u_channel < Real(1) / 3 ? 0 : view.u_channel < Real(2) / 3 ? 1 : 2;
     b.ior = dispersed_ior(b.ior, record.dispersion, channel);
     glass.through *= Vec3<Real>{channel == 0 ? Real(3) : Real(0), channel == 1 ? Real(3) : Real(0),
@@ -172,7 +172,7 @@ ALHAZEN_HD void add_refraction(const PrincipledRecord<Real>& record, const Textu
   glass.albedo = textures.grid(record.glass[channel], b.alpha);
 }
 
-/// Sets what goes through the base, which has `colour`: as through a sheet, or into a body.
+/// Sets the transmission through the base, tinted by `colour`: through a thin sheet, or into a body.
 template <class Real, class Textures>
 ALHAZEN_HD void add_light_through(const PrincipledRecord<Real>& record, const Textures& textures,
                                   const ClosureView<Real>& view, const Vec3<Real>& colour, const Vec3<Real>& tint,
@@ -192,7 +192,7 @@ ALHAZEN_HD void add_light_through(const PrincipledRecord<Real>& record, const Te
   }
 }
 
-/// Sets metal and dielectric, and what of the latter goes through.
+/// Sets the metal and the dielectric of the base, with diffuse reflection and transmission.
 template <class Real, class Textures>
 ALHAZEN_HD void add_base(const PrincipledRecord<Real>& record, const Textures& textures, const ClosureView<Real>& view,
                          PrincipledBsdf<Real>& b) {
@@ -242,7 +242,7 @@ ALHAZEN_HD ALHAZEN_COLD void make_closure(const PrincipledRecord<Real>& record, 
   add_sheen(record, textures, b);
 }
 
-/// By which a dielectric keeps light from what is below, in each channel.
+/// Returns the fraction of light that the dielectric interface withholds from the layers below, per channel.
 template <class Real>
 ALHAZEN_HD Vec3<Real> kept_by_interface(const PrincipledBsdf<Real>& b, const GgxAlbedo<Real>& ggx) {
   const auto channel = [&](Real f0) { return f0 * ggx.base + b.f90 * ggx.edge; };
@@ -261,7 +261,7 @@ ALHAZEN_HD Vec3<Real> PrincipledBsdf<Real>::albedo() const {
   return min(max(base, sheen), splat(Real(1)));
 }
 
-/// Colour of light that metal scatters more than once, over that of one that reflects everything.
+/// Returns the albedo of multiple scattering in metal relative to that of a perfect reflector, times `metal`.
 template <class Real>
 ALHAZEN_HD Vec3<Real> metal_multiple(const PrincipledBsdf<Real>& b, Real mean_ggx) {
   const auto channel = [&](Real f0) {
@@ -271,29 +271,29 @@ ALHAZEN_HD Vec3<Real> metal_multiple(const PrincipledBsdf<Real>& b, Real mean_gg
   return Vec3<Real>{channel(b.metal_f0.x), channel(b.metal_f0.y), channel(b.metal_f0.z)} * b.metal;
 }
 
-/// What of the layers depends on the outgoing direction alone: `o.z` > 0.
+/// Terms of the layers that depend only on the outgoing direction, `o.z` > 0.
 template <class Real>
 struct PrincipledLobes {
-  Real coat = 0, specular = 0, diffuse = 0, through = 0;  ///< probabilities
-  Real diffuse_through = 0;                               ///< another
-  Real below_coat = 1;                                    ///< share that the coat lets through
-  Vec3<Real> interface;                                   ///< what the dielectric keeps from below it
+  Real coat = 0, specular = 0, diffuse = 0, through = 0;  ///< sampling probabilities
+  Real diffuse_through = 0;                               ///< sampling probability
+  Real below_coat = 1;                                    ///< fraction transmitted by the coat
+  Vec3<Real> interface;                                   ///< fraction withheld by the dielectric interface
   GgxAlbedo<Real> ggx{0, 0};
-  Vec3<Real> entering;   ///< share that gets to the diffuse base
-  Real metal_scale = 1;  ///< factors on single scattering, mostly 1
+  Vec3<Real> entering;   ///< fraction transmitted to the diffuse base
+  Real metal_scale = 1;  ///< factors on single scattering, usually 1
   Vec3<Real> interface_scale{1, 1, 1};
-  Real sheen = 0;  ///< albedo, of colour 1
+  Real sheen = 0;  ///< directional albedo for colour 1
   Real below_sheen = 1;
 };
 
-/// A body's inside: only its base is hit there, not what lies over it.
+/// Returns whether `wo` is inside a body, where light hits only the base and not the layers over it.
 template <class Real>
 ALHAZEN_HD bool is_within(const PrincipledBsdf<Real>& b, const Vec3<Real>& wo) {
   return wo.z < 0 && b.glass > 0;
 }
 
-/// Sets the probabilities of the lobes by how much light each sends on. `coat_albedo` and `sheen`: of the strongest
-/// channel.
+/// Sets the sampling probabilities of the lobes in proportion to estimates of their albedos. `sheen` is the largest
+/// component of the sheen colour.
 template <class Real>
 ALHAZEN_HD void set_probabilities(const PrincipledBsdf<Real>& b, const Vec3<Real>& o, Real coat_albedo, Real sheen,
                                   PrincipledLobes<Real>& lobes) {
@@ -341,7 +341,8 @@ ALHAZEN_HD ALHAZEN_COLD PrincipledLobes<Real> lobes_of(const PrincipledBsdf<Real
   return lobes;
 }
 
-/// Share of light that gets into the diffuse base along that of `lobes` and out of it again along `i`.
+/// Returns the transmittance of the interface into the diffuse base, for the direction of `lobes`, and out of it along
+/// `i`, normalised by its mean to conserve energy.
 template <class Real>
 ALHAZEN_HD Vec3<Real> share_of_diffuse_base(const PrincipledBsdf<Real>& b, const PrincipledLobes<Real>& lobes,
                                             const Vec3<Real>& i) {
@@ -350,7 +351,7 @@ ALHAZEN_HD Vec3<Real> share_of_diffuse_base(const PrincipledBsdf<Real>& b, const
   return lobes.entering * (leaving / max(mean, splat(least_mean_missing<Real>)));
 }
 
-/// Sheen and base where both directions are on the same side, what the coat keeps not yet left out.
+/// Evaluates sheen and base for two directions on the same side, without attenuation by the coat.
 template <class Real>
 ALHAZEN_HD BsdfValue<Real> evaluate_below_coat(const PrincipledBsdf<Real>& b, const PrincipledLobes<Real>& lobes,
                                                const Vec3<Real>& o, const Vec3<Real>& i) {
@@ -376,7 +377,7 @@ ALHAZEN_HD BsdfValue<Real> evaluate_below_coat(const PrincipledBsdf<Real>& b, co
   return v;
 }
 
-/// Light that the base lets through to the other side; `o.z` > 0 > `i.z`.
+/// Adds transmission through the base, other than by glass, to `v`; `o.z` > 0 > `i.z`.
 template <class Real>
 ALHAZEN_HD void evaluate_through(const PrincipledBsdf<Real>& b, const PrincipledLobes<Real>& lobes, const Vec3<Real>& o,
                                  const Vec3<Real>& i, bool leaves_body, BsdfValue<Real>& v) {
@@ -389,7 +390,7 @@ ALHAZEN_HD void evaluate_through(const PrincipledBsdf<Real>& b, const Principled
   }
   if (lobes.diffuse_through > 0) {
     const Real lambert = mirrored.z * inv_pi<Real>;
-    // As radiance does that is refracted.
+    // Refracted radiance scales with the square of the relative index.
     const Real crossing = leaves_body ? sqr(b.body_ior) : 1 / sqr(b.body_ior);
     v.value +=
         b.diffuse_through * (lambert * share_of_diffuse_base(b, lobes, mirrored) * (lobes.below_sheen * crossing));
@@ -427,7 +428,7 @@ ALHAZEN_HD BsdfValue<Real> PrincipledBsdf<Real>::evaluate(const Vec3<Real>& wo, 
   return v;
 }
 
-/// A direction of one of the lobes; zero: none.
+/// Samples a direction from one of the lobes; returns zero if there is none.
 template <class Real>
 ALHAZEN_HD Vec3<Real> sample_lobe(const PrincipledBsdf<Real>& b, const Vec3<Real>& wo, Real u_lobe,
                                   const Vec2<Real>& u) {

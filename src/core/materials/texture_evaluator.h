@@ -1,6 +1,6 @@
 #pragma once
 
-// What the kinds of material ask for their textures, at one point of a surface.
+// Evaluates the textures of a material at one point of a surface.
 
 #include "core/materials/lobes/albedo_grid.h"
 #include "core/textures/texture.h"
@@ -14,7 +14,7 @@ struct TextureEvaluator {
 
   ALHAZEN_HD ALHAZEN_HOT Vec3<Real> value(TextureRange range) const { return evaluate_texture(scene, range, at); }
 
-  /// Each component in its range from 0 to 1.
+  /// Clamps each component to [0, 1].
   ALHAZEN_HD ALHAZEN_HOT Vec3<Real> colour(TextureRange range) const {
     return max(min(value(range), splat(Real(1))), Vec3<Real>{});
   }
@@ -25,19 +25,19 @@ struct TextureEvaluator {
     return range.count == 0 ? fallback : clamp(value(range).x, Real(0), Real(1));
   }
 
-  /// alpha of a roughness as the material's file has it; 0 where there is none. `remap`: alpha = sqrt(roughness).
+  /// Returns the alpha of a roughness texture, 0 if it is absent. If `remap`, alpha = sqrt(roughness).
   ALHAZEN_HD ALHAZEN_HOT Real alpha(TextureRange range, uint32_t remap) const {
     if (range.count == 0) return 0;
     const Real roughness = clamp(value(range).x, Real(0), Real(1));
     return remap != 0 ? std::sqrt(roughness) : roughness;
   }
-  /// Those of a layer, which is never quite smooth; `v` absent: as `u`.
+  /// Returns the alphas of a layer, which is never perfectly smooth. If `v` is absent, both are those of `u`.
   ALHAZEN_HD Vec2<Real> layered_alphas(TextureRange u, TextureRange v, uint32_t remap) const {
     const Real along_u = alpha(u, remap);
     return {layered_alpha(along_u), layered_alpha(v.count > 0 ? alpha(v, remap) : along_u)};
   }
 
-  /// What a record finds in SceneView::albedo_tables.
+  /// Returns the table at an offset in SceneView::albedo_tables.
   ALHAZEN_HD const Real* table(uint32_t first) const { return scene.albedo_tables + first; }
   ALHAZEN_HD AlbedoGridPlace<Real> grid(const AlbedoGridRecord& record, const Vec2<Real>& alpha) const {
     return grid_place(scene.albedo_tables, record, alpha);

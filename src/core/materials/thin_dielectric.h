@@ -1,6 +1,6 @@
 #pragma once
 
-// A clear pane, both of whose sides are hit at once; smooth.
+// A smooth, thin dielectric pane, whose two interfaces are one surface.
 
 #include "core/materials/closure.h"
 #include "core/materials/lobes/fresnel.h"
@@ -18,7 +18,7 @@ template <class Real>
 struct ThinDielectricBsdf {
   Real ior;
 
-  /// Reflection from both sides and everything between them: R + T^2 R / (1 - R^2).
+  /// Samples reflection with the probability R + T^2 R / (1 - R^2), the reflectance of both interfaces together.
   ALHAZEN_HD BsdfSample<Real> sample(const Vec3<Real>& wo, Real u_lobe, const Vec2<Real>&) const {
     BsdfSample<Real> s;
     if (wo.z == 0) return s;

@@ -1,13 +1,13 @@
 #pragma once
 
-// What meshes have at their vertices beside normals and uv, looked up for those who ask.
+// Looks up optional vertex attributes of meshes: a second uv set, colours and tangents.
 
 #include "core/scene_view.h"
 #include "core/shapes/interaction.h"
 
 namespace ALHAZEN_CORE {
 
-/// Of the mesh that was met; null where it has none of these, or where it was no mesh.
+/// Returns the attributes of the mesh that was hit, or null if it has none or the hit is not on a mesh.
 template <class Real>
 ALHAZEN_HD const AttributesRecord* attributes_of(const SceneView<Real>& scene, const Hit<Real>& hit) {
   if (hit.primitive.is_none() || hit.primitive.kind() != PrimitiveKind::triangle) return nullptr;
@@ -15,7 +15,7 @@ ALHAZEN_HD const AttributesRecord* attributes_of(const SceneView<Real>& scene, c
   return index == no_offset ? nullptr : scene.vertex_attributes + index;
 }
 
-/// The second uv at the hit, or `uv` where there is no second set.
+/// Returns the second uv at the hit, or `uv` if there is no second set.
 template <class Real>
 ALHAZEN_HD Vec2<Real> second_uv(const SceneView<Real>& scene, const Hit<Real>& hit, const Vec2<Real>& uv) {
   const AttributesRecord* attributes = attributes_of(scene, hit);
@@ -33,7 +33,7 @@ struct ColourAndAlpha {
   Real alpha = 1;
 };
 
-/// White and opaque where the mesh has no colours.
+/// Returns the interpolated vertex colour, or opaque white if the mesh has no colours.
 template <class Real>
 ALHAZEN_HD ColourAndAlpha<Real> mesh_colour(const SceneView<Real>& scene, const Hit<Real>& hit) {
   const AttributesRecord* attributes = attributes_of(scene, hit);
@@ -49,7 +49,7 @@ ALHAZEN_HD ColourAndAlpha<Real> mesh_colour(const SceneView<Real>& scene, const 
   return sum;
 }
 
-/// From the space of the positions to the world at `time`, where the hit is within an instance.
+/// Transforms a direction from the space of the mesh's positions to world space at `time`.
 template <class Real>
 ALHAZEN_HD Vec3<Real> direction_in_world(const SceneView<Real>& scene, const Hit<Real>& hit, Real time,
                                          const Vec3<Real>& v) {
@@ -62,10 +62,10 @@ ALHAZEN_HD Vec3<Real> direction_in_world(const SceneView<Real>& scene, const Hit
 template <class Real>
 struct MeshTangent {
   Vec3<Real> direction{};  ///< not of unit length
-  Real handedness = 0;     ///< of front normal, tangent, bitangent; 0: the mesh has no tangents
+  Real handedness = 0;     ///< of front normal, tangent, bitangent: 1 or -1; 0 if the mesh has no tangents
 };
 
-/// The tangent that the mesh brings along, in the space of its positions.
+/// Interpolates the tangent stored in the mesh, in the space of its positions.
 template <class Real>
 ALHAZEN_HD MeshTangent<Real> mesh_tangent(const SceneView<Real>& scene, const Hit<Real>& hit) {
   const AttributesRecord* attributes = attributes_of(scene, hit);
@@ -77,7 +77,7 @@ ALHAZEN_HD MeshTangent<Real> mesh_tangent(const SceneView<Real>& scene, const Hi
     const VertexTangent& t = scene.vertex_tangents[v[i] + attributes->tangent_offset];
     tangent.direction +=
         Vec3<Real>{static_cast<Real>(t.x), static_cast<Real>(t.y), static_cast<Real>(t.z)} * weights[i];
-    // That of the first corner: corners of a triangle have the same.
+    // All vertices of a triangle have the same handedness.
     if (i == 0) tangent.handedness = static_cast<Real>(t.handedness);
   }
   return tangent;
@@ -111,7 +111,7 @@ ALHAZEN_HD Real uv_density_of(const SceneView<Real>& scene, const TriangleRecord
   return twice_uv_area / length(cross(e1, e2));
 }
 
-/// Area of (u, v) of set `uv_set` for an area of the surface, world space at `time`. 0: unknown.
+/// Returns the area in uv set `uv_set` per surface area in world space at `time`, or 0 if it is unknown.
 template <class Real>
 ALHAZEN_HD Real uv_density(const SceneView<Real>& scene, const Hit<Real>& hit, Real time, const Vec3<Real>& normal,
                            uint32_t uv_set) {

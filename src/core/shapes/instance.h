@@ -1,7 +1,7 @@
 #pragma once
 
-// Rays into the space of an instance's object, and surfaces out of it. Distances stay those of the world, since
-// directions are not made unit length again.
+// Transforms rays from world space to the object space of an instance, and surfaces back. Directions are not
+// renormalized in object space, so that t stays the distance in world space.
 
 #include "core/math/ray.h"
 #include "core/math/scalar.h"
@@ -20,7 +20,7 @@ ALHAZEN_HD Vec3<Real> transform_point(const Real (&m)[3][4], const Vec3<Real>& p
   return transform_direction(m, p) + Vec3<Real>{m[0][3], m[1][3], m[2][3]};
 }
 
-/// Sums of the magnitudes of what `transform_point` adds up.
+/// Returns the sums of the magnitudes of the terms that `transform_point` adds.
 template <class Real>
 ALHAZEN_HD Vec3<Real> transformed_magnitude(const Real (&m)[3][4], const Vec3<Real>& p) {
   const auto row = [&](int i) {
@@ -29,14 +29,14 @@ ALHAZEN_HD Vec3<Real> transformed_magnitude(const Real (&m)[3][4], const Vec3<Re
   return {row(0), row(1), row(2)};
 }
 
-/// Of extents, which have no place: the translation does not count.
+/// Transforms an extent, to which the translation does not apply.
 template <class Real>
 ALHAZEN_HD Vec3<Real> transformed_extent(const Real (&m)[3][4], const Vec3<Real>& e) {
   const auto row = [&](int i) { return std::abs(m[i][0]) * e.x + std::abs(m[i][1]) * e.y + std::abs(m[i][2]) * e.z; };
   return {row(0), row(1), row(2)};
 }
 
-/// By the inverse transpose: `inverse` is the transform back. Not of unit length.
+/// Transforms a normal with the transpose of `inverse`, the inverse transform. The result is not normalized.
 template <class Real>
 ALHAZEN_HD Vec3<Real> transform_normal(const Real (&inverse)[3][4], const Vec3<Real>& n) {
   return {inverse[0][0] * n.x + inverse[1][0] * n.y + inverse[2][0] * n.z,
@@ -44,7 +44,7 @@ ALHAZEN_HD Vec3<Real> transform_normal(const Real (&inverse)[3][4], const Vec3<R
           inverse[0][2] * n.x + inverse[1][2] * n.y + inverse[2][2] * n.z};
 }
 
-/// The inverse of an affine transform; zero where there is none.
+/// Computes the inverse of an affine transform, or zero if it is singular.
 template <class Real>
 ALHAZEN_HD void invert(const Real (&m)[3][4], Real (&inverse)[3][4]) {
   const Vec3<Real> x{m[0][0], m[1][0], m[2][0]}, y{m[0][1], m[1][1], m[2][1]}, z{m[0][2], m[1][2], m[2][2]};
@@ -61,7 +61,7 @@ ALHAZEN_HD void invert(const Real (&m)[3][4], Real (&inverse)[3][4]) {
   }
 }
 
-/// The instance where it is at `time`.
+/// Returns the instance with its transforms at `time`.
 template <class Real>
 ALHAZEN_HD InstanceRecord<Real> instance_at(const SceneView<Real>& scene, uint32_t index, Real time) {
   InstanceRecord<Real> instance = scene.instances[index];
@@ -79,7 +79,8 @@ ALHAZEN_HD Ray<Real> object_ray(const InstanceRecord<Real>& instance, const Ray<
           transform_direction(instance.object_from_world, ray.direction), ray.time};
 }
 
-/// The ray in the space of the object of instance `index`, where `left_instance` stands for the world.
+/// Returns the ray in the object space of instance `index`. Its `left` is the triangle of this object that the ray
+/// starts on, if any, and its `left_instance` is no_instance.
 template <class Real>
 ALHAZEN_HD Ray<Real> object_ray(const SceneView<Real>& scene, uint32_t index, const Ray<Real>& ray) {
   const InstanceRecord<Real>& instance = scene.instances[index];
@@ -89,13 +90,13 @@ ALHAZEN_HD Ray<Real> object_ray(const SceneView<Real>& scene, uint32_t index, co
   return inner;
 }
 
-/// How far a point of the object may be from where it is said to be once a ray that starts there has been brought back
-/// into the object's space: its own error, and the rounding of both ways and of both matrices.
+/// Bounds the error of a world space position, including the error of transforming a ray that starts there back to
+/// object space: the error of the object space position plus the rounding of both transforms and of both matrices.
 template <class Real>
 ALHAZEN_HD Vec3<Real> world_position_error(const InstanceRecord<Real>& instance, const Vec3<Real>& object_position,
                                            const Vec3<Real>& object_error, const Vec3<Real>& world_position) {
   Vec3<Real> way_back = transformed_magnitude(instance.object_from_world, world_position) * rounding_bound<Real>(6);
-  if (instance.motion != no_motion)  // the inverse is of the precision of the ray, and its zeros may not be zero
+  if (instance.motion != no_motion)  // the inverse is computed in Real, so entries that should be 0 may not be
     way_back = splat(max_component(transformed_magnitude(instance.object_from_world, world_position)) *
                      rounding_bound<Real>(32));
   return transformed_magnitude(instance.world_from_object, object_position) * rounding_bound<Real>(6) +

@@ -1,6 +1,6 @@
 #pragma once
 
-// From a hit to the point on the surface: position with a bound on its error, normals, uv.
+// Computes the surface interaction at a hit: the position with a bound on its error, normals and uv.
 
 #include "core/scene_view.h"
 #include "core/shapes/instance.h"
@@ -12,22 +12,22 @@ template <class Real>
 struct SurfaceInteraction {
   Vec3<Real> position;
   Vec3<Real> position_error;  ///< bound on the error of each coordinate
-  Vec3<Real> normal;          ///< geometric, unit length, on the side that the surface calls its front
+  Vec3<Real> normal;          ///< geometric, unit length, on the front of the surface
   Vec3<Real> shading_normal;
   Vec2<Real> uv;
   uint32_t surface;
   Real time;
-  PrimitiveId primitive{};  ///< that was hit, and its instance
+  PrimitiveId primitive{};  ///< the primitive that was hit, within `instance`
   uint32_t instance = no_instance;
 };
 
-/// Asks for the record of what was met, before anything of it is read. For CPUs.
+/// Prefetches the record of the primitive that was hit. For CPUs.
 template <class Real>
 ALHAZEN_INLINE void prefetch_primitive(const SceneView<Real>& scene, PrimitiveId primitive) {
   visit_primitive(scene, primitive, [](const auto& record) ALHAZEN_INLINE_LAMBDA { __builtin_prefetch(&record); });
 }
 
-/// Asks for what the record refers to.
+/// Prefetches the vertices that the record refers to. For CPUs.
 template <class Real>
 ALHAZEN_INLINE void prefetch_vertices(const SceneView<Real>& scene, PrimitiveId primitive) {
   if (primitive.kind() != PrimitiveKind::triangle) return;
@@ -39,7 +39,7 @@ ALHAZEN_INLINE void prefetch_vertices(const SceneView<Real>& scene, PrimitiveId 
   }
 }
 
-/// Geometric normal of a triangle by its winding, not of unit length.
+/// Returns the geometric normal of a triangle from its winding; it is not normalized.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> triangle_cross(const SceneView<Real>& scene, const TriangleRecord& triangle) {
   const Vec3<Real> p0 = scene.positions[triangle.vertex[0]];
@@ -52,7 +52,8 @@ ALHAZEN_HD const Vec3<Real>& vertex_normal(const SceneView<Real>& scene, const S
   return scene.normals[vertex + surface.normal_offset];
 }
 
-/// Where the mesh says that the front of a triangle is, by the sum of its normals there; zero: the winding says it.
+/// Returns the sum of the vertex normals of a triangle, which points to its front, or zero if the winding determines
+/// the front.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> mesh_outward(const SceneView<Real>& scene, const SurfaceRecord& surface,
                                                const uint32_t vertex[3]) {
@@ -61,7 +62,7 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> mesh_outward(const SceneView<Real>& scene, con
          vertex_normal(scene, surface, vertex[2]);
 }
 
-/// uv of a corner; without uvs (0, 0), (1, 0), (1, 1) as pbrt has it.
+/// Returns the uv of a corner. Meshes without uvs use (0, 0), (1, 0), (1, 1), as in pbrt.
 template <class Real>
 ALHAZEN_HD Vec2<Real> vertex_uv(const SceneView<Real>& scene, const SurfaceRecord& surface, const uint32_t vertex[3],
                                 int corner) {
@@ -69,8 +70,8 @@ ALHAZEN_HD Vec2<Real> vertex_uv(const SceneView<Real>& scene, const SurfaceRecor
   return scene.uvs[vertex[corner] + surface.uv_offset];
 }
 
-/// Unit geometric normal on the front of a triangle: towards `outward`, as mesh_outward has it, and flipped where the
-/// surface says so. `winding` is its triangle_cross.
+/// Returns the unit geometric normal on the front of a triangle: on the side of `outward` (mesh_outward), and reversed
+/// if `flip_normal` is set. `winding` is its triangle_cross.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> front_normal(const Vec3<Real>& winding, const Vec3<Real>& outward,
                                                uint32_t flip_normal) {
@@ -84,11 +85,11 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> triangle_front_normal(const SceneView<Real>& s
                       surface.flip_normal);
 }
 
-/// The corners of a triangle, and what its mesh has at them.
+/// The positions and normals at the corners of a triangle.
 template <class Real>
 struct TriangleCorners {
   Vec3<Real> position[3];
-  Vec3<Real> normal[3];  ///< where there are any
+  Vec3<Real> normal[3];  ///< set only if has_normals
   uint32_t has_normals, flip_normal;
 };
 
@@ -105,15 +106,15 @@ ALHAZEN_HD ALHAZEN_HOT TriangleCorners<Real> triangle_corners(const SceneView<Re
   return corners;
 }
 
-/// How far rays start from the edges of the triangle that they leave, in units of the bound on the error of the point.
-/// Where two triangles of a closed mesh join at an angle, the offset along the normal of one (offset_origin) and
-/// rounding must not take the origin through the other: at this distance they do not, unless the angle between them is
-/// below a dozen degrees.
+/// Minimum distance of ray origins from the edges of the triangle that the ray starts on, in units of the bound on the
+/// error of the point. Where two triangles of a closed mesh join at an angle, the offset along the normal of one
+/// (offset_origin) and rounding must not move the origin through the other. This distance prevents it, unless the angle
+/// between them is below a dozen degrees.
 template <class Real>
 inline constexpr Real edge_clearance = 16;
 
-/// Whether the point with weights b1 and b2 of corners 1 and 2 may be closer to an edge than that; `error` bounds that
-/// of its coordinates. Without a root or a division, since every hit asks.
+/// Returns whether the point with barycentric coordinates b1 and b2 may be closer to an edge than edge_clearance, where
+/// `error` bounds the error of the point. Avoids square roots and divisions, since it runs for every hit.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT bool is_near_edge(const Vec3<Real> (&p)[3], Real b1, Real b2, const Vec3<Real>& error) {
   const Real b0 = 1 - b1 - b2;
@@ -126,17 +127,17 @@ ALHAZEN_HD ALHAZEN_HOT bool is_near_edge(const Vec3<Real> (&p)[3], Real b1, Real
   return (is_near(p[2] - p[1], b0) | is_near(e1, b1) | is_near(e2, b2)) != 0;
 }
 
-/// What brings the point away from the edges that it is too close to, within the plane. Of triangles too small for that
-/// clearance, a third of the height counts.
+/// Returns the offset within the plane that moves the point away from edges that are too close. The clearance is at
+/// most a third of the height of the triangle.
 template <class Real>
 ALHAZEN_HD ALHAZEN_RARE Vec3<Real> away_from_edges(const Vec3<Real> (&p)[3], Real b1, Real b2,
                                                    const Vec3<Real>& error) {
   const Real clearance = edge_clearance<Real> * max_component(error);
   const Vec3<Real> e0 = p[2] - p[1], e1 = p[0] - p[2], e2 = p[1] - p[0];
-  const Vec3<Real> winding = cross(e1, e2);  // as is_near_edge has it: of needles another may be 0
+  const Vec3<Real> winding = cross(e1, e2);  // of the edges that is_near_edge uses: for needles, others may give 0
   const Real twice_area = length(winding);
   if (!(twice_area > 0)) return {};
-  // What the distance from an edge lacks, in units of the edge's length.
+  // Returns how much the distance from an edge is too small, divided by the length of the edge.
   const auto lack = [&](const Vec3<Real>& edge, Real b) {
     const Real inverse_length = 1 / length(edge);
     const Real height = twice_area * inverse_length;
@@ -146,14 +147,14 @@ ALHAZEN_HD ALHAZEN_RARE Vec3<Real> away_from_edges(const Vec3<Real> (&p)[3], Rea
   return cross(winding, along) * (1 / twice_area);
 }
 
-/// What the rounding of a distance to the triangle adds to the error of a point of it, in all directions: else a ray
-/// would start in the very plane of a triangle that lies along axes, and hit others that lie in it.
+/// Returns the error that the rounding of the distance to the triangle adds to its points, in all directions. Without
+/// it, a ray would start exactly in the plane of an axis-aligned triangle and hit other triangles in this plane.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> extent_error(const Vec3<Real> (&p)[3]) {
   return splat(max_component(abs(p[1] - p[0]) + abs(p[2] - p[0])) * rounding_bound<Real>(1));
 }
 
-/// The point with weights b1 and b2 of corners 1 and 2, wherever that is in the triangle: position and normals.
+/// Returns the position and normals at barycentric coordinates b1 and b2, without clearance from the edges.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> point_in_plane(const TriangleCorners<Real>& corners, Real b1, Real b2) {
   const Real b0 = 1 - b1 - b2;
@@ -175,7 +176,7 @@ ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> point_in_plane(const TriangleCor
   return si;
 }
 
-/// The same, clear of the edges.
+/// Like point_in_plane, but moves the position away from edges that are too close.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> point_of_triangle(const TriangleCorners<Real>& corners, Real b1,
                                                                   Real b2) {
@@ -206,8 +207,8 @@ ALHAZEN_HD ALHAZEN_NOINLINE SurfaceInteraction<Real> triangle_interaction(const 
   return si;
 }
 
-/// The hit point is pushed onto the sphere along the radius, so its error depends on centre and radius alone, not on
-/// the distance that the ray came.
+/// Sets the interaction on a sphere. The hit point is projected onto the sphere along the radius, so its error depends
+/// only on centre and radius, not on the length of the ray.
 template <class Real, SphereRecordOf<Real> Record>
 ALHAZEN_HD ALHAZEN_HOT void set_interaction(const SceneView<Real>& scene, const Record& record, const Ray<Real>& ray,
                                             const Hit<Real>& hit, SurfaceInteraction<Real>& si) {
@@ -226,7 +227,7 @@ ALHAZEN_HD ALHAZEN_HOT void set_interaction(const SceneView<Real>& scene, const 
   si.surface = record.surface;
 }
 
-/// Where a triangle of an object was met, as the instance has it at `time`.
+/// Returns the interaction on a triangle of an instance, in world space at `time`.
 template <class Real>
 ALHAZEN_HD ALHAZEN_COLD SurfaceInteraction<Real> instance_interaction(const SceneView<Real>& scene,
                                                                       const Hit<Real>& hit, Real time) {
@@ -261,7 +262,7 @@ ALHAZEN_HD ALHAZEN_HOT void set_interaction(const SceneView<Real>& scene, const 
     si = instance_interaction(scene, hit, ray.time);
 }
 
-/// Sets `si` in its place: a copy of what has just been written would wait for it.
+/// Computes the surface interaction at a hit in place, since copying data that was just written would stall.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT void meet_surface(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>& hit,
                                          SurfaceInteraction<Real>& si) {
@@ -280,8 +281,8 @@ ALHAZEN_HD ALHAZEN_HOT SurfaceInteraction<Real> surface_interaction(const SceneV
   return si;
 }
 
-/// The shading normal, bent as little as needed for `wo` to lie on the same side of it as of the geometric normal.
-/// Interpolated normals break that near silhouettes, and black rims come of it.
+/// Returns the shading normal, bent as little as needed for `wo` to be on the same side of it as of the geometric
+/// normal. Interpolated normals violate this near silhouettes, which causes black rims.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> consistent_shading_normal(const SurfaceInteraction<Real>& si, const Vec3<Real>& wo) {
   const Real side = dot(wo, si.normal) < 0 ? Real(-1) : Real(1);

@@ -1,6 +1,6 @@
 #pragma once
 
-// How primitives and instances are named.
+// Identifiers of primitives and instances.
 
 #include <cstdint>
 
@@ -9,7 +9,7 @@
 
 namespace ALHAZEN_CORE {
 
-/// An instance is in a leaf of the world's tree; what a ray hits is a primitive of its object.
+/// Instances occur only in leaves of the world's tree; hits refer to primitives of their objects.
 enum class PrimitiveKind : uint32_t {
 #define ALHAZEN_KIND(X, kind, Record, records, Block, blocks) kind,
   ALHAZEN_PRIMITIVES(ALHAZEN_KIND, )
@@ -17,11 +17,11 @@ enum class PrimitiveKind : uint32_t {
       instance
 };
 
-/// Kinds without that of instances.
+/// Number of kinds, not counting `instance`.
 inline constexpr uint32_t primitive_kinds = static_cast<uint32_t>(PrimitiveKind::instance);
 static_assert(primitive_kinds <= 3, "PrimitiveId and Bvh8Child have two bits for a kind");
 
-/// Kind in the two high bits, index into the array of that kind below.
+/// Packs the kind into the two high bits and the index into the array of that kind into the rest.
 struct PrimitiveId {
   uint32_t bits = 0xffffffffu;
 

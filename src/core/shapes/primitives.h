@@ -1,6 +1,6 @@
 #pragma once
 
-// Dispatch over the kinds of primitives.
+// Dispatches over the kinds of primitives.
 
 #include "core/bvh/ray_intersector.h"
 #include "core/scene_view.h"
@@ -9,7 +9,7 @@
 
 namespace ALHAZEN_CORE {
 
-/// Calls `visit` with the record of a primitive that is no instance.
+/// Calls `visit` with the record of a primitive, which must not be an instance.
 template <class Real, class Visit>
 ALHAZEN_HD ALHAZEN_INLINE decltype(auto) visit_primitive(const SceneView<Real>& scene, PrimitiveId primitive,
                                                          const Visit& visit) {
@@ -25,14 +25,14 @@ ALHAZEN_HD ALHAZEN_INLINE decltype(auto) visit_primitive(const SceneView<Real>& 
   __builtin_unreachable();
 }
 
-/// Index into scene.surfaces.
+/// Returns the index of a primitive's surface in scene.surfaces.
 template <class Real>
 ALHAZEN_HD uint32_t surface_of(const SceneView<Real>& scene, PrimitiveId primitive) {
   return visit_primitive(scene, primitive, [](const auto& record) ALHAZEN_INLINE_LAMBDA { return record.surface; });
 }
 
-/// Tests one primitive that is no instance; a hit that is nearer than `hit` replaces it, outside of any instance.
-/// `sheared` is of the space of the primitive.
+/// Intersects one primitive, which must not be an instance. A hit that precedes `hit` replaces it, with no_instance as
+/// its instance. `sheared` must be in the space of the primitive.
 template <class Real>
 ALHAZEN_HD bool intersect_primitive(const SceneView<Real>& scene, PrimitiveId primitive, const Ray<Real>& ray,
                                     const ShearedRay<Real>& sheared, Hit<Real>& hit) {

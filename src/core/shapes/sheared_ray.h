@@ -1,20 +1,20 @@
 #pragma once
 
-// A ray in the space where triangles are tested (Woop, Benthin, Wald 2013).
+// The sheared space of a ray in which triangles are tested (Woop, Benthin, Wald 2013).
 
 #include "core/math/ray.h"
 #include "core/math/scalar.h"
 
 namespace ALHAZEN_CORE {
 
-/// What the triangle test needs of a ray, once a ray: axes permuted so that the direction is longest along the last,
-/// and the shear that turns the direction into that axis.
+/// A ray prepared for the triangle test: the axes are permuted so that the direction is longest along the last one, and
+/// the shear aligns the direction with that axis.
 template <class Real>
 struct ShearedRay {
   Vec3<Real> origin;  ///< along kx, ky and kz
   Vec3<Real> shear;
   int kx, ky, kz;
-  PrimitiveId left;  ///< Ray::left where it is of this space
+  PrimitiveId left;  ///< Ray::left if it is in the ray's space, else none
 };
 
 template <class Real>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Spheres: intersection that stays accurate for radii of thousands, and sampling by the cone that they subtend.
+// Spheres: intersection that stays accurate for radii in the thousands, and sampling of the cone that they subtend.
 
 #include <limits>
 
@@ -13,8 +13,8 @@
 
 namespace ALHAZEN_CORE {
 
-/// Intersects the sphere: the discriminant from the vector to the closest point and the roots without cancellation
-/// (Haines, Gunther, Akenine-Moller 2019, Ray Tracing Gems ch. 7).
+/// Intersects the sphere. The discriminant is computed from the vector to the closest point, and the roots without
+/// cancellation (Haines, Gunther, Akenine-Moller 2019, Ray Tracing Gems ch. 7).
 template <class Real>
 ALHAZEN_HD bool intersect_sphere(const Ray<Real>& ray, const Vec3<Real>& center, Real radius, Real t_max, Real& t) {
   const Vec3<Real> f = ray.origin - center;
@@ -28,7 +28,8 @@ ALHAZEN_HD bool intersect_sphere(const Ray<Real>& ray, const Vec3<Real>& center,
   const Real other = c / q;
   const Real near = b >= 0 ? other : q;
   const Real far = b >= 0 ? q : other;
-  // Outside (c > 0) the near root counts, inside only the far one: the near root is then behind, or rounding.
+  // From outside (c > 0) the near root is the hit, from inside the far one: the near root is then negative or due to
+  // rounding.
   const Real distance = c > 0 ? near : far;
   if (!(distance > 0 && distance <= t_max)) return false;
   t = distance;
@@ -46,13 +47,13 @@ ALHAZEN_HD ALHAZEN_INLINE Sphere<Real> sphere_at(const SphereRecord<Real>& spher
   return {sphere.center, sphere.radius};
 }
 
-/// Where it is at `time`.
+/// Returns the sphere at `time`.
 template <class Real>
 ALHAZEN_HD ALHAZEN_INLINE Sphere<Real> sphere_at(const MovingSphereRecord<Real>& sphere, Real time) {
   return {sphere.center + sphere.motion * time, sphere.radius};
 }
 
-/// What is true of spheres whether they move or not.
+/// A record of a static or moving sphere.
 template <class Record, class Real>
 concept SphereRecordOf = requires(const Record& record, Real time) {
   sphere_at(record, time);
@@ -66,7 +67,7 @@ ALHAZEN_HD ALHAZEN_INLINE bool intersect_record(const SceneView<Real>&, const Re
   return intersect_sphere(ray, sphere.center, sphere.radius, t_max, hit.t);
 }
 
-/// Padded by what rounding of centre +- radius may lose.
+/// Returns the bounding box, padded by the rounding error of centre +- radius.
 template <class Real>
 Bounds3<Real> bounds_of(const Sphere<Real>& sphere) {
   const Vec3<Real> r =
@@ -81,8 +82,8 @@ Bounds3<Real> bounds_of(const SceneView<Real>&, const Record& record) {
   return box;
 }
 
-/// Cone of directions from `point` that meets the sphere: cosine of its half angle, and 1 minus that cosine without
-/// cancellation. False where the point is inside; the cone is then what it is on the sphere, a half of all directions.
+/// Computes the cone of directions from `point` that the sphere subtends: the cosine of its half angle, and 1 minus
+/// that cosine without cancellation. Returns false if the point is inside; the cone is then a hemisphere.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT bool subtended_cone(const Vec3<Real>& center, Real radius, const Vec3<Real>& point,
                                            Real& cos_max, Real& one_minus_cos_max) {
@@ -94,7 +95,8 @@ ALHAZEN_HD ALHAZEN_HOT bool subtended_cone(const Vec3<Real>& center, Real radius
   return is_outside;
 }
 
-/// Density over solid angle of a point uniform over the sphere's area, at a distance along `direction`.
+/// Returns the pdf over solid angle of sampling the sphere's area uniformly, for a point along `direction` at the given
+/// squared distance with normal `outward`.
 template <class Real>
 ALHAZEN_HD Real pdf_of_sphere_area(Real radius, const Vec3<Real>& direction, Real distance_squared,
                                    const Vec3<Real>& outward) {
@@ -102,8 +104,8 @@ ALHAZEN_HD Real pdf_of_sphere_area(Real radius, const Vec3<Real>& direction, Rea
   return cos_light > 0 ? distance_squared / (cos_light * 4 * pi<Real> * radius * radius) : 0;
 }
 
-/// Towards a point uniform over the area of the sphere, all of which is seen from inside and from the sphere itself.
-/// Out and return value as of `sample_sphere`.
+/// Samples a point uniformly over the area of the sphere, all of which is visible from inside and from the sphere
+/// itself. The results are those of `sample_sphere`.
 template <class Real>
 ALHAZEN_HD Vec3<Real> sample_sphere_area(const Vec3<Real>& center, Real radius, const Vec3<Real>& point,
                                          const Vec2<Real>& u, Vec3<Real>& normal_at, Real& pdf) {
@@ -121,10 +123,10 @@ ALHAZEN_HD Vec3<Real> sample_sphere_area(const Vec3<Real>& center, Real radius, 
   return direction;
 }
 
-/// A unit direction from `point` towards the sphere: from outside uniform over the cone that it subtends, from inside
-/// or, as `is_on_sphere` says, from the sphere itself towards a point uniform over its area. Of a point on the sphere
-/// rounding alone would decide, and far from the origin that is much. `normal_at` receives the outward unit normal
-/// where the direction meets it, `pdf` the density over solid angle.
+/// Samples a unit direction from `point` towards the sphere: from outside uniformly over the cone that it subtends,
+/// from inside or on the sphere towards a point uniform over its area. The caller passes `is_on_sphere` because
+/// rounding would otherwise decide, with large errors far from the origin. Sets `normal_at` to the outward unit normal
+/// at the sampled point and `pdf` to the density over solid angle.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_sphere(const Vec3<Real>& center, Real radius, const Vec3<Real>& point,
                                                 bool is_on_sphere, const Vec2<Real>& u, Vec3<Real>& normal_at,
@@ -138,7 +140,7 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_sphere(const Vec3<Real>& center, Real r
   const Real cos_theta = 1 - one_minus_cos;
   const Real sin_theta = safe_sqrt(one_minus_cos * (1 + cos_theta));
   const auto [sin_phi, cos_phi] = sine_cosine_of_turn(phi);
-  // The normal from the angles alone (PBR 4th ed., 6.2.4): positions far out do not resolve a small sphere.
+  // The normal is computed from the angles (PBR 4th ed., 6.2.4), since distant positions do not resolve a small sphere.
   const Real sin2_max = one_minus_cos_max * (1 + cos_max);
   const Real share = sin_theta * sin_theta / sin2_max;
   const Real cos_alpha = std::sqrt(sin2_max) * share + cos_theta * safe_sqrt(1 - share);
@@ -148,9 +150,9 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_sphere(const Vec3<Real>& center, Real r
   return frame.to_world({sin_theta * cos_phi, sin_theta * sin_phi, cos_theta});
 }
 
-/// Density of `sample_sphere` over solid angle for a direction that meets the sphere at distance t with the outward
-/// unit normal `outward`. The side that was met says where the ray came from: from within or from the sphere itself it
-/// meets the inside, whatever the distance of `point` from the centre is rounded to.
+/// Returns the pdf of `sample_sphere` over solid angle for a direction that hits the sphere at distance t, where the
+/// outward unit normal is `outward`. A ray from inside or from the sphere itself hits the inside, which selects the
+/// case independently of how the distance of `point` from the centre is rounded.
 template <class Real>
 ALHAZEN_HD Real pdf_sphere(const Vec3<Real>& center, Real radius, const Vec3<Real>& point, const Vec3<Real>& direction,
                            Real t, const Vec3<Real>& outward) {
@@ -160,7 +162,8 @@ ALHAZEN_HD Real pdf_sphere(const Vec3<Real>& center, Real radius, const Vec3<Rea
   return Real(0.5) * inv_pi<Real> / one_minus_cos_max;
 }
 
-/// (u, v) of an outward unit normal in the sphere's own axes: u over the azimuth from x, v from the south pole up.
+/// Returns the uv of an outward unit normal in the sphere's object space: u follows the azimuth from x, v goes from 0
+/// at the south pole to 1 at the north pole.
 template <class Real>
 ALHAZEN_HD Vec2<Real> sphere_uv(const Vec3<Real>& local_normal) {
   Real phi = std::atan2(local_normal.y, local_normal.x);

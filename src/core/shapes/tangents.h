@@ -1,12 +1,12 @@
 #pragma once
 
-// How a surface runs with its uv coordinates: what normal maps, bumps and anisotropy follow.
+// Tangents of surfaces, for normal maps, bump maps and anisotropic materials.
 
 #include "core/shapes/attributes.h"
 
 namespace ALHAZEN_CORE {
 
-/// Derivatives of the position by u and v, at the hit.
+/// Partial derivatives of the position with respect to u and v, at the hit.
 template <class Real>
 struct SurfaceTangents {
   Vec3<Real> dpdu{}, dpdv{};
@@ -34,8 +34,8 @@ ALHAZEN_HD bool swaps_handedness(const Real (&m)[3][4]) {
   return dot(cross(column(0), column(1)), column(2)) < 0;
 }
 
-/// Those that the mesh brings along, of which only directions count, or else those of its uvs; in the world, where an
-/// instance that moves has them at the time of the ray.
+/// Returns the tangents stored in the mesh, whose lengths have no meaning, or else those of its uvs. They are in world
+/// space at the time of the ray.
 template <class Real>
 ALHAZEN_HD SurfaceTangents<Real> tangents_of(const SceneView<Real>& scene, const TriangleRecord& triangle,
                                              const Hit<Real>& hit, const SurfaceInteraction<Real>& si) {
@@ -47,18 +47,19 @@ ALHAZEN_HD SurfaceTangents<Real> tangents_of(const SceneView<Real>& scene, const
     const auto& world = instance.world_from_object;
     own = {transform_direction(world, own.dpdu), transform_direction(world, own.dpdv)};
     mesh.direction = transform_direction(world, mesh.direction);
-    // A mirror turns normal, tangent and bitangent from right-handed to left-handed; so does a normal turned round.
+    // Both a mirroring transform and a reversed normal swap the handedness of normal, tangent and bitangent.
     if (swaps_handedness(world) != (instance.flip_normal != 0)) mesh.handedness = -mesh.handedness;
   }
   if (mesh.handedness == 0) return own;
   return {mesh.direction, cross(si.shading_normal, mesh.direction) * mesh.handedness};
 }
 
-/// Of a sphere: u runs round the polar axis from x towards y of its own space, v from the south pole to the north.
+/// Returns the tangents of a sphere: u goes round the polar axis from x towards y of its object space, v from the south
+/// pole to the north pole.
 template <class Real>
 ALHAZEN_HD SurfaceTangents<Real> sphere_tangents(const SphereFrame<Real>& axes, Real radius,
                                                  const Vec3<Real>& outward) {
-  // The way round from x to y is to the left of z, or to its right where the sphere is mirrored.
+  // The rotation from x to y is counterclockwise about z, or clockwise if the sphere is mirrored.
   const Real turn = dot(cross(axes.x, axes.y), axes.z) < 0 ? -radius : radius;
   const Vec3<Real> around = cross(axes.z, outward) * turn;
   const Real ring = length(around);
@@ -75,14 +76,14 @@ ALHAZEN_HD SurfaceTangents<Real> tangents_of(const SceneView<Real>& scene, const
   return sphere_tangents(scene.sphere_frames[record.frame], record.radius, outward);
 }
 
-/// Zero where uv does not say.
+/// Returns the tangents at the hit, or zero if the uvs do not define them.
 template <class Real>
 ALHAZEN_HD SurfaceTangents<Real> surface_tangents(const SceneView<Real>& scene, const Hit<Real>& hit,
                                                   const SurfaceInteraction<Real>& si) {
   return visit_primitive(scene, hit.primitive, [&](const auto& record) { return tangents_of(scene, record, hit, si); });
 }
 
-/// A frame about `normal` whose tangent leans along dpdu; the bitangent is on the side of dpdv.
+/// Returns a frame about `normal` whose tangent is dpdu made orthogonal to it, with the bitangent on the side of dpdv.
 template <class Real>
 ALHAZEN_HD Frame<Real> frame_along(const Vec3<Real>& normal, const SurfaceTangents<Real>& tangents) {
   const Vec3<Real> t = tangents.dpdu - normal * dot(normal, tangents.dpdu);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Watertight triangles (Woop, Benthin, Wald 2013, JCGT 2(1)), and triangles as lights sampled by area.
+// Watertight intersection of triangles (Woop, Benthin, Wald 2013, JCGT 2(1)), and sampling of their area.
 
 #include "core/math/bounds.h"
 #include "core/math/ray.h"
@@ -10,9 +10,9 @@
 
 namespace ALHAZEN_CORE {
 
-/// Intersects the triangle p0 p1 p2: sets t and the barycentric weights of p1 and p2. Rays through a shared edge or
-/// vertex always hit one of the triangles; degenerate triangles are never hit. The sign of a t that is within its
-/// rounding error is not sure: rays are spawned so that only that of the triangle they leave can be
+/// Intersects the triangle p0 p1 p2: sets t and the barycentric coordinates of p1 and p2. Rays through a shared edge or
+/// vertex always hit one of the triangles; degenerate triangles are never hit. If |t| is within its rounding error, the
+/// sign of t is unreliable. Rays are spawned so that this only happens for the triangle that they start on
 /// (`Ray::left`, `edge_clearance`).
 template <class Real>
 ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>& p0, const Vec3<Real>& p1,
@@ -55,8 +55,8 @@ Bounds3<Real> bounds_of(const SceneView<Real>& scene, const TriangleRecord& tria
   return box;
 }
 
-/// A point on the triangle by area, from two uniform numbers: barycentric weights of vertices 0 and 1, pdf 1 / area
-/// (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
+/// Samples a point uniformly over the area of a triangle, with pdf 1 / area, and returns the barycentric coordinates of
+/// vertices 0 and 1 (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec2<Real> sample_triangle(const Vec2<Real>& u) {
   if (u.x < u.y) {

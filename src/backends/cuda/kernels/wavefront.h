@@ -36,7 +36,7 @@ inline constexpr uint32_t warp_lanes = 32;
   ARRAY(uint32_t, material_queue_3)
 // clang-format on
 
-/// How long the queues are.
+/// The lengths of the queues.
 struct QueueCounts {
   uint32_t next_item;  ///< of the slice's items
   uint32_t rays[2];    ///< of this round and of the next, in turn
@@ -118,7 +118,7 @@ struct Slots {
   }
 };
 
-/// Puts `slot` at the end of a queue.
+/// Appends `slot` to a queue.
 template <QueueThread Thread>
 ALHAZEN_HD void push(const Thread& thread, uint32_t* queue, uint32_t* length, uint32_t slot) {
   queue[thread.increment(length)] = slot;
@@ -216,7 +216,7 @@ struct ResetKernel {
   }
 };
 
-/// Traces the rays; those that meet something are queued by the kind of its material. A thread an entry of the queue.
+/// Traces the rays, and queues those that hit something by the kind of its material. One thread per queue entry.
 template <class Tracing, IntegratorKind kind, class Real>
 struct IntersectKernel {
   WavefrontStage<Real> stage;
@@ -317,7 +317,7 @@ struct ShadeKernel {
   }
 };
 
-/// Lets light arrive where nothing stands in between. A thread an entry of the queue.
+/// Traces shadow rays, and adds the light of those that are not occluded. One thread per queue entry.
 template <class Tracing, class Real>
 struct ShadowKernel {
   WavefrontStage<Real> stage;

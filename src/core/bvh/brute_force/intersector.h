@@ -1,7 +1,7 @@
 #pragma once
 
-// Ray queries by a test of every primitive, as the report's Algorithm 5 has them: the reference that the BVHs are
-// measured against, in results and in time.
+// Ray queries that test every primitive (Algorithm 5 of the report). They are the reference for the results and the
+// speed of the BVHs.
 
 #include "core/bvh/bvh2/traversal.h"
 

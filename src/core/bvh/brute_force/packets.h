@@ -1,8 +1,8 @@
 #pragma once
 
-// Brute force for scenes of so few primitives that a tree is not worth its branches: packets of as many rays as a
-// register has numbers, against every primitive. What a ray hits does not depend on the others, and is what a tree
-// finds.
+// Brute force for scenes with so few primitives that traversing a tree does not pay: packets with one ray per SIMD lane
+// are tested against every primitive. The hit of a ray does not depend on the other rays and is the same as with a
+// tree.
 
 #include <bit>
 
@@ -27,10 +27,11 @@ class BruteForcePackets {
     }
   }
 
-  /// Whether the scene is one of those; where it is not, nothing else may be called.
+  /// Returns whether the scene is small enough. Otherwise no other function may be called.
   bool is_worthwhile() const { return is_worthwhile_; }
 
-  /// Traces a batch (ray_intersector.h), but for the queries that a tree answers faster: those are left to `single(i)`.
+  /// Traces a batch (ray_intersector.h). Calls `single(i)` for queries that a tree answers faster: those of a last
+  /// packet with few rays.
   template <bool any_hit, class RayOf, class Limit, class Answer, class Single>
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer, const Single& single) const {
     for (uint32_t first = 0; first < count; first += width) {
@@ -44,18 +45,18 @@ class BruteForcePackets {
 
  private:
   static constexpr uint32_t width = most_register_bytes / sizeof(Real);
-  /// A tree is as fast with this many, measured on scenes of triangles only and of spheres only.
+  /// Break-even counts, from which on a tree is as fast: measured on scenes of triangles only and of spheres only.
   static constexpr uint32_t max_triangles = 7 * width, max_spheres = 8 * width;
   static constexpr uint32_t max_vertices = max_triangles;
   using V = Lanes<Real, static_cast<int>(width)>;
 
-  /// The rays of a group, a row a coordinate.
+  /// The rays of a packet, one row per coordinate.
   struct Rays {
     alignas(64) Real origin[3][width], direction[3][width], time[width], limit[width];
-    alignas(64) Real left[width];  ///< the triangle that the ray leaves, counted as in Hits; or -1
+    alignas(64) Real left[width];  ///< index of the triangle that the ray starts on, or -1
   };
 
-  /// The nearest hits so far. Primitives are counted through: triangles, spheres, moving spheres.
+  /// The closest hits so far. `which` numbers all primitives: first triangles, then spheres, then moving spheres.
   struct Hits {
     V t, b1, b2, which;
     uint32_t lanes = 0;
@@ -67,12 +68,12 @@ class BruteForcePackets {
     }
   };
 
-  /// Keeps one of the vertices in one place. False where there are too many.
+  /// Copies the triangles and merges vertices at the same position. Returns false if there are too many vertices.
   bool take_triangles(const SceneView<Real>& scene) {
     for (uint32_t i = 0; i < triangles_; ++i)
       for (int v = 0; v < 3; ++v) {
         const Vec3<Real>& p = scene.positions[scene.triangles[i].vertex[v]];
-        uint32_t at = vertices_;  // from the last on: neighbours share them
+        uint32_t at = vertices_;  // searches backwards, since neighbouring triangles share vertices
         while (at > 0 && __builtin_memcmp(&vertex_[at - 1], &p, sizeof(p)) != 0) --at;
         if (at == 0) {
           if (vertices_ == max_vertices) return false;
@@ -116,12 +117,12 @@ class BruteForcePackets {
     }
   }
 
-  // Primitives are tested in the order of their identifiers, so that a tie goes to the lowest.
+  // Primitives are tested in the order of their identifiers, so that the lowest wins a tie.
 
   template <bool any_hit>
   ALHAZEN_INLINE void intersect_triangles(const Rays& rays, uint32_t wanted, Hits& hits) const {
     const V d[3] = {V::load(rays.direction[0]), V::load(rays.direction[1]), V::load(rays.direction[2])};
-    // Rays whose directions are longest along x, and along y.
+    // Masks of the rays whose directions are longest along x and along y.
     const uint32_t x_over_y = less(magnitude(d[1]), magnitude(d[0]));
     const uint32_t along_x = x_over_y & less(magnitude(d[2]), magnitude(d[0]));
     const uint32_t along_y = ~x_over_y & less(magnitude(d[2]), magnitude(d[1]));

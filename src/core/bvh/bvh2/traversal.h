@@ -1,6 +1,6 @@
 #pragma once
 
-// Closest-hit and any-hit queries over the binary BVH: nearer child first, a short stack of node indices.
+// Closest-hit and any-hit traversal of the binary BVH: visits the nearer child first and pushes the other on a stack.
 
 #include "core/bvh/ray_intersector.h"
 #include "core/bvh/stack.h"
@@ -10,8 +10,8 @@
 
 namespace ALHAZEN_CORE {
 
-/// What the slab test needs of a ray: reciprocals of its direction, infinite where a component is zero, and for each
-/// axis whether it enters a box by the high plane.
+/// A ray prepared for the slab test: the reciprocals of its direction, infinite for zero components, and for each axis
+/// whether the ray enters a box through the high plane.
 template <class Real>
 struct SlabRay {
   Vec3<Real> origin;
@@ -25,8 +25,9 @@ ALHAZEN_HD SlabRay<Real> slab_ray(const Ray<Real>& ray) {
   return {ray.origin, inverse, {inverse.x < 0, inverse.y < 0, inverse.z < 0}};
 }
 
-/// Distance at which the ray enters the box, or infinity where it misses it or enters beyond t_max. Conservative: the
-/// far distance is raised by its rounding (Ize 2013, "Robust BVH Ray Traversal").
+/// Returns the distance at which the ray enters the box, or infinity if it misses the box or enters it beyond t_max.
+/// The test is conservative: the far distance is increased by its rounding error (Ize 2013, "Robust BVH Ray
+/// Traversal").
 template <class Real>
 ALHAZEN_HD ALHAZEN_INLINE Real intersect_box(const Bvh2Node<Real>& node, const SlabRay<Real>& ray, Real t_max) {
   constexpr Real raise = 1 + 2 * rounding_bound<Real>(3);
@@ -41,14 +42,14 @@ ALHAZEN_HD ALHAZEN_INLINE Real intersect_box(const Bvh2Node<Real>& node, const S
   return t_near <= t_far ? t_near : infinity<Real>;
 }
 
-/// A node that is yet to be visited, and the distance at which the ray enters it.
+/// A node still to be visited, and the distance at which the ray enters it.
 template <class Real>
 struct Bvh2StackEntry {
   uint32_t node;
   Real t;
 };
 
-/// A ray in the space of the world or of an instance. Stack entries above `base` are nodes of that instance.
+/// The ray in world space or in the object space of an instance, which owns the stack entries above `base`.
 template <class Real>
 struct TraversalSpace {
   SlabRay<Real> slabs;
@@ -79,7 +80,8 @@ struct TraversalSpace {
   }
 };
 
-/// Traverses the tree; with `any_hit` it ends at the first hit. An instance is alone in its leaf.
+/// Traverses the tree and returns whether anything is hit; `any_hit` stops at the first hit. A leaf with an instance
+/// holds nothing else.
 template <bool any_hit, class Real, StackMaker Stacks>
 ALHAZEN_HD bool traverse_bvh2(const SceneView<Real>& scene, const Ray<Real>& ray, const Stacks& stacks,
                               Hit<Real>& hit) {
@@ -129,7 +131,7 @@ ALHAZEN_HD bool traverse_bvh2(const SceneView<Real>& scene, const Ray<Real>& ray
   }
 }
 
-/// Answers ray queries by the binary BVH.
+/// Answers ray queries with the binary BVH.
 template <class Real, StackMaker Stacks = LocalStacks>
 class Bvh2Intersector {
  public:

@@ -1,13 +1,14 @@
 #pragma once
 
-// Tests of a ray against a block of primitives at once.
+// Intersects one ray with all primitives of a block at once.
 
 #include "core/bvh/bvh8/node.h"
 #include "core/bvh/bvh8/primitive_tests.h"
 
 namespace ALHAZEN_CORE {
 
-/// Replaces `hit` by the nearest hit of `lanes` that comes before it (is_nearer); skips `left`.
+/// Replaces `hit` with the nearest hit of `lanes` if that precedes it (is_nearer), and returns whether it did. Skips
+/// `left`.
 template <class HitLanes, class Real>
 ALHAZEN_INLINE bool take_nearest(const HitLanes& hits, uint32_t lanes, const uint32_t* index, PrimitiveKind kind,
                                  PrimitiveId left, Hit<Real>& hit) {
@@ -82,7 +83,7 @@ ALHAZEN_INLINE bool intersect_blocks(const Block* blocks, uint32_t child, const 
   return is_hit;
 }
 
-/// Tests all primitives of a child that is a leaf.
+/// Intersects all primitives of `child`, which is a leaf.
 template <class Real>
 ALHAZEN_INLINE bool intersect_leaf(const SceneView<Real>& scene, uint32_t child, const Ray<Real>& ray,
                                    const ShearedRay<Real>& sheared, Hit<Real>& hit) {

@@ -1,8 +1,9 @@
 #pragma once
 
-// Ray queries by the BVH8, for one ray or for many at a time. In a tree larger than the caches 12 rays are interleaved,
-// a step each, and what the next step of a ray reads is prefetched meanwhile, so that latencies overlap. Coherent rays
-// are traced in packets (packets.h), unless there are instances. What a ray hits does not depend on the others.
+// Ray queries with the BVH8, for single rays and for batches. If the tree is larger than the caches, 12 rays are
+// interleaved: each takes one step in turn, and the data of its next step is prefetched meanwhile to hide latency.
+// Coherent rays are traced in packets (packets.h), unless the scene has instances. The hit of a ray does not depend on
+// the other rays.
 
 #include <bit>
 
@@ -13,13 +14,14 @@
 
 namespace ALHAZEN_CORE {
 
-/// Rays that are traversed in turn by one core.
+/// Number of rays whose traversals one core interleaves.
 inline constexpr uint32_t interleaved_rays = 12;
 
-/// A tree up to this size stays in the caches of a core, where there is little latency to hide: rays are traced singly.
+/// Bytes up to which a tree stays in the caches of a core. There is little latency to hide then, so rays are traced
+/// one by one.
 inline constexpr size_t max_cached_bytes = size_t{1} << 19;
 
-/// Answers ray queries by the BVH of CPUs.
+/// Answers ray queries with the BVH8, the layout for CPUs.
 template <class Real>
 class Bvh8Intersector {
  public:
@@ -71,7 +73,7 @@ class Bvh8Intersector {
     }
   }
 
-  /// What `trace` does in a tree larger than the caches.
+  /// Implements `trace` for trees larger than the caches.
   template <bool any_hit, bool instances = false, class RayOf, class Limit, class Answer>
   void trace_interleaved(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     const Bvh8Prefetch<Real> prefetch(*scene_);
@@ -109,7 +111,7 @@ class Bvh8Intersector {
 
   template <bool any_hit, class RayOf, class Limit, class Answer>
   void trace_single(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
-    // A hit is answered one ray later: a copy of what has just been stored would wait for store forwarding.
+    // Each hit is reported one ray later, since reading it right after it was stored would stall on store forwarding.
     Hit<Real> hits[2];
     bool found = false;
     for (uint32_t i = 0; i < count; ++i) {

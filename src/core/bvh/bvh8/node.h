@@ -1,7 +1,7 @@
 #pragma once
 
-// The BVH of CPUs: 8 children a node, primitives of one kind in blocks, as structures of arrays for SIMD instructions.
-// Boxes are float in both precisions, so that double costs no more than its primitives do.
+// The BVH for CPUs: nodes with 8 children, and leaves of blocks of primitives of one kind, both stored as structures of
+// arrays for SIMD instructions. Boxes are float in both precisions, so that double only makes primitives larger.
 
 #include <cstdint>
 
@@ -11,7 +11,7 @@ namespace ALHAZEN_CORE {
 
 inline constexpr int bvh8_width = 8;
 
-/// A child of a node: another node, or a leaf of blocks of primitives of one kind.
+/// Packs a child of a node into 32 bits: another node, an instance, or a leaf with blocks of primitives of one kind.
 struct Bvh8Child {
   enum Kind : uint32_t {
     node,
@@ -25,27 +25,27 @@ struct Bvh8Child {
   static constexpr uint32_t pack(Kind kind, uint32_t blocks, uint32_t first) {
     return static_cast<uint32_t>(kind) << 30 | blocks << index_bits | first;
   }
-  /// Of leaves of such primitives.
+  /// Returns the kind of leaves with such primitives.
   static constexpr Kind kind(PrimitiveKind primitive) {
     return static_cast<Kind>(static_cast<uint32_t>(primitive) + 1);
   }
   static constexpr Kind kind(uint32_t child) { return static_cast<Kind>(child >> 30); }
   static constexpr uint32_t blocks(uint32_t child) { return child >> index_bits & max_blocks; }
   static constexpr uint32_t first(uint32_t child) { return child & ((1u << index_bits) - 1); }
-  /// An instance is told apart by a leaf of no spheres, which holds its index.
+  /// Returns the child for an instance, which is encoded as a leaf of spheres with 0 blocks and the instance's index.
   static constexpr uint32_t instance(uint32_t index) { return pack(spheres, 0, index); }
   static constexpr bool is_instance(uint32_t child) { return child >> index_bits == instance(0) >> index_bits; }
   static constexpr uint32_t max_index_count = 1u << index_bits;
-  /// An empty leaf: fills the slots that a node leaves free.
+  /// An empty leaf, which fills the unused slots of a node.
   static constexpr uint32_t nothing = 1u << 30;
 };
 
 struct alignas(32) Bvh8Node {
-  float bounds[6][bvh8_width];  ///< [2 * axis + 1 where it is the high side]
+  float bounds[6][bvh8_width];  ///< [2 * axis] is the low side, [2 * axis + 1] the high side
   uint32_t child[bvh8_width];
 };
 
-/// Lanes without a triangle have all three vertices in one point, which is never hit.
+/// Unused lanes have three equal vertices, which are never hit.
 template <class Real>
 struct TriangleBlock {
   static constexpr int lanes = 4;
@@ -53,7 +53,7 @@ struct TriangleBlock {
   uint32_t index[lanes];     ///< in SceneView::triangles
 };
 
-/// Lanes without a sphere have a radius that is NaN.
+/// Unused lanes have a radius of NaN.
 template <class Real>
 struct SphereBlock {
   static constexpr int lanes = 8;

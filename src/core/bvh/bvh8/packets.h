@@ -1,8 +1,8 @@
 #pragma once
 
-// Closest hits of coherent rays, such as camera rays of one pixel: a packet of as many as a register has floats
-// traverses the BVH8. A node's children are each tested against all rays; where few rays are active, each ray against
-// all children. What a ray hits does not depend on the others.
+// Finds closest hits of coherent rays, such as the camera rays of one pixel: a packet with one ray per float lane of a
+// register traverses the BVH8. Each child of a node is tested against all rays, or, if few rays are active, each ray
+// against all children. The hit of a ray does not depend on the other rays.
 
 #include <bit>
 
@@ -19,12 +19,12 @@ class RayPacket {
 
   static constexpr int width = most_register_bytes / static_cast<int>(sizeof(float));
 
-  /// `ray(i)` and `t_max(i)` for i below `count` <= width. False where the rays are not coherent enough for a
-  /// packet: then nothing else may be called.
+  /// Loads the queries `ray(i)` and `t_max(i)` for i < `count` <= width. Returns false if the rays are not coherent
+  /// enough for a packet; no other function may be called then.
   template <class RayOf, class Limit>
   ALHAZEN_INLINE bool load(uint32_t count, const RayOf& ray, const Limit& t_max) {
     for (uint32_t i = 0; i < width; ++i) {
-      const uint32_t from = i < count ? i : 0;  // lanes that are left over are never active
+      const uint32_t from = i < count ? i : 0;  // surplus lanes are never active
       const Ray<Real>& r = ray(from);
       rays_[i] = &r;
       left_[i] = r.left.kind() == PrimitiveKind::triangle ? r.left : PrimitiveId();
@@ -36,7 +36,7 @@ class RayPacket {
       }
       time_[i] = r.time;
       hits_[i] = end_of_interval(t_max(from));
-      hits_[i].instance = no_instance;  // packets are for scenes without
+      hits_[i].instance = no_instance;  // packets are only used in scenes without instances
       limit_[i] = box_t_max(hits_[i].t);
     }
     active_ = (1u << (count - 1)) * 2 - 1;
@@ -64,7 +64,7 @@ class RayPacket {
   using V = Lanes<Real, width>;
   static constexpr uint32_t all_rays = (1u << (width - 1)) * 2 - 1;
 
-  /// box_ray of all rays. False where they are not of one octant or not finite.
+  /// Computes box_ray for all rays. Returns false if an origin is not finite or the octants differ.
   ALHAZEN_INLINE bool make_box_rays() {
     const F zero = F::all(0), most = F::all(infinity<float>);
     F reach = zero;
@@ -86,7 +86,7 @@ class RayPacket {
     return true;
   }
 
-  /// shear_ray of all rays. False where their directions are not longest along the same axis.
+  /// Computes shear_ray for all rays. Returns false if their directions do not have the same longest axis.
   ALHAZEN_INLINE bool shear() {
     const V x = magnitude(V::load(direction_[0])), y = magnitude(V::load(direction_[1])),
             z = magnitude(V::load(direction_[2]));
@@ -123,10 +123,11 @@ class RayPacket {
             left_[ray]};
   }
 
-  /// Up to this many active rays are tested singly.
+  /// Up to this many active rays are tested one by one.
   static constexpr int max_single_rays = width / 4;
 
-  /// Pushes the children that are entered, the nearest last, by the entry of the first ray of each.
+  /// Pushes the children that any ray enters, the nearest last. Children are sorted by the entry distance of their
+  /// first active ray.
   ALHAZEN_INLINE void enter(const Bvh8Node& node, uint32_t rays) {
     alignas(64) float entry[bvh8_width][width];
     uint32_t entered[bvh8_width];
@@ -191,7 +192,7 @@ class RayPacket {
     }
   }
 
-  /// Pops the next child, with those of its rays that have no nearer hit since.
+  /// Pops the next child that some ray still enters before its closest hit so far, and those rays.
   ALHAZEN_INLINE bool pop(uint32_t& child, uint32_t& rays) {
     while (height_ > 0) {
       --height_;
@@ -232,7 +233,7 @@ class RayPacket {
     }
   }
 
-  /// How many primitives a block holds: the lanes behind them repeat the last.
+  /// Returns the number of primitives in a block. Unused lanes repeat the index of the last one.
   template <class Block>
   static ALHAZEN_INLINE int count_of(const Block& block) {
     int count = 1;
@@ -270,8 +271,8 @@ class RayPacket {
     take(hits, hits.crossed & rays, id);
   }
 
-  /// take_nearest where a lane is a ray. Packets are for scenes without instances, so `left` alone says what is
-  /// skipped.
+  /// Updates the hits of `rays` with one primitive, as take_nearest does for one ray. Comparing with `left` suffices
+  /// since packets are only used in scenes without instances.
   template <class HitLanes>
   ALHAZEN_INLINE void take(const HitLanes& hits, uint32_t rays, PrimitiveId id) {
     rays &= less(V::all(0), hits.t);
@@ -299,7 +300,7 @@ class RayPacket {
   };
 
   const Bvh8Prefetch<Real>& prefetch_;
-  // A row a coordinate, a column a ray.
+  // One row per coordinate, one column per ray.
   alignas(64) float inverse_[3][width], near_offset_[3][width], far_offset_[3][width], limit_[width];
   alignas(64) float float_origin_[3][width], float_direction_[3][width];
   alignas(64) Real origin_[3][width], direction_[3][width], shear_[3][width], time_[width];
@@ -308,7 +309,7 @@ class RayPacket {
   uint32_t active_ = 0, hit_rays_ = 0;
   int height_ = 0;
   const Ray<Real>* rays_[width];
-  PrimitiveId left_[width];  ///< Ray::left where it is a triangle
+  PrimitiveId left_[width];  ///< Ray::left if it is a triangle
   Hit<Real> hits_[width];
   F stack_entry_[bvh8_stack_size];
   Entry stack_[bvh8_stack_size];

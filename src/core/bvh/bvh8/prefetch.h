@@ -1,6 +1,6 @@
 #pragma once
 
-// Prefetches what the next step of a traversal reads.
+// Prefetches the data that the next step of a traversal reads.
 
 #include <cstddef>
 
@@ -9,7 +9,7 @@
 
 namespace ALHAZEN_CORE {
 
-/// The arrays of the kinds of children, so that one is prefetched without a branch.
+/// Prefetches a child. The array of each kind is found in a table, without a branch.
 template <class Real>
 class Bvh8Prefetch {
  public:

@@ -1,8 +1,8 @@
 #pragma once
 
-// The primitive tests of core/shapes/ on several lanes, operation by operation, so that hits are the same to the last
-// bit by every instruction set. A lane is a pair of a ray and a primitive: one ray and many primitives (blocks.h), or
-// many rays and one primitive (packets.h).
+// The primitive tests of core/shapes/ on SIMD lanes. They perform the same operations in the same order, so that hits
+// are bitwise identical for every instruction set. A lane pairs a ray with a primitive: one ray with many primitives
+// (blocks.h), or many rays with one primitive (packets.h).
 
 #include <bit>
 
@@ -11,13 +11,13 @@
 
 namespace ALHAZEN_CORE {
 
-/// Vertices in the sheared spaces of the rays; z is yet to be scaled by the third of `shear`.
+/// Vertices in the sheared spaces of the rays. z is not yet multiplied by shear[2].
 template <class V>
 struct ShearedLanes {
   V x, y, z;
 
   ShearedLanes() = default;
-  /// `p`, `origin` and `shear` are along the rays' axes kx, ky, kz.
+  /// `p`, `origin` and `shear` are given along the rays' axes kx, ky, kz.
   ALHAZEN_INLINE ShearedLanes(const V (&p)[3], const V (&origin)[3], const V (&shear)[3]) {
     z = p[2] - origin[2];
     x = p[0] - origin[0] - shear[0] * z;
@@ -25,14 +25,14 @@ struct ShearedLanes {
   }
 };
 
-/// Watertight intersections of rays and triangles (Woop, Benthin, Wald 2013).
+/// Intersects rays with triangles, watertight (Woop, Benthin, Wald 2013).
 template <class V>
 struct TriangleLanes {
   V e[3];  ///< edge functions
   V inverse, t;
-  uint32_t inside = 0;  ///< a bit a lane; where none is set, `inverse` and `t` are not computed
+  uint32_t inside = 0;  ///< one bit per lane; if none is set, `inverse` and `t` are not computed
 
-  /// `vertex(v, k)` is coordinate k of vertex v; k is 0 to 2 and stands for the ray's axes kx, ky, kz.
+  /// `vertex(v, k)` returns coordinate k of vertex v, where k = 0, 1, 2 denotes the ray's axes kx, ky, kz.
   template <class Vertex>
   ALHAZEN_INLINE TriangleLanes(const Vertex& vertex, const V (&origin)[3], const V (&shear)[3])
       : TriangleLanes(sheared(vertex, 0, origin, shear), sheared(vertex, 1, origin, shear),
@@ -46,12 +46,12 @@ struct TriangleLanes {
     e[2] = a.x * b.y - a.y * b.x;
     inside = less_equal(zero, smaller(smaller(e[0], e[1]), e[2])) | less_equal(larger(larger(e[0], e[1]), e[2]), zero);
     if (inside == 0) return;
-    // Where the sum is 0, t is infinite or NaN, and no hit.
+    // If the sum is 0, t is infinite or NaN and the hit is rejected.
     inverse = V::all(1) / (e[0] + e[1] + e[2]);
     t = (e[0] * (a.z * scale) + e[1] * (b.z * scale) + e[2] * (c.z * scale)) * inverse;
   }
 
-  /// Sets the barycentric weights of a lane.
+  /// Sets the barycentric coordinates of a lane's hit.
   template <class Real>
   ALHAZEN_INLINE void fill(int lane, Hit<Real>& hit) const {
     const Real inverse_det = inverse.lane(lane);
@@ -68,13 +68,13 @@ struct TriangleLanes {
   }
 };
 
-/// Intersections of rays and spheres.
+/// Intersects rays with spheres.
 template <class V>
 struct SphereLanes {
   V t;
-  uint32_t crossed = 0;  ///< a bit a lane that may be hit; where none is set, `t` is not computed
+  uint32_t crossed = 0;  ///< one bit per lane whose sphere may be hit; if none is set, `t` is not computed
 
-  /// `f` leads from the centres to the origins of the rays.
+  /// `f` is the vector from the centres to the origins of the rays, `d` the unit directions.
   ALHAZEN_INLINE SphereLanes(const V (&f)[3], const V (&d)[3], const V& radius) {
     const V zero = V::all(0);
     const V b = zero - (f[0] * d[0] + f[1] * d[1] + f[2] * d[2]);
@@ -84,7 +84,7 @@ struct SphereLanes {
     crossed = less_equal(zero, discriminant);
     if (crossed == 0) return;
     const V c = f[0] * f[0] + f[1] * f[1] + f[2] * f[2] - radius * radius;
-    // Behind a ray that begins outside both distances are negative: no need to compute them.
+    // If the origin is outside and the sphere behind it, both distances are negative and need not be computed.
     crossed &= ~(less(b, zero) & less(zero, c));
     if (crossed == 0) return;
     const V root = square_root(discriminant);

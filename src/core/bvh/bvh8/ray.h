@@ -1,6 +1,6 @@
 #pragma once
 
-// A ray against the boxes of a Bvh8Node, and what traversals of one ray and of packets share.
+// The slab test of a ray against the boxes of a Bvh8Node, and definitions that single-ray and packet traversal share.
 
 #include <bit>
 
@@ -12,19 +12,19 @@
 
 namespace ALHAZEN_CORE {
 
-/// A ray for the slab test: it enters a slab at side * inverse + near_offset and leaves it at side * inverse +
-/// far_offset. The offsets differ by more than rounding adds up to, and boxes are padded (padded_box), so a box that
-/// holds what a primitive test finds is never missed.
+/// A ray prepared for the slab test: it enters a slab at side * inverse + near_offset and leaves it at side * inverse +
+/// far_offset. The test is conservative: the offsets differ by more than the rounding error, and boxes are padded
+/// (padded_box), so the box of a primitive that is hit is never missed.
 struct BoxRay {
   float inverse[3], near_offset[3], far_offset[3];
-  uint32_t near_row[3];  ///< the bounds of a node by which the ray enters
-  uint32_t octant;       ///< a bit for each axis along which the direction is negative
+  uint32_t near_row[3];  ///< row of Bvh8Node::bounds through which the ray enters, per axis
+  uint32_t octant;       ///< bit i is set if the direction is negative along axis i
 };
 
-/// Relative widening of rays and of boxes: a few times the rounding of float.
+/// Relative padding of rays and boxes: a few times the rounding error of float.
 inline constexpr float box_slack = 4e-7f;
 
-/// Smaller components of directions are raised to this, so that offsets of coordinates up to 1e20 stay finite.
+/// Minimum magnitude of direction components in the slab test. It keeps offsets finite for coordinates up to 1e20.
 inline constexpr float least_direction = 1e-18f;
 
 template <class Real>
@@ -50,11 +50,11 @@ ALHAZEN_INLINE BoxRay box_ray(const Ray<Real>& ray) {
 struct ChildIntervals {
   Lanes<float, bvh8_width> near, far;
 
-  /// A bit for each child that is entered.
+  /// Returns a mask of the children that the ray enters.
   ALHAZEN_INLINE uint32_t children() const { return less_equal(near, far); }
 };
 
-/// Clipped to [0, t_max].
+/// Intersects the ray with the boxes of all children; the intervals are clipped to [0, t_max].
 ALHAZEN_INLINE ChildIntervals intersect_children(const Bvh8Node& node, const BoxRay& ray, float t_max) {
   using V = Lanes<float, bvh8_width>;
   const auto side = [&](int axis, uint32_t row, float offset) {
@@ -67,7 +67,7 @@ ALHAZEN_INLINE ChildIntervals intersect_children(const Bvh8Node& node, const Box
           smaller(smaller(far(0), far(1)), smaller(far(2), V::all(t_max)))};
 }
 
-/// For each octant of directions, the children from the farthest to the nearest, as far as their slots tell
+/// For each octant of ray directions, the approximate order of the children from far to near that their slots imply
 /// (compile/bvh/octant_slots.h).
 struct OctantOrders {
   uint32_t of_octant[8][bvh8_width];
@@ -80,17 +80,17 @@ inline constexpr OctantOrders octant_orders = [] {
   return orders;
 }();
 
-/// A level of the tree leaves at most 7 children on the stack.
+/// The maximum depth of the tree. Each level leaves at most 7 children on the stack.
 inline constexpr int max_bvh8_depth = max_bvh2_depth + 4;
 inline constexpr int bvh8_stack_size = (bvh8_width - 1) * max_bvh8_depth + bvh8_width;
 
-/// The t_max of box tests after a hit at t: a little beyond, since t is rounded.
+/// Returns the t_max of box tests after a hit at t, which is slightly larger because t is rounded.
 template <class Real>
 ALHAZEN_INLINE float box_t_max(Real t) {
   return static_cast<float>(t) * (1 + 8 * box_slack);
 }
 
-/// Where this is false, the ray hits nothing and is not traversed.
+/// Returns whether the origin is finite. Otherwise the ray hits nothing and is not traversed.
 template <class Real>
 ALHAZEN_INLINE bool has_finite_origin(const Ray<Real>& ray) {
   return max_component(abs(ray.origin)) < infinity<Real>;

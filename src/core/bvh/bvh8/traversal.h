@@ -1,6 +1,6 @@
 #pragma once
 
-// Traversal of the BVH8 by one ray, a step at a time, over one of two kinds of stacks.
+// Single-ray traversal of the BVH8, one step at a time, with one of two kinds of stacks.
 
 #include <bit>
 #include <concepts>
@@ -11,11 +11,13 @@
 
 namespace ALHAZEN_CORE {
 
-/// Visits the nearest child first; sorts by branches, since speculation hides latencies while a ray is alone.
+/// Visits the nearest child first. It sorts with branches, since speculative execution hides latency when rays are not
+/// interleaved.
 template <bool any_hit>
 class NearestFirst {
  public:
-  /// Pushes all children entered but the nearest, which becomes `current`. False where none is entered.
+  /// Pushes all children that the ray enters but the nearest, which becomes `current`; any-hit queries do not sort.
+  /// Returns false if the ray enters none.
   ALHAZEN_INLINE bool push(const Bvh8Node& node, const BoxRay& ray, float t_max, int& height, uint32_t& current) {
     const ChildIntervals entry = intersect_children(node, ray, t_max);
     uint32_t entered = entry.children();
@@ -25,7 +27,7 @@ class NearestFirst {
     const auto next = [&]() -> uint64_t {
       const int child = std::countr_zero(entered);
       entered &= entered - 1;
-      // Distances from 0 on sort as their bits do.
+      // Non-negative floats compare like their bit patterns.
       return any_hit ? node.child[child]
                      : static_cast<uint64_t>(std::bit_cast<uint32_t>(t[child])) << 32 | node.child[child];
     };
@@ -50,7 +52,7 @@ class NearestFirst {
     return true;
   }
 
-  /// Pops the next child above `base` that t_max leaves.
+  /// Pops the next child above `base` that the ray enters before t_max. Returns false if there is none.
   ALHAZEN_INLINE bool pop(float t_max, int base, int& height, uint32_t& current) const {
     while (height > base) {
       const uint64_t entry = entries_[--height];
@@ -65,12 +67,12 @@ class NearestFirst {
   uint64_t entries_[bvh8_stack_size];
 };
 
-/// Visits children in the order of the ray's octant, without a branch that cannot be predicted: for interleaved rays,
-/// all of which would wait for a misprediction.
+/// Visits children in the order of the ray's octant, without unpredictable branches. It is for interleaved rays, since
+/// one misprediction would stall all of them.
 template <bool any_hit>
 class OctantFirst {
  public:
-  /// Pushes all children entered.
+  /// Pushes all children that the ray enters.
   ALHAZEN_INLINE bool push(const Bvh8Node& node, const BoxRay& ray, float t_max, int& height, uint32_t&) {
     const ChildIntervals entry = intersect_children(node, ray, t_max);
     uint32_t entered;
@@ -107,7 +109,7 @@ class OctantFirst {
   uint32_t child_[bvh8_stack_size];
 };
 
-/// Keeps the children that are yet to be visited. push() returns whether `current` is set to the next one.
+/// Holds the children still to be visited. push() returns whether it set `current` to the next one.
 template <class Stack>
 concept Bvh8Stack = requires(Stack& stack, const Stack& unchanged, const Bvh8Node& node, const BoxRay& ray, float t_max,
                              int base, int& height, uint32_t& current) {
@@ -115,11 +117,11 @@ concept Bvh8Stack = requires(Stack& stack, const Stack& unchanged, const Bvh8Nod
   { unchanged.pop(t_max, base, height, current) } -> std::same_as<bool>;
 };
 
-/// Code for instances is compiled in by `instances` alone.
+/// Traverses the BVH8 with one ray. Instances are supported only if `instances` is true.
 template <bool any_hit, bool instances, class Real, Bvh8Stack Stack>
 class alignas(64) Bvh8Traversal {
  public:
-  /// The stack is apart, so that interleaved traversals are a few cache lines each.
+  /// Sets the stack, which is a separate object so that interleaved traversals take a few cache lines each.
   ALHAZEN_INLINE void use(Stack* stack) { stack_ = stack; }
 
   ALHAZEN_INLINE void start(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max) {
@@ -130,7 +132,7 @@ class alignas(64) Bvh8Traversal {
     t_max_ = box_t_max(t_max);
     height_ = 0;
     found_ = false;
-    // An empty leaf where there is no tree or the ray hits nothing.
+    // Starts at an empty leaf if there is no tree or the ray cannot hit anything.
     current_ = scene.bvh8_nodes_count > 0 && has_finite_origin(ray) ? 0 : Bvh8Child::nothing;
     if constexpr (instances)
       space_ = {};
@@ -138,7 +140,7 @@ class alignas(64) Bvh8Traversal {
       hit_.instance = no_instance;
   }
 
-  /// Visits the current child; false when the traversal has ended.
+  /// Visits the current child. Returns false once the traversal has ended.
   ALHAZEN_INLINE bool step(const SceneView<Real>& scene) {
     if (Bvh8Child::kind(current_) == Bvh8Child::node) {
       if (stack_->push(scene.bvh8_nodes[current_], box_, t_max_, height_, current_)) return true;
@@ -159,7 +161,7 @@ class alignas(64) Bvh8Traversal {
   const Hit<Real>& hit() const { return hit_; }
 
  private:
-  /// The instance that is traversed: stack entries above `base` are its.
+  /// The instance being traversed, which owns the stack entries above `base`.
   struct Space {
     uint32_t instance = no_instance;
     int base = 0;
@@ -189,7 +191,7 @@ class alignas(64) Bvh8Traversal {
     sheared_ = shear_ray(ray);
   }
 
-  /// Continues at the root of the object.
+  /// Transforms the ray to object space and continues at the root of the object.
   ALHAZEN_NOINLINE void enter_instance(const SceneView<Real>& scene) {
     const uint32_t instance = Bvh8Child::first(current_);
     const Ray<Real> inner = object_ray(scene, instance, *ray_);
@@ -200,7 +202,7 @@ class alignas(64) Bvh8Traversal {
         has_finite_origin(inner) ? scene.objects[scene.instances[instance].object].bvh8_root : Bvh8Child::nothing;
   }
 
-  /// Continues in the world; false where nothing is left on the stack.
+  /// Continues in world space. Returns false if the stack is empty.
   ALHAZEN_NOINLINE bool leave_instance() {
     if (hit_.instance != space_.instance) hit_.primitive = space_.outer;
     space_ = {};

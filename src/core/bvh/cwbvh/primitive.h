@@ -1,7 +1,7 @@
 #pragma once
 
-// How each kind of primitive is copied into the leaves of the compressed wide BVH, and tested there. Of an instance the
-// identifier alone is kept.
+// Copies primitives of each kind into the leaves of the compressed wide BVH, and intersects the copies. The copy of an
+// instance holds only its identifier.
 
 #include "core/bvh/cwbvh/node.h"
 #include "core/shapes/primitives.h"
@@ -37,7 +37,7 @@ CwbvhPrimitive cwbvh_primitive(const SceneView<Real>& scene, PrimitiveId id) {
   return copy;
 }
 
-/// The scalar test of a kind, from the copy.
+/// Intersects the copy of a primitive of one kind with the scalar test.
 template <PrimitiveKind kind>
 struct CwbvhTest;
 
@@ -65,7 +65,7 @@ struct CwbvhTest<PrimitiveKind::moving_sphere> {
   }
 };
 
-/// intersect_primitive from the copy.
+/// Intersects the copy of a primitive, as intersect_primitive does for its record.
 ALHAZEN_HD inline bool intersect_primitive(const CwbvhPrimitive& primitive, const Ray<float>& ray,
                                            const ShearedRay<float>& sheared, Hit<float>& hit) {
   Hit<float> found{hit.t, 0, 0, primitive.id};

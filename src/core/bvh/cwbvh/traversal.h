@@ -1,21 +1,21 @@
 #pragma once
 
-// Traversal of the compressed wide BVH: children in the order of the ray's octant, a stack of groups of siblings
-// (Ylitie, Karras, Laine 2017, section 4). Boxes are tested as those of the binary BVH are (bvh2/traversal.h).
+// Traversal of the compressed wide BVH in the order of the ray's octant, with a stack of groups of siblings (Ylitie,
+// Karras, Laine 2017, section 4). The box test is the one of the binary BVH (bvh2/traversal.h).
 
 #include "core/bvh/bvh2/traversal.h"
 #include "core/bvh/cwbvh/primitive.h"
 
 namespace ALHAZEN_CORE {
 
-/// Siblings that are yet to be visited. Of nodes the high byte of `bits` says which, by priority, and the low byte
-/// which of all 8 are nodes, the first of them at `base`. Of primitives bit i stands for the one at `base` + i.
+/// Siblings still to be visited. For nodes, the high byte of `bits` marks them by priority, the low byte marks which of
+/// the 8 children are nodes, and the first of these is at `base`. For primitives, bit i marks the one at `base` + i.
 struct CwbvhGroup {
   uint32_t base, bits;
 };
 
-/// A traversal pushes at most one group a level, and each level stands for at least one of the binary tree, whose
-/// leaves are split into up to two more.
+/// Maximum depth of a tree, where a traversal pushes at most one group per level. Each level covers at least one level
+/// of the binary tree, whose leaves are split into up to two more.
 inline constexpr int max_cwbvh_depth = max_bvh2_depth + 2;
 
 ALHAZEN_HD inline uint32_t highest_bit(uint32_t x) {
@@ -34,7 +34,7 @@ ALHAZEN_HD inline uint32_t count_bits(uint32_t x) {
 #endif
 }
 
-/// 2 to the power of a biased exponent from 1 to 254.
+/// Returns 2^(biased - 127) for a biased exponent in [1, 254].
 ALHAZEN_HD inline float power_of_two(uint32_t biased) {
 #if defined(__CUDA_ARCH__)
   return __uint_as_float(biased << 23);
@@ -43,7 +43,7 @@ ALHAZEN_HD inline float power_of_two(uint32_t biased) {
 #endif
 }
 
-/// A coordinate of a child's box. The builder makes boxes conservative for this rounding.
+/// Dequantizes a coordinate of a child's box. The builder keeps boxes conservative under this rounding.
 ALHAZEN_HD ALHAZEN_INLINE float box_coordinate(float origin, float scale, uint32_t steps) {
   return origin + static_cast<float>(steps) * scale;
 }
@@ -52,7 +52,8 @@ ALHAZEN_HD ALHAZEN_INLINE uint32_t byte_of(const uint32_t words[2], uint32_t chi
   return words[child / 4] >> (8 * (child % 4)) & 255u;
 }
 
-/// Children that the ray enters before t_max: nodes by priority in the high byte, below it a bit a primitive.
+/// Returns the children that the ray enters before t_max: nodes by priority in the high byte, and one bit per primitive
+/// of the leaves below it.
 ALHAZEN_HD ALHAZEN_INLINE uint32_t intersect_children(const CwbvhNode& node, const SlabRay<float>& ray, uint32_t octant,
                                                       float t_max) {
   constexpr float raise = 1 + 2 * rounding_bound<float>(3);
@@ -90,7 +91,7 @@ ALHAZEN_HD ALHAZEN_INLINE uint32_t octant_of(const SlabRay<float>& ray) {
   return (ray.from_high[0] ? 1u : 0u) | (ray.from_high[1] ? 2u : 0u) | (ray.from_high[2] ? 4u : 0u);
 }
 
-/// Traverses the tree; with `any_hit` it ends at the first hit.
+/// Traverses the tree and returns whether anything is hit; `any_hit` stops at the first hit.
 template <bool any_hit, StackMaker Stacks>
 ALHAZEN_HD bool traverse_cwbvh(const SceneView<float>& scene, const Ray<float>& ray, const Stacks& stacks,
                                Hit<float>& hit) {
@@ -112,7 +113,7 @@ ALHAZEN_HD bool traverse_cwbvh(const SceneView<float>& scene, const Ray<float>& 
       const uint32_t hits = intersect_children(node, space.slabs, octant, hit.t);
       primitives = {node.first_primitive, hits & ~to_visit};
       nodes = {node.first_child, (hits & to_visit) | node.exponents_and_inner >> 24};
-    } else {  // primitives that were pushed when an instance was entered
+    } else {  // primitives that were pushed on entering an instance
       primitives = nodes;
       nodes.bits = 0;
     }
@@ -143,7 +144,7 @@ ALHAZEN_HD bool traverse_cwbvh(const SceneView<float>& scene, const Ray<float>& 
   }
 }
 
-/// Answers ray queries by the compressed wide BVH.
+/// Answers ray queries with the compressed wide BVH.
 template <StackMaker Stacks = LocalStacks>
 class CwbvhIntersector {
  public:

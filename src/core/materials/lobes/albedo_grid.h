@@ -1,36 +1,36 @@
 #pragma once
 
-// Tables of directional albedo by cosine and, for microfacets whose two alphas differ, by azimuth. A grid holds one
-// block for each alpha or pair of them that a material may have, and a block several quantities: those of GGX, of glass
-// seen from either side, of sheen, of coats. compile/tables/albedo_grids.cpp computes grids when a scene is compiled.
+// Tables of directional albedo by cosine and, for anisotropic microfacets, by azimuth. A grid holds a block for each
+// tabulated alpha or pair of alphas, and a block holds several quantities: those of GGX, of glass from either side, of
+// sheen, or of coats. compile/tables/albedo_grids.cpp computes the grids when a scene is compiled.
 
 #include "core/materials/lobes/albedo_table.h"
 
 namespace ALHAZEN_CORE {
 
 inline constexpr uint32_t grid_cosines = 64;
-/// Nodes by alpha_coordinate where a roughness varies over the surface: of equal alphas, and of either of a pair.
+/// Nodes by alpha_coordinate if the roughness varies over the surface: of equal alphas, and of each alpha of a pair.
 inline constexpr uint32_t grid_alphas = 32, grid_alpha_pairs = 12;
-/// Nodes of the azimuth where the alphas differ: of a constant pair, and of pairs that vary.
+/// Nodes of the azimuth if the alphas differ: of a constant pair, and of a pair that varies.
 inline constexpr uint32_t grid_azimuths = 25, grid_azimuths_of_pairs = 9;
 
-/// Where a grid is stored in SceneView::albedo_tables. A block is `quantities` times `azimuths` rows of `grid_cosines`
-/// values, and after these the mean of each quantity over all directions, weighted by the cosine.
+/// Location of a grid in SceneView::albedo_tables. A block has `quantities` times `azimuths` rows of `grid_cosines`
+/// values, followed by the cosine-weighted mean of each quantity over all directions.
 struct AlbedoGridRecord {
   uint32_t first, quantities, azimuths;
-  uint32_t alphas_u, alphas_v;  ///< 1: constant. Equal alphas vary along u alone
+  uint32_t alphas_u, alphas_v;  ///< 1: constant. Equal alphas vary along u only
 };
 
 ALHAZEN_HD constexpr uint32_t grid_block_size(uint32_t quantities, uint32_t azimuths) {
   return quantities * (azimuths * grid_cosines + 1);
 }
 
-/// A block and its neighbours towards larger alphas, with the weights of these.
+/// A block, and the steps to its neighbours at larger alphas with their interpolation weights.
 template <class Real>
 struct AlbedoGridPlace {
   const Real* block;
   uint32_t quantities, azimuths;
-  uint32_t step_u, step_v;  ///< 0 where an alpha is constant
+  uint32_t step_u, step_v;  ///< 0 if the alpha is constant
   Real weight_u, weight_v;
 };
 
@@ -53,27 +53,27 @@ ALHAZEN_HD AlbedoGridPlace<Real> grid_place(const Real* tables, const AlbedoGrid
   return place;
 }
 
-/// A direction among the nodes of a row and of the azimuths.
+/// Location of a direction between the nodes of a row and of the azimuth.
 template <class Real>
 struct GridDirection {
   uint32_t node, azimuth;
   Real weight, azimuth_weight;
 };
 
-/// `w.z` > 0; `ior` as that of cosine_coordinate.
+/// Locates the direction `w`, with `w.z` > 0; `ior` is that of cosine_coordinate.
 template <class Real>
 ALHAZEN_HD GridDirection<Real> grid_direction(const AlbedoGridPlace<Real>& place, const Vec3<Real>& w, Real ior) {
   GridDirection<Real> d{0, 0, 0, 0};
   d.weight = node_weight(cosine_coordinate(w.z, ior, grid_cosines), grid_cosines, d.node);
   if (place.azimuths == 1) return d;
-  // Dense along the tangent and the bitangent, where the roughness that is seen changes most.
+  // Nodes are dense near the tangent and the bitangent, where the projected roughness changes most.
   const Real x = std::abs(w.x), y = std::abs(w.y);
   const Real along = x + y > 0 ? (x - y) / (x + y) : Real(0);
   d.azimuth_weight = node_weight(std::acos(clamp(-along, Real(-1), Real(1))) * inv_pi<Real>, place.azimuths, d.azimuth);
   return d;
 }
 
-/// Sum of a quantity over the blocks, each by its weight; `value` looks it up in one.
+/// Interpolates a quantity between the blocks; `value` looks it up in one block.
 template <class Real, class Value>
 ALHAZEN_HD Real over_blocks(const AlbedoGridPlace<Real>& place, const Value& value) {
   Real sum = 0;

@@ -1,15 +1,15 @@
 #pragma once
 
-// Tables of directional albedo: the share of light that a rough dielectric interface sends back by single scattering,
+// Tables of directional albedo: the fraction of light that a rough dielectric interface reflects by single scattering,
 // by the cosine of the direction and by alpha. compile/tables/albedo_tables.cpp computes them when a scene with layered
-// materials is compiled; what else has an albedo is in the grids of core/materials/lobes/albedo_grid.h.
+// materials is compiled. Other albedos are in the grids of core/materials/lobes/albedo_grid.h.
 
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 
 namespace ALHAZEN_CORE {
 
-/// Tables begin at this alpha, and smooth layers have it.
+/// The smallest alpha of the tables, which smooth layers use.
 template <class Real>
 inline constexpr Real least_layered_alpha = Real(1.5e-3);
 
@@ -18,31 +18,32 @@ ALHAZEN_HD Real layered_alpha(Real alpha) {
   return larger(alpha, least_layered_alpha<Real>);
 }
 
-/// Beyond these an interface reflects all light but a ten-thousandth, and rounding would have the rest.
+/// Limits of the index of refraction; beyond them, an interface transmits less than 1e-4 of the light, which would be
+/// lost to rounding.
 template <class Real>
 inline constexpr Real min_layered_ior = Real(0.01);
 template <class Real>
 inline constexpr Real max_layered_ior = Real(1e6);
 
-/// A table is `albedo_side` rows by alpha_coordinate, each of as many values by cosine_coordinate; after them as many
-/// means over all directions, weighted by the cosine, one a row.
+/// A table has `albedo_side` rows by alpha_coordinate, each of `albedo_side` values by cosine_coordinate, followed by
+/// the cosine-weighted mean of each row over all directions.
 inline constexpr uint32_t albedo_side = 32;
 inline constexpr uint32_t albedo_table_size = albedo_side * albedo_side + albedo_side;
-/// Total reflection ends at this node of a row where the medium beyond the interface is the thinner one.
+/// Returns the node of a row at which total internal reflection ends, if the index beyond the interface is the lower.
 ALHAZEN_HD constexpr uint32_t critical_node(uint32_t nodes) { return nodes / 2 - 1; }
 
-/// What stands after the rows of a table of what a coat lets through, for each alpha.
+/// Columns after the rows of a coat transmittance table, each with one value per alpha.
 struct CoatColumns {
-  static constexpr uint32_t back = 0;    ///< share of diffuse light from below that the coat sends down again
-  static constexpr uint32_t escape = 1;  ///< the rest of it, precise where that is next to nothing
-  static constexpr uint32_t scale = 2;   ///< factor on what the reciprocity of an interface lets out; mostly 1
-  static constexpr uint32_t mean = 3;    ///< over all directions
+  static constexpr uint32_t back = 0;    ///< fraction of diffuse light from below that the coat reflects
+  static constexpr uint32_t escape = 1;  ///< 1 - back, precise if that is almost 0
+  static constexpr uint32_t scale = 2;   ///< factor on the exit transmittance given by reciprocity; usually 1
+  static constexpr uint32_t mean = 3;    ///< cosine-weighted mean over all directions
   static constexpr uint32_t count = 4;
 };
 
-/// A cosine as a coordinate from 0 to 1 in a row of that many nodes, dense where albedos bend: at grazing angles, and
-/// most on both sides of the critical angle where `ior`, the index beyond the interface relative to this side, is below
-/// 1: nearly smooth interfaces go over from total reflection within their alpha.
+/// Maps a cosine to a coordinate in [0, 1] along a row of `nodes`. `ior` is the index beyond the interface relative to
+/// this side. Nodes are dense where albedos curve: at grazing angles and, if `ior` < 1, above all on both sides of the
+/// critical angle, where total reflection by nearly smooth interfaces ends within about their alpha.
 template <class Real>
 ALHAZEN_HD Real cosine_coordinate(Real cosine, Real ior, uint32_t nodes) {
   const Real c = clamp(cosine, Real(0), Real(1));
@@ -54,14 +55,15 @@ ALHAZEN_HD Real cosine_coordinate(Real cosine, Real ior, uint32_t nodes) {
   return critical * safe_sqrt(1 - std::sqrt(std::sqrt(below)));
 }
 
-/// An alpha as a coordinate from 0 to 1, even in its square root.
+/// Maps an alpha to a coordinate in [0, 1], linear in its square root.
 template <class Real>
 ALHAZEN_HD Real alpha_coordinate(Real alpha) {
-  constexpr Real least = Real(0.03872983346207417);  // the root of least_layered_alpha
+  constexpr Real least = Real(0.03872983346207417);  // sqrt(least_layered_alpha)
   return (std::sqrt(clamp(alpha, least_layered_alpha<Real>, Real(1))) - least) * (1 / (1 - least));
 }
 
-/// Weight of the node after `node`, which receives where `coordinate`, from 0 to 1, lies among `nodes`.
+/// Returns the interpolation weight of the node after `node`, which receives the last node not beyond `coordinate`, in
+/// [0, 1].
 template <class Real>
 ALHAZEN_HD Real node_weight(Real coordinate, uint32_t nodes, uint32_t& node) {
   const Real x = coordinate * static_cast<Real>(nodes - 1);
@@ -70,7 +72,7 @@ ALHAZEN_HD Real node_weight(Real coordinate, uint32_t nodes, uint32_t& node) {
   return x - static_cast<Real>(node);
 }
 
-/// `ior`: of the interface that the table is of.
+/// Interpolates a table bilinearly; `ior` is that of the interface of the table.
 template <class Real>
 ALHAZEN_HD Real lookup_albedo(const Real* table, Real cosine, Real alpha, Real ior) {
   uint32_t i, j;
@@ -82,7 +84,7 @@ ALHAZEN_HD Real lookup_albedo(const Real* table, Real cosine, Real alpha, Real i
   return low + (high - low) * t;
 }
 
-/// A value for each alpha that is stored after the rows: `column` 0 is mostly the mean over all directions.
+/// Interpolates a column after the rows by alpha. `column` 0 of an interface table is the mean over all directions.
 template <class Real>
 ALHAZEN_HD Real mean_albedo(const Real* table, Real alpha, uint32_t column = 0) {
   uint32_t j;

@@ -1,29 +1,29 @@
 #pragma once
 
-// Metal below a rough dielectric coat, as a single lobe. Where light goes once down, off the metal and out again it
-// leaves about GGX of an alpha that both roughnesses and the refraction make; what share of it leaves after one bounce
-// and after any number is tabulated by a simulation of the layers (compile/tables/coated_metal_tables.cpp).
+// Metal below a rough dielectric coat, as a single lobe. Light that the metal reflects once leaves the coat in
+// approximately a GGX lobe, whose alpha combines both roughnesses and the refraction. The fractions that leave after
+// one reflection and after any number are tabulated by a simulation of the layers
+// (compile/tables/coated_metal_tables.cpp).
 
 #include "core/materials/lobes/albedo_table.h"
 #include "core/materials/lobes/fresnel.h"
 
 namespace ALHAZEN_CORE {
 
-/// Values of a row, by cosine_coordinate, and of the roughnesses of coat and metal by alpha_coordinate, where they
-/// vary.
+/// Nodes of a row, by cosine_coordinate, and of each roughness, coat or metal, that varies, by alpha_coordinate.
 inline constexpr uint32_t coated_metal_cosines = albedo_side, coated_metal_alphas = 8;
-/// Two rows: factors for light that meets the metal once, and for all of it where each further bounce leaves
-/// `coated_metal_fit` of it: in between and around it the sum is taken for that of a geometric series.
+/// A block has two rows: factors for light that the metal reflects once, and for all light if the metal reflects the
+/// fraction `coated_metal_fit` at each further bounce. A geometric series fitted to both covers other reflectances.
 template <class Real>
 inline constexpr Real coated_metal_fit = Real(0.8);
 inline constexpr uint32_t coated_metal_block = 2 * coated_metal_cosines;
 
-/// Where to look in a table: the steps are 0 where a roughness is constant.
+/// Location in a table; the step of a constant roughness is 0.
 template <class Real>
 struct CoatedMetalPlace {
   const Real* block;
   uint32_t coat_step, metal_step;
-  Real coat_share, metal_share;  ///< of the next block
+  Real coat_share, metal_share;  ///< interpolation weights of the next block
   Real ior;                      ///< of the coat
 };
 
@@ -34,7 +34,7 @@ ALHAZEN_HD uint32_t coated_metal_step(Real alpha, Real& share) {
   return i;
 }
 
-/// Blocks of a table lie by the roughness of the coat, then by that of the metal.
+/// Locates a pair of alphas. Blocks are ordered by the roughness of the coat, then by that of the metal.
 template <class Real>
 ALHAZEN_HD CoatedMetalPlace<Real> coated_metal_place(const Real* table, bool coat_varies, bool metal_varies, Real coat,
                                                      Real metal, Real ior) {
@@ -50,8 +50,8 @@ ALHAZEN_HD CoatedMetalPlace<Real> coated_metal_place(const Real* table, bool coa
   return place;
 }
 
-/// alpha of the lobe outside. Slopes of the metal are scaled by the index as light leaves; the coat's bend the way in
-/// and the way out by (ior - 1) / 2 of theirs each.
+/// Returns the alpha of the lobe outside the coat. Refraction scales the slopes of the metal by the index; the slopes
+/// of the coat contribute (ior - 1) / 2 of theirs on entry and again on exit.
 template <class Real>
 ALHAZEN_HD Real coated_metal_alpha(Real coat, Real metal, Real ior) {
   return smaller(Real(1), std::sqrt(sqr(ior * metal) + Real(0.5) * sqr((ior - 1) * coat)));
@@ -65,7 +65,7 @@ ALHAZEN_HD Real coated_metal_value(const Real* row, Real cosine, Real ior) {
   return row[i] + (row[i + 1] - row[i]) * (x - static_cast<Real>(i));
 }
 
-/// Factors on the lobe at one of its directions.
+/// Factors on the lobe for one of its two directions.
 template <class Real>
 struct CoatedMetalFactors {
   Real once, all;
@@ -85,12 +85,12 @@ ALHAZEN_HD CoatedMetalFactors<Real> coated_metal_factors(const CoatedMetalPlace<
   return sum;
 }
 
-/// Factor on the lobe for metal of that reflectance: each further bounce is coloured by it once more.
+/// Returns the factor on the lobe for metal of this reflectance, by which each further bounce is multiplied once more.
 template <class Real>
 ALHAZEN_HD Vec3<Real> coated_metal_colour(const CoatedMetalFactors<Real>& o, const CoatedMetalFactors<Real>& i,
                                           const Vec3<Real>& reflectance) {
   const Real once = o.once * i.once, all = o.all * i.all;
-  // No more than that comes down again; closer to 1, white metal would send back any amount of light.
+  // Upper bound of the fraction reflected back to the metal; closer to 1, the series of white metal would diverge.
   constexpr Real most_again = Real(0.9);
   const Real again = all > 0 ? clamp((1 - once / all) / coated_metal_fit<Real>, Real(0), most_again) : Real(0);
   const auto channel = [&](Real c) { return once * c / larger(Real(1e-6), 1 - again * c); };

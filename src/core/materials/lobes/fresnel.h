@@ -1,13 +1,14 @@
 #pragma once
 
-// Reflectance of interfaces for unpolarised light.
+// Fresnel reflectance of interfaces for unpolarised light.
 
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 
 namespace ALHAZEN_CORE {
 
-/// Dielectric interface by the cosines of incidence and refraction, both >= 0 and not both 0.
+/// Returns the Fresnel reflectance of a dielectric interface for the cosines of incidence and refraction, both >= 0 and
+/// not both 0.
 template <class Real>
 ALHAZEN_HD constexpr Real fresnel_of_cosines(Real cos_i, Real cos_t, Real eta) {
   const Real parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
@@ -15,8 +16,8 @@ ALHAZEN_HD constexpr Real fresnel_of_cosines(Real cos_i, Real cos_t, Real eta) {
   return Real(0.5) * (parallel * parallel + perpendicular * perpendicular);
 }
 
-/// Dielectric interface: `cos_i` >= 0 on the side of incidence, `eta` the index of the other side relative to this one.
-/// `cos_t` receives the cosine of refraction, 0 on total internal reflection.
+/// Returns the Fresnel reflectance of a dielectric interface. `cos_i` >= 0 is the cosine of incidence, `eta` the index
+/// of the other side relative to this one. `cos_t` receives the cosine of refraction, 0 on total internal reflection.
 template <class Real>
 ALHAZEN_HD Real fresnel_dielectric(Real cos_i, Real eta, Real& cos_t) {
   const Real sin2_t = (1 - cos_i * cos_i) / (eta * eta);
@@ -28,7 +29,8 @@ ALHAZEN_HD Real fresnel_dielectric(Real cos_i, Real eta, Real& cos_t) {
   return fresnel_of_cosines(cos_i, cos_t, eta);
 }
 
-/// Conductor with index `eta` and absorption `k` relative to the outside (PBR 4th ed., 9.3.6, in real arithmetic).
+/// Returns the Fresnel reflectance of a conductor with index `eta` and absorption coefficient `k` relative to the
+/// outside (PBR 4th ed., 9.3.6, in real arithmetic).
 template <class Real>
 ALHAZEN_HD Real fresnel_conductor(Real cos_i, Real eta, Real k) {
   const Real cos2 = cos_i * cos_i, sin2 = 1 - cos2;
@@ -38,7 +40,7 @@ ALHAZEN_HD Real fresnel_conductor(Real cos_i, Real eta, Real k) {
   const Real t1 = a2_plus_b2 + cos2;
   const Real a = safe_sqrt(Real(0.5) * (a2_plus_b2 + t0));
   const Real t2 = 2 * a * cos_i;
-  if (!(t1 + t2 > 0)) return 1;  // along the surface of what does not refract
+  if (!(t1 + t2 > 0)) return 1;  // grazing incidence on an interface without change of index
   const Real perpendicular = (t1 - t2) / (t1 + t2);
   const Real t3 = cos2 * a2_plus_b2 + sin2 * sin2;
   const Real t4 = t2 * sin2;
@@ -52,7 +54,7 @@ ALHAZEN_HD Vec3<Real> fresnel_conductor(Real cos_i, const Vec3<Real>& eta, const
           fresnel_conductor(cos_i, eta.z, k.z)};
 }
 
-/// The absorption that gives `reflectance` at normal incidence with an index of 1.
+/// Returns the absorption coefficient that, with an index of 1, gives `reflectance` at normal incidence.
 template <class Real>
 ALHAZEN_HD Real absorption_for_reflectance(Real reflectance) {
   const Real r = clamp(reflectance, Real(0), Real(0.9999));
@@ -65,7 +67,7 @@ ALHAZEN_HD Vec3<Real> absorption_for_reflectance(const Vec3<Real>& reflectance) 
           absorption_for_reflectance(reflectance.z)};
 }
 
-/// (1 - cos)^5 of Schlick 1994.
+/// Returns (1 - cos)^5, the weight of Schlick's approximation (1994).
 template <class Real>
 ALHAZEN_HD Real schlick_weight(Real cosine) {
   const Real x = clamp(1 - cosine, Real(0), Real(1));

@@ -1,6 +1,6 @@
 #pragma once
 
-// How metals are described: by index and absorption, or by a colour.
+// Parameters of metals: index of refraction and absorption coefficient, or a colour.
 
 #include "core/materials/lobes/fresnel.h"
 #include "core/textures/texture_record.h"
@@ -8,11 +8,11 @@
 namespace ALHAZEN_CORE {
 
 struct MetalRecord {
-  TextureRange reflectance;  ///< colour at normal incidence; absent where eta and k are given
+  TextureRange reflectance;  ///< colour at normal incidence; absent if eta and k are given
   TextureRange eta, k;
 };
 
-/// Sets index and absorption relative to the outside, or those that give the metal its colour.
+/// Sets the index and absorption coefficient relative to the outside; those that reproduce the colour if it is given.
 template <class Real, class Textures>
 ALHAZEN_HD ALHAZEN_HOT void set_metal(const MetalRecord& metal, const Textures& textures, Vec3<Real>& eta,
                                       Vec3<Real>& k) {

@@ -1,8 +1,8 @@
 #pragma once
 
-// The GGX distribution of microfacet normals (Trowbridge and Reitz 1975; Walter et al. 2007) and sampling of the
-// normals that a direction sees (Heitz 2018, JCGT 7(4)). Local coordinates, z along the shading normal. `Alpha` is a
-// number, or a pair where the roughness along x (the tangent) differs from that along y.
+// The GGX distribution of microfacet normals (Trowbridge and Reitz 1975; Walter et al. 2007) and sampling of visible
+// normals (Heitz 2018, JCGT 7(4)). Directions are in local coordinates, with z along the shading normal. `Alpha` is a
+// scalar, or for anisotropic surfaces a pair: alpha along x (the tangent) and along y.
 
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
@@ -23,19 +23,19 @@ ALHAZEN_HD constexpr bool is_smooth(const Vec2<Real>& alpha) {
   return alpha.x < smooth_alpha<Real> && alpha.y < smooth_alpha<Real>;
 }
 
-/// The alphas of a surface that is not treated as smooth.
+/// Returns the alphas, clamped so that the surface is not treated as smooth.
 template <class Real>
 ALHAZEN_HD constexpr Vec2<Real> rough_alphas(Real u, Real v) {
   return {larger(u, smooth_alpha<Real>), larger(v, smooth_alpha<Real>)};
 }
 
-/// One alpha that stands for both where they differ a little or nothing depends on it much.
+/// Returns the geometric mean, an isotropic approximation for terms that depend only weakly on alpha.
 template <class Real>
 ALHAZEN_HD Real mean_alpha(const Vec2<Real>& alpha) {
   return std::sqrt(alpha.x * alpha.y);
 }
 
-/// The vector with x and y scaled by alpha.
+/// Scales x and y by alpha.
 template <class Real>
 ALHAZEN_HD constexpr Vec3<Real> stretch(const Vec3<Real>& v, Real alpha) {
   return {alpha * v.x, alpha * v.y, v.z};
@@ -45,7 +45,7 @@ ALHAZEN_HD constexpr Vec3<Real> stretch(const Vec3<Real>& v, const Vec2<Real>& a
   return {alpha.x * v.x, alpha.y * v.y, v.z};
 }
 
-/// Density of normals per unit of projected area: the integral of ggx_d * cos over the hemisphere is 1.
+/// Evaluates the distribution of microfacet normals: the integral of ggx_d * cos over the hemisphere is 1.
 template <class Real>
 ALHAZEN_HD Real ggx_d(const Vec3<Real>& m, Real alpha) {
   const Real a2 = alpha * alpha;
@@ -71,26 +71,26 @@ ALHAZEN_HD Real ggx_lambda(const Vec3<Real>& w, const Vec2<Real>& alpha) {
   return Real(0.5) * (std::sqrt(1 + slope2) - 1);
 }
 
-/// Share of the microfacets visible from `w`.
+/// Returns the fraction of microfacets visible from `w` (Smith masking).
 template <class Real, class Alpha>
 ALHAZEN_HD Real ggx_g1(const Vec3<Real>& w, const Alpha& alpha) {
   return w.z == 0 ? Real(0) : 1 / (1 + ggx_lambda(w, alpha));
 }
 
-/// Share visible from both, heights correlated.
+/// Returns the fraction visible from both directions, by the height-correlated Smith model.
 template <class Real, class Alpha>
 ALHAZEN_HD Real ggx_g2(const Vec3<Real>& wo, const Vec3<Real>& wi, const Alpha& alpha) {
   if (wo.z == 0 || wi.z == 0) return 0;
   return 1 / (1 + ggx_lambda(wo, alpha) + ggx_lambda(wi, alpha));
 }
 
-/// Density over solid angle with which `sample_visible_normal` returns m.
+/// Returns the density of `sample_visible_normal` at `m` with respect to solid angle.
 template <class Real, class Alpha>
 ALHAZEN_HD Real pdf_visible_normal(const Vec3<Real>& w, const Vec3<Real>& m, const Alpha& alpha) {
   return ggx_g1(w, alpha) / std::abs(w.z) * ggx_d(m, alpha) * larger(Real(0), dot(w, m));
 }
 
-/// A microfacet normal as seen from `w`, w.z > 0.
+/// Samples a microfacet normal visible from `w`, with w.z > 0.
 template <class Real, class Alpha>
 ALHAZEN_HD Vec3<Real> sample_visible_normal(const Vec3<Real>& w, const Alpha& alpha, const Vec2<Real>& u) {
   const Vec3<Real> stretched = normalize(stretch(w, alpha));
@@ -106,11 +106,12 @@ ALHAZEN_HD Vec3<Real> sample_visible_normal(const Vec3<Real>& w, const Alpha& al
   return normalize(stretch(Vec3<Real>{n.x, n.y, larger(Real(1e-6), n.z)}, alpha));
 }
 
-/// GGX without its Fresnel term: f * cos of `i`, and the density of sampling it by visible normals.
+/// GGX reflection without the Fresnel term: f * cos of `i`, and the density of sample_ggx_reflection at `i` with
+/// respect to solid angle.
 template <class Real>
 struct GgxReflection {
   Real value = 0, pdf = 0;
-  Real cosine = 0;  ///< between the directions and the microfacet
+  Real cosine = 0;  ///< between either direction and the microfacet normal
 };
 
 template <class Real, class Alpha>
@@ -125,7 +126,7 @@ ALHAZEN_HD GgxReflection<Real> ggx_reflection(const Vec3<Real>& o, const Vec3<Re
   return r;
 }
 
-/// The mirror image of `o` at a microfacet that it sees.
+/// Samples the reflection of `o` at a visible microfacet.
 template <class Real, class Alpha>
 ALHAZEN_HD Vec3<Real> sample_ggx_reflection(const Vec3<Real>& o, const Alpha& alpha, const Vec2<Real>& u) {
   const Vec3<Real> m = sample_visible_normal(o, alpha, u);

@@ -1,17 +1,17 @@
 #pragma once
 
-// Rough glass that keeps all light: reflection and refraction at GGX microfacets (core/materials/dielectric.h), scaled
-// by what single scattering loses from a direction (Turquin 2019, "Practical multiple scattering compensation for
-// microfacet models"). A coating may change what the microfacets reflect; they let the rest through.
+// Rough glass that conserves energy: reflection and refraction at GGX microfacets (core/materials/dielectric.h),
+// divided by the directional albedo of single scattering (Turquin 2019, "Practical multiple scattering compensation for
+// microfacet models"). A coating may change the reflectance of the microfacets; they transmit the rest.
 
 #include "core/materials/dielectric.h"
 #include "core/materials/lobes/albedo_grid.h"
 
 namespace ALHAZEN_CORE {
 
-/// What an AlbedoGrid of glass holds, first as it is seen from outside, then the same from within. Where microfacets
-/// reflect  c + s * Fresnel's term,  and everything where nothing is refracted, the share of light that single
-/// scattering keeps is  bare + c * by_constant + s * by_fresnel.
+/// Quantities in an AlbedoGrid of glass, first from outside, then the same from within. If the reflectance of
+/// microfacets is c + s * F, with the Fresnel reflectance F, and 1 on total internal reflection, the albedo of single
+/// scattering is bare + c * by_constant + s * by_fresnel.
 struct GlassGrid {
   static constexpr uint32_t bare = 0, by_constant = 1, by_fresnel = 2;
   static constexpr uint32_t from_within = 3;
@@ -21,26 +21,26 @@ struct GlassGrid {
 template <class Real>
 struct GlassBsdf {
   DielectricBsdf<Real, Vec2<Real>> interface;
-  Vec3<Real> constant, by_fresnel;  ///< what microfacets reflect: constant + by_fresnel * Fresnel's term
-  Vec3<Real> tint;                  ///< factor on what is reflected outside; the rest of it is absorbed
-  Vec3<Real> through;               ///< factor on what is let through
+  Vec3<Real> constant, by_fresnel;  ///< reflectance of microfacets: constant + by_fresnel * F
+  Vec3<Real> tint;                  ///< factor on reflection outside; the rest of it is absorbed
+  Vec3<Real> through;               ///< factor on transmission
   AlbedoGridPlace<Real> albedo;
 };
 
-/// What a microfacet reflects; `total`: it refracts nothing.
+/// Returns the reflectance of a microfacet. `total`: total internal reflection.
 template <class Real>
 ALHAZEN_HD Vec3<Real> glass_reflectance(const GlassBsdf<Real>& glass, Real fresnel, bool total) {
   if (total) return splat(Real(1));
   return max(min(glass.constant + glass.by_fresnel * fresnel, splat(Real(1))), Vec3<Real>{});
 }
 
-/// Probability of sampling reflection at a microfacet.
+/// Returns the probability of sampling reflection at a microfacet.
 template <class Real>
 ALHAZEN_HD Real glass_reflection_rate(const Vec3<Real>& reflectance) {
   return smaller(Real(1), (reflectance.x + reflectance.y + reflectance.z) * (Real(1) / 3));
 }
 
-/// Factor by which all light from `wo` is kept.
+/// Returns the factor that makes the directional albedo for `wo` equal to 1.
 template <class Real>
 ALHAZEN_HD Vec3<Real> glass_compensation(const GlassBsdf<Real>& glass, const Vec3<Real>& wo) {
   const bool within = wo.z < 0;
@@ -74,7 +74,7 @@ ALHAZEN_HD BsdfValue<Real> evaluate_glass(const GlassBsdf<Real>& glass, const Ve
   return v;
 }
 
-/// A direction; zero: none. Its density and weight are those of evaluate_glass.
+/// Samples a direction; returns zero if there is none. evaluate_glass gives its value and density.
 template <class Real>
 ALHAZEN_HD Vec3<Real> sample_glass(const GlassBsdf<Real>& glass, const Vec3<Real>& wo, Real u_lobe,
                                    const Vec2<Real>& u) {
@@ -84,9 +84,9 @@ ALHAZEN_HD Vec3<Real> sample_glass(const GlassBsdf<Real>& glass, const Vec3<Real
   return u_lobe < rate ? branches.reflected.direction : branches.refracted.direction;
 }
 
-/// What microfacets of glass reflect where Fresnel's term of the bare one is `smooth` in this direction and the film
-/// has it reflect `wanted`: the one or the other scaled. The tint is part of what the film is over, and so of `wanted`:
-/// of what is reflected, that share which is owed to the film is not tinted again.
+/// Changes the reflectance of the microfacets so that, where the Fresnel reflectance of bare glass is `smooth`, it is
+/// blended by `amount` with `wanted`, the reflectance with a film: scales the transmittance if it grows, or else the
+/// reflectance. `wanted` already includes the tint, so that the part due to the film is not tinted again.
 template <class Real>
 ALHAZEN_HD void add_film_to_glass(GlassBsdf<Real>& glass, Real smooth, const Vec3<Real>& wanted, Real amount) {
   for (int c = 0; c < 3; ++c) {

@@ -8,7 +8,7 @@
 
 namespace ALHAZEN_CORE {
 
-/// f * cos of `wi`, for colour 1; both cosines above 0.
+/// Evaluates f * cos of `i` for colour 1; `o.z` and `i.z` are > 0.
 template <class Real>
 ALHAZEN_HD Real evaluate_sheen(Real roughness, const Vec3<Real>& o, const Vec3<Real>& i) {
   const Vec3<Real> half = o + i;

@@ -1,14 +1,14 @@
 #pragma once
 
-// A film whose thickness is of the order of wavelengths (Belcour and Barla 2017, "A Practical Extension to Microfacet
-// Theory for the Modeling of Varying Iridescence"), as KHR_materials_iridescence has it.
+// Interference in a film as thin as a few wavelengths of light (Belcour and Barla 2017, "A Practical Extension to
+// Microfacet Theory for the Modeling of Varying Iridescence"), as KHR_materials_iridescence has it.
 
 #include "core/materials/lobes/fresnel.h"
 
 namespace ALHAZEN_CORE {
 
-/// The sensitivity of the eye to the phase `shift` at an optical path difference in metres, as linear sRGB: Gaussians
-/// fitted to the matching functions (figures of the paper's supplement).
+/// Returns the sensitivity to an optical path difference in metres with a phase `shift`, in linear sRGB: the transform
+/// of Gaussians fitted to the colour matching functions (constants of the paper's supplement).
 template <class Real>
 ALHAZEN_HD Vec3<Real> film_sensitivity(Real path_difference, const Vec3<Real>& shift) {
   const Real phase = 2 * pi<Real> * path_difference * Real(1e6);  // per micrometre
@@ -23,17 +23,18 @@ ALHAZEN_HD Vec3<Real> film_sensitivity(Real path_difference, const Vec3<Real>& s
   const Real z = band(Real(5.2481e-13 * 1e6), Real(2.2084), Real(6.6121e-3), shift.z);
   const Real scale = Real(1 / (1.0685e-7));
   const Vec3<Real> xyz = Vec3<Real>{x, y, z} * scale;
-  // By columns: of rows GCC makes fused additions and subtractions, -ffp-contract=off or not.
+  // By columns: GCC contracts the form by rows into fused instructions, even with -ffp-contract=off.
   return Vec3<Real>{Real(3.2404542), Real(-0.9692660), Real(0.0556434)} * xyz.x +
          Vec3<Real>{Real(-1.5371385), Real(1.8760108), Real(-0.2040259)} * xyz.y +
          Vec3<Real>{Real(-0.4985314), Real(0.0415560), Real(1.0572252)} * xyz.z;
 }
 
-/// Reflectance of a film of `thickness` nanometres over a base of reflectance `f0`, at cosine `cosine` outside.
+/// Returns the reflectance of a film of `thickness` nanometres over a base whose reflectance at normal incidence is
+/// `f0`. `cosine` is measured outside the film.
 template <class Real>
 ALHAZEN_HD Vec3<Real> film_reflectance(Real cosine, Real film_ior, Real thickness, const Vec3<Real>& f0) {
   const Real ramp = clamp(thickness / Real(0.03), Real(0), Real(1));
-  const Real eta = 1 + (film_ior - 1) * ramp * ramp * (3 - 2 * ramp);  // no film where it has no thickness
+  const Real eta = 1 + (film_ior - 1) * ramp * ramp * (3 - 2 * ramp);  // fades out as the thickness approaches 0
   const Real sin2 = (1 - cosine * cosine) / (eta * eta);
   if (sin2 >= 1) return splat(Real(1));
   const Real cos_within = std::sqrt(1 - sin2);
@@ -65,7 +66,7 @@ ALHAZEN_HD Vec3<Real> film_reflectance(Real cosine, Real film_ior, Real thicknes
   return max(min(sum, splat(Real(1))), Vec3<Real>{});
 }
 
-/// The f0 whose Schlick term at `cosine` is `reflectance`.
+/// Returns the f0 for which Schlick's approximation at `cosine` is `reflectance`.
 template <class Real>
 ALHAZEN_HD Vec3<Real> f0_of_reflectance(const Vec3<Real>& reflectance, Real cosine) {
   const Real x = clamp(1 - cosine, Real(0), Real(1));
