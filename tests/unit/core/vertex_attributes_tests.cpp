@@ -52,7 +52,7 @@ class VertexAttributes : public ::testing::Test {
   }
   Vec3d value(const CompiledScene<Real>& scene, uint32_t from_the_last, const Hit<Real>& hit) const {
     // The default material follows, for shapes without one.
-    const TextureRange range = scene.view.materials[scene.view.materials_count - 2 - from_the_last].reflectance;
+    const TextureRange range = scene.view.materials[scene.view.materials_count - 2 - from_the_last].diffuse.reflectance;
     return convert<double>(
         evaluate_texture(scene.view, range, TexturePoint<Real>{{}, {Real(0.25), Real(0.75)}, {}, hit}));
   }
