@@ -5,6 +5,7 @@
 
 #include "compile/compile_scene.h"
 #include "core/bvh/brute_force/intersector.h"
+#include "core/bvh/ray_intersector.h"
 #include "io/pbrt/pbrt.h"
 #include "render/backend.h"
 #include "render/kernels/instances.h"
@@ -82,8 +83,8 @@ void register_precision(const std::string& precision) {
   for (const char* schedule : {"static", "guided"})
     add(std::string("openmp 2 rows ") + schedule, "openmp", "rows", schedule, 2, iterative);
   add("serial linear scan", "serial", "", "dynamic", 1,
-      SampleKernel<Real>(
-          take_blocks<IntegratorKind::iterative, SobolSampler, test::BruteForceIntersector<Real>, Real>));
+      SampleKernel<Real>(take_blocks<IntegratorKind::iterative, SobolSampler,
+                                     SequentialBatches<Real, BruteForceIntersector<Real>>, Real>));
 }
 
 }  // namespace
