@@ -166,7 +166,7 @@ TEST(CudaOnHostShares, AddUpToTheImage) {
     const RenderSettings settings = resolve_settings(host_settings(serial, "persistent"), scene);
     Diagnostics diagnostics;
     const CompiledScene<double> flat =
-        compile_scene<double>(std::move(scene), {settings.width, settings.height, 1, {}}, diagnostics);
+        compile_scene<double>(std::move(scene), {settings.width, settings.height, 1, {BvhLayout::bvh2}}, diagnostics);
     auto film = std::make_unique<Film<double>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
     RenderControl control(1);
     for (uint32_t device = 0; device < devices; ++device) {
