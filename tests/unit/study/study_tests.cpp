@@ -113,7 +113,8 @@ TEST(StudyWorkPerThread, HasThePixelsOfTheKernel) {
   Settings asked;
   asked.samples_per_pixel = 4;
   const RenderSettings settings = resolve_settings(asked, scene);
-  const CompiledScene<float> flat = compile_scene<float>(std::move(scene), {width, height, 1, {}}, diagnostics);
+  const CompiledScene<float> flat =
+      compile_scene<float>(std::move(scene), {width, height, 1, {BvhLayout::bvh2}}, diagnostics);
   const ThreadGrid grid = threads_of(std::vector<float>(size_t{19 * 14}, 1.0f), width, height, chunks_x, chunks_y);
   for (uint32_t y = 0; y < static_cast<uint32_t>(grid.height); ++y)
     for (uint32_t x = 0; x < static_cast<uint32_t>(grid.width); ++x) {
