@@ -3,7 +3,7 @@
 // A compiled scene in plain Embree, as an application without a renderer would use it: Embree's own triangles and
 // spheres, no filters, default flags, the high-quality build. It is the reference for our traversal.
 
-#include "backends/embree/api.h"
+#include "backends/embree/module/api.h"
 #include "core/scene_view.h"
 
 namespace alhazen {

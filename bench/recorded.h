@@ -12,7 +12,7 @@
 #include "io/read_scene.h"
 #include "kernels/query.h"
 #if defined(ALHAZEN_WITH_EMBREE)
-#include "backends/embree/scene.h"
+#include "backends/embree/module/scene.h"
 #include "plain_embree.h"
 #endif
 

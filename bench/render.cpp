@@ -48,10 +48,10 @@ void render(benchmark::State& state, const std::string& backend_name, const std:
   const SpheresScene<Real>& scene = SpheresScene<Real>::get();
   RenderSettings settings = scene.settings;
   settings.backend = backend_name;
-  settings.strategy = strategy;
+  const auto backend = make_backend(backend_name);
+  settings.strategy = parse_strategy(backend->traits(), strategy);
   settings.schedule = parse_schedule(schedule);
   settings.threads = threads;
-  const auto backend = make_backend(backend_name);
   backend->start(settings);
   uint64_t rays = 0;
   for (auto _ : state) {

@@ -1,10 +1,13 @@
-# The CUDA backend, where nvcc is. Sets ALHAZEN_WITH_CUDA and enables the language; without nvcc says so and goes on.
+# The module of the CUDA backend, where nvcc is. Sets ALHAZEN_WITH_CUDA and enables the language; without nvcc says so and goes on.
 
 option(ALHAZEN_CUDA "Build the CUDA backend where nvcc is" ON)
 set(ALHAZEN_CUDA_ARCHITECTURES "" CACHE STRING
-    "Compute capabilities to build for (90 or 75;80;86;89;90). Empty: that of this machine's GPU, or a range and PTX")
+    "Compute capabilities to build for (90 or 75;80;86;89;90). Empty: that of this machine's GPU, or 80 and its PTX")
 
 set(ALHAZEN_WITH_CUDA OFF)
+if(ALHAZEN_PROGRAM_ONLY)
+  return()
+endif()
 if(NOT ALHAZEN_CUDA)
   message(STATUS "CUDA is off: ALHAZEN_CUDA is OFF")
   return()
@@ -35,8 +38,9 @@ else()
     list(REMOVE_DUPLICATES capabilities)
     set(CMAKE_CUDA_ARCHITECTURES ${capabilities})
   else()
-    # Code for 8.0 runs on all of 8.x; other GPUs compile PTX when the program starts. Each architecture takes minutes.
-    set(CMAKE_CUDA_ARCHITECTURES 75-virtual 80-real 90)
+    # Each architecture takes minutes. Code for 8.0 runs on all of 8.x; later GPUs compile its PTX when the program first
+    # starts there, and keep the result. Those of 7.x must be asked for.
+    set(CMAKE_CUDA_ARCHITECTURES 80)
   endif()
 endif()
 enable_language(CUDA)
@@ -48,3 +52,14 @@ endif()
 find_package(CUDAToolkit REQUIRED)
 set(ALHAZEN_WITH_CUDA ON)
 message(STATUS "CUDA is on: nvcc ${CMAKE_CUDA_COMPILER_VERSION}, architectures ${CMAKE_CUDA_ARCHITECTURES}")
+
+# Kernels compiled by nvcc for a module: a library of objects, since the options of C++ are none of nvcc's. With line numbers
+# for profilers.
+function(alhazen_cuda_objects target)
+  add_library(${target} OBJECT ${ARGN})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
+  target_compile_options(${target} PRIVATE
+    -lineinfo --expt-relaxed-constexpr -Werror=all-warnings
+    -Xcompiler=-Wall,-Wextra,-fno-math-errno,-ffp-contract=off)
+  target_link_libraries(${target} PRIVATE CUDA::cudart_static CUDA::nvtx3)
+endfunction()

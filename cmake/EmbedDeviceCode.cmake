@@ -1,6 +1,6 @@
 # cmake -DINPUTS="IR;PTX" -DOUTPUT=FILE -P EmbedDeviceCode.cmake: the bytes of both files as a C++ file.
 
-set(text "#include \"backends/optix/device_code.h\"\n\nnamespace alhazen::optix {\n\n")
+set(text "#include \"backends/optix/module/device_code.h\"\n\nnamespace alhazen::optix {\n\n")
 set(names optix_ir ptx)
 foreach(input name IN ZIP_LISTS INPUTS names)
   file(READ ${input} bytes HEX)

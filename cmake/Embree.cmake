@@ -1,8 +1,11 @@
-# The Embree backend, where Embree is: version 4, or 3 as Debian 12 has it. Sets ALHAZEN_WITH_EMBREE.
+# The module of the Embree backend, where Embree is: version 4, or 3 as Debian 12 has it. Sets ALHAZEN_WITH_EMBREE.
 
 option(ALHAZEN_EMBREE "The Embree backend, where Embree is found" ON)
 
 set(ALHAZEN_WITH_EMBREE OFF)
+if(ALHAZEN_PROGRAM_ONLY)
+  return()
+endif()
 if(ALHAZEN_EMBREE)
   find_package(embree 4 QUIET)
   if(NOT embree_FOUND)

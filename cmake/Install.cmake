@@ -1,10 +1,10 @@
-# `cmake --install` puts the program, the library, its one public header and the package files in place.
+# `cmake --install` puts the program, the library, its one public header and the package files in place; modules are installed
+# where they are made (Modules.cmake).
 
 include(CMakePackageConfigHelpers)
 
 install(TARGETS alhazen_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS alhazen EXPORT alhazenTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS alhazen EXPORT alhazenTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/alhazen DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/alhazen/scenes)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

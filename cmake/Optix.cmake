@@ -1,8 +1,11 @@
-# The OptiX backend, where CUDA and the headers of OptiX are. Sets ALHAZEN_WITH_OPTIX; without them says so and goes on.
+# The module of the OptiX backend, where CUDA and the headers of OptiX are. Sets ALHAZEN_WITH_OPTIX; without them says so and goes on.
 
 option(ALHAZEN_FETCH_OPTIX "Fetch NVIDIA's headers of OptiX 9.0 from GitHub" OFF)
 
 set(ALHAZEN_WITH_OPTIX OFF)
+if(ALHAZEN_PROGRAM_ONLY)
+  return()
+endif()
 if(NOT ALHAZEN_WITH_CUDA)
   message(STATUS "OptiX is off: it needs CUDA")
   return()

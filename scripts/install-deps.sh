@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
-# Installs what Alhazen is built and tested with, from Debian or Ubuntu. What is there already is left alone, so a
-# second run does nothing and needs no network.
+# Installs what Alhazen is built and tested with, from Debian or Ubuntu; with the argument --program, what the program alone is
+# built with. What is there already is left alone, so a second run does nothing and needs no network.
 set -euo pipefail
 
 packages=(
   g++ cmake ninja-build
   libopenexr-dev libpng-dev zlib1g-dev libstb-dev
   nlohmann-json3-dev libcli11-dev libfmt-dev
-  libembree-dev libdraco-dev libmeshoptimizer-dev libwebp-dev
-  libgtest-dev libbenchmark-dev clang-format python3 python3-matplotlib
+  libdraco-dev libmeshoptimizer-dev libwebp-dev
 )
+if [[ ${1:-} != --program ]]; then
+  packages+=(libembree-dev libgtest-dev libbenchmark-dev clang-format python3 python3-matplotlib)
+fi
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
   echo "install-deps: this is not Debian or Ubuntu. Install these yourself, under the names they have here: a C++20" \

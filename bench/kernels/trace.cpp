@@ -4,7 +4,7 @@
 #include "kernels/query.h"
 #include "render/kernels/instances.h"
 #if defined(ALHAZEN_WITH_EMBREE)
-#include "backends/embree/intersector.h"
+#include "backends/embree/module/intersector.h"
 #endif
 
 namespace ALHAZEN_CORE {

@@ -8,6 +8,7 @@
 #include "cli/console.h"
 #include "cli/subcommands.h"
 #include "render/backend.h"
+#include "util/printable.h"
 
 namespace alhazen {
 
@@ -15,22 +16,27 @@ namespace {
 
 void print_table() {
   for (const auto& backend : all_backends()) {
-    const BackendDescription d = backend->describe();
-    print_out("{:<8} {:<14} {}\n", d.name, d.available ? "available" : "not available", d.details);
-    for (size_t i = 0; i < d.devices.size(); ++i) print_out("{:<8} device {:<7} {}\n", "", i, d.devices[i]);
-    if (!d.strategies.empty()) print_out("{:<8} {:<14} {}\n", "", "strategies", fmt::join(d.strategies, ", "));
+    const BackendTraits traits = backend->traits();
+    const BackendStatus status = backend->status();
+    print_out("{:<8} {:<14} {}\n", traits.name, status.available ? "available" : "not available", status.details);
+    for (size_t i = 0; i < status.devices.size(); ++i) print_out("{:<8} device {:<7} {}\n", "", i, status.devices[i]);
+    if (!traits.strategies.empty())
+      print_out("{:<8} {:<14} {}\n", "", "strategies", fmt::join(traits.strategies, ", "));
+    if (!status.module.empty()) print_out("{:<8} {:<14} {}\n", "", "module", printable(status.module));
   }
 }
 
 void print_json() {
   auto list = nlohmann::ordered_json::array();
   for (const auto& backend : all_backends()) {
-    const BackendDescription d = backend->describe();
-    list.push_back({{"name", d.name},
-                    {"available", d.available},
-                    {"details", d.details},
-                    {"devices", d.devices},
-                    {"strategies", d.strategies}});
+    const BackendTraits traits = backend->traits();
+    const BackendStatus status = backend->status();
+    list.push_back({{"name", traits.name},
+                    {"available", status.available},
+                    {"details", status.details},
+                    {"devices", status.devices},
+                    {"strategies", traits.strategies},
+                    {"module", status.module}});
   }
   print_out("{}\n", list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }

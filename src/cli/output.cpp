@@ -8,6 +8,7 @@
 
 #include "files/atomic_file.h"
 #include "files/file_identity.h"
+#include "render/backend.h"
 
 namespace alhazen {
 
@@ -24,6 +25,7 @@ void check_output(const std::string& path) {
 
 std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
   const RenderSettings& settings = s.settings;
+  const std::string strategy = strategy_name(settings);
   return {{"software", std::string("Alhazen ") + version()},
           {"scene", s.scene},
           {"samples", std::to_string(s.samples_per_pixel)},
@@ -31,7 +33,7 @@ std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
           {"seconds", fmt::format("{:.3f}", s.render_seconds)},
           {"settings",
            fmt::format("--backend {}{}{} --precision {} --integrator {} --sampler {} --max-depth {} --threads {}",
-                       settings.backend, settings.strategy.empty() ? "" : " --strategy ", settings.strategy,
+                       settings.backend, strategy.empty() ? "" : " --strategy ", strategy,
                        to_string(settings.precision), to_string(settings.integrator), to_string(settings.sampler),
                        settings.max_segments - 1, settings.threads)}};
 }

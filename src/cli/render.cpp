@@ -17,6 +17,7 @@
 #include "cli/subcommands.h"
 #include "io/environment.h"
 #include "io/read_scene.h"
+#include "render/backend.h"
 #include "render/renderer.h"
 #include "study/tuned.h"
 #include "util/printable.h"
@@ -77,12 +78,13 @@ std::string engine_of(const RenderSettings& r) {
 
 void print_start(const RenderStatistics& s) {
   const RenderSettings& r = s.settings;
+  const std::string strategy = strategy_name(r);
   tell("{}: {} triangles, {} spheres, {} lights; read in {:.2f} s, BVH of {} nodes in {:.2f} s\n", printable(s.scene),
        s.scene_sizes.triangles, s.scene_sizes.spheres, s.scene_sizes.lights, s.load_seconds, s.scene_sizes.nodes,
        s.build_seconds);
   tell("{} x {} pixels, {} samples each, {} in {}, depth {}; {}{}{} on {}\n", r.window.width(), r.window.height(),
        r.samples_per_pixel, to_string(r.integrator), to_string(r.precision), r.max_segments - 1, r.backend,
-       r.strategy.empty() ? "" : " ", r.strategy, engine_of(r));
+       strategy.empty() ? "" : " ", strategy, engine_of(r));
 }
 
 std::string text_statistics(const RenderStatistics& s) {

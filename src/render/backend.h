@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compile/compile_scene.h"
@@ -32,21 +33,38 @@ struct RenderPass {
 
 inline constexpr uint32_t usual_samples_per_pass = 64;
 
-struct BackendDescription {
+/// What a backend is on any machine; nothing is loaded or started to know it.
+struct BackendTraits {
   std::string name;
-  std::vector<std::string> strategies;  ///< the first is the default
-  bool available = true;
-  std::string details;               ///< what it runs on; or why it cannot, and what to do
-  std::vector<std::string> devices;  ///< where there may be several: each in a line
-  bool runs_on_devices = false;      ///< GPUs, by the integrators path and iterative alone
-  bool runs_on_host = false;         ///< whether `host` is a device too
-  bool traces_double = true;         ///< whether there is double precision
+  std::vector<std::string> strategies;  ///< names of the values of its own enum, in order; the first is the default
+  std::string help;                     ///< what it runs on, in a few words
+  bool runs_on_devices = false;         ///< GPUs, by the integrators path and iterative alone
+  bool runs_on_host = false;            ///< whether `host` is a device too
+  bool traces_double = true;            ///< whether there is double precision
 };
+
+/// What a backend is on this machine.
+struct BackendStatus {
+  bool available = true;
+  std::string details = {};               ///< what it runs on; or why it cannot, and what to do
+  std::vector<std::string> devices = {};  ///< where there may be several: each in a line
+  std::string module = {};                ///< the file of its module (util/module.h), where there is one
+};
+
+/// A setting as statistics name it.
+using NamedSetting = std::pair<std::string, std::string>;
 
 class Backend {
  public:
   virtual ~Backend() = default;
-  virtual BackendDescription describe() const = 0;
+  virtual BackendTraits traits() const = 0;
+  /// Loads its module, where it has one, and looks at the machine.
+  virtual BackendStatus status() const = 0;
+  /// Checks what was asked of it, and sets what is its own: devices, threads and options. The strategy is chosen
+  /// already. Throws InputError.
+  virtual void configure(const Settings& asked, RenderSettings& settings) const;
+  /// Those of its settings that statistics name.
+  virtual std::vector<NamedSetting> named_settings(const RenderSettings& settings) const;
   /// What takes a moment and does not depend on the scene, such as starting a GPU. Called once, before the first pass.
   virtual void start(const RenderSettings&) {}
   /// What rays are traced by.
@@ -58,18 +76,26 @@ class Backend {
   virtual uint32_t most_samples_per_pass() const { return usual_samples_per_pass; }
   virtual void render_pass(const RenderPass<float>& pass) = 0;
   virtual void render_pass(const RenderPass<double>& pass) = 0;
+
+ protected:
+  /// Throws InputError where status() says that it cannot be used.
+  void require_available() const;
+  /// Throws InputError where a size of blocks, or a number of chunks, is asked for.
+  void refuse_blocks(const Settings& asked) const;
 };
 
-std::unique_ptr<Backend> make_serial_backend();
-std::unique_ptr<Backend> make_openmp_backend();
-std::unique_ptr<Backend> make_embree_backend();
-std::unique_ptr<Backend> make_cuda_backend();
-std::unique_ptr<Backend> make_optix_backend();
-
-/// Every backend that this binary knows, available or not.
+/// Every backend that this program knows, available or not, and the name of the one that `auto` is for so many threads
+/// (backends/registry.cpp).
 std::vector<std::unique_ptr<Backend>> all_backends();
+std::string default_backend(int threads);
+
 /// The one called `name`. Throws InputError where there is none.
 std::unique_ptr<Backend> make_backend(const std::string& name);
+
+/// The number of the strategy called `name`; of the default for `auto` and an empty name. Throws InputError.
+uint32_t parse_strategy(const BackendTraits& backend, const std::string& name);
+/// Empty for a backend without strategies.
+std::string strategy_name(const RenderSettings& settings);
 
 /// Sets backend, strategy, device and thread count of `settings`; `auto` becomes what measures fastest.
 void choose_backend(const Settings& asked, RenderSettings& settings);

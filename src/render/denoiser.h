@@ -2,6 +2,7 @@
 
 // Denoisers: their input, and which are available.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,19 @@ struct NoisyPicture {
   std::vector<float> normal;    ///< at the first hit, in world space
 };
 
-/// Why OptiX's denoiser cannot be used here, and what to do; empty if it can.
-std::string optix_denoiser_problem();
-/// Returns the denoised radiance of `image`, computed by OptiX's denoiser on GPU `device`. Throws RenderError.
-std::vector<float> denoise_by_optix(const NoisyPicture& image, int device);
+class Denoiser {
+ public:
+  virtual ~Denoiser() = default;
+  virtual std::string name() const = 0;
+  /// Why it cannot be used here, and what to do; empty if it can.
+  virtual std::string problem() const = 0;
+  /// Returns the denoised radiance of `image`. Runs on GPU `device` if it needs one. Throws RenderError.
+  virtual std::vector<float> denoise(const NoisyPicture& image, int device) const = 0;
+};
+
+/// Every denoiser that this program knows, available or not (backends/registry.cpp).
+std::vector<std::unique_ptr<Denoiser>> all_denoisers();
+/// The one called `name`. Throws InputError if there is none.
+std::unique_ptr<Denoiser> make_denoiser(const std::string& name);
 
 }  // namespace alhazen

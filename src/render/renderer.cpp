@@ -291,10 +291,11 @@ namespace {
 
 /// The noisy image is kept if denoising fails, since it may have taken long to render.
 void denoise(Rendering& rendering, Diagnostics& diagnostics) {
+  const RenderSettings& settings = rendering.statistics.settings;
   const Clock::time_point start = Clock::now();
   try {
     const NoisyPicture image = noisy_image(rendering.source());
-    rendering.denoised = denoise_by_optix(image, std::max(0, rendering.statistics.settings.device));
+    rendering.denoised = make_denoiser(settings.denoiser)->denoise(image, std::max(0, settings.device));
   } catch (const std::exception& error) {
     diagnostics.warn({rendering.statistics.scene}, std::string("the image was not denoised: ") + error.what());
   }
@@ -314,7 +315,7 @@ Rendering render_scene(Scene&& scene, const RenderSettings& settings, double loa
       settings.precision == Precision::single
           ? render_in_precision<float>(std::move(scene), settings, load_seconds, events, diagnostics)
           : render_in_precision<double>(std::move(scene), settings, load_seconds, events, diagnostics);
-  if (settings.denoise) denoise(rendering, diagnostics);
+  if (!settings.denoiser.empty()) denoise(rendering, diagnostics);
   return rendering;
 }
 

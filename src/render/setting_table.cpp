@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "render/engine_help.h"
 #include "util/diagnostics.h"
 
 namespace alhazen {
@@ -148,8 +149,8 @@ Codec layers() {
 }
 
 SettingEntry entry(SettingGroup group, const char* name, const char* other_flags, const char* value_name,
-                   const char* help, Codec codec, bool is_list = false) {
-  return {group, name, other_flags, value_name, help, is_list, std::move(codec.text), std::move(codec.set)};
+                   std::string help, Codec codec, bool is_list = false) {
+  return {group, name, other_flags, value_name, std::move(help), is_list, std::move(codec.text), std::move(codec.set)};
 }
 
 std::vector<SettingEntry> output_settings() {
@@ -206,14 +207,8 @@ std::vector<SettingEntry> image_settings() {
 std::vector<SettingEntry> engine_settings() {
   constexpr SettingGroup group = SettingGroup::engine;
   return {
-      entry(group, "backend", "", "NAME",
-            "auto (the result of 'alhazen study tune', else the CPU), serial, openmp, embree, cuda or optix; 'alhazen "
-            "devices' lists them",
-            name(&Settings::backend)),
-      entry(group, "strategy", "", "NAME",
-            "auto; openmp and embree: tiles, rows, collapse, rows+reduction or reduction; cuda: persistent, pixel, "
-            "chunk or wavefront; optix: megakernel",
-            name(&Settings::strategy)),
+      entry(group, "backend", "", "NAME", backend_help(), name(&Settings::backend)),
+      entry(group, "strategy", "", "NAME", strategy_help(), name(&Settings::strategy)),
       entry(group, "schedule", "", "KIND[,CHUNK]", "openmp, embree: static, dynamic or guided, and a chunk: dynamic,4",
             name(&Settings::schedule)),
       entry(group, "device", "", "N", "cuda, optix: number of the GPU, or all; cuda: host runs the kernels on the CPU",

@@ -19,7 +19,7 @@ struct SettingEntry {
   const char* name;         ///< of the option, without its dashes; the key in JSON
   const char* other_flags;  ///< with dashes and commas, in front of the name; or empty
   const char* value_name;   ///< what help calls the value; empty: a flag, which is off unless it is given
-  const char* help;
+  std::string help;
   bool is_list = false;  ///< values parted by commas, and may be given more than once
   /// The value as the option takes it; empty where the setting is left open.
   std::function<std::string(const Settings&)> text;

@@ -102,28 +102,6 @@ void resolve_image(const Settings& asked, const Scene& scene, RenderSettings& s)
     throw InputError("an image of 10^9 pixels or more cannot be rendered at once: render parts of it with --crop");
 }
 
-BlockSize parse_size(const std::string& text, const std::string& what, uint32_t max) {
-  BlockSize size;
-  const char* const end = text.data() + text.size();
-  const auto [after_x, x_error] = std::from_chars(text.data(), end, size.x);
-  if (x_error == std::errc() && after_x != end && *after_x == 'x') {
-    const auto [after_y, y_error] = std::from_chars(after_x + 1, end, size.y);
-    if (y_error == std::errc() && after_y == end && size.x >= 1 && size.y >= 1 && size.x <= max && size.y <= max)
-      return size;
-  }
-  throw InputError(what + " must be WIDTHxHEIGHT, each between 1 and " + std::to_string(max) +
-                   ", for example 16x16, not '" + text + "'");
-}
-
-BlockSize parse_block(const std::string& text) {
-  constexpr uint32_t max_block_threads = 1024;
-  const BlockSize block = parse_size(text, "the block", max_block_threads);
-  if (block.x * block.y > max_block_threads)
-    throw InputError("a block of " + text + " is " + std::to_string(block.x * block.y) +
-                     " threads; a GPU runs at most 1024 in one: give fewer, for example 16x16");
-  return block;
-}
-
 /// If the system does not provide the requested threads, that is an error; without a request fewer are used.
 void check_threads(int asked, RenderSettings& s) {
   if (s.runs_on_device) return;
@@ -139,10 +117,10 @@ void check_threads(int asked, RenderSettings& s) {
 /// Refuses an unavailable denoiser before the render.
 void resolve_denoiser(const std::string& name, RenderSettings& s) {
   if (name.empty() || name == "none") return;
-  if (name != "optix") throw InputError("unknown denoiser '" + name + "': it may be none, optix");
-  const std::string problem = optix_denoiser_problem();
-  if (!problem.empty()) throw InputError("the denoiser 'optix' is not available: " + problem);
-  s.denoise = s.aovs.albedo = s.aovs.normal = true;
+  const std::string problem = make_denoiser(name)->problem();
+  if (!problem.empty()) throw InputError("the denoiser '" + name + "' is not available: " + problem);
+  s.denoiser = name;
+  s.aovs.albedo = s.aovs.normal = true;
 }
 
 }  // namespace
@@ -205,15 +183,12 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   s.schedule = parse_schedule(asked.schedule.empty() ? "dynamic" : asked.schedule);
   choose_backend(asked, s);
   check_threads(asked.threads, s);
-  if (!asked.block.empty()) s.block = parse_block(asked.block);
-  if (!asked.chunk.empty()) s.chunk = parse_size(asked.chunk, "the number of chunks", 4096);
   return s;
 }
 
 std::string to_string(Precision precision) { return name_of(precisions, precision); }
 std::string to_string(IntegratorKind integrator) { return name_of(integrators, integrator); }
 std::string to_string(SamplerType sampler) { return name_of(samplers, sampler); }
-std::string to_string(const BlockSize& size) { return std::to_string(size.x) + "x" + std::to_string(size.y); }
 std::string to_string(const Schedule& schedule) {
   return name_of(schedules, schedule.kind) + (schedule.chunk > 0 ? "," + std::to_string(schedule.chunk) : "");
 }

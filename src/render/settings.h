@@ -43,11 +43,11 @@ inline constexpr int all_devices = -1, host_device = -2;
 
 struct RenderSettings {
   std::string backend;
-  std::string strategy;
-  bool runs_on_device = false;  ///< cuda, optix
+  uint32_t strategy = 0;        ///< value of the backend's own enum
+  bool runs_on_device = false;  ///< a GPU's backend
   int device = 0;               ///< if so: a GPU's number, all_devices or host_device
-  BlockSize block = {16, 16};   ///< cuda, pixel and chunk: threads per block
-  BlockSize chunk = {4, 4};     ///< cuda, chunk: chunks in each direction
+  BlockSize block = {16, 16};   ///< if the backend has them: threads per block
+  BlockSize chunk = {4, 4};     ///< if the backend has them: chunks in each direction
   Schedule schedule;
   Precision precision = Precision::single;
   IntegratorKind integrator = IntegratorKind::path;
@@ -59,7 +59,7 @@ struct RenderSettings {
   PixelWindow window;
   uint32_t seed = 0;
   AovSet aovs;
-  bool denoise = false;  ///< by OptiX
+  std::string denoiser;  ///< empty: none
   double time_limit = 0;
   std::string checkpoint;
   double checkpoint_seconds = 60;
@@ -74,7 +74,6 @@ std::string to_string(Precision precision);
 std::string to_string(IntegratorKind integrator);
 std::string to_string(SamplerType sampler);
 std::string to_string(const Schedule& schedule);
-std::string to_string(const BlockSize& size);
 
 /// Parses `lossless` and `pbrt`; empty: lossless. Throws InputError.
 CoatModel parse_coats(const std::string& text);

@@ -4,15 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "render/backend.h"
+
 namespace alhazen {
 
 namespace {
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
-
-std::string device_name(int device) {
-  return device == host_device ? "host" : device == all_devices ? "all" : std::to_string(device);
-}
 
 }  // namespace
 
@@ -38,14 +36,9 @@ std::string RenderStatistics::to_json() const {
   nlohmann::ordered_json j;
   j["scene"] = scene;
   j["backend"] = settings.backend;
-  j["strategy"] = settings.strategy;
+  j["strategy"] = strategy_name(settings);
   j["precision"] = to_string(settings.precision);
-  j["schedule"] = settings.backend == "serial" ? "" : to_string(settings.schedule);
-  if (settings.runs_on_device) j["device"] = device_name(settings.device);
-  if (settings.backend == "cuda") {
-    j["block"] = to_string(settings.block);
-    j["chunk"] = to_string(settings.chunk);
-  }
+  for (const auto& [name, value] : make_backend(settings.backend)->named_settings(settings)) j[name] = value;
   j["threads"] = settings.threads;
   j["integrator"] = to_string(settings.integrator);
   j["sampler"] = to_string(settings.sampler);
@@ -62,7 +55,7 @@ std::string RenderStatistics::to_json() const {
   j["load_seconds"] = load_seconds;
   j["build_seconds"] = build_seconds;
   j["render_seconds"] = render_seconds;
-  if (settings.denoise) j["denoise_seconds"] = denoise_seconds;
+  if (!settings.denoiser.empty()) j["denoise_seconds"] = denoise_seconds;
   j["complete"] = complete;
   j["camera_samples"] = camera_samples;
   j["rays"] = rays;

@@ -67,8 +67,8 @@ Machine this_machine() {
   m.flags = ALHAZEN_BUILD_FLAGS;
   m.version = version();
   for (const auto& backend : all_backends()) {
-    const BackendDescription d = backend->describe();
-    m.engines.push_back({d.name, d.available, d.details, d.devices});
+    const BackendStatus status = backend->status();
+    m.engines.push_back({backend->traits().name, status.available, status.details, status.devices});
   }
   return m;
 }

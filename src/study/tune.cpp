@@ -206,8 +206,9 @@ std::vector<Candidate> tune_candidates(const Settings& asked) {
     list.push_back(serial);
   }
   for (const auto& backend : all_backends()) {
-    const BackendDescription d = backend->describe();
-    if (!d.available || d.name == "serial" || (asked.precision == "double" && !d.traces_double)) continue;
+    const BackendTraits d = backend->traits();
+    if (!backend->status().available || d.name == "serial" || (asked.precision == "double" && !d.traces_double))
+      continue;
     if (!d.runs_on_devices)
       add_cpu(asked, d.name, list);
     else if (d.name == "cuda")

@@ -154,7 +154,7 @@ class OptixOnDevice : public ::testing::TestWithParam<std::tuple<std::string, st
 
 TEST_P(OptixOnDevice, IsUnbiasedAndCloseToTheSerialImage) {
   const auto& [scene, integrator] = GetParam();
-  const BackendDescription backend = make_backend("optix")->describe();
+  const BackendStatus backend = make_backend("optix")->status();
   if (!backend.available) GTEST_SKIP() << backend.details;
   const Settings settings = settings_of("optix", "float", integrator);
   expect_unbiased(reference_of(scene, integrator), scene, settings);

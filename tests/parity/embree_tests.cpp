@@ -6,8 +6,8 @@
 
 #include <limits>
 
-#include "backends/embree/intersector.h"
-#include "backends/embree/scene.h"
+#include "backends/embree/module/intersector.h"
+#include "backends/embree/module/scene.h"
 #include "core/bvh/brute_force/intersector.h"
 #include "support/closed_meshes.h"
 #include "support/instanced_scenes.h"

@@ -7,8 +7,8 @@
 
 #include "backends/cuda/device_render.h"
 #include "backends/cuda/host_executor.h"
-#include "backends/optix/denoiser.h"
-#include "backends/optix/executor.h"
+#include "backends/optix/module/denoiser.h"
+#include "backends/optix/module/executor.h"
 #include "compile/compile_scene.h"
 #include "parity/scenes.h"
 

@@ -1,6 +1,10 @@
 // The backend `cuda`: our own kernels on GPUs.
 
+#include "backends/cuda/blocks.h"
 #include "backends/cuda/device_backend.h"
+#include "backends/cuda/module.h"
+#include "backends/cuda/strategy.h"
+#include "util/module.h"
 
 namespace alhazen {
 
@@ -10,15 +14,26 @@ using namespace cuda;
 
 class CudaBackend final : public DeviceBackend {
  public:
-  BackendDescription describe() const override {
+  BackendTraits traits() const override {
+    BackendTraits traits{"cuda", {"persistent", "pixel", "chunk", "wavefront"}, "NVIDIA GPUs, or --device host"};
+    traits.runs_on_devices = traits.runs_on_host = true;
+    return traits;
+  }
+
+  BackendStatus status() const override {
     const DeviceList& list = list_devices();
-    BackendDescription description{
-        "cuda", {"persistent", "pixel", "chunk", "wavefront"}, !list.devices.empty(), list.problem, describe_devices()};
-    description.runs_on_devices = description.runs_on_host = true;
-    if (description.available)
-      description.details =
+    BackendStatus status{!list.devices.empty(), list.problem, describe_devices(), load_module<CudaModule>().path};
+    if (status.available)
+      status.details =
           std::to_string(list.devices.size()) + (list.devices.size() == 1 ? " GPU" : " GPUs, --device N or all");
-    return description;
+    return status;
+  }
+
+  std::vector<NamedSetting> named_settings(const RenderSettings& settings) const override {
+    std::vector<NamedSetting> named = DeviceBackend::named_settings(settings);
+    named.emplace_back("block", to_string(settings.block));
+    named.emplace_back("chunk", to_string(settings.chunk));
+    return named;
   }
 
   BvhLayouts wanted_layouts(const RenderSettings& settings) const override {
@@ -28,6 +43,20 @@ class CudaBackend final : public DeviceBackend {
   }
 
  protected:
+  void configure_blocks(const Settings& asked, RenderSettings& settings) const override {
+    const auto strategy = static_cast<CudaStrategy>(settings.strategy);
+    if (!asked.block.empty()) {
+      if (strategy != CudaStrategy::pixel && strategy != CudaStrategy::chunk)
+        throw InputError("a block size is for the strategies pixel and chunk of the backend cuda");
+      settings.block = parse_block(asked.block);
+    }
+    if (!asked.chunk.empty()) {
+      if (strategy != CudaStrategy::chunk)
+        throw InputError("a number of chunks is for the strategy chunk of the backend cuda");
+      settings.chunk = parse_chunks(asked.chunk);
+    }
+  }
+
   std::unique_ptr<Engine> make_engine(int device, const RowShare& share, Precision precision) override {
     return device == host_device ? make_host_engine(share) : make_gpu_engine(device, share, precision);
   }

@@ -37,7 +37,7 @@ struct DeviceList {
   std::string problem;  ///< where there are none: why, and what to do
 };
 
-/// The GPUs of this machine. Without CUDA in this binary: none, and how to build it in.
+/// The GPUs of this machine. Without the module `cuda`: none, and how to get it.
 const DeviceList& list_devices();
 
 /// The kernels on GPU `device`, for passes in that precision alone. Starts the GPU.

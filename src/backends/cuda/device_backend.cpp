@@ -1,5 +1,6 @@
 #include "backends/cuda/device_backend.h"
 
+#include <charconv>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -7,6 +8,38 @@
 #include "backends/pixel_blocks.h"
 
 namespace alhazen::cuda {
+
+int DeviceBackend::parse_device(const std::string& text) const {
+  const bool has_host = traits().runs_on_host;
+  if (text == "host" && has_host) return host_device;
+  require_available();
+  if (text == "all") return all_devices;
+  const int count = static_cast<int>(status().devices.size());
+  int device = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), device);
+  if (error != std::errc() || end != text.data() + text.size() || device < 0 || device >= count)
+    throw InputError("there is no device '" + text + "': it may be " + (has_host ? "host, " : "") +
+                     "all or a number from 0 to " + std::to_string(count - 1) + "; 'alhazen devices' lists them");
+  return device;
+}
+
+/// Each device has one line of statistics.
+void DeviceBackend::configure(const Settings& asked, RenderSettings& settings) const {
+  settings.runs_on_device = true;
+  settings.device = parse_device(asked.device.empty() ? "0" : asked.device);
+  settings.threads = settings.device == all_devices ? static_cast<int>(status().devices.size()) : 1;
+  if (settings.integrator != IntegratorKind::path && settings.integrator != IntegratorKind::iterative)
+    throw InputError("the backend '" + traits().name + "' has no integrator '" + to_string(settings.integrator) +
+                     "', which calls itself: it may be path, iterative");
+  configure_blocks(asked, settings);
+}
+
+std::vector<NamedSetting> DeviceBackend::named_settings(const RenderSettings& settings) const {
+  std::vector<NamedSetting> named = Backend::named_settings(settings);
+  const int device = settings.device;
+  named.emplace_back("device", device == host_device ? "host" : device == all_devices ? "all" : std::to_string(device));
+  return named;
+}
 
 void DeviceBackend::start(const RenderSettings& settings) {
   if (settings.device != all_devices) {

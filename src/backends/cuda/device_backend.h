@@ -8,6 +8,8 @@ namespace alhazen::cuda {
 
 class DeviceBackend : public Backend {
  public:
+  void configure(const Settings& asked, RenderSettings& settings) const override;
+  std::vector<NamedSetting> named_settings(const RenderSettings& settings) const override;
   void start(const RenderSettings& settings) override;
   void prepare(const CompiledScene<float>& scene) override;
   /// A GPU takes many samples in the time that a pass costs it, and looks for an end of the render between slices.
@@ -16,10 +18,14 @@ class DeviceBackend : public Backend {
   void render_pass(const RenderPass<double>& pass) override;
 
  protected:
-  /// An engine for one of the devices of describe(), or for the host.
+  /// What else of `asked` is its own; by default it takes no blocks.
+  virtual void configure_blocks(const Settings& asked, RenderSettings&) const { refuse_blocks(asked); }
+  /// An engine for one of the devices of status(), or for the host.
   virtual std::unique_ptr<Engine> make_engine(int device, const RowShare& share, Precision precision) = 0;
 
  private:
+  /// The device called `text`. Throws InputError.
+  int parse_device(const std::string& text) const;
   template <class Real>
   void render(const RenderPass<Real>& pass);
   /// Calls action(engine, index) for every engine at the same time.

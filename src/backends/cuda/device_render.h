@@ -12,6 +12,7 @@
 #include "backends/cuda/kernels/pixel.h"
 #include "backends/cuda/kernels/wavefront.h"
 #include "backends/cuda/slices.h"
+#include "backends/cuda/strategy.h"
 #include "core/bvh/cwbvh/traversal.h"
 #include "render/backend.h"
 
@@ -170,6 +171,10 @@ class DeviceRender {
 
   static size_t padded(size_t bytes) { return (bytes + 255) / 256 * 256; }
 
+  static CudaStrategy strategy_of(const RenderSettings& settings) {
+    return static_cast<CudaStrategy>(settings.strategy);
+  }
+
   // ---- launches --------------------------------------------------------------------------------------------------
 
   Launch<Real> launch_of(const RenderPass<Real>& pass) const {
@@ -189,7 +194,8 @@ class DeviceRender {
 
   /// As many items as a third of the free memory holds sums of, but not so many that 32 bits could not count them.
   uint64_t most_items(const RenderPass<Real>& pass) const {
-    if (pass.settings.strategy == "pixel" || pass.settings.strategy == "chunk") return uint64_t{1} << 40;
+    const CudaStrategy strategy = strategy_of(pass.settings);
+    if (strategy == CudaStrategy::pixel || strategy == CudaStrategy::chunk) return uint64_t{1} << 40;
     const uint64_t memory = executor_.free_bytes() + sums_.size() * sizeof(BlockSum<Real>);
     return std::clamp<uint64_t>(memory / 3 / sizeof(BlockSum<Real>), 1, uint64_t{1} << 30);
   }
@@ -202,9 +208,11 @@ class DeviceRender {
   /// False where the render was stopped within the slice, of which nothing is in the film then.
   template <IntegratorKind kind>
   bool run_slice(const RenderPass<Real>& pass, const Launch<Real>& launch) {
-    if constexpr (!Tracing::by_launch_of_pixels)
-      if (pass.settings.strategy == "persistent" || pass.settings.strategy == "wavefront")
+    if constexpr (!Tracing::by_launch_of_pixels) {
+      const CudaStrategy strategy = strategy_of(pass.settings);
+      if (strategy == CudaStrategy::persistent || strategy == CudaStrategy::wavefront)
         return run_queue<kind>(pass, launch);
+    }
     run_pixels<kind>(pass.settings, launch);
     return true;
   }
@@ -213,7 +221,7 @@ class DeviceRender {
   bool run_queue(const RenderPass<Real>& pass, const Launch<Real>& launch) {
     const ItemGrid grid{launch.width, launch.slice.rows, launch.slice.blocks()};
     sums_.reserve(grid.count());
-    if (pass.settings.strategy == "wavefront") {
+    if (strategy_of(pass.settings) == CudaStrategy::wavefront) {
       if (!run_wavefront<kind>(pass.control, launch, grid)) return false;
     } else {
       run_persistent<kind>(launch, grid);
@@ -225,7 +233,7 @@ class DeviceRender {
   template <IntegratorKind kind>
   requires LaunchesKernel<Executor, PixelKernel<Tracing, kind, Real>>
   void run_pixels(const RenderSettings& settings, const Launch<Real>& launch) {
-    const bool chunks = settings.strategy == "chunk";
+    const bool chunks = strategy_of(settings) == CudaStrategy::chunk;
     PixelKernel<Tracing, kind, Real> kernel{launch, chunks ? settings.chunk.x : 1, chunks ? settings.chunk.y : 1,
                                             nullptr};
     const Extent threads{kernel.chunk_width(), kernel.chunk_height()};

@@ -135,25 +135,28 @@ omp_sched_t openmp_schedule(ScheduleKind kind) {
 
 template <class Real>
 void render_by_strategy(const RenderPass<Real>& pass) {
-  const std::string& strategy = pass.settings.strategy;
   omp_set_dynamic(0);
   omp_set_max_active_levels(1);
   omp_set_schedule(openmp_schedule(pass.settings.schedule.kind), pass.settings.schedule.chunk);
-  if (strategy == "rows") return render_rows(pass);
-  if (strategy == "collapse") return render_collapsed(pass);
-  if (strategy == "rows+reduction") return render_rows_with_reduction(pass);
-  if (strategy == "reduction") return render_with_reduction(pass);
-  render_tiles(pass);
+  switch (static_cast<OpenMpStrategy>(pass.settings.strategy)) {
+    case OpenMpStrategy::tiles:
+      return render_tiles(pass);
+    case OpenMpStrategy::rows:
+      return render_rows(pass);
+    case OpenMpStrategy::collapse:
+      return render_collapsed(pass);
+    case OpenMpStrategy::rows_with_reduction:
+      return render_rows_with_reduction(pass);
+    case OpenMpStrategy::reduction:
+      return render_with_reduction(pass);
+  }
 }
 
 class OpenMpBackend final : public Backend {
  public:
-  BackendDescription describe() const override {
-    return {"openmp",
-            openmp_strategies(),
-            true,
-            std::to_string(omp_get_num_procs()) + " processors, " + to_string(instruction_sets().back()),
-            {}};
+  BackendTraits traits() const override { return {"openmp", openmp_strategies(), "the CPU's cores"}; }
+  BackendStatus status() const override {
+    return {true, std::to_string(omp_get_num_procs()) + " processors, " + to_string(instruction_sets().back())};
   }
   void render_pass(const RenderPass<float>& pass) override { render_openmp(pass); }
   void render_pass(const RenderPass<double>& pass) override { render_openmp(pass); }

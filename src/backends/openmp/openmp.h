@@ -7,6 +7,9 @@
 namespace alhazen {
 
 /// The first is the fastest.
+enum class OpenMpStrategy : uint32_t { tiles, rows, collapse, rows_with_reduction, reduction };
+
+/// Their names, in order.
 std::vector<std::string> openmp_strategies();
 
 /// Takes the pass by the strategy, schedule and number of threads of its settings.

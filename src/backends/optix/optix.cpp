@@ -1,64 +1,65 @@
-// The backend `optix`: the same core, with rays traced by the vendor's library.
+// The backend and the denoiser `optix`: the same core, with rays traced by the vendor's library.
+
+#include "backends/optix/module.h"
 
 #include "backends/cuda/device_backend.h"
 #include "render/denoiser.h"
-
-#ifdef ALHAZEN_WITH_OPTIX
-#include "backends/optix/engine.h"
-#include "backends/optix/library.h"
-#endif
+#include "util/module.h"
 
 namespace alhazen {
 
 namespace {
 
-/// Why it cannot be used here; empty where it can.
+using optix::OptixModule;
+
+/// Why it cannot be used here; empty where it can. GPUs are listed by the module `cuda`.
 std::string problem() {
-#ifdef ALHAZEN_WITH_OPTIX
+  const Module& module = load_module<OptixModule>();
+  if (!module.functions) return module.problem;
   if (cuda::list_devices().devices.empty()) return cuda::list_devices().problem;
-  return optix::optix_library().problem;
-#else
-  return "this binary was built without OptiX: configure with -DOptiX_ROOT= set to its headers (9.0), and with CUDA";
-#endif
+  return functions_of<OptixModule>(module).problem();
+}
+
+const OptixModule& functions() {
+  const Module& module = load_module<OptixModule>();
+  if (!module.functions) throw InputError(module.problem);
+  return functions_of<OptixModule>(module);
 }
 
 class OptixBackend final : public cuda::DeviceBackend {
  public:
-  BackendDescription describe() const override {
+  BackendTraits traits() const override {
+    BackendTraits traits{"optix", {"megakernel"}, "NVIDIA GPUs, rays traced by OptiX, in float"};
+    traits.runs_on_devices = true;
+    traits.traces_double = false;
+    return traits;
+  }
+
+  BackendStatus status() const override {
     const std::string reason = problem();
-    BackendDescription description{"optix", {"megakernel"}, reason.empty(), reason, {}};
-    description.runs_on_devices = true;
-    description.traces_double = false;
-    if (description.available) {
-      description.devices = cuda::describe_devices();
-      description.details = "OptiX 9.0, in float";
-    }
-    return description;
+    const std::string& path = load_module<OptixModule>().path;
+    if (!reason.empty()) return {false, reason, {}, path};
+    return {true, "OptiX 9.0, in float", cuda::describe_devices(), path};
   }
 
  protected:
-  std::unique_ptr<cuda::Engine> make_engine([[maybe_unused]] int device, [[maybe_unused]] const cuda::RowShare& share,
-                                            Precision) override {
-#ifdef ALHAZEN_WITH_OPTIX
-    return optix::make_optix_engine(device, share);
-#else
-    throw InputError(problem());
-#endif
+  std::unique_ptr<cuda::Engine> make_engine(int device, const cuda::RowShare& share, Precision) override {
+    return functions().make_engine(device, share);
+  }
+};
+
+class OptixDenoiser final : public Denoiser {
+ public:
+  std::string name() const override { return "optix"; }
+  std::string problem() const override { return alhazen::problem(); }
+  std::vector<float> denoise(const NoisyPicture& picture, int device) const override {
+    return functions().denoise(picture, device);
   }
 };
 
 }  // namespace
 
-std::string optix_denoiser_problem() { return problem(); }
-
-std::vector<float> denoise_by_optix([[maybe_unused]] const NoisyPicture& picture, [[maybe_unused]] int device) {
-#ifdef ALHAZEN_WITH_OPTIX
-  return optix::denoise(picture, device);
-#else
-  throw InputError(problem());
-#endif
-}
-
 std::unique_ptr<Backend> make_optix_backend() { return std::make_unique<OptixBackend>(); }
+std::unique_ptr<Denoiser> make_optix_denoiser() { return std::make_unique<OptixDenoiser>(); }
 
 }  // namespace alhazen

@@ -8,9 +8,15 @@ namespace {
 /// The report's Algorithm 1: one thread, pixel after pixel.
 class SerialBackend final : public Backend {
  public:
-  BackendDescription describe() const override {
-    return {"serial", {}, true, "one core, " + to_string(instruction_sets().back()), {}};
+  BackendTraits traits() const override { return {"serial", {}, "one core"}; }
+  BackendStatus status() const override { return {true, "one core, " + to_string(instruction_sets().back())}; }
+
+  void configure(const Settings& asked, RenderSettings& settings) const override {
+    Backend::configure(asked, settings);
+    settings.threads = 1;
   }
+  std::vector<NamedSetting> named_settings(const RenderSettings&) const override { return {{"schedule", ""}}; }
+
   void render_pass(const RenderPass<float>& pass) override { render(pass); }
   void render_pass(const RenderPass<double>& pass) override { render(pass); }
 

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <vector>
 
-#include "backends/optix/acceleration.h"
-#include "backends/optix/device_code.h"
-#include "backends/optix/params.h"
+#include "backends/optix/module/acceleration.h"
+#include "backends/optix/module/device_code.h"
+#include "backends/optix/module/params.h"
 
 namespace alhazen::optix {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "backends/cuda/executor.h"
-#include "backends/optix/library.h"
-#include "backends/optix/params.h"
+#include "backends/optix/module/library.h"
+#include "backends/optix/module/params.h"
 #include "core/scene_view.h"
 
 namespace alhazen::optix {

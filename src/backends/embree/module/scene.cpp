@@ -1,4 +1,4 @@
-#include "backends/embree/scene.h"
+#include "backends/embree/module/scene.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 // The denoiser of OptiX: the model for any number of layers, which takes normals in world space, with one layer.
 
-#include "backends/optix/pipeline.h"
+#include "backends/optix/module/pipeline.h"
 #include "render/denoiser.h"
 
 namespace alhazen::optix {

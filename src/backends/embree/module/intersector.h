@@ -3,7 +3,7 @@
 // Ray queries by Embree. The identifiers of its geometries are our kinds of primitives; from embree_instances on they
 // are instances.
 
-#include "backends/embree/api.h"
+#include "backends/embree/module/api.h"
 #include "core/bvh/ray_intersector.h"
 #include "core/scene_view.h"
 

@@ -1,9 +1,6 @@
-// What the CUDA runtime says of this machine, in sentences.
+#include "backends/cuda/module/cuda_error.h"
 
-#ifdef ALHAZEN_WITH_CUDA
-
-#include "backends/cuda/cuda_error.h"
-#include "backends/cuda/device.h"
+#include "util/diagnostics.h"
 
 namespace alhazen::cuda {
 
@@ -11,23 +8,6 @@ namespace {
 
 std::string version_text(int version) {
   return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10);
-}
-
-DeviceList query_devices() {
-  DeviceList list;
-  int count = 0;
-  const cudaError_t error = cudaGetDeviceCount(&count);
-  if (error != cudaSuccess || count == 0) {
-    list.problem = explain_no_device(error == cudaSuccess ? cudaErrorNoDevice : error);
-    return list;
-  }
-  for (int i = 0; i < count; ++i) {
-    cudaDeviceProp properties{};
-    check(cudaGetDeviceProperties(&properties, i), "asking what it is");
-    list.devices.push_back({properties.name, properties.major, properties.minor, properties.totalGlobalMem,
-                            properties.multiProcessorCount});
-  }
-  return list;
 }
 
 }  // namespace
@@ -78,11 +58,4 @@ void check(cudaError_t result, const char* doing) {
   }
 }
 
-const DeviceList& list_devices() {
-  static const DeviceList list = query_devices();
-  return list;
-}
-
 }  // namespace alhazen::cuda
-
-#endif

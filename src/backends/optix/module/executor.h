@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "backends/optix/pipeline.h"
+#include "backends/optix/module/pipeline.h"
 
 namespace alhazen::optix {
 

@@ -6,9 +6,9 @@
 
 #include <string>
 
-#include "backends/cuda/cuda_error.h"
-#include "backends/cuda/device_thread.cuh"
 #include "backends/cuda/executor.h"
+#include "backends/cuda/module/cuda_error.h"
+#include "backends/cuda/module/device_thread.cuh"
 #include "util/diagnostics.h"
 
 namespace alhazen::cuda {

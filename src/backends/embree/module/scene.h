@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "backends/embree/api.h"
+#include "backends/embree/module/api.h"
 #include "core/scene_view.h"
 
 namespace alhazen {

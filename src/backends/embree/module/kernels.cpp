@@ -1,6 +1,6 @@
 // The sample kernels over Embree. Compiled once an instruction set, in its namespace, as those in render/kernels are.
 
-#include "backends/embree/intersector.h"
+#include "backends/embree/module/intersector.h"
 #include "render/kernels/instances.h"
 
 namespace ALHAZEN_CORE {

@@ -2,9 +2,9 @@
 
 // The body of the two files that hold the compiled kernels.
 
-#include "backends/cuda/cuda_executor.cuh"
 #include "backends/cuda/device_render.h"
-#include "backends/cuda/gpu_render.h"
+#include "backends/cuda/module/cuda_executor.cuh"
+#include "backends/cuda/module/gpu_render.h"
 
 namespace alhazen::cuda {
 

@@ -3,7 +3,7 @@
 
 #include <optix.h>
 
-#include "backends/optix/params.h"
+#include "backends/optix/module/params.h"
 #include "core/bvh/bvh2/traversal.h"
 
 namespace alhazen::optix {

@@ -1,8 +1,8 @@
-#include "backends/cuda/cuda_executor.cuh"
 #include "backends/cuda/device_render.h"
-#include "backends/optix/denoiser.h"
-#include "backends/optix/engine.h"
-#include "backends/optix/executor.h"
+#include "backends/cuda/module/cuda_executor.cuh"
+#include "backends/optix/module/denoiser.h"
+#include "backends/optix/module/engine.h"
+#include "backends/optix/module/executor.h"
 
 namespace alhazen::optix {
 

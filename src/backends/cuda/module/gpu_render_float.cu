@@ -1,4 +1,4 @@
-#include "backends/cuda/gpu_render.cuh"
+#include "backends/cuda/module/gpu_render.cuh"
 
 namespace alhazen::cuda {
 

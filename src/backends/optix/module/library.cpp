@@ -1,6 +1,4 @@
-#ifdef ALHAZEN_WITH_OPTIX
-
-#include "backends/optix/library.h"
+#include "backends/optix/module/library.h"
 
 #include <dlfcn.h>
 
@@ -58,5 +56,3 @@ void check(const OptixFunctionTable& functions, OptixResult result, const char* 
 }
 
 }  // namespace alhazen::optix
-
-#endif

@@ -1,0 +1,19 @@
+#pragma once
+
+// What a module says of itself, where it can be read without running anything of it: in a section of its file.
+
+#include <cstdint>
+
+namespace alhazen {
+
+inline constexpr char module_section[] = ".alhazen";
+inline constexpr char module_magic[] = "Alhazen module";
+
+struct ModuleIdentity {
+  char magic[16] = {};
+  char name[32] = {};
+  char version[16] = {};
+  char interface[32] = {};  ///< hash of the headers and compiler that it was built with (cmake/InterfaceHash.cmake)
+};
+
+}  // namespace alhazen
