@@ -9,8 +9,8 @@
 #include "support/instanced_scenes.h"
 #include "support/primitive_scenes.h"
 #if defined(ALHAZEN_WITH_EMBREE)
-#include "backends/embree/intersector.h"
-#include "backends/embree/scene.h"
+#include "backends/embree/module/intersector.h"
+#include "backends/embree/module/scene.h"
 #endif
 
 namespace alhazen::test {
