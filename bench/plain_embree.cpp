@@ -12,11 +12,11 @@ PlainEmbree::PlainEmbree(const SceneView<float>& view, int threads)
   if (view.triangles_count > 0) add_triangles(view);
   if (view.spheres_count > 0)
     add_spheres(view.spheres, view.spheres_count, 1,
-                [](const SphereRecord<float>& sphere, unsigned int) { return sphere.center; });
+                [](const SphereRecord<float>& sphere, unsigned int) { return sphere.centre; });
   if (view.moving_spheres_count > 0)
     add_spheres(view.moving_spheres, view.moving_spheres_count, 2,
                 [](const MovingSphereRecord<float>& sphere, unsigned int step) {
-                  return sphere.center + sphere.motion * static_cast<float>(step);
+                  return sphere.centre + sphere.motion * static_cast<float>(step);
                 });
   rtcCommitScene(tracer_.scene);
   if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
@@ -38,15 +38,15 @@ void PlainEmbree::add_triangles(const SceneView<float>& view) {
 }
 
 template <class Record, class At>
-void PlainEmbree::add_spheres(const Record* spheres, uint32_t count, unsigned int time_steps, const At& center_at) {
+void PlainEmbree::add_spheres(const Record* spheres, uint32_t count, unsigned int time_steps, const At& centre_at) {
   const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_SPHERE_POINT);
   rtcSetGeometryTimeStepCount(geometry, time_steps);
   for (unsigned int step = 0; step < time_steps; ++step) {
     float* const vertex = static_cast<float*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT4, 4 * sizeof(float), count));
     for (uint32_t i = 0; i < count; ++i) {
-      const Vec3<float> center = center_at(spheres[i], step);
-      for (int axis = 0; axis < 3; ++axis) vertex[4 * i + static_cast<uint32_t>(axis)] = center[axis];
+      const Vec3<float> centre = centre_at(spheres[i], step);
+      for (int axis = 0; axis < 3; ++axis) vertex[4 * i + static_cast<uint32_t>(axis)] = centre[axis];
       vertex[4 * i + 3] = spheres[i].radius;
     }
   }

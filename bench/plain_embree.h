@@ -21,7 +21,7 @@ class PlainEmbree {
  private:
   void add_triangles(const SceneView<float>& view);
   template <class Record, class At>
-  void add_spheres(const Record* spheres, uint32_t count, unsigned int time_steps, const At& center_at);
+  void add_spheres(const Record* spheres, uint32_t count, unsigned int time_steps, const At& centre_at);
   void attach(RTCGeometry geometry);
 
   RTCDevice device_;

@@ -17,7 +17,7 @@ void render(benchmark::State& state, const std::string& scene) {
   const Recorded<Real>& recorded = Recorded<Real>::of(scene);
   const SampleKernel<Real> kernel = select_sample_kernel<Real>(IntegratorKind::path, SamplerType::sobol);
   std::vector<BlockRequest> requests;
-  std::vector<BlockSum<Real>> sums(most_blocks_per_request);
+  std::vector<BlockSum<Real>> sums(max_blocks_per_request);
   uint64_t rays = 0;
   const auto take = [&] {
     kernel(recorded.flat.view, nullptr, 0, bench_segments, requests.data(), static_cast<uint32_t>(requests.size()),
@@ -31,7 +31,7 @@ void render(benchmark::State& state, const std::string& scene) {
       for (uint32_t x = 0; x < bench_width; ++x)
         for (uint32_t first = 0; first < bench_samples; first += samples_per_block) {
           requests.push_back({x, y, first, samples_per_block});
-          if (requests.size() == most_blocks_per_request) take();
+          if (requests.size() == max_blocks_per_request) take();
         }
     take();
   }

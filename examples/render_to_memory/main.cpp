@@ -18,16 +18,16 @@ int main(int argc, char** argv) try {
   settings.samples_per_pixel = 1024;
   settings.aovs = {"depth"};
 
-  const alhazen::Picture picture = alhazen::render(argv[1], settings, [&](const alhazen::Progress& progress) {
+  const alhazen::RenderedImage image = alhazen::render(argv[1], settings, [&](const alhazen::Progress& progress) {
     if (std::printf("%3.0f%%\n", 100 * progress.fraction) < 0) throw std::runtime_error("nobody reads the progress");
     return progress.seconds < seconds;  // false cancels
   });
-  for (const std::string& warning : picture.warnings) std::printf("warning: %s\n", warning.c_str());
+  for (const std::string& warning : image.warnings) std::printf("warning: %s\n", warning.c_str());
 
-  const float *red = picture.plane("R"), *depth = picture.plane("depth.Z");
-  const int centre = picture.height / 2 * picture.width + picture.width / 2;
-  std::printf("%d x %d pixels, %s; in the centre red is %.3f and the depth %.3f\n", picture.width, picture.height,
-              picture.complete ? "complete" : "cancelled", double{red[centre]}, double{depth[centre]});
+  const float *red = image.plane("R"), *depth = image.plane("depth.Z");
+  const int centre = image.height / 2 * image.width + image.width / 2;
+  std::printf("%d x %d pixels, %s; in the centre red is %.3f and the depth %.3f\n", image.width, image.height,
+              image.complete ? "complete" : "cancelled", double{red[centre]}, double{depth[centre]});
 } catch (const std::exception& error) {
   return std::fprintf(stderr, "%s\n", error.what()), 2;
 }

@@ -4,8 +4,8 @@
 //
 //   alhazen::Settings settings;
 //   settings.samples_per_pixel = 64;
-//   alhazen::Picture picture = alhazen::render("scene.pbrt", settings);
-//   const float* red = picture.plane("R");
+//   alhazen::RenderedImage image = alhazen::render("scene.pbrt", settings);
+//   const float* red = image.plane("R");
 
 #include <array>
 #include <cstdint>
@@ -77,7 +77,7 @@ using ProgressFunction = std::function<bool(const Progress&)>;
 
 /// Planes of linear values, rows from the top down: R, G, B (radiance, linear sRGB) and the requested layers (albedo.R,
 /// .G, .B; normal.X, .Y, .Z; depth.Z; bounces.Y; samples.Y; variance.Y).
-struct Picture {
+struct RenderedImage {
   int width = 0, height = 0;
   std::vector<std::string> channels;
   std::vector<std::vector<float>> planes;
@@ -91,7 +91,8 @@ struct Picture {
 /// Renders a pbrt-v4 or glTF 2.0 scene. Throws std::runtime_error, whose what() is one message (for bad input
 /// `file:line:column: what is wrong and what to do`), std::bad_alloc, and anything that `progress` throws. Until it
 /// returns, threads that the process starts have a default stack of at least 8 MiB.
-Picture render(const std::string& scene_file, const Settings& settings = {}, const ProgressFunction& progress = {});
+RenderedImage render(const std::string& scene_file, const Settings& settings = {},
+                     const ProgressFunction& progress = {});
 
 const char* version();
 

@@ -8,13 +8,13 @@
 
 namespace alhazen {
 
-const float* Picture::plane(const std::string& channel) const {
+const float* RenderedImage::plane(const std::string& channel) const {
   for (size_t i = 0; i < channels.size(); ++i)
     if (channels[i] == channel) return planes[i].data();
   return nullptr;
 }
 
-Picture render(const std::string& scene_file, const Settings& settings, const ProgressFunction& progress) {
+RenderedImage render(const std::string& scene_file, const Settings& settings, const ProgressFunction& progress) {
   const ThreadDefaults defaults;
   Diagnostics diagnostics;
   refuse_same_file({settings.checkpoint, "the checkpoint"},
@@ -34,21 +34,21 @@ Picture render(const std::string& scene_file, const Settings& settings, const Pr
   const RenderSettings resolved = resolve_settings(settings, scene);
   const Rendering rendering = render_scene(std::move(scene), resolved, 0, RenderEvents{progress, {}, {}}, diagnostics);
   const ImageSource source = rendering.source();
-  Picture picture;
-  picture.width = source.width;
-  picture.height = source.height;
-  picture.channels = source.channels;
-  picture.complete = rendering.statistics.complete;
+  RenderedImage image;
+  image.width = source.width;
+  image.height = source.height;
+  image.channels = source.channels;
+  image.complete = rendering.statistics.complete;
   const size_t width = static_cast<size_t>(source.width), height = static_cast<size_t>(source.height);
-  picture.planes.assign(source.channels.size(), std::vector<float>(width * height));
+  image.planes.assign(source.channels.size(), std::vector<float>(width * height));
   std::vector<float> row(source.channels.size() * width);
   for (size_t y = 0; y < height; ++y) {
     source.fill_row(static_cast<int>(y), row);
-    for (size_t c = 0; c < picture.planes.size(); ++c)
-      std::copy_n(row.data() + c * width, width, picture.planes[c].data() + y * width);
+    for (size_t c = 0; c < image.planes.size(); ++c)
+      std::copy_n(row.data() + c * width, width, image.planes[c].data() + y * width);
   }
-  for (const Diagnostics::Warning& warning : diagnostics.warnings()) picture.warnings.push_back(warning.to_string());
-  return picture;
+  for (const Diagnostics::Warning& warning : diagnostics.warnings()) image.warnings.push_back(warning.to_string());
+  return image;
 }
 
 }  // namespace alhazen

@@ -67,7 +67,7 @@ class BlockBatch {
   /// All blocks of pixel (x, y) that are not yet taken; nothing where the render is to stop.
   void add_pixel(int x, int y) {
     for (uint32_t block = first_block(pass_, x, y); block < block_count(pass_); ++block) {
-      if (count_ == most_blocks_per_request) take();
+      if (count_ == max_blocks_per_request) take();
       requests_[count_++] = request_block(pass_, x, y, block);
     }
   }
@@ -85,8 +85,8 @@ class BlockBatch {
   const RenderPass<Real>& pass_;
   ThreadStatistics& statistics_;
   uint32_t count_ = 0;
-  BlockRequest requests_[most_blocks_per_request];
-  BlockSum<Real> sums_[most_blocks_per_request];
+  BlockRequest requests_[max_blocks_per_request];
+  BlockSum<Real> sums_[max_blocks_per_request];
 };
 
 }  // namespace alhazen

@@ -368,8 +368,8 @@ class SceneCompiler {
       diagnostics_.warn(shape.where,
                         "a sphere is stretched by an instance; it is rendered as a sphere of the same volume");
     const double radius = shape.radius * scale;
-    const auto [center, motion] = motion_of(p.world_from_object);
-    check_sphere_range(shape, abs(center) + abs(motion), radius);
+    const auto [centre, motion] = motion_of(p.world_from_object);
+    check_sphere_range(shape, abs(centre) + abs(motion), radius);
     if (is_too_small(shape, radius)) return;
     const bool moves = !is_zero(motion);
     const size_t index = moves ? out_.moving_spheres.size() : out_.spheres.size();
@@ -381,9 +381,9 @@ class SceneCompiler {
     const uint32_t frame = sphere_frame(shape, p.world_from_object.start);
     if (moves)
       out_.moving_spheres.push_back(
-          {convert<Real>(center), static_cast<Real>(radius), convert<Real>(motion), surface, frame});
+          {convert<Real>(centre), static_cast<Real>(radius), convert<Real>(motion), surface, frame});
     else
-      out_.spheres.push_back({convert<Real>(center), static_cast<Real>(radius), surface, frame});
+      out_.spheres.push_back({convert<Real>(centre), static_cast<Real>(radius), surface, frame});
   }
 
   /// `farthest` bounds the coordinates of the centre.

@@ -46,20 +46,20 @@ double mean_factor(const SceneView<Real>& view, const LightRecord<Real>& light, 
     const double value = worth(light.radiance * factor) / worth(light.radiance);
     return std::isfinite(value) ? value : 0;
   };
-  const auto on_sphere = [&](const Vec3<Real>& center, Real radius, uint32_t frame) {
+  const auto on_sphere = [&](const Vec3<Real>& centre, Real radius, uint32_t frame) {
     return mean_over_sphere(side, [&](const Vec3d& d) {
       const Vec3<Real> outward = convert<Real>(d);
-      return relative_luminance(sphere_emission_factor(view, light, frame, outward, center + outward * radius));
+      return relative_luminance(sphere_emission_factor(view, light, frame, outward, centre + outward * radius));
     });
   };
   switch (light.kind) {
     case LightKind::sphere: {
       const SphereRecord<Real>& sphere = view.spheres[light.primitive];
-      return on_sphere(sphere.center, sphere.radius, sphere.frame);
+      return on_sphere(sphere.centre, sphere.radius, sphere.frame);
     }
     case LightKind::moving_sphere: {
       const MovingSphereRecord<Real>& sphere = view.moving_spheres[light.primitive];
-      return on_sphere(sphere.center, sphere.radius, sphere.frame);
+      return on_sphere(sphere.centre, sphere.radius, sphere.frame);
     }
     default:
       return mean_over_triangle(side, [&](double b1, double b2) {

@@ -37,14 +37,14 @@ std::vector<double> texel_means(const ImageTexels& map, SphereMapping mapping) {
   };
   std::vector<double> worths(map.floats.size() / 3), means(worths.size());
   for (size_t i = 0; i < worths.size(); ++i) worths[i] = worth(&map.floats[3 * i]);
-  constexpr double shares[] = {0.125, 0.75, 0.125};
+  constexpr double weights[] = {0.125, 0.75, 0.125};
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       double mean = 0;
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
           const Texel at = texel_of_sphere(mapping, x + dx, y + dy, width, height);
-          mean += shares[dx + 1] * shares[dy + 1] * worths[index(at.x, at.y)];
+          mean += weights[dx + 1] * weights[dy + 1] * worths[index(at.x, at.y)];
         }
       means[index(x, y)] = mean;
     }

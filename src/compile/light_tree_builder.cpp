@@ -93,13 +93,13 @@ Item item_of(const SceneArrays<Real>& arrays, const SceneView<Real>& view, uint3
     }
     case LightKind::sphere: {
       const SphereRecord<Real>& s = arrays.spheres[light.primitive];
-      add_ball(convert<double>(s.center), static_cast<double>(s.radius));
+      add_ball(convert<double>(s.centre), static_cast<double>(s.radius));
       break;
     }
     case LightKind::moving_sphere: {
       const MovingSphereRecord<Real>& s = arrays.moving_spheres[light.primitive];
-      add_ball(convert<double>(s.center), static_cast<double>(s.radius));
-      add_ball(convert<double>(s.center + s.motion), static_cast<double>(s.radius));
+      add_ball(convert<double>(s.centre), static_cast<double>(s.radius));
+      add_ball(convert<double>(s.centre + s.motion), static_cast<double>(s.radius));
       item.radius += length(convert<double>(s.motion)) / 2;
       break;
     }
@@ -123,7 +123,7 @@ Item item_of(const SceneArrays<Real>& arrays, const SceneView<Real>& view, uint3
       add_ball(convert<double>(light.position), 0);
       break;
   }
-  item.centre = b.box.center();
+  item.centre = b.box.centre();
   if (light.kind == LightKind::triangle) item.radius = length(b.box.diagonal()) / 2;
   return item;
 }
@@ -210,7 +210,7 @@ class TreeBuilder {
       build_second();
     }
     a.extend(b);
-    nodes_[node] = node_of(a, a.box.center(), length(a.box.diagonal()) / 2);
+    nodes_[node] = node_of(a, a.box.centre(), length(a.box.diagonal()) / 2);
     nodes_[node].bits |= descendants << 2;
     return a;
   }

@@ -142,7 +142,7 @@ class LostLightSearch {
       const uint32_t i = candidate.primitive.index();
       ray.direction = sample_uniform_sphere(u);
       hit.t = moves ? view_.moving_spheres[i].radius : view_.spheres[i].radius;
-      ray.origin = moves ? view_.moving_spheres[i].center : view_.spheres[i].center;
+      ray.origin = moves ? view_.moving_spheres[i].centre : view_.spheres[i].centre;
     }
     return surface_interaction(view_, ray, hit);
   }
@@ -176,7 +176,7 @@ class LostLightSearch {
     if (is_cut_out(hit, si)) return;
     const LightSample<Real> s = sample_chosen_light(view_, light, si.position, false, Real(0), Vec2<Real>{});
     if (!(s.pdf > 0) || is_zero(s.radiance)) return;
-    if (!(free_share(view_, intersector_, shadow_ray(si, s)) > 0)) return;
+    if (!(visibility_of(view_, intersector_, shadow_ray(si, s)) > 0)) return;
     // The shadow ray in reverse.
     hit.t = s.is_finite ? length(s.point - si.position) : Real(1);
     follow({si.position + s.direction * hit.t, -s.direction, Real(0)}, hit);

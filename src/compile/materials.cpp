@@ -312,10 +312,10 @@ class MaterialBuilder {
 
   /// Returns the alpha of a layer with constant roughness, or nothing if it varies.
   Optional constant_alpha(const Material& material, TextureRange roughness) const {
-    if (roughness.count == 0) return least_layered_alpha<double>;
+    if (roughness.count == 0) return min_layered_alpha<double>;
     const Optional value = constant_of(roughness);
     if (!value) return std::nullopt;
-    return std::max(material.remap_roughness ? std::sqrt(*value) : *value, least_layered_alpha<double>);
+    return std::max(material.remap_roughness ? std::sqrt(*value) : *value, min_layered_alpha<double>);
   }
 
   /// Returns the index, clamped to the limits beyond which an interface reflects almost everything. It is rounded to

@@ -165,7 +165,7 @@ void EarClipper::queue_all() {
 
 /// The corner to clip if no ear is left, as in a self-intersecting outline: one without area if the next few have one,
 /// else a convex one, else any. Testing all of them each time would take quadratic time.
-uint32_t EarClipper::least_harm() {
+uint32_t EarClipper::least_harmful_ear() {
   constexpr int looked_at = 64;
   uint32_t convex = cursor_, corner = cursor_;
   for (int i = 0; i < looked_at; ++i, corner = corners_[corner].next) {
@@ -186,7 +186,7 @@ std::span<const std::array<uint32_t, 3>> EarClipper::triangulate(std::span<const
     if (left_ < left_at_scan_ && (left_ <= 64 || left_ <= left_at_scan_ / 8 * 7))
       queue_all();
     else
-      clip(least_harm());
+      clip(least_harmful_ear());
   }
   triangles_.push_back({corners_[cursor_].previous, cursor_, corners_[cursor_].next});
   return triangles_;

@@ -45,7 +45,7 @@ class EarClipper {
   void clip(uint32_t corner);
   void clip_ears();
   void queue_all();
-  uint32_t least_harm();
+  uint32_t least_harmful_ear();
 
   std::span<const Vec2d> at_;
   std::vector<Corner> corners_;

@@ -26,9 +26,9 @@ Scene scene_around(Mesh&& mesh, const std::string& path) {
   scene.name = path;
   const double radius = std::max(0.5 * length(box.diagonal()), 1e-30);
   scene.camera.fov = 40;
-  const Vec3d center = box.center();
-  const Vec3d eye = center + normalize(Vec3d{0.5, 0.35, 1}) * (radius / 0.34);
-  scene.camera.world_from_camera.start = Transform::look_at(eye, center, {0, 1, 0}).inverse();
+  const Vec3d centre = box.centre();
+  const Vec3d eye = centre + normalize(Vec3d{0.5, 0.35, 1}) * (radius / 0.34);
+  scene.camera.world_from_camera.start = Transform::look_at(eye, centre, {0, 1, 0}).inverse();
   scene.camera.world_from_camera.end = scene.camera.world_from_camera.start;
   Light sky;
   sky.radiance = {1, 1, 1};

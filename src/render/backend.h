@@ -73,7 +73,7 @@ class Backend {
   virtual void prepare(const CompiledScene<float>&) {}
   virtual void prepare(const CompiledScene<double>&) {}
   /// Passes are no larger than this.
-  virtual uint32_t most_samples_per_pass() const { return usual_samples_per_pass; }
+  virtual uint32_t max_samples_per_pass() const { return usual_samples_per_pass; }
   virtual void render_pass(const RenderPass<float>& pass) = 0;
   virtual void render_pass(const RenderPass<double>& pass) = 0;
 

@@ -9,7 +9,7 @@
 namespace alhazen {
 
 /// The input of a denoiser: three floats per pixel in each buffer, rows from the top.
-struct NoisyPicture {
+struct NoisyImage {
   int width = 0, height = 0;
   std::vector<float> radiance;  ///< linear
   std::vector<float> albedo;    ///< in [0, 1], at the first hit of camera rays
@@ -23,7 +23,7 @@ class Denoiser {
   /// Why it cannot be used here, and what to do; empty if it can.
   virtual std::string problem() const = 0;
   /// Returns the denoised radiance of `image`. Runs on GPU `device` if it needs one. Throws RenderError.
-  virtual std::vector<float> denoise(const NoisyPicture& image, int device) const = 0;
+  virtual std::vector<float> denoise(const NoisyImage& image, int device) const = 0;
 };
 
 /// Every denoiser that this program knows, available or not (backends/registry.cpp).

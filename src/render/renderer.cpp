@@ -140,7 +140,7 @@ class PassLoop {
     Clock::time_point saved = Clock::now();
     double last_pass_per_sample = 0;
     while (samples_done_ < settings_.samples_per_pixel && !control_.is_stopped()) {
-      const uint32_t size = pass_size(settings_, backend_.most_samples_per_pass(), samples_done_, elapsed_);
+      const uint32_t size = pass_size(settings_, backend_.max_samples_per_pass(), samples_done_, elapsed_);
       if (settings_.time_limit > 0 && elapsed_ > 0 && elapsed_ + last_pass_per_sample * size > settings_.time_limit)
         return;
       if (size % samples_per_block != 0) {
@@ -267,9 +267,9 @@ ImageSource Rendering::source() const {
   return source;
 }
 
-NoisyPicture noisy_image(const ImageSource& source) {
+NoisyImage noisy_image(const ImageSource& source) {
   const size_t width = static_cast<size_t>(source.width), height = static_cast<size_t>(source.height);
-  NoisyPicture image{source.width, source.height, {}, {}, {}};
+  NoisyImage image{source.width, source.height, {}, {}, {}};
   std::vector<float> row(width * source.channels.size());
   // The offsets of three channels in a row of the source, and their destinations.
   const auto channel = [&](const std::string& name) {
@@ -294,7 +294,7 @@ void denoise(Rendering& rendering, Diagnostics& diagnostics) {
   const RenderSettings& settings = rendering.statistics.settings;
   const Clock::time_point start = Clock::now();
   try {
-    const NoisyPicture image = noisy_image(rendering.source());
+    const NoisyImage image = noisy_image(rendering.source());
     rendering.denoised = make_denoiser(settings.denoiser)->denoise(image, std::max(0, settings.device));
   } catch (const std::exception& error) {
     diagnostics.warn({rendering.statistics.scene}, std::string("the image was not denoised: ") + error.what());

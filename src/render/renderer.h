@@ -40,7 +40,7 @@ class Rendering {
 };
 
 /// Makes the denoiser's input from an image with the layers albedo and normal.
-NoisyPicture noisy_image(const ImageSource& source);
+NoisyImage noisy_image(const ImageSource& source);
 
 /// `load_seconds` is the time taken to read the scene, for the statistics. Throws InputError, RenderError,
 /// std::bad_alloc, and anything that `events` throws.

@@ -36,20 +36,20 @@ class Api : public ::testing::Test {
 };
 
 TEST_F(Api, RendersIntoMemory) {
-  const Picture picture = render(scene_, quick());
-  EXPECT_EQ(picture.width, 12);
-  EXPECT_EQ(picture.height, 12);
-  EXPECT_TRUE(picture.complete);
-  EXPECT_TRUE(picture.warnings.empty());
-  EXPECT_EQ(picture.channels, (std::vector<std::string>{"R", "G", "B"}));
-  ASSERT_EQ(picture.planes.size(), 3u);
+  const RenderedImage image = render(scene_, quick());
+  EXPECT_EQ(image.width, 12);
+  EXPECT_EQ(image.height, 12);
+  EXPECT_TRUE(image.complete);
+  EXPECT_TRUE(image.warnings.empty());
+  EXPECT_EQ(image.channels, (std::vector<std::string>{"R", "G", "B"}));
+  ASSERT_EQ(image.planes.size(), 3u);
   double sum = 0;
   for (size_t i = 0; i < 144; ++i) {
-    EXPECT_TRUE(std::isfinite(picture.plane("R")[i]));
-    sum += static_cast<double>(picture.plane("R")[i]);
+    EXPECT_TRUE(std::isfinite(image.plane("R")[i]));
+    sum += static_cast<double>(image.plane("R")[i]);
   }
   EXPECT_GT(sum / 144, 0.05);
-  EXPECT_EQ(picture.plane("depth.Z"), nullptr);
+  EXPECT_EQ(image.plane("depth.Z"), nullptr);
   EXPECT_EQ(std::filesystem::exists("cornell.exr"), false) << "nothing is written";
 }
 
@@ -79,17 +79,17 @@ TEST_F(Api, SettingsAreFollowed) {
   settings.backend = "openmp";
   settings.strategy = "rows+reduction";
   settings.threads = 2;
-  const Picture picture = render(scene_, settings);
-  EXPECT_EQ(picture.width, 7);
-  EXPECT_EQ(picture.height, 6);
+  const RenderedImage image = render(scene_, settings);
+  EXPECT_EQ(image.width, 7);
+  EXPECT_EQ(image.height, 6);
   for (const char* channel : {"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z",
                               "depth.Z", "bounces.Y", "samples.Y", "variance.Y"})
-    EXPECT_NE(picture.plane(channel), nullptr) << channel;
-  for (size_t i = 0; i < 42; ++i) EXPECT_EQ(picture.plane("samples.Y")[i], 4.0f);
+    EXPECT_NE(image.plane(channel), nullptr) << channel;
+  for (size_t i = 0; i < 42; ++i) EXPECT_EQ(image.plane("samples.Y")[i], 4.0f);
   settings.precision = "float";
   settings.backend = "serial";
   settings.strategy = "auto";
-  const Picture serial = render(scene_, settings);
+  const RenderedImage serial = render(scene_, settings);
   settings.backend = "openmp";
   settings.threads = 3;
   EXPECT_EQ(serial.planes, render(scene_, settings).planes);
@@ -98,9 +98,9 @@ TEST_F(Api, SettingsAreFollowed) {
 TEST_F(Api, RowsRunFromTheTopDown) {
   Settings settings = quick();
   settings.samples_per_pixel = 16;
-  const Picture picture = render(scene_, settings);
+  const RenderedImage image = render(scene_, settings);
   // The light is in the ceiling.
-  const float* green = picture.plane("G");
+  const float* green = image.plane("G");
   const auto brightest = std::max_element(green, green + 144) - green;
   EXPECT_LT(brightest / 12, 4);
 }
@@ -108,14 +108,14 @@ TEST_F(Api, RowsRunFromTheTopDown) {
 TEST_F(Api, ProgressIsTold) {
   uint64_t calls = 0;
   Progress last;
-  const Picture picture = render(scene_, quick(), [&](const Progress& progress) {
+  const RenderedImage image = render(scene_, quick(), [&](const Progress& progress) {
     EXPECT_GE(progress.fraction, last.fraction);
     EXPECT_LE(progress.samples_done, progress.samples_total);
     last = progress;
     ++calls;
     return true;
   });
-  EXPECT_TRUE(picture.complete);
+  EXPECT_TRUE(image.complete);
   EXPECT_GE(calls, 1u);
   EXPECT_EQ(last.fraction, 1.0);
   EXPECT_EQ(last.samples_done, 12u * 12 * 4);
@@ -128,11 +128,11 @@ TEST_F(Api, ProgressCanCancel) {
   settings.aovs = {"samples"};
   for (const char* backend : {"serial", "openmp"}) {
     settings.backend = backend;
-    const Picture picture =
+    const RenderedImage image =
         render(scene_, settings, [](const Progress& progress) { return progress.samples_done == 0; });
-    EXPECT_FALSE(picture.complete);
-    EXPECT_EQ(picture.width, 12);
-    EXPECT_GT(*std::max_element(picture.plane("samples.Y"), picture.plane("samples.Y") + 144), 0.0f);
+    EXPECT_FALSE(image.complete);
+    EXPECT_EQ(image.width, 12);
+    EXPECT_GT(*std::max_element(image.plane("samples.Y"), image.plane("samples.Y") + 144), 0.0f);
   }
 }
 
@@ -205,10 +205,10 @@ TEST_F(Api, TimeLimitEndsEarly) {
 TEST_F(Api, WarningsComeWithTheImage) {
   const std::string scene = folder_.write_text(
       "warned.pbrt", cornell_box(8) + "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  0 0 0  0 0 0 ]\n");
-  const Picture picture = render(scene, quick());
-  ASSERT_EQ(picture.warnings.size(), 1u);
-  EXPECT_NE(picture.warnings[0].find("warned.pbrt:"), std::string::npos);
-  EXPECT_NE(picture.warnings[0].find("no area"), std::string::npos);
+  const RenderedImage image = render(scene, quick());
+  ASSERT_EQ(image.warnings.size(), 1u);
+  EXPECT_NE(image.warnings[0].find("warned.pbrt:"), std::string::npos);
+  EXPECT_NE(image.warnings[0].find("no area"), std::string::npos);
 }
 
 TEST_F(Api, ErrorsAreOneMessage) {
@@ -235,13 +235,13 @@ TEST_F(Api, ErrorsAreOneMessage) {
 
 TEST_F(Api, RendersSideBySide) {
   // Two renders at once in one process, as in programs that embed the library.
-  const Picture expected = render(scene_, quick());
-  Picture inside;
+  const RenderedImage expected = render(scene_, quick());
+  RenderedImage inside;
   Settings settings = quick();
   settings.backend = "openmp";
   settings.threads = 2;
   bool rendered = false;
-  const Picture outside = render(scene_, settings, [&](const Progress&) {
+  const RenderedImage outside = render(scene_, settings, [&](const Progress&) {
     if (!rendered) inside = render(scene_, settings);
     rendered = true;
     return true;

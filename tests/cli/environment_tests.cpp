@@ -74,7 +74,7 @@ TEST_F(Environment, OfTheLibraryIsTheSame) {
   Settings settings;
   settings.samples_per_pixel = 4;
   settings.environment = folder_.file("map.exr");
-  const Picture rendered = alhazen::render(folder_.file("view.pbrt"), settings);
+  const RenderedImage rendered = alhazen::render(folder_.file("view.pbrt"), settings);
   EXPECT_TRUE(rendered.warnings.empty());
   for (size_t c = 0; c < 3; ++c) EXPECT_EQ(rendered.planes[c], expected.planes[c]);
   settings.environment = folder_.file("odd.exr");

@@ -19,9 +19,9 @@ std::vector<BlockSum<Real>> take_image(const CompiledScene<Real>& flat, Integrat
     for (uint32_t x = 0; x < parity_height; ++x) requests.push_back({x, y, 4, 1 + (x + y) % 4});
   std::vector<BlockSum<Real>> sums(requests.size());
   const SampleKernel<Real> kernel = select_sample_kernel<Real>(integrator, sampler, set);
-  for (size_t i = 0; i < requests.size(); i += most_blocks_per_request)
+  for (size_t i = 0; i < requests.size(); i += max_blocks_per_request)
     kernel(flat.view, nullptr, 7, 8, &requests[i],
-           static_cast<uint32_t>(std::min<size_t>(most_blocks_per_request, requests.size() - i)), &sums[i]);
+           static_cast<uint32_t>(std::min<size_t>(max_blocks_per_request, requests.size() - i)), &sums[i]);
   return sums;
 }
 

@@ -77,14 +77,14 @@ TYPED_TEST(DirectLight, PointSpotDistant) {
 
 /// A whole sphere above the horizon: E = pi L (r / d)^2 cos.
 template <class Real>
-void check_sphere(const Vec3d& center, double radius, IntegratorKind integrator) {
-  const double d = length(center), radiance = sqr(d / radius);
+void check_sphere(const Vec3d& centre, double radius, IntegratorKind integrator) {
+  const double d = length(centre), radiance = sqr(d / radius);
   const auto number = [](double x) { return std::to_string(x) + " "; };
-  const std::string light = "Translate " + number(center.x) + number(center.y) + number(center.z) +
+  const std::string light = "Translate " + number(centre.x) + number(centre.y) + number(centre.z) +
                             "AreaLightSource \"diffuse\" \"rgb L\" [" + number(radiance) + number(radiance) +
                             number(radiance) + "] Shape \"sphere\" \"float radius\" " + number(radius);
   SCOPED_TRACE(light);
-  expect_irradiance(compiled_scene_of<Real>(head + light), integrator, pi<double> * center.y / d, tolerance<Real>);
+  expect_irradiance(compiled_scene_of<Real>(head + light), integrator, pi<double> * centre.y / d, tolerance<Real>);
 }
 
 TYPED_TEST(DirectLight, Sphere) {

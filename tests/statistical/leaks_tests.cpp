@@ -97,11 +97,11 @@ struct LeavingRays {
   LeavingRays(const ClosedMesh& closed, const SceneView<Real>& view, size_t count, Random& random) {
     Mesh mesh = closed.mesh;
     for (Vec3d& p : mesh.positions) p = closed.place.point(p);
-    const Vec3d center = closed.place.point(closed.place.baked);
+    const Vec3d centre = closed.place.point(closed.place.baked);
     const Bvh2Intersector<Real> bvh(view);
     while (inwards.size() < count) {
       const Vec3d target = point_near_edge(mesh, random);
-      const Vec3<Real> origin = convert<Real>(lerp(center, target, 0.5 * random.uniform<double>()));
+      const Vec3<Real> origin = convert<Real>(lerp(centre, target, 0.5 * random.uniform<double>()));
       const Ray<Real> ray{origin, normalize(convert<Real>(target) - origin), Real(Place::time)};
       Hit<Real> hit;
       if (!bvh.closest_hit(ray, infinity<Real>, hit)) {

@@ -95,39 +95,39 @@ TYPED_TEST(WarpOf, Directions) {
 
 /// pdf_sphere along a direction, at the point where the direction hits the sphere.
 template <class Real>
-Real pdf_towards(const Vec3<Real>& center, Real radius, const Vec3<Real>& point, const Vec3<Real>& w) {
+Real pdf_towards(const Vec3<Real>& centre, Real radius, const Vec3<Real>& point, const Vec3<Real>& w) {
   Real t;
-  if (!intersect_sphere(Ray<Real>{point, w}, center, radius, infinity<Real>, t)) return 0;
-  return pdf_sphere(center, radius, point, w, t, normalize(point + w * t - center));
+  if (!intersect_sphere(Ray<Real>{point, w}, centre, radius, infinity<Real>, t)) return 0;
+  return pdf_sphere(centre, radius, point, w, t, normalize(point + w * t - centre));
 }
 
 TYPED_TEST(WarpOf, Spheres) {
   using Real = TypeParam;
   const Vec3d point{1, -2, 0.5};
   struct Case {
-    Vec3d center;
+    Vec3d centre;
     double radius;
   };
   // Far, near, just outside the surface, inside off the centre, inside near the surface.
   for (const Case& c : {Case{{5, 1, 9}, 0.1}, Case{{2, -1, 2}, 1}, Case{{1, -1, 0.5}, 0.999}, Case{{1.5, -2, 1}, 2},
                         Case{{1, -2, 1.4}, 1}}) {
-    const double distance = length(c.center - point);
+    const double distance = length(c.centre - point);
     const bool outside = distance > c.radius;
     const double theta_max = outside ? std::asin(c.radius / distance) : pi<double>;
-    const Vec3<Real> center = convert<Real>(c.center), from = convert<Real>(point);
+    const Vec3<Real> centre = convert<Real>(c.centre), from = convert<Real>(point);
     const Real radius = static_cast<Real>(c.radius);
     check_directions<Real>(
-        c.center - point, theta_max * (1 + 1e-6),
+        c.centre - point, theta_max * (1 + 1e-6),
         [&](const Vec2<Real>& u) {
           Vec3<Real> normal;
           Real pdf;
-          const Vec3<Real> w = sample_sphere(center, radius, from, false, u, normal, pdf);
+          const Vec3<Real> w = sample_sphere(centre, radius, from, false, u, normal, pdf);
           EXPECT_GT(pdf, Real(0));
           return w;
         },
         [&](const Vec3<Real>& w) {
           // The last ring of the cone may be outside it by rounding.
-          return outside ? pdf_sphere(center, radius, from, w, Real(1), -w) : pdf_towards(center, radius, from, w);
+          return outside ? pdf_sphere(centre, radius, from, w, Real(1), -w) : pdf_towards(centre, radius, from, w);
         },
         "sphere at distance " + std::to_string(distance) + ", radius " + std::to_string(c.radius));
   }
@@ -138,17 +138,17 @@ TYPED_TEST(WarpOf, SampledSphereNormalIsThatOfTheHit) {
   using Real = TypeParam;
   Random random(4);
   for (int i = 0; i < 20'000; ++i) {
-    const Vec3<Real> point = convert<Real>(random.in_box(-1, 1)), center = convert<Real>(random.in_box(-3, 3));
+    const Vec3<Real> point = convert<Real>(random.in_box(-1, 1)), centre = convert<Real>(random.in_box(-3, 3));
     const Real radius = static_cast<Real>(random.between(0.1, 2));
     Vec3<Real> normal;
     Real pdf, t;
-    const Vec3<Real> w = sample_sphere(center, radius, point, false, random.uniform_2d<Real>(), normal, pdf);
+    const Vec3<Real> w = sample_sphere(centre, radius, point, false, random.uniform_2d<Real>(), normal, pdf);
     // At the silhouette and at the surface rounding decides.
-    if (abs_dot(w, normal) < Real(0.05) || std::abs(length(center - point) - radius) < Real(0.05)) continue;
-    ASSERT_TRUE(intersect_sphere(Ray<Real>{point, w}, center, radius, infinity<Real>, t));
-    const Vec3<Real> hit_normal = normalize(point + w * t - center);
+    if (abs_dot(w, normal) < Real(0.05) || std::abs(length(centre - point) - radius) < Real(0.05)) continue;
+    ASSERT_TRUE(intersect_sphere(Ray<Real>{point, w}, centre, radius, infinity<Real>, t));
+    const Vec3<Real> hit_normal = normalize(point + w * t - centre);
     ASSERT_NEAR(static_cast<double>(length(hit_normal - normal)), 0, by_precision<Real>(2e-4, 1e-12));
-    ASSERT_NEAR(static_cast<double>(pdf_sphere(center, radius, point, w, t, hit_normal) / pdf), 1,
+    ASSERT_NEAR(static_cast<double>(pdf_sphere(centre, radius, point, w, t, hit_normal) / pdf), 1,
                 by_precision<Real>(1e-2, 1e-10));
   }
 }

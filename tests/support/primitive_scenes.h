@@ -30,11 +30,11 @@ class PrimitiveScene {
   }
 
   /// `motion` is the displacement from shutter open to shutter close.
-  void add_sphere(const Vec3d& center, double radius, const Vec3d& motion = {}) {
+  void add_sphere(const Vec3d& centre, double radius, const Vec3d& motion = {}) {
     Shape shape;
     shape.type = ShapeType::sphere;
     shape.radius = radius;
-    shape.world_from_object = {Transform::translate(center), Transform::translate(center + motion)};
+    shape.world_from_object = {Transform::translate(centre), Transform::translate(centre + motion)};
     scene_.groups[0].shapes.push_back(shape);
   }
 

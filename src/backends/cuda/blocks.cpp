@@ -24,9 +24,9 @@ BlockSize parse_size(const std::string& text, const std::string& what, uint32_t 
 }  // namespace
 
 BlockSize parse_block(const std::string& text) {
-  constexpr uint32_t most_threads = 1024;
-  const BlockSize block = parse_size(text, "the block", most_threads);
-  if (block.x * block.y > most_threads)
+  constexpr uint32_t max_threads = 1024;
+  const BlockSize block = parse_size(text, "the block", max_threads);
+  if (block.x * block.y > max_threads)
     throw InputError("a block of " + text + " is " + std::to_string(block.x * block.y) +
                      " threads; a GPU runs at most 1024 in one: give fewer, for example 16x16");
   return block;

@@ -13,7 +13,7 @@ class DeviceBackend : public Backend {
   void start(const RenderSettings& settings) override;
   void prepare(const CompiledScene<float>& scene) override;
   /// A GPU takes many samples in the time that a pass costs it, and looks for an end of the render between slices.
-  uint32_t most_samples_per_pass() const override { return 1024; }
+  uint32_t max_samples_per_pass() const override { return 1024; }
   void render_pass(const RenderPass<float>& pass) override;
   void render_pass(const RenderPass<double>& pass) override;
 

@@ -63,7 +63,7 @@ class DeviceRender {
     executor_.clear(totals_.data(), sizeof(Totals));
     Launch<Real> launch = launch_of(pass);
     const uint32_t rows = share_.rows_of(static_cast<uint32_t>(pass.film.window().height()));
-    SlicePlan plan(launch.width, rows, pass.first_sample, pass.sample_count, items_, most_items(pass));
+    SlicePlan plan(launch.width, rows, pass.first_sample, pass.sample_count, items_, max_items(pass));
     while (!plan.is_done() && !pass.control.is_stopped()) {
       launch.slice = plan.next();
       const Clock::time_point start = Clock::now();
@@ -193,7 +193,7 @@ class DeviceRender {
   }
 
   /// As many items as a third of the free memory holds sums of, but not so many that 32 bits could not count them.
-  uint64_t most_items(const RenderPass<Real>& pass) const {
+  uint64_t max_items(const RenderPass<Real>& pass) const {
     const CudaStrategy strategy = strategy_of(pass.settings);
     if (strategy == CudaStrategy::pixel || strategy == CudaStrategy::chunk) return uint64_t{1} << 40;
     const uint64_t memory = executor_.free_bytes() + sums_.size() * sizeof(BlockSum<Real>);
@@ -280,11 +280,11 @@ class DeviceRender {
 #define ALHAZEN_ARRAY(type, name) slot_bytes += sizeof(type);
     ALHAZEN_SLOT_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY
-    constexpr uint64_t most_slots = uint64_t{1} << 21;
+    constexpr uint64_t max_slots = uint64_t{1} << 21;
     const uint64_t memory = executor_.free_bytes() + slots_memory_.size();
     const uint64_t fit = std::max<uint64_t>(warp_lanes, memory / 3 / slot_bytes);
     Slots<Real> slots;
-    slots.count = static_cast<uint32_t>(std::min<uint64_t>({items, fit, most_slots}));
+    slots.count = static_cast<uint32_t>(std::min<uint64_t>({items, fit, max_slots}));
     size_t bytes = padded(sizeof(QueueCounts));
 #define ALHAZEN_ARRAY(type, name) bytes += padded(slots.count * sizeof(type));
     ALHAZEN_SLOT_ARRAYS(ALHAZEN_ARRAY)

@@ -12,14 +12,14 @@ namespace alhazen::cuda {
 class SlicePlan {
  public:
   /// Samples [first, first + count) of `rows` rows of `width` pixels. `items`, blocks of samples of a pixel, is how
-  /// many the first slice takes about, `most_items` the most that a slice may take, but for one band of rows.
-  SlicePlan(uint32_t width, uint32_t rows, uint32_t first, uint32_t count, uint64_t items, uint64_t most_items)
-      : width_(width), rows_(rows), first_(first), end_(first + count), items_(items), most_items_(most_items) {}
+  /// many the first slice takes about, `max_items` the most that a slice may take, but for one band of rows.
+  SlicePlan(uint32_t width, uint32_t rows, uint32_t first, uint32_t count, uint64_t items, uint64_t max_items)
+      : width_(width), rows_(rows), first_(first), end_(first + count), items_(items), max_items_(max_items) {}
 
   bool is_done() const { return sample_ == end_ - first_ || rows_ == 0; }
 
   Slice next() const {
-    const uint64_t items = std::min(items_, most_items_);
+    const uint64_t items = std::min(items_, max_items_);
     const uint64_t row_items = width_;
     Slice slice{row_, rows_ - row_, first_ + sample_, 0};
     const uint32_t left = end_ - first_ - sample_;
@@ -50,7 +50,7 @@ class SlicePlan {
 
   uint32_t width_, rows_;
   uint32_t first_, end_;
-  uint64_t items_, most_items_;
+  uint64_t items_, max_items_;
   uint32_t row_ = 0, sample_ = 0;
 };
 

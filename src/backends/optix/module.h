@@ -16,7 +16,7 @@ struct OptixModule {
   std::string (*problem)();
   /// Rendering on GPU `device`, in float.
   std::unique_ptr<cuda::Engine> (*make_engine)(int device, const cuda::RowShare& share);
-  std::vector<float> (*denoise)(const NoisyPicture& picture, int device);
+  std::vector<float> (*denoise)(const NoisyImage& image, int device);
 };
 
 }  // namespace alhazen::optix

@@ -52,8 +52,8 @@ class OptixDenoiser final : public Denoiser {
  public:
   std::string name() const override { return "optix"; }
   std::string problem() const override { return alhazen::problem(); }
-  std::vector<float> denoise(const NoisyPicture& picture, int device) const override {
-    return functions().denoise(picture, device);
+  std::vector<float> denoise(const NoisyImage& image, int device) const override {
+    return functions().denoise(image, device);
   }
 };
 

@@ -38,7 +38,7 @@ struct Reference {
 
   Row<Real> lows() const { return Row<Real>::load(&low.x); }
   Row<Real> highs() const { return Row<Real>::load(&high.x); }
-  Vec3<Real> center() const { return Bounds3<Real>{low, high}.center(); }
+  Vec3<Real> centre() const { return Bounds3<Real>{low, high}.centre(); }
 };
 
 static_assert(sizeof(Reference<float>) == 2 * sizeof(Row<float>) &&
@@ -50,8 +50,8 @@ struct RowBounds {
 
   static RowBounds empty() { return {Row<Real>::all(infinity<Real>), Row<Real>::all(-infinity<Real>)}; }
   void extend(const Row<Real>& other_low, const Row<Real>& other_high) {
-    low = smaller(other_low, low);
-    high = larger(other_high, high);
+    low = min(other_low, low);
+    high = max(other_high, high);
   }
   void extend(const RowBounds& other) { extend(other.low, other.high); }
   Bounds3<Real> bounds() const {
@@ -89,10 +89,10 @@ struct Bins {
 
 template <class Real>
 struct RangeBounds {
-  RowBounds<Real> boxes = RowBounds<Real>::empty(), centers = RowBounds<Real>::empty();
+  RowBounds<Real> boxes = RowBounds<Real>::empty(), centres = RowBounds<Real>::empty();
   void extend(const RangeBounds& other) {
     boxes.extend(other.boxes);
-    centers.extend(other.centers);
+    centres.extend(other.centres);
   }
 };
 
@@ -100,24 +100,24 @@ struct RangeBounds {
 template <class Real>
 class Binning {
  public:
-  Binning(const Bounds3<Real>& centers, int bins) : bins_(bins) {
-    const Vec3<Real> extent = centers.diagonal();
+  Binning(const Bounds3<Real>& centres, int bins) : bins_(bins) {
+    const Vec3<Real> extent = centres.diagonal();
     for (int axis = 0; axis < 3; ++axis) {
       const Real s = static_cast<Real>(bins) * (1 - std::numeric_limits<Real>::epsilon() * 8) / extent[axis];
       scale_[axis] = extent[axis] > 0 && std::isfinite(s) ? s : Real(0);
-      low_[axis] = centers.low[axis];
+      low_[axis] = centres.low[axis];
     }
   }
 
   ALHAZEN_INLINE void bins_of(const Reference<Real>& reference, int (&bin)[3]) const {
-    const Row<Real> center = (reference.lows() + reference.highs()) * Row<Real>::all(Real(0.5));
+    const Row<Real> centre = (reference.lows() + reference.highs()) * Row<Real>::all(Real(0.5));
     Real place[4];
-    ((center - Row<Real>::load(low_)) * Row<Real>::load(scale_)).store(place);
+    ((centre - Row<Real>::load(low_)) * Row<Real>::load(scale_)).store(place);
     for (int axis = 0; axis < 3; ++axis) bin[axis] = std::clamp(static_cast<int>(place[axis]), 0, bins_ - 1);
   }
 
   ALHAZEN_INLINE int bin_of(const Reference<Real>& reference, int axis) const {
-    return std::clamp(static_cast<int>((reference.center()[axis] - low_[axis]) * scale_[axis]), 0, bins_ - 1);
+    return std::clamp(static_cast<int>((reference.centre()[axis] - low_[axis]) * scale_[axis]), 0, bins_ - 1);
   }
 
  private:
@@ -163,9 +163,9 @@ class Builder {
     const Row<Real> half = Row<Real>::all(Real(0.5));
     for (uint32_t i = begin; i < end; ++i) {
       const Row<Real> low = references_[i].lows(), high = references_[i].highs();
-      const Row<Real> center = (low + high) * half;
+      const Row<Real> centre = (low + high) * half;
       b.boxes.extend(low, high);
-      b.centers.extend(center, center);
+      b.centres.extend(centre, centre);
     }
     return b;
   }
@@ -210,14 +210,14 @@ class Builder {
     for (const Bins<Real>& part : parts) bins.extend(part);
   }
 
-  Split best_split(const Bins<Real>& bins, const Bounds3<Real>& boxes, const Bounds3<Real>& centers,
+  Split best_split(const Bins<Real>& bins, const Bounds3<Real>& boxes, const Bounds3<Real>& centres,
                    uint32_t count) const {
     Split best;
     const double area = static_cast<double>(boxes.half_area());
     double best_cost = static_cast<double>(count) * area;
     if (count > options_.max_leaf) best_cost = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
-      if (!(centers.diagonal()[axis] > 0)) continue;
+      if (!(centres.diagonal()[axis] > 0)) continue;
       const auto& row = bins.of_axis[axis];
       double right_cost[max_bins];
       RowBounds<Real> box = RowBounds<Real>::empty();
@@ -257,7 +257,7 @@ class Builder {
     Reference<Real>* const first = references_.begin();
     std::nth_element(first + begin, first + middle, first + end,
                      [&](const Reference<Real>& a, const Reference<Real>& b) {
-                       const Real ca = a.center()[axis], cb = b.center()[axis];
+                       const Real ca = a.centre()[axis], cb = b.centre()[axis];
                        return ca < cb || (ca == cb && a.index < b.index);
                      });
     return middle;
@@ -267,11 +267,11 @@ class Builder {
     const uint32_t count = end - begin;
     const bool parallel = count >= parallel_binning_size;
     const RangeBounds<Real> range = parallel ? parallel_bounds(begin, end) : bounds_of(begin, end);
-    const Bounds3<Real> boxes = range.boxes.bounds(), centers = range.centers.bounds();
+    const Bounds3<Real> boxes = range.boxes.bounds(), centres = range.centres.bounds();
     Bvh2Node<Real>& node = nodes_[node_index];
     node.corners[0] = boxes.low;
     node.corners[1] = boxes.high;
-    const Binning<Real> binning(centers, bins_for(count));
+    const Binning<Real> binning(centres, bins_for(count));
     Split split;
     if (count > 1 && depth < halving_depth) {
       Bins<Real> bins(bins_for(count));
@@ -279,7 +279,7 @@ class Builder {
         parallel_bins(begin, end, binning, bins);
       else
         fill_bins(begin, end, binning, bins);
-      split = best_split(bins, boxes, centers, count);
+      split = best_split(bins, boxes, centres, count);
     }
     if (split.axis < 0 && count <= options_.max_leaf) {
       node.first = begin;
@@ -287,7 +287,7 @@ class Builder {
       node.axis = 0;
       return;
     }
-    const int axis = split.axis < 0 ? max_axis(centers.diagonal()) : split.axis;
+    const int axis = split.axis < 0 ? max_axis(centres.diagonal()) : split.axis;
     const uint32_t middle = split.axis < 0 ? halve(begin, end, axis) : partition(begin, end, binning, split);
     node.first = next_node_.fetch_add(2);
     node.count = 0;

@@ -38,7 +38,7 @@ void set_lane(TriangleBlock<Real>& block, uint32_t lane, const SceneArrays<Real>
 
 template <class Block, class Record, class Real>
 void set_sphere(Block& block, uint32_t lane, const SceneArrays<Real>&, const Record& sphere, bool is_there) {
-  for (int axis = 0; axis < 3; ++axis) block.center[axis][lane] = sphere.center[axis];
+  for (int axis = 0; axis < 3; ++axis) block.centre[axis][lane] = sphere.centre[axis];
   block.radius[lane] = is_there ? sphere.radius : std::numeric_limits<Real>::quiet_NaN();
 }
 
@@ -162,9 +162,9 @@ class Bvh8Builder {
     Bvh8Node& node = scene_.bvh8_nodes[first_node_ + at];
     uint32_t children[bvh8_width];
     const uint32_t count = collapse_.children_of(next.binary, children);
-    const Vec3<Real> middle = collapse_.box(next.binary).center();
+    const Vec3<Real> middle = collapse_.box(next.binary).centre();
     Vec3<Real> offsets[bvh8_width];
-    for (uint32_t c = 0; c < count; ++c) offsets[c] = collapse_.box(children[c]).center() - middle;
+    for (uint32_t c = 0; c < count; ++c) offsets[c] = collapse_.box(children[c]).centre() - middle;
     const std::array<uint32_t, 8> slots = octant_slots(offsets, count);
     for (uint32_t slot = 0; slot < bvh8_width; ++slot) leave_free(node, slot);
     for (uint32_t c = 0; c < count; ++c) {

@@ -70,9 +70,9 @@ class Collapse {
 
   /// Assigns a slot to each child, and sorts the children by slot.
   void assign_slots(uint32_t index, std::vector<Child>& children) const {
-    const Vec3<float> middle = collapse_.box(index).center();
+    const Vec3<float> middle = collapse_.box(index).centre();
     Vec3<float> offsets[CwbvhNode::children];
-    for (uint32_t c = 0; c < children.size(); ++c) offsets[c] = collapse_.box(children[c].node).center() - middle;
+    for (uint32_t c = 0; c < children.size(); ++c) offsets[c] = collapse_.box(children[c].node).centre() - middle;
     const std::array<uint32_t, 8> slots = octant_slots(offsets, static_cast<uint32_t>(children.size()));
     for (uint32_t c = 0; c < children.size(); ++c) children[c].slot = slots[c];
     std::sort(children.begin(), children.end(), [](const Child& a, const Child& b) { return a.slot < b.slot; });

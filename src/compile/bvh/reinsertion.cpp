@@ -11,8 +11,8 @@ namespace alhazen {
 
 namespace {
 
-/// Each round considers one in `share` nodes, those with the largest boxes.
-constexpr size_t share = 20;
+/// Each round considers one in `nodes_per_candidate` nodes, those with the largest boxes.
+constexpr size_t nodes_per_candidate = 20;
 constexpr int rounds = 2;
 /// Below this many nodes there is little to gain.
 constexpr size_t min_nodes = 8;
@@ -77,7 +77,7 @@ class Reinsertion {
     LargeArray<Sized> all(nodes_.size() - 1);
 #pragma omp parallel for num_threads(threads)
     for (uint32_t i = 0; i < all.size(); ++i) all[i] = {area_of(nodes_[i + 1]), i + 1};
-    const size_t count = std::max<size_t>(all.size() / share, std::min<size_t>(all.size(), 64));
+    const size_t count = std::max<size_t>(all.size() / nodes_per_candidate, std::min<size_t>(all.size(), 64));
     std::nth_element(
         all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count - 1), all.end(),
         [](const Sized& a, const Sized& b) { return a.area > b.area || (a.area == b.area && a.node < b.node); });
@@ -176,7 +176,7 @@ class Reinsertion {
 
   /// Returns the axis along which the centres are farthest apart.
   static int widest_gap(const Bvh2Node<Real>& a, const Bvh2Node<Real>& b) {
-    return max_axis(abs(box_of(a).center() - box_of(b).center()));
+    return max_axis(abs(box_of(a).centre() - box_of(b).centre()));
   }
 
   std::vector<Bvh2Node<Real>>& nodes_;

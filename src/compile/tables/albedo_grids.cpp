@@ -189,7 +189,7 @@ void mirror_block(const AlbedoGridRecord& record, const double* from, double* to
 }
 
 double alpha_of_node(const std::optional<double>& constant, uint32_t node, uint32_t alphas) {
-  return constant ? std::clamp(*constant, least_layered_alpha<double>, 1.0) : alpha_at(node, alphas);
+  return constant ? std::clamp(*constant, min_layered_alpha<double>, 1.0) : alpha_at(node, alphas);
 }
 
 }  // namespace

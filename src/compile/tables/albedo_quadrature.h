@@ -29,8 +29,8 @@ inline double cosine_at(uint32_t node, double ior, uint32_t nodes) {
 
 /// The inverse of alpha_coordinate, at a node.
 inline double alpha_at(uint32_t node, uint32_t nodes) {
-  if (node == 0) return least_layered_alpha<double>;
-  const double root_of_min = std::sqrt(least_layered_alpha<double>);
+  if (node == 0) return min_layered_alpha<double>;
+  const double root_of_min = std::sqrt(min_layered_alpha<double>);
   return std::min(1.0, sqr(root_of_min + (1 - root_of_min) * node / (nodes - 1)));
 }
 
@@ -113,7 +113,7 @@ class VisibleNormals {
         const double pz = safe_sqrt(height[k] * height[k] - py * py);
         const double nx = alpha.x * (t1.x * x[k] + t2.x * py + stretched.x * pz);
         const double ny = alpha.y * (t1.y * x[k] + t2.y * py + stretched.y * pz);
-        const double nz = larger(1e-6, t2.z * py + stretched.z * pz);
+        const double nz = max(1e-6, t2.z * py + stretched.z * pz);
         const double scale = 1 / std::sqrt(nx * nx + ny * ny + nz * nz);
         batch.x[k] = nx * scale, batch.y[k] = ny * scale, batch.z[k] = nz * scale;
       }

@@ -33,7 +33,7 @@ std::vector<double> table_of(const Albedo& albedo, double ior) {
 
 /// Fraction of diffuse light from below that the interface reflects down, after travelling up and down the medium.
 double inner_reflectance(const VisibleNormals& seen, double ior, double alpha, double optical_thickness) {
-  const bool smooth = alpha <= least_layered_alpha<double>;
+  const bool smooth = alpha <= min_layered_alpha<double>;
   const int steps = smooth ? 4096 : 96;
   double sum = 0;
   for (int k = 0; k < steps; ++k) {

@@ -133,7 +133,7 @@ void add_block(const CoatedMetal& coat, double coat_alpha, double metal_alpha, u
 }
 
 std::vector<double> alphas_of(const std::optional<double>& alpha) {
-  if (alpha) return {std::clamp(*alpha, least_layered_alpha<double>, 1.0)};
+  if (alpha) return {std::clamp(*alpha, min_layered_alpha<double>, 1.0)};
   std::vector<double> all;
   for (uint32_t i = 0; i < coated_metal_alphas; ++i) all.push_back(alpha_at(i, coated_metal_alphas));
   return all;

@@ -37,13 +37,12 @@ ALHAZEN_HD Real pixel_footprint(const CameraRecord<Real>& camera, const Vec3<Rea
                                 const Vec3<Real>& normal) {
   constexpr Real min_cosine = Real(1.0 / 16);
   const Vec3<Real> axis = camera_axis(camera);
-  if (camera.kind == CameraKind::orthographic)
-    return camera.footprint / larger(std::abs(dot(normal, axis)), min_cosine);
+  if (camera.kind == CameraKind::orthographic) return camera.footprint / max(std::abs(dot(normal, axis)), min_cosine);
   const auto& m = camera.world_from_camera;
   const Vec3<Real> from_camera = position - Vec3<Real>{m[0][3], m[1][3], m[2][3]};
   const Real squared = length_squared(from_camera), distance = std::sqrt(squared);
   // Cosine times distance.
-  const Real facing = larger(std::abs(dot(normal, from_camera)), min_cosine * distance);
+  const Real facing = max(std::abs(dot(normal, from_camera)), min_cosine * distance);
   if (!(facing > 0)) return 0;
   if (camera.kind != CameraKind::perspective) return camera.footprint * squared * distance / facing;
   // The solid angle of a pixel falls with the cube of the cosine to the optical axis.

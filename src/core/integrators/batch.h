@@ -67,7 +67,7 @@ class PathBatch {
 
   /// Starts new samples in the slots of ended paths. They follow the continuing paths in `active_`.
   void start() {
-    going_on_ = live_;
+    continuing_ = live_;
     const uint32_t count = ended_count_ < count_ - next_ ? ended_count_ : count_ - next_;
     camera_.make(scene_, seed_, count, [&](uint32_t i) { return pixel_(next_ + i); });
     for (uint32_t i = 0; i < count; ++i) {
@@ -95,8 +95,8 @@ class PathBatch {
       lane.has_hit = found;
       if (found) prefetch_primitive(scene_, hit.primitive);
     };
-    intersector_.template trace<false>(going_on_, ray, limit, answer);
-    const uint32_t first = going_on_;
+    intersector_.template trace<false>(continuing_, ray, limit, answer);
+    const uint32_t first = continuing_;
     intersector_.trace_coherent(
         live_ - first, [&](uint32_t i) -> const Ray<Real>& { return ray(first + i); }, limit,
         [&](uint32_t i, bool found, const Hit<Real>& hit) { answer(first + i, found, hit); });
@@ -114,14 +114,14 @@ class PathBatch {
         numbers_.first_dimension[hits] = VertexDimensions(lane.path.vertex).base;
         active_[hits++] = index;
       } else {
-        leave_scene(scene_, lane.path, lane.record);
+        add_infinite_lights(scene_, lane.path, lane.record);
         ended_[ended_count_++] = index;
       }
     };
-    for (uint32_t i = 0; i < going_on_; ++i) end_or_keep(i);
-    const uint32_t still_going_on = hits;
-    for (uint32_t i = going_on_; i < live_; ++i) end_or_keep(i);
-    going_on_ = still_going_on;
+    for (uint32_t i = 0; i < continuing_; ++i) end_or_keep(i);
+    const uint32_t still_continuing = hits;
+    for (uint32_t i = continuing_; i < live_; ++i) end_or_keep(i);
+    continuing_ = still_continuing;
     live_ = hits;
   }
 
@@ -132,7 +132,7 @@ class PathBatch {
     if (kind != IntegratorKind::path) return;
     if (scene_.lights_count > 0) numbers_.draw(live_, 1u << d.light_point());
     if (scene_.lights_count > 1) numbers_.draw(live_, 1u << d.light_choice());
-    numbers_.draw(going_on_, 1u << d.roulette());  // no path uses it at its first surface
+    numbers_.draw(continuing_, 1u << d.roulette());  // no path uses it at its first surface
   }
 
   /// Computes the hit points of paths that hit triangles.
@@ -157,7 +157,7 @@ class PathBatch {
     if constexpr (kind == IntegratorKind::path) shade_diffuse(count);
   }
 
-  ALHAZEN_INLINE void go_on_or_end(bool goes_on, uint32_t index) {
+  ALHAZEN_INLINE void continue_or_end(bool goes_on, uint32_t index) {
     if (goes_on)
       active_[live_++] = index;
     else
@@ -176,14 +176,14 @@ class PathBatch {
   ALHAZEN_INLINE void shade_one(const Numbers& numbers, uint32_t place, uint32_t index) {
     Lane& lane = lanes_[index];
     if (scene_.has_cutouts && passes(scene_, lane.hit, ray_kind(lane.path.vertex), lane.path.ray, lane.path.travelled))
-      return go_on_or_end(lane.record.segments < max_transparent_hits, index);
+      return continue_or_end(lane.record.segments < max_transparent_hits, index);
     const bool is_computed = hit_points_.accepts(lane.hit);
     const ShadingPoint<Real> point = is_computed ? hit_points_.shading_point(place, scene_, lane.path.ray, lane.hit)
                                                  : shading_point(scene_, lane.path.ray, lane.hit);
     if constexpr (kind != IntegratorKind::path) {
-      go_on_or_end(shade_at(scene_, numbers, max_segments_, lane.hit, point, lane.path, lane.record), index);
+      continue_or_end(shade_at(scene_, numbers, max_segments_, lane.hit, point, lane.path, lane.record), index);
     } else if (!handle_hit(scene_, max_segments_, lane.hit, point, lane.path, lane.record)) {
-      go_on_or_end(false, index);
+      continue_or_end(false, index);
     } else if (point.bsdf.kind == MaterialKind::diffuse) {
       if (!is_computed || point.material->features & MaterialFeatures::tangents) hit_points_.set(place, point);
       diffuse_.add(place, scene_, point, numbers, lane.path);
@@ -192,7 +192,7 @@ class PathBatch {
       const auto light = [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
         add_shadow_ray(index, shadow, radiance);
       };
-      go_on_or_end(light_and_scatter(scene_, numbers, point, lane.path, lane.record, light), index);
+      continue_or_end(light_and_scatter(scene_, numbers, point, lane.path, lane.record, light), index);
     }
   }
 
@@ -208,7 +208,7 @@ class PathBatch {
         add_shadow_ray(index, diffuse_.shadow(place, lane.hit, lane.path.ray.time), diffuse_.lit(place));
       }
       diffuse_.take_over(place, lane.hit, lane.path);
-      go_on_or_end(diffuse_.goes_on(place), index);
+      continue_or_end(diffuse_.goes_on(place), index);
     }
     diffuse_.clear();
   }
@@ -216,7 +216,7 @@ class PathBatch {
   void trace_shadow_rays() {
     if (scene_.lets_light_through) {
       for (const PendingShadowRay* pending = shadow_rays_; pending != shadow_rays_ + shadow_ray_count_; ++pending) {
-        const Real visibility = free_share(scene_, intersector_, pending->shadow);
+        const Real visibility = visibility_of(scene_, intersector_, pending->shadow);
         if (visibility > 0) lanes_[pending->lane].record.radiance += pending->radiance * visibility;
       }
       return;
@@ -246,7 +246,7 @@ class PathBatch {
   Lane lanes_[max_paths];
   CameraRays<Real, Sampler, max_paths> camera_;                      ///< of the samples that start
   SampleBatch<Real, Sampler, max_paths, VertexDimensions> numbers_;  ///< in the order of `active_`
-  uint32_t active_[max_paths], live_ = 0, going_on_ = 0;  ///< lanes; those from `going_on_` on trace camera rays
+  uint32_t active_[max_paths], live_ = 0, continuing_ = 0;  ///< lanes; those from `continuing_` on trace camera rays
   PendingShadowRay shadow_rays_[max_paths];
   uint32_t shadow_ray_count_ = 0;
   uint32_t ended_[max_paths], ended_count_ = 0;

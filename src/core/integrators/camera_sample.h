@@ -59,12 +59,12 @@ ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& in
   ++record.segments;
   Hit<Real> hit;
   if (!intersector.closest_hit(path.ray, infinity<Real>, hit)) {
-    leave_scene(scene, path, record);
+    add_infinite_lights(scene, path, record);
     return false;
   }
   return shade(scene, sampler, max_segments, hit, path, record,
                [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
-                 const Real visibility = free_share(scene, intersector, shadow);
+                 const Real visibility = visibility_of(scene, intersector, shadow);
                  if (visibility > 0) record.radiance += radiance * visibility;
                });
 }

@@ -17,8 +17,8 @@ struct IterativeState {
 };
 
 template <class Real, class Record>
-ALHAZEN_HD ALHAZEN_HOT void leave_scene(const SceneView<Real>& scene, const IterativeState<Real>& path,
-                                        Record& record) {
+ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, const IterativeState<Real>& path,
+                                                Record& record) {
   record.radiance += path.throughput * background_radiance(scene, path.ray.direction);
 }
 

@@ -27,7 +27,8 @@ ALHAZEN_HD ALHAZEN_HOT Real bsdf_mis_weight(const PathState<Real>& path, Real li
 }
 
 template <class Real, class Record>
-ALHAZEN_HD ALHAZEN_HOT void leave_scene(const SceneView<Real>& scene, const PathState<Real>& path, Record& record) {
+ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, const PathState<Real>& path,
+                                                Record& record) {
   if (!is_zero(scene.background))
     record.radiance += path.throughput * scene.background * bsdf_mis_weight(path, pdf_background(scene));
   for (uint32_t i = 0; i < scene.environments_count; ++i) {

@@ -133,16 +133,16 @@ ALHAZEN_HD ALHAZEN_HOT ShadowRay<Real> shadow_ray(const SurfaceInteraction<Real>
 }
 
 template <class Real, RayIntersector<Real> Intersector>
-ALHAZEN_HD bool is_free(const Intersector& intersector, const ShadowRay<Real>& shadow) {
+ALHAZEN_HD bool is_unoccluded(const Intersector& intersector, const ShadowRay<Real>& shadow) {
   return !(shadow.t_max > 0) || !intersector.occluded(shadow.ray, shadow.t_max);
 }
 
 /// Visibility of a light: 0 or 1 unless some material lets shadow rays through.
 template <class Real, RayIntersector<Real> Intersector>
-ALHAZEN_HD Real free_share(const SceneView<Real>& scene, const Intersector& intersector,
-                           const ShadowRay<Real>& shadow) {
+ALHAZEN_HD Real visibility_of(const SceneView<Real>& scene, const Intersector& intersector,
+                              const ShadowRay<Real>& shadow) {
   if (scene.lets_light_through) return transmittance(scene, intersector, shadow.ray, shadow.t_max);
-  return is_free(intersector, shadow) ? Real(1) : Real(0);
+  return is_unoccluded(intersector, shadow) ? Real(1) : Real(0);
 }
 
 /// Light that arrives from one sampled light and is scattered along `wo` if unoccluded, with its MIS weight against

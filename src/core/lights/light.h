@@ -119,15 +119,15 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_triangle_light(const SceneView<R
 
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_sphere_light(const SceneView<Real>& scene,
-                                                             const LightRecord<Real>& light, const Vec3<Real>& center,
+                                                             const LightRecord<Real>& light, const Vec3<Real>& centre,
                                                              Real radius, uint32_t surface, uint32_t frame,
                                                              const Vec3<Real>& reference, bool is_on_light,
                                                              const Vec2<Real>& u) {
   LightSample<Real> s;
   Vec3<Real> outward;
-  s.direction = sample_sphere(center, radius, reference, is_on_light, u, outward, s.pdf);
-  s.point = center + outward * radius;
-  s.point_error = (abs(center) + splat(radius)) * rounding_bound<Real>(8);
+  s.direction = sample_sphere(centre, radius, reference, is_on_light, u, outward, s.pdf);
+  s.point = centre + outward * radius;
+  s.point_error = (abs(centre) + splat(radius)) * rounding_bound<Real>(8);
   s.normal = scene.surfaces[surface].flip_normal ? -outward : outward;
   s.radiance = emitted_radiance(light.radiance, light.two_sided, s.normal, -s.direction);
   if (light.texture.count > 0) s.radiance = s.radiance * sphere_emission_factor(scene, light, frame, outward, s.point);
@@ -174,11 +174,11 @@ ALHAZEN_HD ALHAZEN_HOT LightChoice<Real> choose_light(const SceneView<Real>& sce
     const Real probability = scene.light_tree_probability;
     if (u < probability) {
       LightChoice<Real> choice =
-          sample_light_tree(scene, reference, normal, smaller(u / probability, one_minus_epsilon<Real>));
+          sample_light_tree(scene, reference, normal, min(u / probability, one_minus_epsilon<Real>));
       choice.pmf *= probability;
       return choice;
     }
-    u = smaller((u - probability) / (1 - probability), one_minus_epsilon<Real>);
+    u = min((u - probability) / (1 - probability), one_minus_epsilon<Real>);
   }
   const uint32_t i = scene.lights_count == 1 ? 0 : sample_cdf(scene.light_cdf, scene.light_cdf_count - 1, u);
   return {i, scene.lights[i].pmf};
@@ -206,13 +206,13 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_chosen_light(const SceneView<Rea
       break;
     case LightKind::sphere: {
       const SphereRecord<Real>& sphere = scene.spheres[light.primitive];
-      s = sample_sphere_light(scene, light, sphere.center, sphere.radius, sphere.surface, sphere.frame, reference,
+      s = sample_sphere_light(scene, light, sphere.centre, sphere.radius, sphere.surface, sphere.frame, reference,
                               is_on_light, u);
       break;
     }
     case LightKind::moving_sphere: {
       const MovingSphereRecord<Real>& sphere = scene.moving_spheres[light.primitive];
-      s = sample_sphere_light(scene, light, sphere.center + sphere.motion * time, sphere.radius, sphere.surface,
+      s = sample_sphere_light(scene, light, sphere.centre + sphere.motion * time, sphere.radius, sphere.surface,
                               sphere.frame, reference, is_on_light, u);
       break;
     }
@@ -266,9 +266,9 @@ ALHAZEN_HD ALHAZEN_HOT Real pdf_light(const SceneView<Real>& scene, const LightR
                                       const Ray<Real>& ray, const Hit<Real>& hit, const SurfaceInteraction<Real>& si,
                                       const Vec3<Real>& normal) {
   const Real pmf = pmf_of_shape(scene, light, ray.origin, normal);
-  const auto of_sphere = [&](const Vec3<Real>& center, Real radius) {
+  const auto of_sphere = [&](const Vec3<Real>& centre, Real radius) {
     const Vec3<Real> outward = scene.surfaces[si.surface].flip_normal ? -si.normal : si.normal;
-    return pmf * pdf_sphere(center, radius, ray.origin, ray.direction, hit.t, outward);
+    return pmf * pdf_sphere(centre, radius, ray.origin, ray.direction, hit.t, outward);
   };
   switch (light.kind) {
     case LightKind::triangle: {
@@ -278,11 +278,11 @@ ALHAZEN_HD ALHAZEN_HOT Real pdf_light(const SceneView<Real>& scene, const LightR
     }
     case LightKind::sphere: {
       const SphereRecord<Real>& s = scene.spheres[light.primitive];
-      return of_sphere(s.center, s.radius);
+      return of_sphere(s.centre, s.radius);
     }
     case LightKind::moving_sphere: {
       const MovingSphereRecord<Real>& s = scene.moving_spheres[light.primitive];
-      return of_sphere(s.center + s.motion * ray.time, s.radius);
+      return of_sphere(s.centre + s.motion * ray.time, s.radius);
     }
     default:
       return 0;

@@ -101,7 +101,7 @@ ALHAZEN_HD CoatedMetalFactors<Real> lobe_factors(const CoatedConductorBsdf<Real>
                                                  const Vec3<Real>& o) {
   CoatedMetalFactors<Real> factors = coated_metal_factors(b.coated_metal, o.z);
   if (!b.is_anisotropic) return factors;
-  const Real scale = ggx_albedo(b.mean_grid, o).all() / larger(Real(0.01), lobe_albedo);
+  const Real scale = ggx_albedo(b.mean_grid, o).all() / max(Real(0.01), lobe_albedo);
   return {factors.once * scale, factors.all * scale};
 }
 

@@ -56,7 +56,7 @@ template <class Real>
 ALHAZEN_HD Real below_coat(Real reflectance, Real back, Real escape, Real bounces) {
   const Real again = reflectance * back;
   // 1 - again is never below reflectance * escape, but may cancel to rounding error.
-  const Real rest = larger(larger(1 - again, reflectance * escape), Real(1e-30));
+  const Real rest = max(max(1 - again, reflectance * escape), Real(1e-30));
   return reflectance * escape * ((bounces > 0 ? 1 - std::pow(again, bounces) : Real(1)) / rest);
 }
 
@@ -71,14 +71,14 @@ ALHAZEN_HD ALHAZEN_COLD void make_closure(const CoatedDiffuseRecord<Real>& recor
   b.transmission = textures.table(record.coat_transmission);
   const Real alpha = mean_alpha(b.alpha);
   // A rough interface, and interpolation between rows of the table, transmit light beyond the critical angle.
-  b.diffuse_cone = smaller(Real(1), b.ior + 3 * alpha + Real(0.015));
+  b.diffuse_cone = min(Real(1), b.ior + 3 * alpha + Real(0.015));
   const Real back = mean_albedo(b.transmission, alpha, CoatColumns::back);
   Real escape = 1 - back;
   if (escape < Real(1e-3)) escape = mean_albedo(b.transmission, alpha, CoatColumns::escape);
-  b.exit = mean_albedo(b.transmission, alpha, CoatColumns::scale) / (b.ior * b.ior * larger(escape, Real(1e-30)));
+  b.exit = mean_albedo(b.transmission, alpha, CoatColumns::scale) / (b.ior * b.ior * max(escape, Real(1e-30)));
   if (b.is_anisotropic)
     b.exit *= mean_albedo(b.transmission, alpha, CoatColumns::mean) /
-              larger(grid_mean(b.grid, CoatGrid::transmission), Real(1e-30));
+              max(grid_mean(b.grid, CoatGrid::transmission), Real(1e-30));
   const Vec3<Real> reflectance = textures.colour_or(record.reflectance, Real(1));
   b.diffuse = {below_coat(reflectance.x, back, escape, record.bounces),
                below_coat(reflectance.y, back, escape, record.bounces),
@@ -128,7 +128,7 @@ ALHAZEN_HD Vec3<Real> sample_diffuse_lobe(const CoatedDiffuseBsdf<Real>& b, cons
   if (b.diffuse_cone >= 1) return sample_cosine_hemisphere(u);
   const bool in_cone = u.x < cone_rate<Real>;
   const Real x = in_cone ? u.x / cone_rate<Real> : (u.x - cone_rate<Real>) / (1 - cone_rate<Real>);
-  const Vec2<Real> disk = sample_disk(Vec2<Real>{smaller(x, one_minus_epsilon<Real>), u.y});
+  const Vec2<Real> disk = sample_disk(Vec2<Real>{min(x, one_minus_epsilon<Real>), u.y});
   const Real scale = in_cone ? b.diffuse_cone : Real(1);
   const Real dx = disk.x * scale, dy = disk.y * scale;
   return {dx, dy, safe_sqrt(1 - dx * dx - dy * dy)};

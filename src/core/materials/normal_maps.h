@@ -12,7 +12,7 @@ template <class Real>
 ALHAZEN_HD Vec3<Real> mapped_normal(const SceneView<Real>& scene, TextureRange map, Real scale,
                                     const TexturePoint<Real>& at, const Frame<Real>& frame) {
   const Vec3<Real> encoded = evaluate_texture(scene, map, at) * Real(2) - splat(Real(1));
-  const Vec3<Real> local{encoded.x * scale, encoded.y * scale, larger(encoded.z, Real(1e-3))};
+  const Vec3<Real> local{encoded.x * scale, encoded.y * scale, max(encoded.z, Real(1e-3))};
   return normalize(frame.to_world(local));
 }
 

@@ -54,7 +54,7 @@ ALHAZEN_HD Real oren_nayar_missing(Real cosine) {
   const Real x = 1 - cosine;
   const Real gained =
       x * (Real(0.0571085289) + x * (Real(0.491881867) + x * (Real(-0.332181442) + x * Real(0.0714429953))));
-  return larger(Real(0), OrenNayarAlbedo<Real>::normal - gained);
+  return max(Real(0), OrenNayarAlbedo<Real>::normal - gained);
 }
 
 template <class Real>
@@ -76,7 +76,7 @@ struct OrenNayarLobe {
 /// Evaluates the fits of the paper for `o.z` > 0 and roughness `r`.
 template <class Real>
 ALHAZEN_HD OrenNayarLobe<Real> oren_nayar_lobe(const Vec3<Real>& o, Real r) {
-  const Real mu = smaller(o.z, Real(1)), mu3 = mu * mu * mu;
+  const Real mu = min(o.z, Real(1)), mu3 = mu * mu * mu;
   OrenNayarLobe<Real> lobe;
   lobe.a = 1 + r * (Real(0.303392) + mu * (Real(-0.518982) + Real(0.111709) * mu) +
                     r * (Real(-0.276266) + Real(0.335918) * mu));
@@ -85,7 +85,7 @@ ALHAZEN_HD OrenNayarLobe<Real> oren_nayar_lobe(const Vec3<Real>& o, Real r) {
   lobe.c = 1 + r * (Real(0.20013) + mu * (Real(-0.506373) + Real(0.261777) * mu));
   lobe.d = r * (Real(0.540852) + mu * (Real(-1.01625) + Real(0.475392) * mu)) /
            (Real(-1.0743) + mu * (Real(0.0725628) + mu));
-  lobe.d = smaller(lobe.d, Real(0));  // rounding makes it positive near the normal
+  lobe.d = min(lobe.d, Real(0));  // rounding makes it positive near the normal
   lobe.kept = Real(0.5) * (1 + 1 / std::sqrt(1 + lobe.d * lobe.d));
   lobe.uniform_rate =
       std::pow(r, Real(0.1)) * (Real(0.162925) + mu * (Real(-0.372058) + mu * (Real(0.538233) - Real(0.290822) * mu)));
@@ -110,7 +110,7 @@ ALHAZEN_HD Real pdf_oren_nayar_lobe(const OrenNayarLobe<Real>& lobe, const Vec3<
   const Real x = lobe.cosine * i.x + lobe.sine * i.y, y = lobe.cosine * i.y - lobe.sine * i.x;
   const Real minor = lobe.a - lobe.b * lobe.d, determinant = lobe.c * minor;
   const Vec3<Real> w{lobe.c * (x - lobe.b * i.z), minor * y, lobe.c * (lobe.a * i.z - lobe.d * x)};
-  return sqr(determinant / length_squared(w)) * larger(Real(0), w.z) * inv_pi<Real> / lobe.kept;
+  return sqr(determinant / length_squared(w)) * max(Real(0), w.z) * inv_pi<Real> / lobe.kept;
 }
 
 template <class Real>
@@ -120,7 +120,7 @@ ALHAZEN_HD BsdfValue<Real> OrenNayarBsdf<Real>::evaluate(const Vec3<Real>& wo, c
   const Real side = wo.z < 0 ? Real(-1) : Real(1);
   const Vec3<Real> o = wo * side, i = wi * side;
   const Real along = o.x * i.x + o.y * i.y;
-  const Real shape = along > 0 ? along / larger(o.z, i.z) : along;
+  const Real shape = along > 0 ? along / max(o.z, i.z) : along;
   const Real scale = i.z * inv_pi<Real> / (1 + Albedo::normal * roughness);
   const Real missing = oren_nayar_missing(o.z) * oren_nayar_missing(i.z) / (Albedo::normal - Albedo::mean);
   const OrenNayarLobe<Real> lobe = oren_nayar_lobe(o, roughness);

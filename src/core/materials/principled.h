@@ -6,7 +6,7 @@
 // together conserve energy if none of them absorbs. Multiple scattering is added by the lobe of Kulla and Conty for
 // metal, and by core/materials/lobes/rough_glass.h for glass. Clearcoat and sheen attenuate by the outgoing direction
 // alone, which is not reciprocal. No lobe is a Dirac delta distribution: smooth layers have the alpha
-// `least_layered_alpha`.
+// `min_layered_alpha`.
 
 #include "core/materials/closure.h"
 #include "core/materials/lobes/ggx_albedo.h"
@@ -92,7 +92,7 @@ ALHAZEN_HD Real dispersed_ior(Real ior, Real dispersion, int channel) {
 /// difference of the indices: a sheet of index 1 does not blur. At glTF's default index, 1.5, the factor is 1.
 template <class Real>
 ALHAZEN_HD Real blur_by_ior(Real ior) {
-  return smaller(Real(1), std::abs(2 * ior - 2));
+  return min(Real(1), std::abs(2 * ior - 2));
 }
 
 template <class Real>
@@ -127,7 +127,7 @@ ALHAZEN_HD FilmLayer<Real> film_of(const PrincipledRecord<Real>& record, const T
   if (!(film.amount > 0)) return film;
   film.ior = record.iridescence_ior;
   const bool varies = record.iridescence_thickness.count > 0;
-  film.thickness = larger(varies ? textures.value(record.iridescence_thickness).x : Real(400), Real(0));
+  film.thickness = max(varies ? textures.value(record.iridescence_thickness).x : Real(400), Real(0));
   return film;
 }
 
@@ -138,7 +138,7 @@ ALHAZEN_HD void add_film(PrincipledBsdf<Real>& b, const FilmLayer<Real>& film, R
     return lerp(f0, f0_of_reflectance(film_reflectance(film, cosine, f0), cosine), film.amount);
   };
   const Vec3<Real> kept = with_film(b.kept_f0);
-  b.f0 = min(with_film(b.f0), splat(larger(b.f90, max_component(b.f0))));
+  b.f0 = min(with_film(b.f0), splat(max(b.f90, max_component(b.f0))));
   b.kept_f0 = min(max(b.f0, kept), splat(Real(1)));
   b.metal_f0 = min(with_film(b.metal_f0), splat(Real(1)));
 }
@@ -226,7 +226,7 @@ template <class Real, class Textures>
 ALHAZEN_HD void add_sheen(const PrincipledRecord<Real>& record, const Textures& textures, PrincipledBsdf<Real>& b) {
   b.sheen = textures.colour_or(record.sheen_colour, Real(0));
   if (is_zero(b.sheen)) return;
-  b.sheen_roughness = larger(textures.scalar_or(record.sheen_roughness, Real(0)), Real(0.07));
+  b.sheen_roughness = max(textures.scalar_or(record.sheen_roughness, Real(0)), Real(0.07));
   const Real alpha = sqr(b.sheen_roughness);
   b.sheen_grid = textures.grid(record.sheen_grid, Vec2<Real>{alpha, alpha});
 }
@@ -305,7 +305,7 @@ ALHAZEN_HD void set_probabilities(const PrincipledBsdf<Real>& b, const Vec3<Real
               (b.metal > 0 ? b.metal * max_component(fresnel_of_metal(b, o.z)) * lobes.ggx.all() : Real(0)));
   lobes.diffuse = below * sheen * lobes.sheen + base * (max_component(b.diffuse * lobes.entering) +
                                                         b.metal * max_component(b.metal_f0) * lobes.ggx.missing());
-  lobes.through = base * (b.glass > 0 ? b.glass * larger(max_component(b.refraction.through), Real(0.2))
+  lobes.through = base * (b.glass > 0 ? b.glass * max(max_component(b.refraction.through), Real(0.2))
                                       : max_component(b.through * below_interface));
   lobes.diffuse_through = base * max_component(b.diffuse_through * below_interface);
   const Real sum = lobes.coat + lobes.specular + lobes.diffuse + lobes.diffuse_through + lobes.through;
@@ -329,13 +329,13 @@ ALHAZEN_HD ALHAZEN_COLD PrincipledLobes<Real> lobes_of(const PrincipledBsdf<Real
   const GgxAlbedo<Real> mean = mean_ggx_albedo(b.grid);
   lobes.metal_scale = single_scattering_scale(lobes.ggx.all(), lobes.ggx.missing(), mean.missing());
   const Vec3<Real> kept = kept_by_interface(b, mean);
-  if (1 - max_component(kept) < least_mean_missing<Real>)
+  if (1 - max_component(kept) < min_mean_missing<Real>)
     for (int c = 0; c < 3; ++c)
       lobes.interface_scale[c] = single_scattering_scale(lobes.interface[c], lobes.entering[c], 1 - kept[c]);
   const Real sheen = within ? Real(0) : max_component(b.sheen);
   if (sheen > 0) {
     lobes.sheen = grid_albedo(b.sheen_grid, 0, grid_direction(b.sheen_grid, o, Real(1)));
-    lobes.below_sheen = larger(Real(0), 1 - sheen * lobes.sheen);
+    lobes.below_sheen = max(Real(0), 1 - sheen * lobes.sheen);
   }
   set_probabilities(b, o, coat_albedo, sheen, lobes);
   return lobes;
@@ -344,11 +344,11 @@ ALHAZEN_HD ALHAZEN_COLD PrincipledLobes<Real> lobes_of(const PrincipledBsdf<Real
 /// Returns the transmittance of the interface into the diffuse base, for the direction of `lobes`, and out of it along
 /// `i`, normalised by its mean to conserve energy.
 template <class Real>
-ALHAZEN_HD Vec3<Real> share_of_diffuse_base(const PrincipledBsdf<Real>& b, const PrincipledLobes<Real>& lobes,
-                                            const Vec3<Real>& i) {
+ALHAZEN_HD Vec3<Real> diffuse_base_weight(const PrincipledBsdf<Real>& b, const PrincipledLobes<Real>& lobes,
+                                          const Vec3<Real>& i) {
   const Vec3<Real> leaving = max(splat(Real(1)) - kept_by_interface(b, ggx_albedo(b.grid, i)), Vec3<Real>{});
   const Vec3<Real> mean = splat(Real(1)) - kept_by_interface(b, mean_ggx_albedo(b.grid));
-  return lobes.entering * (leaving / max(mean, splat(least_mean_missing<Real>)));
+  return lobes.entering * (leaving / max(mean, splat(min_mean_missing<Real>)));
 }
 
 /// Evaluates sheen and base for two directions on the same side, without attenuation by the coat.
@@ -362,17 +362,16 @@ ALHAZEN_HD BsdfValue<Real> evaluate_below_coat(const PrincipledBsdf<Real>& b, co
   v.pdf = lobes.specular * ggx.pdf;
   const Real lambert = i.z * inv_pi<Real>;
   v.pdf += lobes.diffuse * lambert;
-  if (max_component(b.diffuse) > 0) v.value += b.diffuse * (share_of_diffuse_base(b, lobes, i) * lambert);
+  if (max_component(b.diffuse) > 0) v.value += b.diffuse * (diffuse_base_weight(b, lobes, i) * lambert);
   if (b.metal > 0) {
     const GgxAlbedo<Real> mean = mean_ggx_albedo(b.grid);
     v.value += fresnel_of_metal(b, ggx.cosine) * (b.metal * ggx.value * lobes.metal_scale);
     v.value += metal_multiple(b, mean.all()) * (lambert * lobes.ggx.missing() * ggx_albedo(b.grid, i).missing() /
-                                                larger(least_mean_missing<Real>, mean.missing()));
+                                                max(min_mean_missing<Real>, mean.missing()));
   }
   if (lobes.sheen > 0) {
     v.value *= lobes.below_sheen;
-    v.value +=
-        b.sheen * (evaluate_sheen(b.sheen_roughness, o, i) / larger(Real(1), max_component(b.sheen) * lobes.sheen));
+    v.value += b.sheen * (evaluate_sheen(b.sheen_roughness, o, i) / max(Real(1), max_component(b.sheen) * lobes.sheen));
   }
   return v;
 }
@@ -385,15 +384,14 @@ ALHAZEN_HD void evaluate_through(const PrincipledBsdf<Real>& b, const Principled
   if (b.glass == 0 && lobes.through > 0) {
     const GgxReflection<Real> ggx = ggx_reflection(o, mirrored, b.through_alpha);
     v.value += b.through * ((splat(Real(1)) - lobes.interface) * ggx.value /
-                            larger(ggx_albedo(b.through_grid, o).all(), Real(1e-3)) * lobes.below_sheen);
+                            max(ggx_albedo(b.through_grid, o).all(), Real(1e-3)) * lobes.below_sheen);
     v.pdf += lobes.through * ggx.pdf;
   }
   if (lobes.diffuse_through > 0) {
     const Real lambert = mirrored.z * inv_pi<Real>;
     // Refracted radiance scales with the square of the relative index.
     const Real crossing = leaves_body ? sqr(b.body_ior) : 1 / sqr(b.body_ior);
-    v.value +=
-        b.diffuse_through * (lambert * share_of_diffuse_base(b, lobes, mirrored) * (lobes.below_sheen * crossing));
+    v.value += b.diffuse_through * (lambert * diffuse_base_weight(b, lobes, mirrored) * (lobes.below_sheen * crossing));
     v.pdf += lobes.diffuse_through * lambert;
   }
 }

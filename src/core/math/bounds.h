@@ -22,7 +22,7 @@ struct Bounds3 {
     high = max(high, b.high);
   }
   ALHAZEN_HD constexpr Vec3<Real> diagonal() const { return high - low; }
-  ALHAZEN_HD constexpr Vec3<Real> center() const { return (low + high) * Real(0.5); }
+  ALHAZEN_HD constexpr Vec3<Real> centre() const { return (low + high) * Real(0.5); }
   /// Half of the surface area; 0 for an empty box.
   ALHAZEN_HD constexpr Real half_area() const {
     if (is_empty()) return 0;

@@ -44,12 +44,12 @@ ALHAZEN_HD inline Real safe_sqrt(Real x) {
 }
 
 template <class Real>
-ALHAZEN_HD constexpr Real smaller(Real a, Real b) {
+ALHAZEN_HD constexpr Real min(Real a, Real b) {
   return a < b ? a : b;
 }
 
 template <class Real>
-ALHAZEN_HD constexpr Real larger(Real a, Real b) {
+ALHAZEN_HD constexpr Real max(Real a, Real b) {
   return a > b ? a : b;
 }
 

@@ -89,7 +89,7 @@ ALHAZEN_HD Real uv_density_of(const SceneView<Real>& scene, const Record& record
   if (record.frame == no_sphere_frame) return 0;
   // u = phi / (2 pi), v = theta / pi, area = r^2 sin(theta) dtheta dphi.
   const Real cosine = dot(normal, scene.sphere_frames[record.frame].z);
-  const Real sine = larger(safe_sqrt(1 - cosine * cosine), Real(1e-3));
+  const Real sine = max(safe_sqrt(1 - cosine * cosine), Real(1e-3));
   return Real(0.5) * inv_pi<Real> * inv_pi<Real> / (record.radius * record.radius * sine);
 }
 

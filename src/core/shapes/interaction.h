@@ -141,7 +141,7 @@ ALHAZEN_HD ALHAZEN_RARE Vec3<Real> away_from_edges(const Vec3<Real> (&p)[3], Rea
   const auto lack = [&](const Vec3<Real>& edge, Real b) {
     const Real inverse_length = 1 / length(edge);
     const Real height = twice_area * inverse_length;
-    return larger(smaller(clearance, height * Real(1.0 / 3)) - b * height, Real(0)) * inverse_length;
+    return max(min(clearance, height * Real(1.0 / 3)) - b * height, Real(0)) * inverse_length;
   };
   const Vec3<Real> along = e0 * lack(e0, 1 - b1 - b2) + e1 * lack(e1, b1) + e2 * lack(e2, b2);
   return cross(winding, along) * (1 / twice_area);
@@ -212,11 +212,11 @@ ALHAZEN_HD ALHAZEN_NOINLINE SurfaceInteraction<Real> triangle_interaction(const 
 template <class Real, SphereRecordOf<Real> Record>
 ALHAZEN_HD ALHAZEN_HOT void set_interaction(const SceneView<Real>& scene, const Record& record, const Ray<Real>& ray,
                                             const Hit<Real>& hit, SurfaceInteraction<Real>& si) {
-  const auto [center, radius] = sphere_at(record, ray.time);
-  const Vec3<Real> outward = normalize(ray.origin - center + ray.direction * hit.t);
-  const Vec3<Real> from_center = outward * radius;
-  si.position = center + from_center;
-  si.position_error = (abs(center) + splat(radius)) * rounding_bound<Real>(8);
+  const auto [centre, radius] = sphere_at(record, ray.time);
+  const Vec3<Real> outward = normalize(ray.origin - centre + ray.direction * hit.t);
+  const Vec3<Real> from_centre = outward * radius;
+  si.position = centre + from_centre;
+  si.position_error = (abs(centre) + splat(radius)) * rounding_bound<Real>(8);
   si.normal = scene.surfaces[record.surface].flip_normal ? -outward : outward;
   si.shading_normal = si.normal;
   si.uv = {};

@@ -17,16 +17,16 @@ struct TriangleRecord {
 
 template <class Real>
 struct SphereRecord {
-  Vec3<Real> center;
+  Vec3<Real> centre;
   Real radius;
   uint32_t surface;
   uint32_t frame;  ///< index into sphere_frames, or no_sphere_frame if no texture uses uv
 };
 
-/// A sphere whose centre moves linearly: center + time * motion, with time in [0, 1] over the shutter interval.
+/// A sphere whose centre moves linearly: centre + time * motion, with time in [0, 1] over the shutter interval.
 template <class Real>
 struct MovingSphereRecord {
-  Vec3<Real> center;
+  Vec3<Real> centre;
   Real radius;
   Vec3<Real> motion;
   uint32_t surface;

@@ -16,8 +16,8 @@ namespace ALHAZEN_CORE {
 /// Intersects the sphere. The discriminant is computed from the vector to the closest point, and the roots without
 /// cancellation (Haines, Gunther, Akenine-Moller 2019, Ray Tracing Gems ch. 7).
 template <class Real>
-ALHAZEN_HD bool intersect_sphere(const Ray<Real>& ray, const Vec3<Real>& center, Real radius, Real t_max, Real& t) {
-  const Vec3<Real> f = ray.origin - center;
+ALHAZEN_HD bool intersect_sphere(const Ray<Real>& ray, const Vec3<Real>& centre, Real radius, Real t_max, Real& t) {
+  const Vec3<Real> f = ray.origin - centre;
   const Real b = -dot(f, ray.direction);
   const Vec3<Real> closest = f + ray.direction * b;
   const Real discriminant = radius * radius - dot(closest, closest);
@@ -38,19 +38,19 @@ ALHAZEN_HD bool intersect_sphere(const Ray<Real>& ray, const Vec3<Real>& center,
 
 template <class Real>
 struct Sphere {
-  Vec3<Real> center;
+  Vec3<Real> centre;
   Real radius;
 };
 
 template <class Real>
 ALHAZEN_HD ALHAZEN_INLINE Sphere<Real> sphere_at(const SphereRecord<Real>& sphere, Real) {
-  return {sphere.center, sphere.radius};
+  return {sphere.centre, sphere.radius};
 }
 
 /// Returns the sphere at `time`.
 template <class Real>
 ALHAZEN_HD ALHAZEN_INLINE Sphere<Real> sphere_at(const MovingSphereRecord<Real>& sphere, Real time) {
-  return {sphere.center + sphere.motion * time, sphere.radius};
+  return {sphere.centre + sphere.motion * time, sphere.radius};
 }
 
 /// A record of a static or moving sphere.
@@ -64,15 +64,15 @@ ALHAZEN_HD ALHAZEN_INLINE bool intersect_record(const SceneView<Real>&, const Re
                                                 const Ray<Real>& ray, const ShearedRay<Real>&, Real t_max,
                                                 Hit<Real>& hit) {
   const Sphere<Real> sphere = sphere_at(record, ray.time);
-  return intersect_sphere(ray, sphere.center, sphere.radius, t_max, hit.t);
+  return intersect_sphere(ray, sphere.centre, sphere.radius, t_max, hit.t);
 }
 
 /// Returns the bounding box, padded by the rounding error of centre +- radius.
 template <class Real>
 Bounds3<Real> bounds_of(const Sphere<Real>& sphere) {
   const Vec3<Real> r =
-      splat(sphere.radius) + (abs(sphere.center) + splat(sphere.radius)) * (2 * std::numeric_limits<Real>::epsilon());
-  return {sphere.center - r, sphere.center + r};
+      splat(sphere.radius) + (abs(sphere.centre) + splat(sphere.radius)) * (2 * std::numeric_limits<Real>::epsilon());
+  return {sphere.centre - r, sphere.centre + r};
 }
 
 template <class Real, SphereRecordOf<Real> Record>
@@ -85,9 +85,9 @@ Bounds3<Real> bounds_of(const SceneView<Real>&, const Record& record) {
 /// Computes the cone of directions from `point` that the sphere subtends: the cosine of its half angle, and 1 minus
 /// that cosine without cancellation. Returns false if the point is inside; the cone is then a hemisphere.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT bool subtended_cone(const Vec3<Real>& center, Real radius, const Vec3<Real>& point,
+ALHAZEN_HD ALHAZEN_HOT bool subtended_cone(const Vec3<Real>& centre, Real radius, const Vec3<Real>& point,
                                            Real& cos_max, Real& one_minus_cos_max) {
-  const Real distance_squared = length_squared(center - point);
+  const Real distance_squared = length_squared(centre - point);
   const Real sin2 = radius * radius / distance_squared;
   const bool is_outside = sin2 < 1;
   cos_max = is_outside ? safe_sqrt(1 - sin2) : Real(0);
@@ -107,12 +107,12 @@ ALHAZEN_HD Real pdf_of_sphere_area(Real radius, const Vec3<Real>& direction, Rea
 /// Samples a point uniformly over the area of the sphere, all of which is visible from inside and from the sphere
 /// itself. The results are those of `sample_sphere`.
 template <class Real>
-ALHAZEN_HD Vec3<Real> sample_sphere_area(const Vec3<Real>& center, Real radius, const Vec3<Real>& point,
+ALHAZEN_HD Vec3<Real> sample_sphere_area(const Vec3<Real>& centre, Real radius, const Vec3<Real>& point,
                                          const Vec2<Real>& u, Vec3<Real>& normal_at, Real& pdf) {
   const Real z = 1 - 2 * u.x, r = safe_sqrt(1 - z * z);
   const auto [sine, cosine] = sine_cosine_of_turn(2 * pi<Real> * u.y);
   normal_at = {r * cosine, r * sine, z};
-  const Vec3<Real> to_light = center + normal_at * radius - point;
+  const Vec3<Real> to_light = centre + normal_at * radius - point;
   const Real distance_squared = length_squared(to_light);
   if (!(distance_squared > 0)) {
     pdf = 0;
@@ -128,22 +128,22 @@ ALHAZEN_HD Vec3<Real> sample_sphere_area(const Vec3<Real>& center, Real radius, 
 /// rounding would otherwise decide, with large errors far from the origin. Sets `normal_at` to the outward unit normal
 /// at the sampled point and `pdf` to the density over solid angle.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_sphere(const Vec3<Real>& center, Real radius, const Vec3<Real>& point,
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_sphere(const Vec3<Real>& centre, Real radius, const Vec3<Real>& point,
                                                 bool is_on_sphere, const Vec2<Real>& u, Vec3<Real>& normal_at,
                                                 Real& pdf) {
   Real cos_max, one_minus_cos_max;
-  if (is_on_sphere || !subtended_cone(center, radius, point, cos_max, one_minus_cos_max))
-    return sample_sphere_area(center, radius, point, u, normal_at, pdf);
+  if (is_on_sphere || !subtended_cone(centre, radius, point, cos_max, one_minus_cos_max))
+    return sample_sphere_area(centre, radius, point, u, normal_at, pdf);
   const Real phi = 2 * pi<Real> * u.y;
-  const Frame<Real> frame = frame_about(normalize(center - point));
+  const Frame<Real> frame = frame_about(normalize(centre - point));
   const Real one_minus_cos = u.x * one_minus_cos_max;
   const Real cos_theta = 1 - one_minus_cos;
   const Real sin_theta = safe_sqrt(one_minus_cos * (1 + cos_theta));
   const auto [sin_phi, cos_phi] = sine_cosine_of_turn(phi);
   // The normal is computed from the angles (PBR 4th ed., 6.2.4), since distant positions do not resolve a small sphere.
   const Real sin2_max = one_minus_cos_max * (1 + cos_max);
-  const Real share = sin_theta * sin_theta / sin2_max;
-  const Real cos_alpha = std::sqrt(sin2_max) * share + cos_theta * safe_sqrt(1 - share);
+  const Real sin2_fraction = sin_theta * sin_theta / sin2_max;
+  const Real cos_alpha = std::sqrt(sin2_max) * sin2_fraction + cos_theta * safe_sqrt(1 - sin2_fraction);
   const Real sin_alpha = safe_sqrt(1 - cos_alpha * cos_alpha);
   normal_at = frame.to_world({sin_alpha * cos_phi, sin_alpha * sin_phi, -cos_alpha});
   pdf = Real(0.5) * inv_pi<Real> / one_minus_cos_max;
@@ -154,11 +154,11 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> sample_sphere(const Vec3<Real>& center, Real r
 /// outward unit normal is `outward`. A ray from inside or from the sphere itself hits the inside, which selects the
 /// case independently of how the distance of `point` from the centre is rounded.
 template <class Real>
-ALHAZEN_HD Real pdf_sphere(const Vec3<Real>& center, Real radius, const Vec3<Real>& point, const Vec3<Real>& direction,
+ALHAZEN_HD Real pdf_sphere(const Vec3<Real>& centre, Real radius, const Vec3<Real>& point, const Vec3<Real>& direction,
                            Real t, const Vec3<Real>& outward) {
   if (dot(direction, outward) > 0) return pdf_of_sphere_area(radius, direction, t * t, outward);
   Real cos_max, one_minus_cos_max;
-  subtended_cone(center, radius, point, cos_max, one_minus_cos_max);
+  subtended_cone(centre, radius, point, cos_max, one_minus_cos_max);
   return Real(0.5) * inv_pi<Real> / one_minus_cos_max;
 }
 

@@ -18,18 +18,18 @@ namespace ALHAZEN_CORE {
 
 /// Register size in bytes for which these instructions run at full speed.
 #if defined(__AVX512F__)
-inline constexpr int most_register_bytes = 64;
+inline constexpr int max_register_bytes = 64;
 #elif defined(__AVX__)
-inline constexpr int most_register_bytes = 32;
+inline constexpr int max_register_bytes = 32;
 #else
-inline constexpr int most_register_bytes = 16;
+inline constexpr int max_register_bytes = 16;
 #endif
 
 template <class T, int count>
 struct Lanes {
   using Component = T;
   static constexpr int bytes = count * static_cast<int>(sizeof(T));
-  static constexpr int register_bytes = bytes < most_register_bytes ? bytes : most_register_bytes;
+  static constexpr int register_bytes = bytes < max_register_bytes ? bytes : max_register_bytes;
   static constexpr int registers = bytes / register_bytes;
   static constexpr int per_register = count / registers;
   typedef T Register __attribute__((vector_size(register_bytes)));
@@ -71,10 +71,10 @@ struct Lanes {
   }
 
   /// The smaller of each pair of lanes; b's if one is NaN.
-  ALHAZEN_INLINE friend Lanes smaller(const Lanes& a, const Lanes& b) {
+  ALHAZEN_INLINE friend Lanes min(const Lanes& a, const Lanes& b) {
     return map([&](int i) { return a.r[i] < b.r[i] ? a.r[i] : b.r[i]; });
   }
-  ALHAZEN_INLINE friend Lanes larger(const Lanes& a, const Lanes& b) {
+  ALHAZEN_INLINE friend Lanes max(const Lanes& a, const Lanes& b) {
     return map([&](int i) { return a.r[i] > b.r[i] ? a.r[i] : b.r[i]; });
   }
   ALHAZEN_INLINE friend Lanes magnitude(const Lanes& a) {

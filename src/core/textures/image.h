@@ -78,7 +78,7 @@ ALHAZEN_HD float pyramid_level(const SceneView<Real>& scene, const ImageRecord& 
       m.kind == TextureMappingKind::uv ? density_of_uv(scene, m, at) : density_of_position(m, at, footprint);
   const Real texels = footprint * density * static_cast<Real>(image.width) * static_cast<Real>(image.height);
   if (!(texels > 1)) return 0;
-  return 0.5f * coarse_log2(static_cast<float>(smaller(texels, Real(1e30))));
+  return 0.5f * coarse_log2(static_cast<float>(min(texels, Real(1e30))));
 }
 
 /// The image filtered for the camera: bilinear where magnified, else interpolated between two levels of its pyramid.

@@ -47,7 +47,7 @@ void fit_camera(Scene& scene, double aspect) {
   Bounds3<double> box;
   for_each_vertex(scene, [&](const Vec3d& p) { box.extend(p); });
   if (box.is_empty()) box.extend(Vec3d{});
-  const Vec3d center = box.center(), half = box.diagonal() * 0.5;
+  const Vec3d centre = box.centre(), half = box.diagonal() * 0.5;
   const Vec3d backward = direction_to_eye(half);
   const Vec3d right = normalize(cross(Vec3d{0, 1, 0}, backward)), up = cross(backward, right);
   scene.camera.fov = 40;
@@ -59,19 +59,19 @@ void fit_camera(Scene& scene, double aspect) {
   // and its distance.
   double to_right = -1e300, to_left = -1e300, to_top = -1e300, to_bottom = -1e300, nearest = -1e300;
   const auto visit = [&](const Vec3d& point) {
-    const Vec3d p = point - center;
+    const Vec3d p = point - centre;
     const double x = dot(p, right), y = dot(p, up), z = dot(p, backward);
     to_right = std::max(to_right, x + across * z), to_left = std::max(to_left, -x + across * z);
     to_top = std::max(to_top, y + along * z), to_bottom = std::max(to_bottom, -y + along * z);
     nearest = std::max(nearest, z);
   };
   for_each_vertex(scene, visit);
-  if (nearest == -1e300) visit(center);
+  if (nearest == -1e300) visit(centre);
   // If the scene is a single point, any distance will do.
   const double size = length(half) > 0 ? length(half) : 1e-6;
   const double distance =
       std::max({(to_right + to_left) / (2 * across), (to_top + to_bottom) / (2 * along), nearest + size * 1e-3});
-  const Vec3d eye = center + right * ((to_right - to_left) / 2) + up * ((to_top - to_bottom) / 2) + backward * distance;
+  const Vec3d eye = centre + right * ((to_right - to_left) / 2) + up * ((to_top - to_bottom) / 2) + backward * distance;
   scene.camera.world_from_camera.start = Transform(Matrix4{{{right.x, up.x, -backward.x, eye.x},
                                                             {right.y, up.y, -backward.y, eye.y},
                                                             {right.z, up.z, -backward.z, eye.z},

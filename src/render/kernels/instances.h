@@ -28,9 +28,9 @@ template <IntegratorKind kind, class Sampler, class Real, BatchIntersector<Real>
 void take_blocks_together(const KernelRequest& request, const SceneView<Real>& scene, const Intersector& intersector,
                           BlockSum<Real>* sums) {
   // Every block has space for samples_per_block records, whether or not it uses them all.
-  SampleRecord<Real> records[most_blocks_per_request * samples_per_block];
-  Real weights[most_blocks_per_request * samples_per_block];
-  uint16_t slots[most_blocks_per_request * samples_per_block];
+  SampleRecord<Real> records[max_blocks_per_request * samples_per_block];
+  Real weights[max_blocks_per_request * samples_per_block];
+  uint16_t slots[max_blocks_per_request * samples_per_block];
   uint32_t count = 0;
   for (uint32_t b = 0; b < request.block_count; ++b)
     for (uint32_t i = 0; i < request.blocks[b].count; ++i)

@@ -12,7 +12,7 @@ struct BlockRequest {
 };
 
 /// Maximum number of blocks per request.
-inline constexpr uint32_t most_blocks_per_request = 256;
+inline constexpr uint32_t max_blocks_per_request = 256;
 
 struct KernelRequest {
   const void* scene;   ///< SceneView<Real>

@@ -42,7 +42,7 @@ TEST(AlbedoTables, FollowTheEdgeOfTotalReflection) {
   const VisibleNormals seen(4096, Density::even);
   for (const double ior : {0.1, 0.5, 0.9}) {
     const Table table = interface_albedo_table(ior);
-    const Vec2d alpha{least_layered_alpha<double>, least_layered_alpha<double>};
+    const Vec2d alpha{min_layered_alpha<double>, min_layered_alpha<double>};
     double worst = 0, sum = 0;
     constexpr int directions = 2000;
     for (int k = 1; k < directions; ++k) {

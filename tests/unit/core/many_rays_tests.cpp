@@ -170,13 +170,13 @@ TYPED_TEST(ManyRays, MeshFarAway) {
   Random random(22);
   Mesh mesh = icosphere(3);
   jitter_radii(mesh, 0.05, random);
-  const Vec3d center{1.5e5, -1.5e5, 1.5e5};
-  for (Vec3d& p : mesh.positions) p = p * 100 + center;
+  const Vec3d centre{1.5e5, -1.5e5, 1.5e5};
+  for (Vec3d& p : mesh.positions) p = p * 100 + centre;
   PrimitiveScene primitives;
   primitives.add_mesh(mesh);
   const CompiledScene<TypeParam> scene = primitives.flat<TypeParam>();
   Queries<TypeParam> queries = bundles<TypeParam>(random, effort(5'000), 300);
-  for (Ray<TypeParam>& ray : queries.rays) ray.origin += convert<TypeParam>(center);
+  for (Ray<TypeParam>& ray : queries.rays) ray.origin += convert<TypeParam>(centre);
   check(scene.view, queries);
 }
 

@@ -64,7 +64,7 @@ std::optional<SurfaceInteraction<Real>> meet(const SceneView<Real>& scene, const
 
 /// Below this size a shape at `position` is mostly rounding of coordinates.
 template <class Real>
-double least_resolved_size(const Vec3d& position) {
+double min_resolved_size(const Vec3d& position) {
   return 100 * length(position) * static_cast<double>(std::numeric_limits<Real>::epsilon());
 }
 
@@ -107,13 +107,13 @@ TYPED_TEST(SelfIntersectionOf, SpheresFromOutside) {
   OnePrimitive<Real> scene;
   scene.primitive = PrimitiveId(PrimitiveKind::sphere, 0);
   while (left < effort(1'000'000)) {
-    const Vec3d center = random.on_sphere() * random.magnitude_between(1e-3, 1e5);
+    const Vec3d centre = random.on_sphere() * random.magnitude_between(1e-3, 1e5);
     const double radius = random.magnitude_between(1e-3, 1e4);
-    scene.sphere.center = convert<Real>(center);
+    scene.sphere.centre = convert<Real>(centre);
     scene.sphere.radius = static_cast<Real>(radius);
     const SceneView<Real> view = scene.view();
     for (int i = 0; i < 16; ++i) {
-      const Vec3d target = center + random.on_sphere() * radius;
+      const Vec3d target = centre + random.on_sphere() * radius;
       const auto si = meet<Real>(view, target, radius * random.magnitude_between(0.1, 100), random);
       if (!si) continue;
       const Ray<Real> ray = spawn_ray(*si, leaving_direction(si->normal, 1, random));
@@ -133,14 +133,14 @@ TYPED_TEST(SelfIntersectionOf, SpheresFromInside) {
   OnePrimitive<Real> scene;
   scene.primitive = PrimitiveId(PrimitiveKind::sphere, 0);
   while (left < effort(1'000'000)) {
-    const Vec3d center = random.on_sphere() * random.magnitude_between(1e-3, 1e5);
+    const Vec3d centre = random.on_sphere() * random.magnitude_between(1e-3, 1e5);
     const double radius = random.magnitude_between(1e-3, 1e4);
-    if (radius < least_resolved_size<Real>(center)) continue;
-    scene.sphere.center = convert<Real>(center);
+    if (radius < min_resolved_size<Real>(centre)) continue;
+    scene.sphere.centre = convert<Real>(centre);
     scene.sphere.radius = static_cast<Real>(radius);
     const SceneView<Real> view = scene.view();
     for (int i = 0; i < 16; ++i) {
-      const Vec3d target = center + random.on_sphere() * radius;
+      const Vec3d target = centre + random.on_sphere() * radius;
       const auto si = meet<Real>(view, target, radius * random.magnitude_between(0.1, 100), random);
       if (!si) continue;
       const Ray<Real> ray = spawn_ray(*si, leaving_direction(si->normal, -1, random));
@@ -163,8 +163,8 @@ TYPED_TEST(SelfIntersectionOf, LightsAreSeen) {
     scene.primitive = PrimitiveId(round ? PrimitiveKind::sphere : PrimitiveKind::triangle, 0);
     const Vec3d p = random.on_sphere() * random.magnitude_between(1e-3, 1e5);
     const double size = random.magnitude_between(1e-2, 1e3);
-    if (size < least_resolved_size<Real>(p)) continue;
-    scene.sphere.center = convert<Real>(p);
+    if (size < min_resolved_size<Real>(p)) continue;
+    scene.sphere.centre = convert<Real>(p);
     scene.sphere.radius = static_cast<Real>(size);
     for (Vec3<Real>& corner : scene.positions) corner = convert<Real>(p + random.on_sphere() * size);
     SceneView<Real> view = scene.view();
@@ -188,7 +188,7 @@ TYPED_TEST(SelfIntersectionOf, LightsAreSeen) {
       if (!(s.pdf > 0)) continue;
       from.normal = s.direction;
       ++tried;
-      hidden += !is_free(BruteForceIntersector<Real>(view), shadow_ray(from, s));
+      hidden += !is_unoccluded(BruteForceIntersector<Real>(view), shadow_ray(from, s));
     }
   }
   EXPECT_EQ(hidden, 0u) << "of " << tried;

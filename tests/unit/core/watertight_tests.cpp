@@ -27,17 +27,17 @@ struct Miss {
   size_t from_inside = 0, from_outside = 0;
 };
 
-/// Rays at the mesh, which is star-shaped about `center` and about as large as `radius`: from points in its inner half,
+/// Rays at the mesh, which is star-shaped about `centre` and about as large as `radius`: from points in its inner half,
 /// and from outside in directions that lead through the inner half.
 template <class Tree, class Real = typename Tree::Real>
-Miss<Real> shoot(const SceneView<Real>& scene, const Mesh& mesh, const Vec3d& center, double radius, Aim aim,
+Miss<Real> shoot(const SceneView<Real>& scene, const Mesh& mesh, const Vec3d& centre, double radius, Aim aim,
                  size_t rays, Random& random) {
   const typename Tree::Intersector bvh(scene);
   Miss<Real> misses;
   for (size_t i = 0; i < rays; ++i) {
     // Numbers generated in double are rounded first, so that the ray aims at what the scene contains.
     const Vec3<Real> target = convert<Real>(target_on(mesh, aim, random));
-    const Vec3<Real> inside = convert<Real>(center + random.on_sphere() * (random.uniform<double>() * 0.5 * radius));
+    const Vec3<Real> inside = convert<Real>(centre + random.on_sphere() * (random.uniform<double>() * 0.5 * radius));
     const Vec3<Real> outwards = normalize(target - inside);
     Hit<Real> hit;
     if (!bvh.closest_hit({inside, outwards}, infinity<Real>, hit)) ++misses.from_inside;
@@ -50,17 +50,17 @@ Miss<Real> shoot(const SceneView<Real>& scene, const Mesh& mesh, const Vec3d& ce
 }
 
 template <class Tree>
-void check_watertight(double jitter, double radius, const Vec3d& center, uint64_t seed) {
+void check_watertight(double jitter, double radius, const Vec3d& centre, uint64_t seed) {
   using Real = typename Tree::Real;
   Random random(seed);
   Mesh mesh = icosphere(4);
   jitter_radii(mesh, jitter, random);
-  for (Vec3d& p : mesh.positions) p = p * radius + center;
+  for (Vec3d& p : mesh.positions) p = p * radius + centre;
   PrimitiveScene primitives;
   primitives.add_mesh(mesh);
   const CompiledScene<Real> scene = primitives.flat<Real>();
   for (const Aim aim : {Aim::vertex, Aim::edge, Aim::face}) {
-    const Miss<Real> misses = shoot<Tree>(scene.view, mesh, center, radius, aim, effort(100'000), random);
+    const Miss<Real> misses = shoot<Tree>(scene.view, mesh, centre, radius, aim, effort(100'000), random);
     EXPECT_EQ(misses.from_inside, 0u) << "aim " << static_cast<int>(aim);
     EXPECT_EQ(misses.from_outside, 0u) << "aim " << static_cast<int>(aim);
   }

@@ -63,7 +63,7 @@ struct Launch {
   SceneView<Real> scene;
   FilmView<Real> film;
   Totals* totals;
-  uint32_t x0, y0;  ///< of the film's window in the picture
+  uint32_t x0, y0;  ///< of the film's window in the image
   uint32_t width;   ///< of the window
   RowShare share;
   Slice slice;
@@ -75,8 +75,8 @@ struct Launch {
   ALHAZEN_HD size_t film_index(uint32_t x, uint32_t row) const {
     return static_cast<size_t>(share.window_row(slice.row + row)) * width + x;
   }
-  ALHAZEN_HD uint32_t picture_x(uint32_t x) const { return x0 + x; }
-  ALHAZEN_HD uint32_t picture_y(uint32_t row) const { return y0 + share.window_row(slice.row + row); }
+  ALHAZEN_HD uint32_t image_x(uint32_t x) const { return x0 + x; }
+  ALHAZEN_HD uint32_t image_y(uint32_t row) const { return y0 + share.window_row(slice.row + row); }
   /// Whether the film holds block `block` of the slice at that pixel: an earlier pass may have been stopped.
   ALHAZEN_HD bool holds_block(size_t film_pixel, uint32_t block) const {
     return film.samples[film_pixel] > slice.first + block * samples_per_block;

@@ -35,7 +35,7 @@ struct PersistentKernel {
           taken = 0;
           to_take = launch.samples_in_block(item.block);
         }
-        const uint32_t px = launch.picture_x(item.x), py = launch.picture_y(item.row);
+        const uint32_t px = launch.image_x(item.x), py = launch.image_y(item.row);
         sampler = AnySampler(launch.sampler, launch.seed, px, py,
                              launch.slice.first + item.block * samples_per_block + taken);
         const CameraSample<Real> camera = sample_camera(launch.scene, sampler, px, py);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The report's kernels: a thread a pixel (Algorithm 6), and a thread for the same place of every chunk of the picture
+// The report's kernels: a thread a pixel (Algorithm 6), and a thread for the same place of every chunk of the image
 // (Algorithm 7). One chunk is the first, so both are one kernel.
 
 #include "backends/cuda/kernels/launch.h"
@@ -8,7 +8,7 @@
 namespace alhazen::cuda {
 
 /// Thread (x, y) renders pixel (x, y) of each of chunks_x * chunks_y chunks. Chunk sizes are rounded up, and what then
-/// lies outside is left out, so that no pixel is lost where the chunks do not divide the picture.
+/// lies outside is left out, so that no pixel is lost where the chunks do not divide the image.
 template <class Tracing, IntegratorKind kind, class Real>
 struct PixelKernel {
   Launch<Real> launch;
@@ -44,7 +44,7 @@ struct PixelKernel {
   ALHAZEN_HD void take_sample(const Thread& thread, uint32_t x, uint32_t row, uint32_t sample,
                               BlockSum<Real>& sum) const {
     const auto intersector = Tracing::intersector(launch.scene, thread.stacks());
-    const uint32_t px = launch.picture_x(x), py = launch.picture_y(row);
+    const uint32_t px = launch.image_x(x), py = launch.image_y(row);
     const AnySampler sampler(launch.sampler, launch.seed, px, py, sample);
     const CameraSample<Real> camera = sample_camera(launch.scene, sampler, px, py);
     SumRecord<Real> record(&sum, launch.film);

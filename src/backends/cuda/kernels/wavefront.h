@@ -135,7 +135,7 @@ struct WavefrontStage {
 
   ALHAZEN_HD AnySampler sampler_of(uint32_t slot) const {
     const Item item = item_at(grid, slots.item[slot]);
-    return AnySampler(launch.sampler, launch.seed, launch.picture_x(item.x), launch.picture_y(item.row),
+    return AnySampler(launch.sampler, launch.seed, launch.image_x(item.x), launch.image_y(item.row),
                       launch.slice.first + item.block * samples_per_block + slots.taken[slot]);
   }
 };
@@ -184,7 +184,7 @@ struct GenerateKernel {
     }
     slots.taken[slot] = taken;
     const CameraSample<Real> camera =
-        sample_camera(launch.scene, stage.sampler_of(slot), launch.picture_x(item.x), launch.picture_y(item.row));
+        sample_camera(launch.scene, stage.sampler_of(slot), launch.image_x(item.x), launch.image_y(item.row));
     StateOf<kind, Real> path;
     path.ray = camera.ray;
     slots.store(slot, path);
@@ -234,8 +234,8 @@ struct IntersectKernel {
       slots.hit_b2[slot] = hit.b2;
       slots.hit_primitive[slot] = hit.primitive;
       slots.hit_instance[slot] = hit.instance;
-      const uint32_t kind_met = static_cast<uint32_t>(material_kind(hit.primitive));
-      const uint32_t material = kind_met < material_queues ? kind_met : material_queues - 1;
+      const uint32_t own_kind = static_cast<uint32_t>(material_kind(hit.primitive));
+      const uint32_t material = own_kind < material_queues ? own_kind : material_queues - 1;
       push(thread, slots.material_queue(material), &slots.counts->materials[material], slot);
       return;
     }
@@ -243,7 +243,7 @@ struct IntersectKernel {
     PathRecord<Real> record;
     slots.load(slot, path);
     slots.load(slot, record);
-    leave_scene(stage.launch.scene, path, record);
+    add_infinite_lights(stage.launch.scene, path, record);
     slots.store(slot, record);
     push(thread, slots.ended_queue, &slots.counts->ended, slot);
   }
@@ -335,11 +335,11 @@ struct ShadowKernel {
          slots.hit_instance[s]},
         slots.shadow_t_max[s]};
     const SceneView<Real>& scene = stage.launch.scene;
-    const Real share = free_share(scene, Tracing::intersector(scene, thread.stacks()), shadow);
-    if (!(share > 0)) return;
-    slots.radiance_x[s] += slots.light_x[s] * share;
-    slots.radiance_y[s] += slots.light_y[s] * share;
-    slots.radiance_z[s] += slots.light_z[s] * share;
+    const Real visibility = visibility_of(scene, Tracing::intersector(scene, thread.stacks()), shadow);
+    if (!(visibility > 0)) return;
+    slots.radiance_x[s] += slots.light_x[s] * visibility;
+    slots.radiance_y[s] += slots.light_y[s] * visibility;
+    slots.radiance_z[s] += slots.light_z[s] * visibility;
   }
 };
 

@@ -29,21 +29,21 @@ template <PrimitiveKind kind>
 void sphere_bounds(const RTCBoundsFunctionArguments* arguments) {
   const Sphere<float> s =
       sphere_of<kind>(arguments->geometryUserPtr, arguments->primID, static_cast<float>(arguments->timeStep));
-  const Vec3<float> r = splat(s.radius) + (abs(s.center) + splat(s.radius)) * 4e-7f;
+  const Vec3<float> r = splat(s.radius) + (abs(s.centre) + splat(s.radius)) * 4e-7f;
   RTCBounds& box = *arguments->bounds_o;
-  box.lower_x = s.center.x - r.x;
-  box.lower_y = s.center.y - r.y;
-  box.lower_z = s.center.z - r.z;
-  box.upper_x = s.center.x + r.x;
-  box.upper_y = s.center.y + r.y;
-  box.upper_z = s.center.z + r.z;
+  box.lower_x = s.centre.x - r.x;
+  box.lower_y = s.centre.y - r.y;
+  box.lower_z = s.centre.z - r.z;
+  box.upper_x = s.centre.x + r.x;
+  box.upper_y = s.centre.y + r.y;
+  box.upper_z = s.centre.z + r.z;
 }
 
 template <PrimitiveKind kind>
 bool intersect(const void* view, uint32_t index, const RTCRay& query, float& t) {
   const Ray<float> ray{{query.org_x, query.org_y, query.org_z}, {query.dir_x, query.dir_y, query.dir_z}, query.time};
   const Sphere<float> s = sphere_of<kind>(view, index, query.time);
-  return intersect_sphere(ray, s.center, s.radius, query.tfar, t);
+  return intersect_sphere(ray, s.centre, s.radius, query.tfar, t);
 }
 
 template <PrimitiveKind kind>
@@ -126,10 +126,10 @@ Vec3<float> reach_of_world(const SceneView<float>& view, uint32_t triangles) {
   Vec3<float> reach =
       max(reach_of_triangles(view, 0, triangles), abs(Vec3<float>{camera[0][3], camera[1][3], camera[2][3]}));
   for (uint32_t i = 0; i < view.spheres_count; ++i)
-    reach = max(reach, abs(view.spheres[i].center) + splat(view.spheres[i].radius));
+    reach = max(reach, abs(view.spheres[i].centre) + splat(view.spheres[i].radius));
   for (uint32_t i = 0; i < view.moving_spheres_count; ++i) {
     const MovingSphereRecord<float>& s = view.moving_spheres[i];
-    reach = max(reach, abs(s.center) + abs(s.motion) + splat(s.radius));
+    reach = max(reach, abs(s.centre) + abs(s.motion) + splat(s.radius));
   }
   return reach;
 }

@@ -135,7 +135,7 @@ class Acceleration {
 
   OptixTraversableHandle build_spheres(const SceneView<float>& device) {
     using Record = SphereRecord<float>;
-    const CUdeviceptr centres = address(device.spheres) + offsetof(Record, center);
+    const CUdeviceptr centres = address(device.spheres) + offsetof(Record, centre);
     const CUdeviceptr radii = address(device.spheres) + offsetof(Record, radius);
     return build_structure(sphere_input<Record>(&centres, &radii, device.spheres_count), 1, structures_[1]);
   }
@@ -146,12 +146,12 @@ class Acceleration {
     const uint32_t count = host.moving_spheres_count;
     // Both keys have one stride, so the second has records too, of which only the centre counts.
     std::vector<Record> last(host.moving_spheres, host.moving_spheres + count);
-    for (Record& sphere : last) sphere.center += sphere.motion;
+    for (Record& sphere : last) sphere.centre += sphere.motion;
     cuda::Buffer<Executor, Record> memory(executor_);
     memory.reserve(count);
     executor_.upload(memory.data(), last.data(), count * sizeof(Record));
-    const CUdeviceptr centres[2] = {address(device.moving_spheres) + offsetof(Record, center),
-                                    address(memory.data()) + offsetof(Record, center)};
+    const CUdeviceptr centres[2] = {address(device.moving_spheres) + offsetof(Record, centre),
+                                    address(memory.data()) + offsetof(Record, centre)};
     const CUdeviceptr radius = address(device.moving_spheres) + offsetof(Record, radius);
     const CUdeviceptr radii[2] = {radius, radius};
     return build_structure(sphere_input<Record>(centres, radii, count), 2, structures_[2]);

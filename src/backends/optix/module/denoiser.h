@@ -30,8 +30,8 @@ class Denoiser {
   Denoiser(const Denoiser&) = delete;
   Denoiser& operator=(const Denoiser&) = delete;
 
-  std::vector<float> denoise(const NoisyPicture& picture) {
-    const unsigned width = static_cast<unsigned>(picture.width), height = static_cast<unsigned>(picture.height);
+  std::vector<float> denoise(const NoisyImage& image) {
+    const unsigned width = static_cast<unsigned>(image.width), height = static_cast<unsigned>(image.height);
     OptixDenoiserSizes sizes{};
     ask(functions_.optixDenoiserComputeMemoryResources(denoiser_, width, height, &sizes));
     state_.reserve(sizes.stateSizeInBytes);
@@ -40,17 +40,17 @@ class Denoiser {
                                       sizes.stateSizeInBytes, address(scratch_.data()),
                                       sizes.withoutOverlapScratchSizeInBytes));
     OptixDenoiserGuideLayer guides{};
-    guides.albedo = upload(albedo_, picture.albedo, width, height);
-    guides.normal = upload(normal_, picture.normal, width, height);
+    guides.albedo = upload(albedo_, image.albedo, width, height);
+    guides.normal = upload(normal_, image.normal, width, height);
     OptixDenoiserLayer layer{};
-    layer.input = upload(radiance_, picture.radiance, width, height);
-    output_.reserve(picture.radiance.size());
+    layer.input = upload(radiance_, image.radiance, width, height);
+    output_.reserve(image.radiance.size());
     layer.output = image(output_, width, height);
     const OptixDenoiserParams params{};  // exposure: found by itself
     ask(functions_.optixDenoiserInvoke(denoiser_, executor_.stream(), &params, address(state_.data()),
                                        sizes.stateSizeInBytes, &guides, &layer, 1, 0, 0, address(scratch_.data()),
                                        sizes.withoutOverlapScratchSizeInBytes));
-    std::vector<float> denoised(picture.radiance.size());
+    std::vector<float> denoised(image.radiance.size());
     executor_.download(denoised.data(), output_.data(), denoised.size() * sizeof(float));
     return denoised;
   }

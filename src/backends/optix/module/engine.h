@@ -10,6 +10,6 @@ namespace alhazen::optix {
 /// Rendering by OptiX on GPU `device`, in float.
 std::unique_ptr<cuda::Engine> make_optix_engine(int device, const cuda::RowShare& share);
 
-std::vector<float> denoise(const NoisyPicture& picture, int device);
+std::vector<float> denoise(const NoisyImage& image, int device);
 
 }  // namespace alhazen::optix

@@ -37,10 +37,10 @@ std::unique_ptr<cuda::Engine> make_optix_engine(int device, const cuda::RowShare
   return std::make_unique<OptixEngine>(device, share);
 }
 
-std::vector<float> denoise(const NoisyPicture& picture, int device) {
+std::vector<float> denoise(const NoisyImage& image, int device) {
   cuda::CudaExecutor executor(device);
   const Context context(optix_library().functions);
-  return Denoiser(optix_library().functions, context, executor).denoise(picture);
+  return Denoiser(optix_library().functions, context, executor).denoise(image);
 }
 
 }  // namespace alhazen::optix

@@ -29,7 +29,7 @@ class OptixIntersector {
     hit = end_of_interval(t_max);
     bool found = false;
     float t_min = 0;
-    for (int attempt = 0; attempt < most_attempts && t_min < hit.t; ++attempt) {
+    for (int attempt = 0; attempt < max_attempts && t_min < hit.t; ++attempt) {
       Hit<float> met;
       if (!trace(ray, t_min, hit.t, OPTIX_RAY_FLAG_DISABLE_ANYHIT, met)) break;
       if (met.primitive.kind() == PrimitiveKind::triangle) {
@@ -61,7 +61,7 @@ class OptixIntersector {
   }
 
  private:
-  static constexpr int most_attempts = 8;
+  static constexpr int max_attempts = 8;
 
   /// Returns whether the hit is on the triangle that the ray starts on, which cannot be hit.
   __device__ static bool is_left(const Ray<float>& ray, const Hit<float>& met) {

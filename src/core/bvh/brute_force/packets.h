@@ -20,10 +20,10 @@ class BruteForcePackets {
                      triangles_ * max_spheres + (spheres_ + moving_) * max_triangles <= max_triangles * max_spheres &&
                      take_triangles(scene);
     if (!is_worthwhile_) return;
-    for (uint32_t i = 0; i < spheres_; ++i) sphere_[i] = {scene.spheres[i].center, {}, scene.spheres[i].radius};
+    for (uint32_t i = 0; i < spheres_; ++i) sphere_[i] = {scene.spheres[i].centre, {}, scene.spheres[i].radius};
     for (uint32_t i = 0; i < moving_; ++i) {
       const MovingSphereRecord<Real>& sphere = scene.moving_spheres[i];
-      sphere_[spheres_ + i] = {sphere.center, sphere.motion, sphere.radius};
+      sphere_[spheres_ + i] = {sphere.centre, sphere.motion, sphere.radius};
     }
   }
 
@@ -44,7 +44,7 @@ class BruteForcePackets {
   }
 
  private:
-  static constexpr uint32_t width = most_register_bytes / sizeof(Real);
+  static constexpr uint32_t width = max_register_bytes / sizeof(Real);
   /// Break-even counts, from which on a tree is as fast: measured on scenes of triangles only and of spheres only.
   static constexpr uint32_t max_triangles = 7 * width, max_spheres = 8 * width;
   static constexpr uint32_t max_vertices = max_triangles;
@@ -163,12 +163,12 @@ class BruteForcePackets {
     for (uint32_t i = 0; i < spheres_ + moving_; ++i) {
       if (any_hit && (wanted & ~hits.lanes) == 0) return;
       const Sphere& sphere = sphere_[i];
-      const auto from_center = [&](int axis) {
-        const V center = i < spheres_ ? V::all(sphere.center[axis])
-                                      : V::all(sphere.center[axis]) + V::all(sphere.motion[axis]) * V::load(rays.time);
-        return V::load(rays.origin[axis]) - center;
+      const auto from_centre = [&](int axis) {
+        const V centre = i < spheres_ ? V::all(sphere.centre[axis])
+                                      : V::all(sphere.centre[axis]) + V::all(sphere.motion[axis]) * V::load(rays.time);
+        return V::load(rays.origin[axis]) - centre;
       };
-      const V f[3] = {from_center(0), from_center(1), from_center(2)};
+      const V f[3] = {from_centre(0), from_centre(1), from_centre(2)};
       const SphereLanes<V> at(f, direction, V::all(sphere.radius));
       if (at.crossed == 0) continue;
       const uint32_t lanes = at.crossed & less(V::all(0), at.t) & less(at.t, hits.t);
@@ -190,7 +190,7 @@ class BruteForcePackets {
     uint32_t vertex[3];  ///< in vertex_
   };
   struct Sphere {
-    Vec3<Real> center, motion;
+    Vec3<Real> centre, motion;
     Real radius;
   };
 

@@ -56,8 +56,8 @@ template <class Real>
 ALHAZEN_INLINE bool intersect_block(const SphereBlock<Real>& block, const Ray<Real>& ray, const ShearedRay<Real>&,
                                     Hit<Real>& hit) {
   using V = Lanes<Real, SphereBlock<Real>::lanes>;
-  const V f[3] = {V::all(ray.origin.x) - V::load(block.center[0]), V::all(ray.origin.y) - V::load(block.center[1]),
-                  V::all(ray.origin.z) - V::load(block.center[2])};
+  const V f[3] = {V::all(ray.origin.x) - V::load(block.centre[0]), V::all(ray.origin.y) - V::load(block.centre[1]),
+                  V::all(ray.origin.z) - V::load(block.centre[2])};
   return intersect_spheres(f, block.radius, block.index, PrimitiveKind::sphere, ray, hit);
 }
 
@@ -65,11 +65,11 @@ template <class Real>
 ALHAZEN_INLINE bool intersect_block(const MovingSphereBlock<Real>& block, const Ray<Real>& ray, const ShearedRay<Real>&,
                                     Hit<Real>& hit) {
   using V = Lanes<Real, MovingSphereBlock<Real>::lanes>;
-  const auto from_center = [&](int axis) {
-    const V center = V::load(block.center[axis]) + V::load(block.motion[axis]) * V::all(ray.time);
-    return V::all(ray.origin[axis]) - center;
+  const auto from_centre = [&](int axis) {
+    const V centre = V::load(block.centre[axis]) + V::load(block.motion[axis]) * V::all(ray.time);
+    return V::all(ray.origin[axis]) - centre;
   };
-  const V f[3] = {from_center(0), from_center(1), from_center(2)};
+  const V f[3] = {from_centre(0), from_centre(1), from_centre(2)};
   return intersect_spheres(f, block.radius, block.index, PrimitiveKind::moving_sphere, ray, hit);
 }
 

@@ -57,7 +57,7 @@ struct TriangleBlock {
 template <class Real>
 struct SphereBlock {
   static constexpr int lanes = 8;
-  Real center[3][lanes];
+  Real centre[3][lanes];
   Real radius[lanes];
   uint32_t index[lanes];  ///< in SceneView::spheres
 };
@@ -65,7 +65,7 @@ struct SphereBlock {
 template <class Real>
 struct MovingSphereBlock {
   static constexpr int lanes = 8;
-  Real center[3][lanes];
+  Real centre[3][lanes];
   Real motion[3][lanes];
   Real radius[lanes];
   uint32_t index[lanes];  ///< in SceneView::moving_spheres

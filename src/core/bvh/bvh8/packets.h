@@ -17,7 +17,7 @@ class RayPacket {
  public:
   ALHAZEN_INLINE explicit RayPacket(const Bvh8Prefetch<Real>& prefetch) : prefetch_(prefetch) {}
 
-  static constexpr int width = most_register_bytes / static_cast<int>(sizeof(float));
+  static constexpr int width = max_register_bytes / static_cast<int>(sizeof(float));
 
   /// Loads the queries `ray(i)` and `t_max(i)` for i < `count` <= width. Returns false if the rays are not coherent
   /// enough for a packet; no other function may be called then.
@@ -68,14 +68,14 @@ class RayPacket {
   ALHAZEN_INLINE bool make_box_rays() {
     const F zero = F::all(0), most = F::all(infinity<float>);
     F reach = zero;
-    for (int axis = 0; axis < 3; ++axis) reach = larger(magnitude(F::load(float_origin_[axis])), reach);
+    for (int axis = 0; axis < 3; ++axis) reach = max(magnitude(F::load(float_origin_[axis])), reach);
     if (less(reach, most) != all_rays) return false;
     for (int axis = 0; axis < 3; ++axis) {
       const F d = F::load(float_direction_[axis]);
       const uint32_t negative = less(d, zero);
       if (negative != 0 && negative != all_rays) return false;
-      const F least = F::all(negative ? -least_direction : least_direction);
-      const F inverse = F::all(1) / where_less(F::all(least_direction), magnitude(d), d, least);
+      const F least = F::all(negative ? -min_direction : min_direction);
+      const F inverse = F::all(1) / where_less(F::all(min_direction), magnitude(d), d, least);
       const F offset = F::load(float_origin_[axis]) * inverse;
       const F slack = magnitude(inverse) * reach * F::all(box_slack);
       inverse.store(inverse_[axis]);
@@ -168,8 +168,8 @@ class RayPacket {
       };
       const auto near = [&](int axis) { return side(axis, near_row_[axis], near_offset); };
       const auto far = [&](int axis) { return side(axis, near_row_[axis] ^ 1, far_offset); };
-      const F t_near = larger(larger(near(0), near(1)), larger(near(2), F::all(0)));
-      const F t_far = smaller(smaller(far(0), far(1)), smaller(far(2), limit));
+      const F t_near = max(max(near(0), near(1)), max(near(2), F::all(0)));
+      const F t_far = min(min(far(0), far(1)), min(far(2), limit));
       entered[child] = less_equal(t_near, t_far) & rays;
       t_near.store(entry[child]);
     }
@@ -250,17 +250,17 @@ class RayPacket {
   }
 
   ALHAZEN_INLINE void intersect_primitive_of(const SphereBlock<Real>& block, int p, uint32_t rays) {
-    const auto from_center = [&](int axis) { return V::load(origin_[axis]) - V::all(block.center[axis][p]); };
-    const V f[3] = {from_center(0), from_center(1), from_center(2)};
+    const auto from_centre = [&](int axis) { return V::load(origin_[axis]) - V::all(block.centre[axis][p]); };
+    const V f[3] = {from_centre(0), from_centre(1), from_centre(2)};
     intersect_sphere_of(f, block.radius[p], PrimitiveId(PrimitiveKind::sphere, block.index[p]), rays);
   }
 
   ALHAZEN_INLINE void intersect_primitive_of(const MovingSphereBlock<Real>& block, int p, uint32_t rays) {
-    const auto from_center = [&](int axis) {
-      const V center = V::all(block.center[axis][p]) + V::all(block.motion[axis][p]) * V::load(time_);
-      return V::load(origin_[axis]) - center;
+    const auto from_centre = [&](int axis) {
+      const V centre = V::all(block.centre[axis][p]) + V::all(block.motion[axis][p]) * V::load(time_);
+      return V::load(origin_[axis]) - centre;
     };
-    const V f[3] = {from_center(0), from_center(1), from_center(2)};
+    const V f[3] = {from_centre(0), from_centre(1), from_centre(2)};
     intersect_sphere_of(f, block.radius[p], PrimitiveId(PrimitiveKind::moving_sphere, block.index[p]), rays);
   }
 

@@ -44,7 +44,7 @@ struct TriangleLanes {
     e[0] = b.x * c.y - b.y * c.x;
     e[1] = c.x * a.y - c.y * a.x;
     e[2] = a.x * b.y - a.y * b.x;
-    inside = less_equal(zero, smaller(smaller(e[0], e[1]), e[2])) | less_equal(larger(larger(e[0], e[1]), e[2]), zero);
+    inside = less_equal(zero, min(min(e[0], e[1]), e[2])) | less_equal(max(max(e[0], e[1]), e[2]), zero);
     if (inside == 0) return;
     // If the sum is 0, t is infinite or NaN and the hit is rejected.
     inverse = V::all(1) / (e[0] + e[1] + e[2]);

@@ -25,7 +25,7 @@ struct BoxRay {
 inline constexpr float box_slack = 4e-7f;
 
 /// Minimum magnitude of direction components in the slab test. It keeps offsets finite for coordinates up to 1e20.
-inline constexpr float least_direction = 1e-18f;
+inline constexpr float min_direction = 1e-18f;
 
 template <class Real>
 ALHAZEN_INLINE BoxRay box_ray(const Ray<Real>& ray) {
@@ -34,7 +34,7 @@ ALHAZEN_INLINE BoxRay box_ray(const Ray<Real>& ray) {
   const float reach = static_cast<float>(max_component(abs(ray.origin)));
   for (int axis = 0; axis < 3; ++axis) {
     const float d = static_cast<float>(ray.direction[axis]);
-    const float inverse = 1 / (std::abs(d) > least_direction ? d : std::copysign(least_direction, d));
+    const float inverse = 1 / (std::abs(d) > min_direction ? d : std::copysign(min_direction, d));
     const float offset = static_cast<float>(ray.origin[axis] * static_cast<Real>(inverse));
     const float slack = std::abs(inverse) * reach * box_slack;
     b.inverse[axis] = inverse;
@@ -63,8 +63,7 @@ ALHAZEN_INLINE ChildIntervals intersect_children(const Bvh8Node& node, const Box
   const auto near = [&](int axis) { return side(axis, ray.near_row[axis], ray.near_offset[axis]); };
   const auto far = [&](int axis) { return side(axis, ray.near_row[axis] ^ 1, ray.far_offset[axis]); };
   // NaN counts as inside.
-  return {larger(larger(near(0), near(1)), larger(near(2), V::all(0))),
-          smaller(smaller(far(0), far(1)), smaller(far(2), V::all(t_max)))};
+  return {max(max(near(0), near(1)), max(near(2), V::all(0))), min(min(far(0), far(1)), min(far(2), V::all(t_max)))};
 }
 
 /// For each octant of ray directions, the approximate order of the children from far to near that their slots imply

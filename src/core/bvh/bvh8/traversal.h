@@ -37,12 +37,12 @@ class NearestFirst {
     } else if (entered != 0) {
       const uint64_t second = next();
       const int base = height;
-      entries_[height++] = larger(nearest, second);
-      nearest = smaller(nearest, second);
+      entries_[height++] = max(nearest, second);
+      nearest = min(nearest, second);
       while (entered != 0) {
         const uint64_t another = next();
-        const uint64_t farther = larger(nearest, another);
-        nearest = smaller(nearest, another);
+        const uint64_t farther = max(nearest, another);
+        nearest = min(nearest, another);
         int place = height++;
         for (; place > base && entries_[place - 1] < farther; --place) entries_[place] = entries_[place - 1];
         entries_[place] = farther;

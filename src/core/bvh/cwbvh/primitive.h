@@ -17,13 +17,13 @@ void copy_to(CwbvhPrimitive& copy, const SceneView<Real>& scene, const TriangleR
 
 template <class Real>
 void copy_to(CwbvhPrimitive& copy, const SceneView<Real>&, const SphereRecord<Real>& sphere) {
-  copy.a = convert<float>(sphere.center);
+  copy.a = convert<float>(sphere.centre);
   copy.b.x = static_cast<float>(sphere.radius);
 }
 
 template <class Real>
 void copy_to(CwbvhPrimitive& copy, const SceneView<Real>&, const MovingSphereRecord<Real>& sphere) {
-  copy.a = convert<float>(sphere.center);
+  copy.a = convert<float>(sphere.centre);
   copy.b.x = static_cast<float>(sphere.radius);
   copy.c = convert<float>(sphere.motion);
 }

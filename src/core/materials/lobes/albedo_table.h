@@ -11,11 +11,11 @@ namespace ALHAZEN_CORE {
 
 /// The smallest alpha of the tables, which smooth layers use.
 template <class Real>
-inline constexpr Real least_layered_alpha = Real(1.5e-3);
+inline constexpr Real min_layered_alpha = Real(1.5e-3);
 
 template <class Real>
 ALHAZEN_HD Real layered_alpha(Real alpha) {
-  return larger(alpha, least_layered_alpha<Real>);
+  return max(alpha, min_layered_alpha<Real>);
 }
 
 /// Limits of the index of refraction; beyond them, an interface transmits less than 1e-4 of the light, which would be
@@ -58,8 +58,8 @@ ALHAZEN_HD Real cosine_coordinate(Real cosine, Real ior, uint32_t nodes) {
 /// Maps an alpha to a coordinate in [0, 1], linear in its square root.
 template <class Real>
 ALHAZEN_HD Real alpha_coordinate(Real alpha) {
-  constexpr Real least = Real(0.03872983346207417);  // sqrt(least_layered_alpha)
-  return (std::sqrt(clamp(alpha, least_layered_alpha<Real>, Real(1))) - least) * (1 / (1 - least));
+  constexpr Real least = Real(0.03872983346207417);  // sqrt(min_layered_alpha)
+  return (std::sqrt(clamp(alpha, min_layered_alpha<Real>, Real(1))) - least) * (1 / (1 - least));
 }
 
 /// Returns the interpolation weight of the node after `node`, which receives the last node not beyond `coordinate`, in

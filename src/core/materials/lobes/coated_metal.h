@@ -23,14 +23,14 @@ template <class Real>
 struct CoatedMetalPlace {
   const Real* block;
   uint32_t coat_step, metal_step;
-  Real coat_share, metal_share;  ///< interpolation weights of the next block
-  Real ior;                      ///< of the coat
+  Real coat_weight, metal_weight;  ///< interpolation weights of the next block
+  Real ior;                        ///< of the coat
 };
 
 template <class Real>
-ALHAZEN_HD uint32_t coated_metal_step(Real alpha, Real& share) {
+ALHAZEN_HD uint32_t coated_metal_step(Real alpha, Real& weight) {
   uint32_t i;
-  share = node_weight(alpha_coordinate(alpha), coated_metal_alphas, i);
+  weight = node_weight(alpha_coordinate(alpha), coated_metal_alphas, i);
   return i;
 }
 
@@ -41,11 +41,11 @@ ALHAZEN_HD CoatedMetalPlace<Real> coated_metal_place(const Real* table, bool coa
   CoatedMetalPlace<Real> place{table, 0, 0, 0, 0, ior};
   if (metal_varies) {
     place.metal_step = coated_metal_block;
-    place.block += coated_metal_step(metal, place.metal_share) * place.metal_step;
+    place.block += coated_metal_step(metal, place.metal_weight) * place.metal_step;
   }
   if (coat_varies) {
     place.coat_step = coated_metal_block * (metal_varies ? coated_metal_alphas : 1);
-    place.block += coated_metal_step(coat, place.coat_share) * place.coat_step;
+    place.block += coated_metal_step(coat, place.coat_weight) * place.coat_step;
   }
   return place;
 }
@@ -54,7 +54,7 @@ ALHAZEN_HD CoatedMetalPlace<Real> coated_metal_place(const Real* table, bool coa
 /// of the coat contribute (ior - 1) / 2 of theirs on entry and again on exit.
 template <class Real>
 ALHAZEN_HD Real coated_metal_alpha(Real coat, Real metal, Real ior) {
-  return smaller(Real(1), std::sqrt(sqr(ior * metal) + Real(0.5) * sqr((ior - 1) * coat)));
+  return min(Real(1), std::sqrt(sqr(ior * metal) + Real(0.5) * sqr((ior - 1) * coat)));
 }
 
 template <class Real>
@@ -75,12 +75,12 @@ template <class Real>
 ALHAZEN_HD CoatedMetalFactors<Real> coated_metal_factors(const CoatedMetalPlace<Real>& place, Real cosine) {
   CoatedMetalFactors<Real> sum{0, 0};
   for (uint32_t corner = 0; corner < 4; ++corner) {
-    const Real share = (corner & 1 ? place.metal_share : 1 - place.metal_share) *
-                       (corner & 2 ? place.coat_share : 1 - place.coat_share);
-    if (!(share > 0)) continue;
+    const Real weight = (corner & 1 ? place.metal_weight : 1 - place.metal_weight) *
+                        (corner & 2 ? place.coat_weight : 1 - place.coat_weight);
+    if (!(weight > 0)) continue;
     const Real* row = place.block + (corner & 1 ? place.metal_step : 0) + (corner & 2 ? place.coat_step : 0);
-    sum.once += share * coated_metal_value(row, cosine, place.ior);
-    sum.all += share * coated_metal_value(row + coated_metal_cosines, cosine, place.ior);
+    sum.once += weight * coated_metal_value(row, cosine, place.ior);
+    sum.all += weight * coated_metal_value(row + coated_metal_cosines, cosine, place.ior);
   }
   return sum;
 }
@@ -91,9 +91,9 @@ ALHAZEN_HD Vec3<Real> coated_metal_colour(const CoatedMetalFactors<Real>& o, con
                                           const Vec3<Real>& reflectance) {
   const Real once = o.once * i.once, all = o.all * i.all;
   // Upper bound of the fraction reflected back to the metal; closer to 1, the series of white metal would diverge.
-  constexpr Real most_again = Real(0.9);
-  const Real again = all > 0 ? clamp((1 - once / all) / coated_metal_fit<Real>, Real(0), most_again) : Real(0);
-  const auto channel = [&](Real c) { return once * c / larger(Real(1e-6), 1 - again * c); };
+  constexpr Real max_again = Real(0.9);
+  const Real again = all > 0 ? clamp((1 - once / all) / coated_metal_fit<Real>, Real(0), max_again) : Real(0);
+  const auto channel = [&](Real c) { return once * c / max(Real(1e-6), 1 - again * c); };
   return {channel(reflectance.x), channel(reflectance.y), channel(reflectance.z)};
 }
 

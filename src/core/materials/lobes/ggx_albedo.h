@@ -20,7 +20,7 @@ struct GgxAlbedo {
 
   ALHAZEN_HD Real all() const { return base + edge; }
   /// Returns the fraction of light lost by single scattering if f0 and f90 are 1, clamped to >= 0 against rounding.
-  ALHAZEN_HD Real missing() const { return larger(Real(0), 1 - (base + edge)); }
+  ALHAZEN_HD Real missing() const { return max(Real(0), 1 - (base + edge)); }
 };
 
 template <class Real>
@@ -38,14 +38,14 @@ ALHAZEN_HD GgxAlbedo<Real> mean_ggx_albedo(const AlbedoGridPlace<Real>& grid) {
 /// over all directions. On nearly smooth surfaces the mean is almost 0, and the lobe is a spike at the horizon that
 /// sampling rarely finds: below this mean, the lobe is weakened and the remaining energy is added to single scattering.
 template <class Real>
-inline constexpr Real least_mean_missing = Real(1e-3);
+inline constexpr Real min_mean_missing = Real(1e-3);
 
 /// Returns the factor on single scattering, with directional albedo `single`, that adds the energy missing from the
 /// weakened lobe.
 template <class Real>
 ALHAZEN_HD Real single_scattering_scale(Real single, Real missing, Real mean_missing) {
-  if (mean_missing >= least_mean_missing<Real>) return 1;
-  return 1 + missing * (1 - mean_missing / least_mean_missing<Real>) / larger(single, Real(0.1));
+  if (mean_missing >= min_mean_missing<Real>) return 1;
+  return 1 + missing * (1 - mean_missing / min_mean_missing<Real>) / max(single, Real(0.1));
 }
 
 }  // namespace ALHAZEN_CORE

@@ -26,7 +26,7 @@ ALHAZEN_HD constexpr bool is_smooth(const Vec2<Real>& alpha) {
 /// Returns the alphas, clamped so that the surface is not treated as smooth.
 template <class Real>
 ALHAZEN_HD constexpr Vec2<Real> rough_alphas(Real u, Real v) {
-  return {larger(u, smooth_alpha<Real>), larger(v, smooth_alpha<Real>)};
+  return {max(u, smooth_alpha<Real>), max(v, smooth_alpha<Real>)};
 }
 
 /// Returns the geometric mean, an isotropic approximation for terms that depend only weakly on alpha.
@@ -87,7 +87,7 @@ ALHAZEN_HD Real ggx_g2(const Vec3<Real>& wo, const Vec3<Real>& wi, const Alpha& 
 /// Returns the density of `sample_visible_normal` at `m` with respect to solid angle.
 template <class Real, class Alpha>
 ALHAZEN_HD Real pdf_visible_normal(const Vec3<Real>& w, const Vec3<Real>& m, const Alpha& alpha) {
-  return ggx_g1(w, alpha) / std::abs(w.z) * ggx_d(m, alpha) * larger(Real(0), dot(w, m));
+  return ggx_g1(w, alpha) / std::abs(w.z) * ggx_d(m, alpha) * max(Real(0), dot(w, m));
 }
 
 /// Samples a microfacet normal visible from `w`, with w.z > 0.
@@ -103,7 +103,7 @@ ALHAZEN_HD Vec3<Real> sample_visible_normal(const Vec3<Real>& w, const Alpha& al
   p.y = (1 - s) * h + s * p.y;
   const Real pz = safe_sqrt(1 - p.x * p.x - p.y * p.y);
   const Vec3<Real> n = t1 * p.x + t2 * p.y + stretched * pz;
-  return normalize(stretch(Vec3<Real>{n.x, n.y, larger(Real(1e-6), n.z)}, alpha));
+  return normalize(stretch(Vec3<Real>{n.x, n.y, max(Real(1e-6), n.z)}, alpha));
 }
 
 /// GGX reflection without the Fresnel term: f * cos of `i`, and the density of sample_ggx_reflection at `i` with
@@ -120,7 +120,7 @@ ALHAZEN_HD GgxReflection<Real> ggx_reflection(const Vec3<Real>& o, const Vec3<Re
   if (!(o.z > 0 && i.z > 0)) return r;
   const Vec3<Real> m = normalize(o + i);
   const Real d = ggx_d(m, alpha);
-  r.cosine = smaller(dot(o, m), Real(1));
+  r.cosine = min(dot(o, m), Real(1));
   r.value = d * ggx_g2(o, i, alpha) / (4 * o.z);
   r.pdf = ggx_g1(o, alpha) * d / (4 * o.z);
   return r;

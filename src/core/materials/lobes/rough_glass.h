@@ -37,7 +37,7 @@ ALHAZEN_HD Vec3<Real> glass_reflectance(const GlassBsdf<Real>& glass, Real fresn
 /// Returns the probability of sampling reflection at a microfacet.
 template <class Real>
 ALHAZEN_HD Real glass_reflection_rate(const Vec3<Real>& reflectance) {
-  return smaller(Real(1), (reflectance.x + reflectance.y + reflectance.z) * (Real(1) / 3));
+  return min(Real(1), (reflectance.x + reflectance.y + reflectance.z) * (Real(1) / 3));
 }
 
 /// Returns the factor that makes the directional albedo for `wo` equal to 1.
@@ -91,9 +91,9 @@ template <class Real>
 ALHAZEN_HD void add_film_to_glass(GlassBsdf<Real>& glass, Real smooth, const Vec3<Real>& wanted, Real amount) {
   for (int c = 0; c < 3; ++c) {
     const Real bare = glass.by_fresnel[c] * smooth, with = bare + (wanted[c] - bare) * amount;
-    if (with > 0) glass.tint[c] = 1 - (1 - glass.tint[c]) * smaller(Real(1), bare * (1 - amount) / with);
+    if (with > 0) glass.tint[c] = 1 - (1 - glass.tint[c]) * min(Real(1), bare * (1 - amount) / with);
     if (with >= bare) {
-      const Real let_in = (1 - with) / larger(1 - bare, Real(1e-6));
+      const Real let_in = (1 - with) / max(1 - bare, Real(1e-6));
       glass.constant[c] = 1 - let_in;
       glass.by_fresnel[c] *= let_in;
     } else {

@@ -14,7 +14,7 @@ ALHAZEN_HD Real evaluate_sheen(Real roughness, const Vec3<Real>& o, const Vec3<R
   const Vec3<Real> half = o + i;
   if (is_zero(half)) return 0;
   const Vec3<Real> m = normalize(half);
-  const Real inverse_alpha = 1 / larger(roughness * roughness, Real(0.005));
+  const Real inverse_alpha = 1 / max(roughness * roughness, Real(0.005));
   const Real sine = safe_sqrt(1 - m.z * m.z);
   const Real d = (2 + inverse_alpha) * std::pow(sine, inverse_alpha) * Real(0.5) * inv_pi<Real>;
   return d * i.z / (4 * (o.z + i.z - o.z * i.z));
