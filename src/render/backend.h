@@ -28,7 +28,7 @@ struct RenderPass {
   RenderControl& control;
   uint32_t first_sample;
   uint32_t sample_count;
-  const void* tracer = nullptr;  ///< what the kernel traces rays by, where that is not the scene's own BVH
+  const ExternalTracer* tracer = nullptr;  ///< what the kernel traces rays by, where that is not the scene's own BVH
 };
 
 inline constexpr uint32_t usual_samples_per_pass = 64;

@@ -38,7 +38,7 @@ struct CwbvhTracing {
   }
 };
 
-template <KernelExecutor Executor, class Tracing, class Real>
+template <KernelExecutor Executor, RayTracing Tracing, class Real>
 class DeviceRender {
  public:
   DeviceRender(Executor& executor, const RowShare& share)
@@ -253,17 +253,17 @@ class DeviceRender {
 
   template <IntegratorKind kind>
   bool run_wavefront(const RenderControl& control, const Launch<Real>& launch, const ItemGrid& grid) {
-    WavefrontStage<Real> stage{launch, grid, make_slots(grid.count()), sums_.data(), 0};
+    WavefrontStage<kind, Real> stage{launch, grid, make_slots<kind>(grid.count()), sums_.data(), 0};
     const Extent threads{stage.slots.count}, block{usual_block};
     const Extent padded_threads{stage.slots.count + material_queues * warp_lanes};
-    executor_.launch(StartKernel<Real>{stage}, threads, block);
+    executor_.launch(StartKernel<kind, Real>{stage}, threads, block);
     for (;;) {
       for (int round = 0; round < rounds_between_looks; ++round) {
         executor_.launch(GenerateKernel<kind, Real>{stage}, threads, block);
-        executor_.launch(ResetKernel<Real>{stage}, {1}, {1});
+        executor_.launch(ResetKernel<kind, Real>{stage}, {1}, {1});
         executor_.launch(IntersectKernel<Tracing, kind, Real>{stage}, threads, block);
         executor_.launch(ShadeKernel<kind, Real>{stage}, padded_threads, block);
-        if (kind == IntegratorKind::path) executor_.launch(ShadowKernel<Tracing, Real>{stage}, threads, block);
+        if (kind == IntegratorKind::path) executor_.launch(ShadowKernel<Tracing, kind, Real>{stage}, threads, block);
         stage.parity = 1 - stage.parity;
       }
       QueueCounts counts;
@@ -275,20 +275,18 @@ class DeviceRender {
 
   /// Slots for as many paths as a third of the free memory holds, but no more than keep a large device busy or than
   /// there are items.
-  Slots<Real> make_slots(uint32_t items) {
+  template <IntegratorKind kind>
+  Slots<kind, Real> make_slots(uint32_t items) {
+    Slots<kind, Real> slots;
     size_t slot_bytes = 0;
-#define ALHAZEN_ARRAY(type, name) slot_bytes += sizeof(type);
-    ALHAZEN_SLOT_ARRAYS(ALHAZEN_ARRAY)
-#undef ALHAZEN_ARRAY
+    slots.visit_arrays([&](const auto* array, uint32_t elements) { slot_bytes += sizeof(*array) * elements; });
     constexpr uint64_t max_slots = uint64_t{1} << 21;
     const uint64_t memory = executor_.free_bytes() + slots_memory_.size();
     const uint64_t fit = std::max<uint64_t>(warp_lanes, memory / 3 / slot_bytes);
-    Slots<Real> slots;
     slots.count = static_cast<uint32_t>(std::min<uint64_t>({items, fit, max_slots}));
     size_t bytes = padded(sizeof(QueueCounts));
-#define ALHAZEN_ARRAY(type, name) bytes += padded(slots.count * sizeof(type));
-    ALHAZEN_SLOT_ARRAYS(ALHAZEN_ARRAY)
-#undef ALHAZEN_ARRAY
+    slots.visit_arrays(
+        [&](const auto* array, uint32_t elements) { bytes += padded(sizeof(*array) * elements * slots.count); });
     slots_memory_.reserve(bytes);
     std::byte* next = slots_memory_.data();
     const auto place = [&](auto*& pointer, size_t count) {
@@ -296,9 +294,8 @@ class DeviceRender {
       next += padded(count * sizeof(*pointer));
     };
     place(slots.counts, 1);
-#define ALHAZEN_ARRAY(type, name) place(slots.name, slots.count);
-    ALHAZEN_SLOT_ARRAYS(ALHAZEN_ARRAY)
-#undef ALHAZEN_ARRAY
+    slots.visit_arrays(
+        [&](auto*& array, uint32_t elements) { place(array, static_cast<size_t>(slots.count) * elements); });
     return slots;
   }
 

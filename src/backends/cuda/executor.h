@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace alhazen::cuda {
 
@@ -30,9 +31,14 @@ concept KernelExecutor = requires(Executor& executor, const Executor& unchanged,
   executor.wait();
 };
 
+/// An object whose operator() runs once per thread. It is copied to the device.
+template <class Kernel>
+concept DeviceKernel = std::is_trivially_copyable_v<Kernel>;
+
 /// Launches at least `threads` threads of this kernel, in blocks of that size.
 template <class Executor, class Kernel>
-concept LaunchesKernel = KernelExecutor<Executor> && requires(Executor& executor, const Kernel& kernel, Extent extent) {
+concept LaunchesKernel = KernelExecutor<Executor> && DeviceKernel<Kernel> &&
+    requires(Executor& executor, const Kernel& kernel, Extent extent) {
   executor.launch(kernel, extent, extent);
 };
 

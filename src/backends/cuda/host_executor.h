@@ -53,12 +53,12 @@ class HostExecutor {
   }
   void wait() {}
 
-  template <class Kernel>
+  template <DeviceKernel Kernel>
   uint32_t resident_threads(uint32_t) {
     return 64;
   }
 
-  template <class Kernel>
+  template <DeviceKernel Kernel>
   void launch(const Kernel& kernel, Extent threads, Extent) {
     for (uint32_t y = threads.height; y-- > 0;)
       for (uint32_t x = threads.width; x-- > 0;) kernel(HostThread(x, y, threads.width));

@@ -17,7 +17,7 @@ class EmbreeStructures {
  public:
   virtual ~EmbreeStructures() = default;
   /// What the kernels below trace rays by.
-  virtual const void* tracer_for_kernels() const = 0;
+  virtual const ExternalTracer* tracer_for_kernels() const = 0;
 };
 
 struct EmbreeModule {

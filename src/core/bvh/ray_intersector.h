@@ -16,6 +16,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <type_traits>
 
 #include "core/math/ray.h"
 #include "core/shapes/shape_records.h"
@@ -29,7 +30,20 @@ concept RayIntersector = requires(const Intersector& intersector, const Ray<Real
   { intersector.occluded(ray, t_max) } -> std::same_as<bool>;
 };
 
-/// The callbacks of a batch: `ray(i)` and `t_max(i)` return query i, and `answer(i, found, hit)` receives its result.
+/// Return the ray and the t_max of query i.
+template <class RayOf, class Real>
+concept RayLookup = std::convertible_to < std::invoke_result_t<const RayOf&, uint32_t>,
+const Ray<Real>& > ;
+template <class Limit, class Real>
+concept LimitLookup = std::is_invocable_r_v<Real, const Limit&, uint32_t>;
+
+/// Receives the result of query i: `answer(i, found, hit)`.
+template <class Answer, class Real>
+concept HitReceiver = std::invocable < const Answer&,
+        uint32_t, bool, const Hit<Real>
+& > ;
+
+/// The callbacks of a batch, for the concept below.
 template <class Real>
 struct BatchQueries {
   struct RayOf {
@@ -61,7 +75,7 @@ class SequentialBatches : public Single {
  public:
   using Single::Single;
 
-  template <bool any_hit, class RayOf, class Limit, class Answer>
+  template <bool any_hit, RayLookup<Real> RayOf, LimitLookup<Real> Limit, HitReceiver<Real> Answer>
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     for (uint32_t i = 0; i < count; ++i) {
       Hit<Real> hit;
@@ -70,7 +84,7 @@ class SequentialBatches : public Single {
     }
   }
 
-  template <class RayOf, class Limit, class Answer>
+  template <RayLookup<Real> RayOf, LimitLookup<Real> Limit, HitReceiver<Real> Answer>
   void trace_coherent(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     trace<false>(count, ray, t_max, answer);
   }

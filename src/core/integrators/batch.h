@@ -12,8 +12,16 @@
 
 namespace ALHAZEN_CORE {
 
-/// `Pixel` and `End` are those of integrate_batch.
-template <IntegratorKind kind, class Sampler, class Real, BatchIntersector<Real> Intersector, class Pixel, class End>
+/// Receives sample i: its record, before the scene's exposure is applied, and its filter weight.
+template <class End, class Real>
+concept SampleReceiver = std::invocable < const End&,
+        uint32_t, const SampleRecord<Real>
+&, Real > ;
+
+/// The paths of integrate_batch that are active.
+template <IntegratorKind kind, class Sampler, class Real, BatchIntersector<Real> Intersector, PixelLookup Pixel,
+          SampleReceiver<Real> End>
+requires SamplerOf<Sampler, Real>
 class PathBatch {
  public:
   PathBatch(const SceneView<Real>& scene, const Intersector& intersector, uint32_t seed, uint32_t max_segments,
@@ -76,9 +84,7 @@ class PathBatch {
       lane.sample = next_ + i;
       lane.filter_weight = camera_.filter_weight(i);
       lane.path = {};
-      lane.path.ray.origin = camera_.origin(i);
-      lane.path.ray.direction = camera_.direction(i);
-      lane.path.ray.time = camera_.time(scene_, i);
+      lane.path.ray = camera_.ray(scene_, i);
       lane.record.begin(wants_first_hit_);
       active_[live_++] = ended_[i];
     }
@@ -172,7 +178,7 @@ class PathBatch {
   }
 
   /// `place` is the index in `active_`.
-  template <class Numbers>
+  template <SamplerOf<Real> Numbers>
   ALHAZEN_INLINE void shade_one(const Numbers& numbers, uint32_t place, uint32_t index) {
     Lane& lane = lanes_[index];
     if (scene_.has_cutouts && passes(scene_, lane.hit, ray_kind(lane.path.vertex), lane.path.ray, lane.path.travelled))
@@ -203,9 +209,10 @@ class PathBatch {
     for (uint32_t i = 0; i < diffuse_.count(); ++i) {
       const uint32_t place = diffuse_.place(i), index = diffuse_lanes_[place];
       Lane& lane = lanes_[index];
-      if (diffuse_.is_lit(place)) {
+      const DirectLight<Real> direct = diffuse_.direct(place, lane.hit, lane.path.ray.time);
+      if (direct.is_lit) {
         ++lane.record.shadow_rays;
-        add_shadow_ray(index, diffuse_.shadow(place, lane.hit, lane.path.ray.time), diffuse_.lit(place));
+        add_shadow_ray(index, direct.shadow, direct.radiance);
       }
       diffuse_.take_over(place, lane.hit, lane.path);
       continue_or_end(diffuse_.goes_on(place), index);
@@ -255,10 +262,11 @@ class PathBatch {
   uint32_t diffuse_lanes_[max_paths];
 };
 
-/// Takes `count` samples. `pixel(i)` returns the pixel and sample number of sample i. `end(i, record, filter_weight)`
-/// is called once for each, in any order, before the scene's exposure is applied. Records keep the first hit if
+/// Takes `count` samples. `end` is called once for each, in any order. Records keep the first hit if
 /// requested.
-template <IntegratorKind kind, class Sampler, class Real, BatchIntersector<Real> Intersector, class Pixel, class End>
+template <IntegratorKind kind, class Sampler, class Real, BatchIntersector<Real> Intersector, PixelLookup Pixel,
+          SampleReceiver<Real> End>
+requires SamplerOf<Sampler, Real>
 void integrate_batch(const SceneView<Real>& scene, const Intersector& intersector, uint32_t seed, uint32_t max_segments,
                      bool wants_first_hit, uint32_t count, const Pixel& pixel, const End& end) {
   PathBatch<kind, Sampler, Real, Intersector, Pixel, End> batch(scene, intersector, seed, max_segments, wants_first_hit,

@@ -4,44 +4,49 @@
 // one.
 
 #include "core/integrators/camera_sample.h"
+#include "core/math/field_list.h"
 #include "core/sampling/sample_batch.h"
-#include "core/simd/columns.h"
+#include "core/simd/soa.h"
 
 namespace ALHAZEN_CORE {
 
 /// Sample number `sample` of pixel (x, y).
 struct PixelSample {
   uint32_t x, y, sample;
+
+  using Fields = FieldList<&PixelSample::x, &PixelSample::y, &PixelSample::sample>;
 };
 
+/// Returns the pixel and sample number of sample i.
+template <class Pixel>
+concept PixelLookup = std::is_invocable_r_v<PixelSample, const Pixel&, uint32_t>;
+
 /// Camera rays of up to `max_count` samples.
-template <class Real, class Sampler, uint32_t max_count>
+template <class Real, SamplerOf<Real> Sampler, uint32_t max_count>
 class CameraRays {
  public:
-  /// Generates `count` rays; `pixel(i)` returns the pixel and sample number of sample i.
-  template <class Pixel>
+  /// Generates `count` rays.
+  template <PixelLookup Pixel>
   void make(const SceneView<Real>& scene, uint32_t seed, uint32_t count, const Pixel& pixel) {
-    for (uint32_t i = 0; i < count; ++i) {
-      const PixelSample sample = pixel(i);
-      x_[i] = sample.x;
-      y_[i] = sample.y;
-      sample_[i] = sample.sample;
-    }
+    for (uint32_t i = 0; i < count; ++i) pixels_.set(i, pixel(i));
     const uint32_t end = whole_rows(count);
     ALHAZEN_SIDE_BY_SIDE
-    for (uint32_t i = 0; i < end; ++i) numbers_.samplers[i] = Sampler(seed, x_[i], y_[i], sample_[i]);
+    for (uint32_t i = 0; i < end; ++i) {
+      const PixelSample sample = pixels_[i];
+      numbers_.samplers[i] = Sampler(seed, sample.x, sample.y, sample.sample);
+    }
     numbers_.draw(count, wanted_numbers(scene));
     set_film_positions(scene, end);
     make_rays(scene.camera, end);
   }
 
   const Sampler& sampler(uint32_t i) const { return numbers_.samplers[i]; }
-  Vec3<Real> origin(uint32_t i) const { return origin_[i]; }
-  Vec3<Real> direction(uint32_t i) const { return direction_[i]; }
-  Real time(const SceneView<Real>& scene, uint32_t i) const {
-    return scene_moves(scene) ? numbers_.first(CameraDimensions::time, i) : Real(0);
+  Ray<Real> ray(const SceneView<Real>& scene, uint32_t i) const {
+    Ray<Real> ray = rays_[i];
+    if (scene_moves(scene)) ray.time = numbers_.first(CameraDimensions::time, i);
+    return ray;
   }
-  Real filter_weight(uint32_t i) const { return filter_weight_[i]; }
+  Real filter_weight(uint32_t i) const { return film_[i].filter_weight; }
 
  private:
   static uint32_t wanted_numbers(const SceneView<Real>& scene) {
@@ -51,10 +56,8 @@ class CameraRays {
 
   void set_film_positions(const SceneView<Real>& scene, uint32_t end) {
     const auto place = [&](uint32_t i, const FilterSample<Real>& filter) {
-      const FilmSample<Real> film = film_sample(x_[i], y_[i], filter);
-      film_x_[i] = film.position.x;
-      film_y_[i] = film.position.y;
-      filter_weight_[i] = film.filter_weight;
+      const PixelSample pixel = pixels_[i];
+      film_.set(i, film_sample(pixel.x, pixel.y, filter));
     };
     const auto u = [&](uint32_t i) { return numbers_.pair(CameraDimensions::film, i); };
     const FilterRecord<Real> filter = scene.filter;
@@ -84,9 +87,7 @@ class CameraRays {
   /// Does what `camera_ray` does with the film positions, in SIMD loops if the camera is a perspective one.
   void make_rays(CameraRecord<Real> camera, uint32_t end) {
     const auto make = [&](const Vec2<Real>& lens, uint32_t i) {
-      const Ray<Real> ray = camera_ray(camera, Vec2<Real>{film_x_[i], film_y_[i]}, lens, Real(0));
-      origin_.set(i, ray.origin);
-      direction_.set(i, ray.direction);
+      rays_.set(i, camera_ray(camera, film_[i].position, lens, Real(0)));
     };
     const auto lens = [&](uint32_t i) { return numbers_.pair(CameraDimensions::lens, i); };
     const bool has_lens = camera.lens_radius > 0;
@@ -106,11 +107,11 @@ class CameraRays {
     }
   }
 
-  uint32_t x_[max_count]{}, y_[max_count]{}, sample_[max_count]{};
+  SoA<PixelSample, max_count> pixels_;
   SampleBatch<Real, Sampler, max_count, CameraDimensions> numbers_;
-  uint32_t cell_x_[max_count], cell_y_[max_count];
-  Real film_x_[max_count], film_y_[max_count], filter_weight_[max_count];
-  VectorColumns<Real, max_count> origin_, direction_;
+  uint32_t cell_x_[max_count], cell_y_[max_count];  ///< of the filter
+  SoA<FilmSample<Real>, max_count> film_;
+  SoA<Ray<Real>, max_count, FieldList<&Ray<Real>::origin, &Ray<Real>::direction>> rays_;
 };
 
 }  // namespace ALHAZEN_CORE

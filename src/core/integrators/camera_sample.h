@@ -9,6 +9,7 @@
 #include "core/integrators/iterative.h"
 #include "core/integrators/path.h"
 #include "core/integrators/recursive.h"
+#include "core/math/field_list.h"
 
 namespace ALHAZEN_CORE {
 
@@ -28,6 +29,8 @@ template <class Real>
 struct FilmSample {
   Vec2<Real> position;
   Real filter_weight;
+
+  using Fields = FieldList<&FilmSample::position, &FilmSample::filter_weight>;
 };
 
 template <class Real>
@@ -36,7 +39,7 @@ ALHAZEN_HD ALHAZEN_HOT FilmSample<Real> film_sample(uint32_t x, uint32_t y, cons
           filter.weight};
 }
 
-template <class Real, class Sampler>
+template <class Real, SamplerOf<Real> Sampler>
 ALHAZEN_HD ALHAZEN_HOT CameraSample<Real> sample_camera(const SceneView<Real>& scene, const Sampler& sampler,
                                                         uint32_t x, uint32_t y) {
   const FilmSample<Real> film = film_sample(
@@ -53,7 +56,7 @@ using StateOf = std::conditional_t<kind == IntegratorKind::path, PathState<Real>
 
 /// Traces one segment of a path: intersects, adds emission and direct light, scatters. Returns false when the path has
 /// ended.
-template <class Real, RayIntersector<Real> Intersector, class Sampler, class State, class Record>
+template <class Real, RayIntersector<Real> Intersector, SamplerOf<Real> Sampler, class State, RecordOf<Real> Record>
 ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& intersector, const Sampler& sampler,
                              uint32_t max_segments, State& path, Record& record) {
   ++record.segments;
@@ -70,7 +73,7 @@ ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& in
 }
 
 /// Radiance along `ray` by the integrator `kind`, over at most `max_segments` >= 1 segments.
-template <IntegratorKind kind, class Real, RayIntersector<Real> Intersector, class Sampler>
+template <IntegratorKind kind, class Real, RayIntersector<Real> Intersector, SamplerOf<Real> Sampler>
 ALHAZEN_HD SampleRecord<Real> integrate(const SceneView<Real>& scene, const Intersector& intersector,
                                         const Sampler& sampler, const Ray<Real>& ray, uint32_t max_segments) {
   SampleRecord<Real> record;

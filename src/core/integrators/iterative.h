@@ -14,6 +14,9 @@ struct IterativeState {
   Vec3<Real> throughput = splat(Real(1));
   uint32_t vertex = 0;  ///< number of surfaces hit so far
   Real travelled = 0;   ///< distance before the ray's origin, through surfaces that the ray passed through
+
+  using Fields =
+      FieldList<&IterativeState::ray, &IterativeState::throughput, &IterativeState::vertex, &IterativeState::travelled>;
 };
 
 template <class Real, class Record>
@@ -23,7 +26,7 @@ ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, co
 }
 
 /// Adds emission and scatters at a hit. Returns false when the path ends.
-template <class Real, class Sampler, class Record>
+template <class Real, SamplerOf<Real> Sampler, RecordOf<Real> Record>
 ALHAZEN_HD ALHAZEN_HOT bool shade_at(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
                                      const Hit<Real>& hit, const ShadingPoint<Real>& point, IterativeState<Real>& path,
                                      Record& record) {
@@ -41,7 +44,7 @@ ALHAZEN_HD ALHAZEN_HOT bool shade_at(const SceneView<Real>& scene, const Sampler
 }
 
 /// The same with the shading point given. `light` is not used.
-template <class Real, class Sampler, class Record, class Light>
+template <class Real, SamplerOf<Real> Sampler, RecordOf<Real> Record, ShadowRayReceiver<Real> Light>
 ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
                                      const Hit<Real>& hit, IterativeState<Real>& path, Record& record, const Light&) {
   if (scene.has_cutouts && passes(scene, hit, ray_kind(path.vertex), path.ray, path.travelled))

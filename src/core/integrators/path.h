@@ -4,6 +4,7 @@
 // (Kajiya 1986; Veach 1997, chapters 9 and 10).
 
 #include "core/integrators/stages.h"
+#include "core/math/field_list.h"
 
 namespace ALHAZEN_CORE {
 
@@ -18,6 +19,9 @@ struct PathState {
   bool is_specular = true;  ///< light sampling could not have found this direction
   Vec3<Real> light_side{};  ///< `side_of_light` of the last surface, if there is a light tree
   Real travelled = 0;       ///< distance before the ray's origin, through surfaces that the ray passed through
+
+  using Fields = FieldList<&PathState::ray, &PathState::throughput, &PathState::bsdf_pdf, &PathState::eta_scale,
+                           &PathState::vertex, &PathState::is_specular, &PathState::light_side, &PathState::travelled>;
 };
 
 /// MIS weight of light found by BSDF sampling, where light sampling has density `light_pdf`.
@@ -61,7 +65,7 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
 }
 
 /// Samples the next ray. Returns false if the path ends here.
-template <class Real, class Sampler>
+template <class Real, SamplerOf<Real> Sampler>
 ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingPoint<Real>& point,
                                           PathState<Real>& path) {
   const VertexDimensions dimensions(path.vertex);
@@ -94,7 +98,7 @@ ALHAZEN_HD ALHAZEN_HOT bool handle_hit(const SceneView<Real>& scene, uint32_t ma
 
 /// Adds direct light and scatters. Returns false if the path ends here. `light` receives the shadow ray to a sampled
 /// light and the radiance to add if it is unoccluded; it may trace the ray at once or later.
-template <class Real, class Sampler, class Record, class Light>
+template <class Real, SamplerOf<Real> Sampler, RecordOf<Real> Record, ShadowRayReceiver<Real> Light>
 ALHAZEN_HD ALHAZEN_HOT bool light_and_scatter(const SceneView<Real>& scene, const Sampler& sampler,
                                               const ShadingPoint<Real>& point, PathState<Real>& path, Record& record,
                                               const Light& light) {
@@ -109,7 +113,7 @@ ALHAZEN_HD ALHAZEN_HOT bool light_and_scatter(const SceneView<Real>& scene, cons
 }
 
 /// Adds emission and direct light and scatters at a hit. Returns false if the path ends there. `light` is as above.
-template <class Real, class Sampler, class Record, class Light>
+template <class Real, SamplerOf<Real> Sampler, RecordOf<Real> Record, ShadowRayReceiver<Real> Light>
 ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
                                      const Hit<Real>& hit, PathState<Real>& path, Record& record, const Light& light) {
   if (scene.has_cutouts && passes(scene, hit, ray_kind(path.vertex), path.ray, path.travelled))

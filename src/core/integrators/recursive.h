@@ -7,7 +7,7 @@
 namespace ALHAZEN_CORE {
 
 /// Radiance that arrives along `ray` over at most `segments_left` segments; `segment` counts those before it.
-template <class Real, RayIntersector<Real> Intersector, class Sampler>
+template <class Real, RayIntersector<Real> Intersector, SamplerOf<Real> Sampler>
 ALHAZEN_HD Vec3<Real> cast_ray_recursive(const SceneView<Real>& scene, const Intersector& intersector,
                                          const Sampler& sampler, Ray<Real> ray, uint32_t segments_left,
                                          uint32_t segment, SampleRecord<Real>& record) {

@@ -2,9 +2,11 @@
 
 // What a camera sample returns.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
+#include "core/math/field_list.h"
 #include "core/math/vec.h"
 
 namespace ALHAZEN_CORE {
@@ -15,6 +17,8 @@ struct PathRecord {
   Vec3<Real> radiance{};
   uint32_t segments = 0;  ///< closest-hit rays, the report's bounces
   uint32_t shadow_rays = 0;
+
+  using Fields = FieldList<&PathRecord::radiance, &PathRecord::segments, &PathRecord::shadow_rays>;
 };
 
 /// The first surface that the camera ray hits.
@@ -22,6 +26,13 @@ template <class Real>
 struct FirstHit {
   Vec3<Real> albedo{}, normal{};  ///< the normal is the shading normal, in world space
   Real depth = 0;                 ///< distance from the lens, in scene units
+};
+
+/// What integrators write to: a PathRecord that also takes the first hit, if it is wanted.
+template <class Record, class Real>
+concept RecordOf = std::derived_from<Record, PathRecord<Real>> && requires(Record& record, const FirstHit<Real>& hit) {
+  { record.wants_first_hit() } -> std::same_as<bool>;
+  record.keep_first_hit(hit);
 };
 
 template <class Real>

@@ -1,7 +1,7 @@
 #pragma once
 
 // The stages of every integrator: compute the shading point, add emission, add direct light, scatter. A megakernel runs
-// them in sequence; the wavefront runs one kernel each. A `Record` is a PathRecord that also takes the first hit.
+// them in sequence; the wavefront runs one kernel each.
 
 #include "core/bvh/ray_intersector.h"
 #include "core/integrators/sample_record.h"
@@ -9,8 +9,10 @@
 #include "core/lights/light.h"
 #include "core/materials/bsdf.h"
 #include "core/materials/normal_maps.h"
+#include "core/math/field_list.h"
 #include "core/math/ray.h"
 #include "core/sampling/dimensions.h"
+#include "core/sampling/sampler.h"
 
 namespace ALHAZEN_CORE {
 
@@ -114,7 +116,15 @@ template <class Real>
 struct ShadowRay {
   Ray<Real> ray;
   Real t_max;  ///< if not above 0, nothing can occlude
+
+  using Fields = FieldList<&ShadowRay::ray, &ShadowRay::t_max>;
 };
+
+/// Receives shadow rays with the radiance to add if they are unoccluded.
+template <class Receiver, class Real>
+concept ShadowRayReceiver = std::invocable < const Receiver&,
+        const ShadowRay<Real>
+&, const Vec3<Real>& > ;
 
 /// The shadow ray from the surface to a sampled light.
 template <class Real>
@@ -152,6 +162,8 @@ struct DirectLight {
   Vec3<Real> radiance{};
   ShadowRay<Real> shadow;
   bool is_lit = false;
+
+  using Fields = FieldList<&DirectLight::radiance, &DirectLight::shadow, &DirectLight::is_lit>;
 };
 
 /// The input by which a light is chosen for a surface.
@@ -161,7 +173,7 @@ struct LightChoiceInput {
   Real u;
 };
 
-template <class Real, class Sampler>
+template <class Real, SamplerOf<Real> Sampler>
 ALHAZEN_HD ALHAZEN_HOT LightChoiceInput<Real> light_choice_input(const SceneView<Real>& scene, const Sampler& sampler,
                                                                  const VertexDimensions& dimensions,
                                                                  const ShadingPoint<Real>& point) {
@@ -170,7 +182,7 @@ ALHAZEN_HD ALHAZEN_HOT LightChoiceInput<Real> light_choice_input(const SceneView
 }
 
 /// Samples one light and a point on it for a surface. pdf is 0 if there is none.
-template <class Real, class Sampler>
+template <class Real, SamplerOf<Real> Sampler>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light_for(const SceneView<Real>& scene, const Sampler& sampler,
                                                           const VertexDimensions& dimensions,
                                                           const ShadingPoint<Real>& point) {
@@ -193,7 +205,7 @@ ALHAZEN_HD ALHAZEN_HOT DirectLight<Real> direct_light(const ShadingPoint<Real>& 
   return direct;
 }
 
-template <class Real, class Sampler>
+template <class Real, SamplerOf<Real> Sampler>
 ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> scatter(const ShadingPoint<Real>& point, const Sampler& sampler,
                                                 const VertexDimensions& dimensions) {
   // Random numbers that are not used are not generated.
@@ -206,7 +218,7 @@ ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> scatter(const ShadingPoint<Real>& point,
   return s;
 }
 
-template <class Real, class Record>
+template <class Real, RecordOf<Real> Record>
 ALHAZEN_HD ALHAZEN_HOT void record_first_hit(const ShadingPoint<Real>& point, Real distance, Record& record) {
   if (record.wants_first_hit())
     record.keep_first_hit(FirstHit<Real>{bsdf_albedo(point.bsdf), point.si.shading_normal, distance});

@@ -23,6 +23,10 @@ struct LightSample {
   /// Whether the shadow ray ends at a point, with its error and normal; not so for infinite and distant lights.
   bool is_finite = false;
   Vec3<Real> point{}, point_error{}, normal{};
+
+  using Fields =
+      FieldList<&LightSample::direction, &LightSample::radiance, &LightSample::pdf, &LightSample::is_delta,
+                &LightSample::is_finite, &LightSample::point, &LightSample::point_error, &LightSample::normal>;
 };
 
 template <class Real>

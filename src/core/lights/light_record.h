@@ -6,6 +6,7 @@
 
 #include "core/lights/light_kind.h"
 #include "core/lights/sphere_mapping.h"
+#include "core/math/field_list.h"
 #include "core/math/frame.h"
 #include "core/math/vec.h"
 #include "core/shapes/shape_records.h"
@@ -38,6 +39,9 @@ struct TriangleEmitter {
   uint32_t flip_normal;
   uint32_t two_sided;
   Vec3<Real> radiance;
+
+  using Fields = FieldList<&TriangleEmitter::corner, &TriangleEmitter::outward, &TriangleEmitter::flip_normal,
+                           &TriangleEmitter::two_sided, &TriangleEmitter::radiance>;
 };
 
 /// A group of lights, or one of them: a sphere that bounds them, a cone that bounds their normals, and their power

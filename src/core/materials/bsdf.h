@@ -3,11 +3,17 @@
 // The BSDF at a point: a closure of any kind in its shading frame. Each operation dispatches by a switch that expands
 // from the lists of core/materials/material_record.h. Directions are in world space and point away from the surface.
 
+#include <type_traits>
+
 #include "core/materials/material_record.h"
 #include "core/materials/texture_evaluator.h"
 #include "core/math/frame.h"
 
 namespace ALHAZEN_CORE {
+
+#define ALHAZEN_KIND(name, Name) static_assert(ClosureOf<Name##Bsdf<float>, float>);
+ALHAZEN_SCATTERING_MATERIALS(ALHAZEN_KIND)
+#undef ALHAZEN_KIND
 
 template <class Real>
 struct Bsdf {
@@ -52,9 +58,14 @@ ALHAZEN_HD ALHAZEN_COLD void make_rare_bsdf(const SceneView<Real>& scene, const 
   }
 }
 
-/// Makes the closure of a material by evaluating its textures; the frame is already set. `view` is a function that
-/// returns the ClosureView, which only rare kinds need.
-template <class Real, class View>
+/// Returns the ClosureView of the hit that is shaded.
+template <class Maker, class Real>
+concept ClosureViewMaker = std::is_invocable_r_v < ClosureView<Real>,
+const Maker& > ;
+
+/// Makes the closure of a material by evaluating its textures; the frame is already set. Only rare kinds
+/// need the view.
+template <class Real, ClosureViewMaker<Real> View>
 ALHAZEN_HD ALHAZEN_HOT void make_bsdf(const SceneView<Real>& scene, const MaterialRecord<Real>& material,
                                       const TexturePoint<Real>& at, const View& view, Bsdf<Real>& bsdf) {
   const TextureEvaluator<Real> textures{scene, at};

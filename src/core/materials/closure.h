@@ -4,11 +4,13 @@
 // closure is a material with its textures evaluated at a point. Directions are in local coordinates, with z along the
 // shading normal, and point away from the surface.
 
+#include <concepts>
 #include <cstdint>
 
 #include "core/math/frame.h"
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
+#include "core/textures/texture_record.h"
 
 namespace ALHAZEN_CORE {
 
@@ -36,8 +38,30 @@ struct BsdfValue {
   Real pdf = 0;
 };
 
-/// Returns the sample for `wi`, drawn from one of the lobes, with the weight and the pdf of all lobes together.
+/// Evaluates textures at the point that is shaded, as TextureEvaluator does.
+template <class Textures, class Real>
+concept TexturesOf = requires(const Textures& textures, TextureRange range, Real fallback, uint32_t remap) {
+  { textures.value(range) } -> std::same_as<Vec3<Real>>;
+  { textures.colour(range) } -> std::same_as<Vec3<Real>>;
+  { textures.colour_or(range, fallback) } -> std::same_as<Vec3<Real>>;
+  { textures.scalar_or(range, fallback) } -> std::same_as<Real>;
+  { textures.alpha(range, remap) } -> std::same_as<Real>;
+  { textures.layered_alphas(range, range, remap) } -> std::same_as<Vec2<Real>>;
+};
+
+/// A closure samples a direction (`u_lobe` selects a lobe) and evaluates a pair of directions. It has an albedo, for
+/// denoisers, and may consist of Dirac delta distributions alone.
 template <class Closure, class Real>
+concept ClosureOf = requires(const Closure& closure, const Vec3<Real>& wo, const Vec3<Real>& wi, Real u_lobe,
+                             const Vec2<Real>& u) {
+  { closure.sample(wo, u_lobe, u) } -> std::same_as<BsdfSample<Real>>;
+  { closure.evaluate(wo, wi) } -> std::same_as<BsdfValue<Real>>;
+  { closure.albedo() } -> std::same_as<Vec3<Real>>;
+  { closure.is_specular() } -> std::same_as<bool>;
+};
+
+/// Returns the sample for `wi`, drawn from one of the lobes, with the weight and the pdf of all lobes together.
+template <class Real, ClosureOf<Real> Closure>
 ALHAZEN_HD BsdfSample<Real> evaluated_sample(const Closure& closure, const Vec3<Real>& wo, const Vec3<Real>& wi) {
   BsdfSample<Real> s;
   const BsdfValue<Real> v = closure.evaluate(wo, wi);

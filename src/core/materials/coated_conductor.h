@@ -52,7 +52,7 @@ ALHAZEN_HD Vec3<Real> bounded_index(const Vec3<Real>& index) {
   return min(max(index, Vec3<Real>{}), splat(Real(1e8)));
 }
 
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD ALHAZEN_COLD void make_closure(const CoatedConductorRecord<Real>& record, const Textures& textures,
                                           const ClosureView<Real>& view, CoatedConductorBsdf<Real>& b) {
   b.coat_ior = record.coat_ior;

@@ -60,7 +60,7 @@ ALHAZEN_HD Real below_coat(Real reflectance, Real back, Real escape, Real bounce
   return reflectance * escape * ((bounces > 0 ? 1 - std::pow(again, bounces) : Real(1)) / rest);
 }
 
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD ALHAZEN_COLD void make_closure(const CoatedDiffuseRecord<Real>& record, const Textures& textures,
                                           const ClosureView<Real>&, CoatedDiffuseBsdf<Real>& b) {
   b.alpha = textures.layered_alphas(record.roughness_u, record.roughness_v, record.remap_roughness);

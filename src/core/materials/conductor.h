@@ -29,7 +29,7 @@ struct AnisotropicConductorRecord {
   uint32_t remap_roughness;               ///< 1: alpha = sqrt(roughness)
 };
 
-template <class Real, class Alpha = Real>
+template <class Real, AlphaOf<Real> Alpha = Real>
 struct ConductorBsdf {
   Vec3<Real> eta, k;
   Alpha alpha;  ///< below smooth_alpha: perfectly specular
@@ -77,14 +77,14 @@ struct ConductorBsdf {
 template <class Real>
 using AnisotropicConductorBsdf = ConductorBsdf<Real, Vec2<Real>>;
 
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD ALHAZEN_HOT void make_closure(const ConductorRecord<Real>& record, const Textures& textures,
                                          ConductorBsdf<Real>& bsdf) {
   bsdf.alpha = textures.alpha(record.roughness, record.remap_roughness);
   set_metal(record.metal, textures, bsdf.eta, bsdf.k);
 }
 
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD void make_closure(const AnisotropicConductorRecord<Real>& record, const Textures& textures,
                              const ClosureView<Real>&, AnisotropicConductorBsdf<Real>& bsdf) {
   bsdf.alpha = rough_alphas<Real>(textures.alpha(record.roughness_u, record.remap_roughness),

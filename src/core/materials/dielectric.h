@@ -28,7 +28,7 @@ struct AnisotropicDielectricRecord {
   uint32_t remap_roughness;               ///< 1: alpha = sqrt(roughness)
 };
 
-template <class Real, class Alpha = Real>
+template <class Real, AlphaOf<Real> Alpha = Real>
 struct DielectricBsdf {
   Real ior;     ///< inside (against the normal) relative to outside
   Alpha alpha;  ///< below smooth_alpha: a smooth interface
@@ -42,14 +42,14 @@ struct DielectricBsdf {
 template <class Real>
 using AnisotropicDielectricBsdf = DielectricBsdf<Real, Vec2<Real>>;
 
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD ALHAZEN_HOT void make_closure(const DielectricRecord<Real>& record, const Textures& textures,
                                          DielectricBsdf<Real>& bsdf) {
   bsdf.ior = record.ior;
   bsdf.alpha = textures.alpha(record.roughness, record.remap_roughness);
 }
 
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD void make_closure(const AnisotropicDielectricRecord<Real>& record, const Textures& textures,
                              const ClosureView<Real>&, AnisotropicDielectricBsdf<Real>& bsdf) {
   bsdf.ior = record.ior;
@@ -66,7 +66,7 @@ struct DielectricBranches {
   Real reflected_rate = 1;
 };
 
-template <class Real, class Alpha>
+template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD DielectricBranches<Real> dielectric_branches(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
                                                         const Vec2<Real>& u) {
   DielectricBranches<Real> branches;
@@ -106,7 +106,7 @@ ALHAZEN_HD DielectricBranches<Real> dielectric_branches(const DielectricBsdf<Rea
 }
 
 /// Samples one of the two directions; the probability of reflection is the Fresnel reflectance.
-template <class Real, class Alpha>
+template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD BsdfSample<Real> DielectricBsdf<Real, Alpha>::sample(const Vec3<Real>& wo, Real u_lobe,
                                                                 const Vec2<Real>& u) const {
   const DielectricBranches<Real> branches = dielectric_branches(*this, wo, u);
@@ -130,7 +130,7 @@ struct DielectricFacet {
 };
 
 /// Returns false if there is no such microfacet.
-template <class Real, class Alpha>
+template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD ALHAZEN_HOT bool dielectric_facet(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
                                              const Vec3<Real>& wi, DielectricFacet<Real>& facet) {
   const Real side = wo.z < 0 ? Real(-1) : Real(1);
@@ -153,7 +153,7 @@ ALHAZEN_HD ALHAZEN_HOT bool dielectric_facet(const DielectricBsdf<Real, Alpha>& 
   return true;
 }
 
-template <class Real, class Alpha>
+template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD BsdfValue<Real> DielectricBsdf<Real, Alpha>::evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const {
   if (is_specular() || wo.z == 0 || wi.z == 0) return {};
   DielectricFacet<Real> f;

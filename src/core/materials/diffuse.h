@@ -40,7 +40,7 @@ struct DiffuseBsdf {
   ALHAZEN_HD constexpr bool is_specular() const { return false; }
 };
 
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD ALHAZEN_HOT void make_closure(const DiffuseRecord<Real>& record, const Textures& textures,
                                          DiffuseBsdf<Real>& bsdf) {
   bsdf.reflectance = textures.colour(record.reflectance);

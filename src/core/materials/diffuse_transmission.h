@@ -49,7 +49,7 @@ struct DiffuseTransmissionBsdf {
   ALHAZEN_HD constexpr bool is_specular() const { return false; }
 };
 
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD void make_closure(const DiffuseTransmissionRecord<Real>& record, const Textures& textures,
                              const ClosureView<Real>&, DiffuseTransmissionBsdf<Real>& bsdf) {
   bsdf.reflectance = textures.colour_or(record.reflectance, Real(0));

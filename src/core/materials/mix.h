@@ -16,7 +16,7 @@ struct MixRecord {
   TextureRange amount;    ///< scalar: probability of the second material
 
   /// Returns the index of the material that the random number `u` selects.
-  template <class Textures>
+  template <TexturesOf<Real> Textures>
   ALHAZEN_HD uint32_t select(const Textures& textures, Real u) const {
     return materials[u < textures.value(amount).x ? 1 : 0];
   }

@@ -38,7 +38,7 @@ struct OrenNayarAlbedo {
   static constexpr Real mean = Real(2) / 3 - 28 * inv_pi<Real> / 15;
 };
 
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD void make_closure(const OrenNayarRecord<Real>& record, const Textures& textures, const ClosureView<Real>&,
                              OrenNayarBsdf<Real>& b) {
   using Albedo = OrenNayarAlbedo<Real>;

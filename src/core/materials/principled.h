@@ -120,7 +120,7 @@ ALHAZEN_HD Vec3<Real> film_reflectance(const FilmLayer<Real>& film, Real cosine,
   return film_reflectance(cosine, film.ior, film.thickness, f0);
 }
 
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD FilmLayer<Real> film_of(const PrincipledRecord<Real>& record, const Textures& textures) {
   FilmLayer<Real> film;
   film.amount = textures.scalar_or(record.iridescence, Real(0));
@@ -144,7 +144,7 @@ ALHAZEN_HD void add_film(PrincipledBsdf<Real>& b, const FilmLayer<Real>& film, R
 }
 
 /// Sets the refracting interface of a body, whose reflectance is `reflection` times the Fresnel reflectance.
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD void add_refraction(const PrincipledRecord<Real>& record, const Textures& textures,
                                const ClosureView<Real>& view, const Vec3<Real>& reflection, const Vec3<Real>& f0,
                                const FilmLayer<Real>& film, PrincipledBsdf<Real>& b) {
@@ -173,7 +173,7 @@ ALHAZEN_HD void add_refraction(const PrincipledRecord<Real>& record, const Textu
 }
 
 /// Sets the transmission through the base, tinted by `colour`: through a thin sheet, or into a body.
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD void add_light_through(const PrincipledRecord<Real>& record, const Textures& textures,
                                   const ClosureView<Real>& view, const Vec3<Real>& colour, const Vec3<Real>& tint,
                                   const FilmLayer<Real>& film, Real transmission, PrincipledBsdf<Real>& b) {
@@ -193,7 +193,7 @@ ALHAZEN_HD void add_light_through(const PrincipledRecord<Real>& record, const Te
 }
 
 /// Sets the metal and the dielectric of the base, with diffuse reflection and transmission.
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD void add_base(const PrincipledRecord<Real>& record, const Textures& textures, const ClosureView<Real>& view,
                          PrincipledBsdf<Real>& b) {
   const Vec3<Real> colour = textures.colour_or(record.base_colour, Real(1));
@@ -222,7 +222,7 @@ ALHAZEN_HD void add_base(const PrincipledRecord<Real>& record, const Textures& t
                       (rest * (1 - transmission) * diffuse_transmission);
 }
 
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD void add_sheen(const PrincipledRecord<Real>& record, const Textures& textures, PrincipledBsdf<Real>& b) {
   b.sheen = textures.colour_or(record.sheen_colour, Real(0));
   if (is_zero(b.sheen)) return;
@@ -231,7 +231,7 @@ ALHAZEN_HD void add_sheen(const PrincipledRecord<Real>& record, const Textures& 
   b.sheen_grid = textures.grid(record.sheen_grid, Vec2<Real>{alpha, alpha});
 }
 
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD ALHAZEN_COLD void make_closure(const PrincipledRecord<Real>& record, const Textures& textures,
                                           const ClosureView<Real>& view, PrincipledBsdf<Real>& b) {
   add_base(record, textures, view, b);

@@ -42,7 +42,7 @@ struct ThinDielectricBsdf {
   ALHAZEN_HD constexpr bool is_specular() const { return true; }
 };
 
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD void make_closure(const ThinDielectricRecord<Real>& record, const Textures&, const ClosureView<Real>&,
                              ThinDielectricBsdf<Real>& bsdf) {
   bsdf.ior = record.ior;

@@ -2,6 +2,7 @@
 
 // Orthonormal frames: local coordinates with z along the normal.
 
+#include "core/math/field_list.h"
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 
@@ -10,6 +11,8 @@ namespace ALHAZEN_CORE {
 template <class Real>
 struct Frame {
   Vec3<Real> tangent, bitangent, normal;
+
+  using Fields = FieldList<&Frame::tangent, &Frame::bitangent, &Frame::normal>;
 
   ALHAZEN_HD Vec3<Real> to_local(const Vec3<Real>& v) const {
     return {dot(v, tangent), dot(v, bitangent), dot(v, normal)};

@@ -2,6 +2,7 @@
 
 // Rays, and where to start a ray so that it does not hit the surface that it leaves.
 
+#include "core/math/field_list.h"
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 #include "core/shapes/primitive_id.h"
@@ -17,6 +18,8 @@ struct Ray {
   /// intersectors skip it, since rounding may place the origin on either side of it.
   PrimitiveId left{};
   uint32_t left_instance = no_instance;
+
+  using Fields = FieldList<&Ray::origin, &Ray::direction, &Ray::time, &Ray::left, &Ray::left_instance>;
 };
 
 /// `position` moved off the surface to the side that `direction` points to, by the bound on the error of `position`

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "core/math/platform.h"
 
@@ -51,6 +52,11 @@ ALHAZEN_HD constexpr Real min(Real a, Real b) {
 template <class Real>
 ALHAZEN_HD constexpr Real max(Real a, Real b) {
   return a > b ? a : b;
+}
+
+template <class Number>
+requires std::is_arithmetic_v<Number> ALHAZEN_HD constexpr Number select(bool first, Number a, Number b) {
+  return first ? a : b;
 }
 
 template <class Real>

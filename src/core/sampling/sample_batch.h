@@ -4,13 +4,14 @@
 // integer hashes well.
 
 #include "core/math/vec.h"
-#include "core/simd/columns.h"
+#include "core/sampling/sampler.h"
+#include "core/simd/soa.h"
 
 namespace ALHAZEN_CORE {
 
 /// `Dimensions::count` dimensions for each of up to `max_count` paths; bit d of `Dimensions::pairs` is set if dimension
 /// d is a pair. The values are those that the path's own sampler would return.
-template <class Real, class Sampler, uint32_t max_count, class Dimensions>
+template <class Real, SamplerOf<Real> Sampler, uint32_t max_count, class Dimensions>
 struct SampleBatch {
   Sampler samplers[max_count];
   uint32_t first_dimension[max_count]{};
@@ -53,6 +54,13 @@ struct SampleBatch {
   };
 
   One of(uint32_t path) const { return {*this, path}; }
+};
+
+/// The random numbers of many paths, by dimension and path.
+template <class Batch, class Real>
+concept SampleBatchOf = requires(const Batch& batch, uint32_t dimension, uint32_t path) {
+  { batch.pair(dimension, path) } -> std::same_as<Vec2<Real>>;
+  { batch.first(dimension, path) } -> std::same_as<Real>;
 };
 
 }  // namespace ALHAZEN_CORE

@@ -2,6 +2,7 @@
 
 // Computes the surface interaction at a hit: the position with a bound on its error, normals and uv.
 
+#include "core/math/field_list.h"
 #include "core/scene_view.h"
 #include "core/shapes/instance.h"
 #include "core/shapes/primitives.h"
@@ -91,6 +92,9 @@ struct TriangleCorners {
   Vec3<Real> position[3];
   Vec3<Real> normal[3];  ///< set only if has_normals
   uint32_t has_normals, flip_normal;
+
+  using Fields = FieldList<&TriangleCorners::position, &TriangleCorners::normal, &TriangleCorners::has_normals,
+                           &TriangleCorners::flip_normal>;
 };
 
 template <class Real>

@@ -2,6 +2,8 @@
 
 // Dispatches over the kinds of primitives.
 
+#include <concepts>
+
 #include "core/bvh/ray_intersector.h"
 #include "core/scene_view.h"
 #include "core/shapes/sphere.h"
@@ -9,8 +11,16 @@
 
 namespace ALHAZEN_CORE {
 
+/// Takes the record of a primitive of any kind.
+template <class Visit, class Real>
+concept PrimitiveVisitor =
+#define ALHAZEN_TAKES(X, kind, Record, records, Block, blocks) std::invocable<const Visit&, const Record&>&&
+    ALHAZEN_PRIMITIVES(ALHAZEN_TAKES, )
+true;
+#undef ALHAZEN_TAKES
+
 /// Calls `visit` with the record of a primitive, which must not be an instance.
-template <class Real, class Visit>
+template <class Real, PrimitiveVisitor<Real> Visit>
 ALHAZEN_HD ALHAZEN_INLINE decltype(auto) visit_primitive(const SceneView<Real>& scene, PrimitiveId primitive,
                                                          const Visit& visit) {
   switch (primitive.kind()) {

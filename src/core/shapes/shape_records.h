@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "core/math/field_list.h"
 #include "core/math/vec.h"
 #include "core/shapes/primitive_id.h"
 
@@ -107,6 +108,8 @@ struct Hit {
   Real b1{}, b2{};
   PrimitiveId primitive;
   uint32_t instance = no_instance;  ///< the instance that was hit, or no_instance for primitives of the world
+
+  using Fields = FieldList<&Hit::t, &Hit::b1, &Hit::b2, &Hit::primitive, &Hit::instance>;
 };
 
 }  // namespace ALHAZEN_CORE

@@ -12,6 +12,7 @@ namespace ALHAZEN_CORE {
 
 /// Takes one sample after the other, for recursive integrators.
 template <IntegratorKind kind, class Sampler, class Real, RayIntersector<Real> Intersector>
+requires SamplerOf<Sampler, Real>
 void take_blocks_singly(const KernelRequest& request, const SceneView<Real>& scene, const Intersector& intersector,
                         BlockSum<Real>* sums) {
   for (uint32_t b = 0; b < request.block_count; ++b) {
@@ -25,6 +26,7 @@ void take_blocks_singly(const KernelRequest& request, const SceneView<Real>& sce
 }
 
 template <IntegratorKind kind, class Sampler, class Real, BatchIntersector<Real> Intersector>
+requires SamplerOf<Sampler, Real>
 void take_blocks_together(const KernelRequest& request, const SceneView<Real>& scene, const Intersector& intersector,
                           BlockSum<Real>* sums) {
   // Every block has space for samples_per_block records, whether or not it uses them all.
@@ -64,7 +66,8 @@ void take_blocks_together(const KernelRequest& request, const SceneView<Real>& s
 
 /// Constructs the intersector from the scene and, if it names the type of one, the tracer.
 template <class Intersector, class Real>
-ALHAZEN_INLINE Intersector make_intersector(const SceneView<Real>& scene, [[maybe_unused]] const void* tracer) {
+requires BatchIntersector<Intersector, Real> ALHAZEN_INLINE Intersector
+make_intersector(const SceneView<Real>& scene, [[maybe_unused]] const ExternalTracer* tracer) {
   if constexpr (requires { typename Intersector::Tracer; })
     return Intersector(scene, *static_cast<const typename Intersector::Tracer*>(tracer));
   else
@@ -72,7 +75,7 @@ ALHAZEN_INLINE Intersector make_intersector(const SceneView<Real>& scene, [[mayb
 }
 
 template <IntegratorKind kind, class Sampler, class Intersector, class Real>
-requires BatchIntersector<Intersector, Real>
+requires BatchIntersector<Intersector, Real> && SamplerOf<Sampler, Real>
 void take_blocks(const KernelRequest& request) {
   const SceneView<Real>& scene = *static_cast<const SceneView<Real>*>(request.scene);
   const Intersector intersector = make_intersector<Intersector>(scene, request.tracer);

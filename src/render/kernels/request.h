@@ -14,10 +14,13 @@ struct BlockRequest {
 /// Maximum number of blocks per request.
 inline constexpr uint32_t max_blocks_per_request = 256;
 
+/// Base of what the intersectors of other libraries trace rays by. An intersector names its own type as `Tracer`.
+struct ExternalTracer {};
+
 struct KernelRequest {
-  const void* scene;   ///< SceneView<Real>
-  const void* tracer;  ///< Intersector::Tracer, if it has one
-  void* sums;          ///< BlockSum<Real>, one per block
+  const void* scene;             ///< SceneView<Real>
+  const ExternalTracer* tracer;  ///< Intersector::Tracer, if it has one
+  void* sums;                    ///< BlockSum<Real>, one per block
   const BlockRequest* blocks;
   uint32_t block_count;
   uint32_t seed;

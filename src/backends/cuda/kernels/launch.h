@@ -29,6 +29,12 @@ concept QueueThread = PixelThread<Thread> && requires(const Thread& thread, uint
   { thread.increment(counter) } -> std::same_as<uint32_t>;
 };
 
+/// How a kernel traces rays: `intersector(scene, stacks)` makes a RayIntersector of the thread's stacks.
+template <class Tracing>
+concept RayTracing = requires {
+  { Tracing::by_launch_of_pixels } -> std::convertible_to<bool>;  // whether pixels are all that it can launch
+};
+
 /// The rows of a window that one device renders: bands of rows dealt to the devices in turn, counted without gaps.
 struct RowShare {
   static constexpr uint32_t band = 8;  ///< rows

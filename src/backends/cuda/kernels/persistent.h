@@ -8,7 +8,7 @@
 
 namespace alhazen::cuda {
 
-template <class Tracing, IntegratorKind kind, class Real>
+template <RayTracing Tracing, IntegratorKind kind, class Real>
 struct PersistentKernel {
   Launch<Real> launch;
   ItemGrid grid;

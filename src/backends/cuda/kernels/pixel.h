@@ -9,7 +9,7 @@ namespace alhazen::cuda {
 
 /// Thread (x, y) renders pixel (x, y) of each of chunks_x * chunks_y chunks. Chunk sizes are rounded up, and what then
 /// lies outside is left out, so that no pixel is lost where the chunks do not divide the image.
-template <class Tracing, IntegratorKind kind, class Real>
+template <RayTracing Tracing, IntegratorKind kind, class Real>
 struct PixelKernel {
   Launch<Real> launch;
   uint32_t chunks_x, chunks_y;

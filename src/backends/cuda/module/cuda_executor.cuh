@@ -13,7 +13,7 @@
 
 namespace alhazen::cuda {
 
-template <class Kernel>
+template <DeviceKernel Kernel>
 __global__ void run_kernel(const __grid_constant__ Kernel kernel) {
   extern __shared__ uint4 traversal_stacks[];
   kernel(DeviceThread(traversal_stacks));
@@ -21,14 +21,14 @@ __global__ void run_kernel(const __grid_constant__ Kernel kernel) {
 
 /// The same of kernels that are launched in blocks of `usual_block` threads alone. So many registers may a thread take
 /// that `resident_blocks` of them fit on a multiprocessor at once.
-template <class Kernel>
+template <DeviceKernel Kernel>
 __global__ void __launch_bounds__(usual_block, Kernel::resident_blocks)
     run_resident_kernel(const __grid_constant__ Kernel kernel) {
   extern __shared__ uint4 traversal_stacks[];
   kernel(DeviceThread(traversal_stacks));
 }
 
-template <class Kernel>
+template <DeviceKernel Kernel>
 constexpr auto kernel_function() {
   if constexpr (requires { Kernel::resident_blocks; })
     return run_resident_kernel<Kernel>;
@@ -83,7 +83,7 @@ class CudaExecutor {
   cudaStream_t stream() const { return stream_; }
   void wait() { check(cudaStreamSynchronize(stream_), "rendering"); }
 
-  template <class Kernel>
+  template <DeviceKernel Kernel>
   uint32_t resident_threads(uint32_t block) {
     int blocks = 0, multiprocessors = 0;
     check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel_function<Kernel>(), static_cast<int>(block),
@@ -93,7 +93,7 @@ class CudaExecutor {
     return static_cast<uint32_t>(blocks < 1 ? 1 : blocks) * static_cast<uint32_t>(multiprocessors) * block;
   }
 
-  template <class Kernel>
+  template <DeviceKernel Kernel>
   void launch(const Kernel& kernel, Extent threads, Extent block) {
     const uint32_t block_threads = block.width * block.height;
     if (block_threads > usual_block) check_block<Kernel>(block);
@@ -109,7 +109,7 @@ class CudaExecutor {
   }
 
   /// The report's cells without a number: blocks whose threads need more registers than there are.
-  template <class Kernel>
+  template <DeviceKernel Kernel>
   static void check_block(Extent block) {
     cudaFuncAttributes attributes{};
     check(cudaFuncGetAttributes(&attributes, kernel_function<Kernel>()), "asking for a kernel");

@@ -8,7 +8,7 @@
 
 namespace alhazen::cuda {
 
-template <class Tracing, class Real>
+template <RayTracing Tracing, class Real>
 class CudaRender final : public GpuRender<Real> {
  public:
   CudaRender(int device, const RowShare& share) : executor_(device), render_(executor_, share) {}

@@ -12,6 +12,7 @@
 
 #include "core/math/ray.h"
 #include "core/shapes/shape_records.h"
+#include "render/kernels/request.h"
 
 namespace ALHAZEN_CORE {
 
@@ -31,7 +32,7 @@ inline bool is_traced_by_embree(const Ray<float>& ray, float t_max) {
 }
 
 /// What the intersector is handed besides the scene.
-struct EmbreeTracer {
+struct EmbreeTracer : ExternalTracer {
   RTCScene scene;
 };
 

@@ -21,7 +21,7 @@ namespace {
 class Structures final : public EmbreeStructures {
  public:
   Structures(const SceneView<float>& view, int threads) : scene_(view, threads) {}
-  const void* tracer_for_kernels() const override { return &scene_.tracer(); }
+  const ExternalTracer* tracer_for_kernels() const override { return &scene_.tracer(); }
 
  private:
   EmbreeScene scene_;

@@ -32,7 +32,7 @@ class BruteForcePackets {
 
   /// Traces a batch (ray_intersector.h). Calls `single(i)` for queries that a tree answers faster: those of a last
   /// packet with few rays.
-  template <bool any_hit, class RayOf, class Limit, class Answer, class Single>
+  template <bool any_hit, RayLookup<Real> RayOf, LimitLookup<Real> Limit, HitReceiver<Real> Answer, class Single>
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer, const Single& single) const {
     for (uint32_t first = 0; first < count; first += width) {
       const uint32_t some = count - first < width ? count - first : width;
@@ -85,7 +85,7 @@ class BruteForcePackets {
     return true;
   }
 
-  template <bool any_hit, class RayOf, class Limit, class Answer>
+  template <bool any_hit, RayLookup<Real> RayOf, LimitLookup<Real> Limit, HitReceiver<Real> Answer>
   ALHAZEN_INLINE void trace_group(uint32_t first, uint32_t size, const RayOf& ray, const Limit& t_max,
                                   const Answer& answer) const {
     Rays rays;

@@ -37,7 +37,7 @@ class Bvh8Intersector {
     return has_instances() ? traverse<true, true>(ray, t_max, hit) : traverse<true, false>(ray, t_max, hit);
   }
 
-  template <bool any_hit, class RayOf, class Limit, class Answer>
+  template <bool any_hit, RayLookup<Real> RayOf, LimitLookup<Real> Limit, HitReceiver<Real> Answer>
   void trace(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     if (brute_force_.is_worthwhile())
       brute_force_.template trace<any_hit>(count, ray, t_max, answer, [&](uint32_t i) {
@@ -53,7 +53,7 @@ class Bvh8Intersector {
       trace_interleaved<any_hit>(count, ray, t_max, answer);
   }
 
-  template <class RayOf, class Limit, class Answer>
+  template <RayLookup<Real> RayOf, LimitLookup<Real> Limit, HitReceiver<Real> Answer>
   void trace_coherent(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     if (has_instances()) return trace_interleaved<false, true>(count, ray, t_max, answer);
     constexpr uint32_t width = RayPacket<Real>::width;
@@ -74,7 +74,8 @@ class Bvh8Intersector {
   }
 
   /// Implements `trace` for trees larger than the caches.
-  template <bool any_hit, bool instances = false, class RayOf, class Limit, class Answer>
+  template <bool any_hit, bool instances = false, RayLookup<Real> RayOf, LimitLookup<Real> Limit,
+            HitReceiver<Real> Answer>
   void trace_interleaved(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     const Bvh8Prefetch<Real> prefetch(*scene_);
     Bvh8Traversal<any_hit, instances, Real, OctantFirst<any_hit>> traversals[interleaved_rays];
@@ -109,7 +110,7 @@ class Bvh8Intersector {
  private:
   bool has_instances() const { return scene_->instances_count > 0; }
 
-  template <bool any_hit, class RayOf, class Limit, class Answer>
+  template <bool any_hit, RayLookup<Real> RayOf, LimitLookup<Real> Limit, HitReceiver<Real> Answer>
   void trace_single(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
     // Each hit is reported one ray later, since reading it right after it was stored would stall on store forwarding.
     Hit<Real> hits[2];

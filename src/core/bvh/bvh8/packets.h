@@ -21,7 +21,7 @@ class RayPacket {
 
   /// Loads the queries `ray(i)` and `t_max(i)` for i < `count` <= width. Returns false if the rays are not coherent
   /// enough for a packet; no other function may be called then.
-  template <class RayOf, class Limit>
+  template <RayLookup<Real> RayOf, LimitLookup<Real> Limit>
   ALHAZEN_INLINE bool load(uint32_t count, const RayOf& ray, const Limit& t_max) {
     for (uint32_t i = 0; i < width; ++i) {
       const uint32_t from = i < count ? i : 0;  // surplus lanes are never active

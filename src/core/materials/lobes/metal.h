@@ -13,7 +13,7 @@ struct MetalRecord {
 };
 
 /// Sets the index and absorption coefficient relative to the outside; those that reproduce the colour if it is given.
-template <class Real, class Textures>
+template <class Real, TexturesOf<Real> Textures>
 ALHAZEN_HD ALHAZEN_HOT void set_metal(const MetalRecord& metal, const Textures& textures, Vec3<Real>& eta,
                                       Vec3<Real>& k) {
   if (metal.reflectance.count > 0) {

@@ -4,6 +4,8 @@
 // normals (Heitz 2018, JCGT 7(4)). Directions are in local coordinates, with z along the shading normal. `Alpha` is a
 // scalar, or for anisotropic surfaces a pair: alpha along x (the tangent) and along y.
 
+#include <concepts>
+
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 #include "core/sampling/warp.h"
@@ -59,6 +61,10 @@ ALHAZEN_HD Real ggx_d(const Vec3<Real>& m, const Vec2<Real>& alpha) {
   return 1 / (pi<Real> * alpha.x * alpha.y * d * d);
 }
 
+/// The alpha of a GGX distribution, or those along the tangent and the bitangent.
+template <class Alpha, class Real>
+concept AlphaOf = std::same_as<Alpha, Real> || std::same_as<Alpha, Vec2<Real>>;
+
 template <class Real>
 ALHAZEN_HD Real ggx_lambda(const Vec3<Real>& w, Real alpha) {
   const Real tan2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
@@ -72,26 +78,26 @@ ALHAZEN_HD Real ggx_lambda(const Vec3<Real>& w, const Vec2<Real>& alpha) {
 }
 
 /// Returns the fraction of microfacets visible from `w` (Smith masking).
-template <class Real, class Alpha>
+template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD Real ggx_g1(const Vec3<Real>& w, const Alpha& alpha) {
   return w.z == 0 ? Real(0) : 1 / (1 + ggx_lambda(w, alpha));
 }
 
 /// Returns the fraction visible from both directions, by the height-correlated Smith model.
-template <class Real, class Alpha>
+template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD Real ggx_g2(const Vec3<Real>& wo, const Vec3<Real>& wi, const Alpha& alpha) {
   if (wo.z == 0 || wi.z == 0) return 0;
   return 1 / (1 + ggx_lambda(wo, alpha) + ggx_lambda(wi, alpha));
 }
 
 /// Returns the density of `sample_visible_normal` at `m` with respect to solid angle.
-template <class Real, class Alpha>
+template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD Real pdf_visible_normal(const Vec3<Real>& w, const Vec3<Real>& m, const Alpha& alpha) {
   return ggx_g1(w, alpha) / std::abs(w.z) * ggx_d(m, alpha) * max(Real(0), dot(w, m));
 }
 
 /// Samples a microfacet normal visible from `w`, with w.z > 0.
-template <class Real, class Alpha>
+template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD Vec3<Real> sample_visible_normal(const Vec3<Real>& w, const Alpha& alpha, const Vec2<Real>& u) {
   const Vec3<Real> stretched = normalize(stretch(w, alpha));
   const Real sin2 = stretched.x * stretched.x + stretched.y * stretched.y;
@@ -114,7 +120,7 @@ struct GgxReflection {
   Real cosine = 0;  ///< between either direction and the microfacet normal
 };
 
-template <class Real, class Alpha>
+template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD GgxReflection<Real> ggx_reflection(const Vec3<Real>& o, const Vec3<Real>& i, const Alpha& alpha) {
   GgxReflection<Real> r;
   if (!(o.z > 0 && i.z > 0)) return r;
@@ -127,7 +133,7 @@ ALHAZEN_HD GgxReflection<Real> ggx_reflection(const Vec3<Real>& o, const Vec3<Re
 }
 
 /// Samples the reflection of `o` at a visible microfacet.
-template <class Real, class Alpha>
+template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD Vec3<Real> sample_ggx_reflection(const Vec3<Real>& o, const Alpha& alpha, const Vec2<Real>& u) {
   const Vec3<Real> m = sample_visible_normal(o, alpha, u);
   return m * (2 * dot(o, m)) - o;
