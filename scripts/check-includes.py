@@ -10,7 +10,8 @@ import sys
 from pathlib import Path
 
 BELOW_IO = {"geometry", "images", "colour", "files", "scene", "util", "core"}
-BELOW_STUDY = BELOW_IO | {"io", "compile", "render", "backends", "alhazen"}
+BELOW_PIPELINE = BELOW_IO | {"io", "render", "alhazen"}
+BELOW_STUDY = BELOW_PIPELINE | {"compile", "backends", "pipeline"}
 
 MAY_INCLUDE = {
     "core": {"core"},
@@ -24,6 +25,7 @@ MAY_INCLUDE = {
     "compile": {"compile", "scene", "util", "core"},
     "render": {"render", "compile", "images", "files", "scene", "util", "core", "alhazen"},
     "backends": {"backends", "render", "compile", "scene", "util", "core"},
+    "pipeline": {"pipeline"} | BELOW_PIPELINE,
     "study": {"study"} | BELOW_STUDY,
     "api": {"api", "study"} | BELOW_STUDY,
     "cli": {"cli", "study"} | BELOW_STUDY - {"core"},

@@ -9,7 +9,7 @@
 #include "cli/listing.h"
 #include "cli/subcommands.h"
 #include "compile/compile_scene.h"
-#include "io/read_scene.h"
+#include "pipeline/load_scene.h"
 #include "render/statistics.h"
 #include "util/printable.h"
 
@@ -44,10 +44,10 @@ void show(const InfoOptions& options) {
     return;
   }
   Diagnostics diagnostics;
-  ReadOptions choice;
-  choice.confine = options.confine;
-  Scene scene = read_scene(options.scene, choice, diagnostics);
-  const RenderSettings settings = resolve_settings({}, scene);
+  Settings asked;
+  asked.confine = options.confine;
+  Scene scene = load_scene(options.scene, asked, diagnostics).scene;
+  const RenderSettings settings = resolve_settings(asked, scene);
   const size_t materials = scene.materials.size(), textures = scene.textures.size(), images = scene.images.size(),
                meshes = scene.meshes.size(), instances = scene.instances.size();
   const char* filter = name_of(scene.filter.type);

@@ -11,12 +11,11 @@
 #include "cli/console.h"
 #include "cli/interrupt.h"
 #include "cli/listing.h"
-#include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/setting_options.h"
 #include "cli/subcommands.h"
-#include "io/environment.h"
-#include "io/read_scene.h"
+#include "pipeline/load_scene.h"
+#include "pipeline/write_outputs.h"
 #include "render/backend.h"
 #include "render/renderer.h"
 #include "study/tuned.h"
@@ -138,22 +137,12 @@ int run(RenderOptions& options) {
   const ProgressStyle style = parse_progress_style(options.progress);
   ProgressPrinter printer(options.quiet ? ProgressStyle::none : style);
   Diagnostics diagnostics;
-  const auto start = std::chrono::steady_clock::now();
-  const Settings& s = options.settings;
-  // Checked before the scene is read, which may take long; the names of the outputs are known only after it.
-  refuse_same_file({s.checkpoint, "the checkpoint"},
-                   {{options.scene, "the scene"}, {s.environment, "the environment map"}});
-  const auto record = std::make_shared<InputRecord>();
-  const ReadOptions choice{s.camera,  s.variant, s.animation, s.animation_time, aspect_of(s.width, s.height),
-                           s.confine, record};
-  Scene scene = read_scene(options.scene, choice, diagnostics);
-  if (!s.environment.empty()) use_environment(scene, path_beside(options.scene, s.environment, s.confine));
-  scene.coats = parse_coats(options.settings.coats);
-  const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  LoadedScene loaded = load_scene(options.scene, options.settings, diagnostics);
+  Scene& scene = loaded.scene;
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene);
   check_files(options.output.paths, settings.checkpoint,
-              {{options.scene, "the scene"}, {s.environment, "the environment map"}}, *record);
+              {{options.scene, "the scene"}, {options.settings.environment, "the environment map"}}, *loaded.inputs);
 
   const bool fits_exposure = scene.film.fits_exposure && !options.exposure;
   WarningPrinter warnings(diagnostics, printer);
@@ -168,7 +157,7 @@ int run(RenderOptions& options) {
     if (options.verbose) print_start(statistics);
   };
   events.warned = [&] { warnings.show(); };
-  const Rendering rendering = render_scene(std::move(scene), settings, load_seconds, events, diagnostics);
+  const Rendering rendering = render_scene(std::move(scene), settings, loaded.seconds, events, diagnostics);
   printer.finish();
   warnings.show();
   return finish(options, rendering, fits_exposure);

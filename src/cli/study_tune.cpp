@@ -10,7 +10,7 @@
 #include "cli/range.h"
 #include "cli/setting_options.h"
 #include "cli/subcommands.h"
-#include "io/read_scene.h"
+#include "pipeline/load_scene.h"
 #include "render/settings.h"
 #include "study/machine.h"
 #include "study/tune.h"
@@ -71,7 +71,7 @@ int run(TuneOptions& o) {
   if (o.store && o.store_default) throw InputError("give --store or --store-default, not both");
   if (o.store || o.store_default) study::read_tuned(study::tuned_path());  // reports a damaged file before the work
   Diagnostics diagnostics;
-  const Scene scene = read_scene(o.scene, diagnostics);
+  const Scene scene = load_scene(o.scene, o.settings, diagnostics).scene;
   const RenderSettings settings = resolve_settings(o.settings, scene);
   for (const Diagnostics::Warning& warning : diagnostics.warnings()) tell("warning: {}\n", warning.to_string());
   study::TuneEvents events;

@@ -24,6 +24,20 @@ ImageSource source_of(const Image& image) {
   return {image.width, image.height, image.channels, fill_row};
 }
 
+Image image_of(const ImageSource& source) {
+  Image image{source.width, source.height, source.channels, {}};
+  const size_t width = static_cast<size_t>(source.width);
+  image.planes.assign(source.channels.size(), std::vector<float>(width * static_cast<size_t>(source.height)));
+  std::vector<float> row(width * source.channels.size());
+  for (int y = 0; y < source.height; ++y) {
+    source.fill_row(y, row);
+    for (size_t channel = 0; channel < image.planes.size(); ++channel)
+      std::copy_n(row.begin() + static_cast<ptrdiff_t>(channel * width), width,
+                  image.planes[channel].begin() + static_cast<ptrdiff_t>(static_cast<size_t>(y) * width));
+  }
+  return image;
+}
+
 std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   if (!extension.empty()) extension.erase(0, 1);

@@ -40,6 +40,9 @@ struct ImageSource {
 
 ImageSource source_of(const Image& image);
 
+/// Copies all rows into memory.
+Image image_of(const ImageSource& source);
+
 enum class ExrPixelType { half, single };
 
 struct ExrOptions {

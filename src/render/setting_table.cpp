@@ -10,6 +10,7 @@
 
 #include "render/engine_help.h"
 #include "util/diagnostics.h"
+#include "util/parse_numbers.h"
 
 namespace alhazen {
 
@@ -32,21 +33,6 @@ std::string text_of(double value) {
 template <class Integer>
 std::string text_of(Integer value) {
   return std::to_string(value);
-}
-
-/// Exactly `count` numbers parted by `separator`, or false.
-template <class Number, size_t count>
-bool parse_numbers(std::string_view text, char separator, std::array<Number, count>& values) {
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  if (at != end && *at == '+') ++at;
-  for (size_t i = 0; i < count; ++i) {
-    const auto [next, error] = std::from_chars(at, end, values[i]);
-    const bool is_last = i + 1 == count;
-    if (error != std::errc() || (is_last ? next != end : next == end || *next != separator)) return false;
-    at = is_last ? next : next + 1;
-  }
-  return true;
 }
 
 [[noreturn]] void refuse(const char* option, const std::string& text, const std::string& wanted) {

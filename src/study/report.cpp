@@ -9,7 +9,7 @@
 
 #include "compile/compile_scene.h"
 #include "files/atomic_file.h"
-#include "io/read_scene.h"
+#include "pipeline/load_scene.h"
 #include "render/checkpoint.h"
 #include "render/renderer.h"
 #include "study/conclusions.h"
@@ -85,7 +85,7 @@ class Report {
   ReportOutcome run() {
     check_options(options_);
     Diagnostics diagnostics;
-    scene_ = read_scene(options_.scene, diagnostics);
+    scene_ = load_scene(options_.scene, {}, diagnostics).scene;
     plan();
     for (const Diagnostics::Warning& warning : diagnostics.warnings()) events_.warning(warning.to_string());
     std::error_code error;

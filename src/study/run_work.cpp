@@ -47,20 +47,6 @@ Outcome render(const Work& work, Scene&& scene, const RenderSettings& settings, 
 
 }  // namespace
 
-Image image_of(const ImageSource& source) {
-  Image image{source.width, source.height, source.channels, {}};
-  const size_t width = static_cast<size_t>(source.width);
-  image.planes.assign(source.channels.size(), std::vector<float>(width * static_cast<size_t>(source.height)));
-  std::vector<float> row(width * source.channels.size());
-  for (int y = 0; y < source.height; ++y) {
-    source.fill_row(y, row);
-    for (size_t channel = 0; channel < image.planes.size(); ++channel)
-      std::copy_n(row.begin() + static_cast<ptrdiff_t>(channel * width), width,
-                  image.planes[channel].begin() + static_cast<ptrdiff_t>(static_cast<size_t>(y) * width));
-  }
-  return image;
-}
-
 Outcome run_work(const Work& work, const Scene& scene, bool keep_image, const GoOn& go_on) {
   Outcome outcome;
   try {

@@ -30,7 +30,4 @@ Outcome run_work(const Work& work, const Scene& scene, bool keep_image, const Go
 /// The same with a few samples per pixel, to exclude one-time costs from the measurement.
 void warm_up(const Work& work, const Scene& scene, const GoOn& go_on);
 
-/// The whole image of a rendering.
-Image image_of(const ImageSource& source);
-
 }  // namespace alhazen::study

@@ -1,24 +1,21 @@
 #include "backends/cuda/blocks.h"
 
-#include <charconv>
+#include <array>
 
 #include "util/diagnostics.h"
+#include "util/parse_numbers.h"
 
 namespace alhazen::cuda {
 
 namespace {
 
-BlockSize parse_size(const std::string& text, const std::string& what, uint32_t most) {
-  BlockSize size;
-  const char* const end = text.data() + text.size();
-  const auto [after_x, x_error] = std::from_chars(text.data(), end, size.x);
-  if (x_error == std::errc() && after_x != end && *after_x == 'x') {
-    const auto [after_y, y_error] = std::from_chars(after_x + 1, end, size.y);
-    if (y_error == std::errc() && after_y == end && size.x >= 1 && size.y >= 1 && size.x <= most && size.y <= most)
-      return size;
-  }
-  throw InputError(what + " must be WIDTHxHEIGHT, each between 1 and " + std::to_string(most) +
-                   ", for example 16x16, not '" + text + "'");
+BlockSize parse_size(const std::string& text, const std::string& what, uint32_t max_side) {
+  std::array<uint32_t, 2> sides;
+  const auto fits = [&](uint32_t side) { return side >= 1 && side <= max_side; };
+  if (!parse_numbers(text, 'x', sides) || !fits(sides[0]) || !fits(sides[1]))
+    throw InputError(what + " must be WIDTHxHEIGHT, each between 1 and " + std::to_string(max_side) +
+                     ", for example 16x16, not '" + text + "'");
+  return {sides[0], sides[1]};
 }
 
 }  // namespace

@@ -21,14 +21,13 @@ struct TextureEvaluator {
   ALHAZEN_HD Vec3<Real> colour_or(TextureRange range, Real fallback) const {
     return range.count == 0 ? splat(fallback) : colour(range);
   }
-  ALHAZEN_HD Real scalar_or(TextureRange range, Real fallback) const {
+  ALHAZEN_HD ALHAZEN_HOT Real scalar_or(TextureRange range, Real fallback) const {
     return range.count == 0 ? fallback : clamp(value(range).x, Real(0), Real(1));
   }
 
   /// Returns the alpha of a roughness texture, 0 if it is absent. If `remap`, alpha = sqrt(roughness).
   ALHAZEN_HD ALHAZEN_HOT Real alpha(TextureRange range, uint32_t remap) const {
-    if (range.count == 0) return 0;
-    const Real roughness = clamp(value(range).x, Real(0), Real(1));
+    const Real roughness = scalar_or(range, Real(0));
     return remap != 0 ? std::sqrt(roughness) : roughness;
   }
   /// Returns the alphas of a layer, which is never perfectly smooth. If `v` is absent, both are those of `u`.

@@ -1,4 +1,4 @@
-#include "cli/output.h"
+#include "pipeline/write_outputs.h"
 
 #include <fmt/format.h>
 
