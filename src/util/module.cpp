@@ -58,7 +58,7 @@ Module open_module(const std::string& folder, const std::string& name, const std
   if (!handle) return {path, nullptr, explain_load_error(path)};
   using Functions = const void*();
   auto* const functions = reinterpret_cast<Functions*>(dlsym(handle, "alhazen_module_functions"));
-  if (!functions) return {path, nullptr, path + " hands out no functions: build or install it again"};
+  if (!functions) return {path, nullptr, path + " exports no functions: build or install it again"};
   return {path, functions(), ""};
 }
 

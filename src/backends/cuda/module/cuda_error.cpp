@@ -43,8 +43,8 @@ void check(cudaError_t result, const char* doing) {
     case cudaErrorInvalidDeviceFunction:
     case cudaErrorUnsupportedPtxVersion:
       throw InputError(
-          "this binary holds no code for this GPU: build it with ALHAZEN_CUDA_ARCHITECTURES set to the "
-          "GPU's compute capability, which 'alhazen devices' tells, or update the driver");
+          "this binary contains no code for this GPU: build it with ALHAZEN_CUDA_ARCHITECTURES set to the "
+          "GPU's compute capability, which 'alhazen devices' prints, or update the driver");
     case cudaErrorNoDevice:
     case cudaErrorInsufficientDriver:
     case cudaErrorSystemDriverMismatch:

@@ -62,7 +62,7 @@ class CudaExecutor {
 
   void* allocate(size_t bytes) {
     void* memory = nullptr;
-    check(cudaMalloc(&memory, bytes), "taking memory for the scene, the film and the paths");
+    check(cudaMalloc(&memory, bytes), "allocating memory for the scene, the film and the paths");
     return memory;
   }
   void release(void* memory) { cudaFree(memory); }
@@ -77,7 +77,7 @@ class CudaExecutor {
   void clear(void* memory, size_t bytes) { check(cudaMemsetAsync(memory, 0, bytes, stream_), "clearing its memory"); }
   size_t free_bytes() const {
     size_t free = 0, total = 0;
-    check(cudaMemGetInfo(&free, &total), "asking for its memory");
+    check(cudaMemGetInfo(&free, &total), "querying its free memory");
     return free;
   }
   cudaStream_t stream() const { return stream_; }
@@ -88,8 +88,8 @@ class CudaExecutor {
     int blocks = 0, multiprocessors = 0;
     check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel_function<Kernel>(), static_cast<int>(block),
                                                         stack_bytes(block)),
-          "asking how many threads it runs");
-    check(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device_), "asking what it is");
+          "querying its occupancy");
+    check(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device_), "querying its properties");
     return static_cast<uint32_t>(blocks < 1 ? 1 : blocks) * static_cast<uint32_t>(multiprocessors) * block;
   }
 
@@ -112,7 +112,7 @@ class CudaExecutor {
   template <class Kernel>
   static void check_block(Extent block) {
     cudaFuncAttributes attributes{};
-    check(cudaFuncGetAttributes(&attributes, kernel_function<Kernel>()), "asking for a kernel");
+    check(cudaFuncGetAttributes(&attributes, kernel_function<Kernel>()), "querying a kernel");
     const uint32_t threads = block.width * block.height;
     if (threads > static_cast<uint32_t>(attributes.maxThreadsPerBlock))
       throw InputError("a block of " + std::to_string(block.width) + "x" + std::to_string(block.height) +
@@ -124,7 +124,7 @@ class CudaExecutor {
     if (bytes > 48 * 1024)
       check(cudaFuncSetAttribute(kernel_function<Kernel>(), cudaFuncAttributeMaxDynamicSharedMemorySize,
                                  static_cast<int>(bytes)),
-            "asking for shared memory");
+            "reserving shared memory");
   }
 
   int device_;

@@ -19,7 +19,7 @@ DeviceList query_devices() {
   }
   for (int i = 0; i < count; ++i) {
     cudaDeviceProp properties{};
-    check(cudaGetDeviceProperties(&properties, i), "asking what it is");
+    check(cudaGetDeviceProperties(&properties, i), "querying its properties");
     list.devices.push_back({properties.name, properties.major, properties.minor, properties.totalGlobalMem,
                             properties.multiProcessorCount});
   }

@@ -56,7 +56,7 @@ class Acceleration {
   /// `host` and `device` are views of the same scene, here and there.
   void build(OptixDeviceContext context, const SceneView<float>& host, const SceneView<float>& device) {
     if (host.instance_motions_count > 0)
-      throw std::runtime_error("OptiX: meshes that move are not supported there; render with --backend cuda");
+      throw std::runtime_error("OptiX: moving meshes are not supported; render with --backend cuda");
     context_ = context;
     traversable_ = 0;
     sbt_offset_ = 0;

@@ -129,7 +129,7 @@ class Pipeline {
       check(functions_,
             functions_.optixBuiltinISModuleGet(context_.get(), &module_options_, &pipeline_options_, &options,
                                                &sphere_modules_[static_cast<unsigned>(kind)]),
-            "asking for its spheres", context_.log());
+            "getting its sphere intersection program", context_.log());
     }
   }
 
