@@ -33,7 +33,7 @@ std::string explain_no_device(cudaError_t error) {
 
 void check(cudaError_t result, const char* doing) {
   if (result == cudaSuccess) return;
-  cudaGetLastError();  // so that it is not found again by a later call
+  cudaGetLastError();  // clears the error, which a later call would report again
   const std::string where = std::string("while ") + doing;
   switch (result) {
     case cudaErrorMemoryAllocation:

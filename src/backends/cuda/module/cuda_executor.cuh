@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs kernels on a GPU (executor.h says what an executor does).
+// Runs kernels on a GPU. executor.h describes what an executor does.
 
 #include <nvtx3/nvToolsExt.h>
 
@@ -19,8 +19,8 @@ __global__ void run_kernel(const __grid_constant__ Kernel kernel) {
   kernel(DeviceThread(traversal_stacks));
 }
 
-/// The same of kernels that are launched in blocks of `usual_block` threads alone. So many registers may a thread take
-/// that `resident_blocks` of them fit on a multiprocessor at once.
+/// The same for kernels that are only launched in blocks of `usual_block` threads. The compiler limits the registers
+/// per thread so that `resident_blocks` blocks fit on a multiprocessor at the same time.
 template <class Kernel>
 __global__ void __launch_bounds__(usual_block, Kernel::resident_blocks)
     run_resident_kernel(const __grid_constant__ Kernel kernel) {
@@ -38,7 +38,7 @@ constexpr auto kernel_function() {
 
 class CudaExecutor {
  public:
-  /// Enough to fill a large GPU, and little for a small one.
+  /// Fills a large GPU, and takes little time on a small one.
   static constexpr uint64_t first_items = uint64_t{1} << 17;
 
   class Range {
@@ -108,7 +108,8 @@ class CudaExecutor {
     return static_cast<size_t>(threads) * shared_entries * shared_entry_bytes;
   }
 
-  /// The report's cells without a number: blocks whose threads need more registers than there are.
+  /// Throws InputError if the threads of a block need more registers than there are. The report's tables have no values
+  /// for such blocks.
   template <class Kernel>
   static void check_block(Extent block) {
     cudaFuncAttributes attributes{};

@@ -8,7 +8,7 @@ namespace alhazen::cuda {
 
 namespace {
 
-/// What the CUDA runtime says of this machine, in sentences.
+/// Lists the GPUs that the CUDA runtime finds, or explains why there are none.
 DeviceList query_devices() {
   DeviceList list;
   int count = 0;
@@ -26,7 +26,7 @@ DeviceList query_devices() {
   return list;
 }
 
-/// The engine of a GPU, made in the precision that is asked for.
+/// Renders on a GPU in the precision that is passed to the constructor.
 class GpuEngine final : public Engine {
  public:
   GpuEngine(int device, const RowShare& share, Precision precision) {

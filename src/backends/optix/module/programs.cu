@@ -1,5 +1,5 @@
-// The device programs of OptiX. Ray generation runs the core's integrators; hit programs return which primitive was
-// met, and where, and nothing else.
+// The OptiX device programs. Ray generation runs the integrators of the core. Hit programs only return the hit
+// primitive, its instance, t and the barycentric coordinates.
 
 #include <optix.h>
 
@@ -8,18 +8,18 @@
 
 namespace alhazen::optix {
 
-// Bytes, since a constant has no constructor.
+// A byte array, since variables in constant memory cannot have constructors.
 extern "C" {
 __constant__ __align__(16) unsigned char params[sizeof(OptixParams)];
 }
 
 __device__ inline const OptixParams& launch_params() { return *reinterpret_cast<const OptixParams*>(params); }
 
-/// Answers ray queries by optixTrace.
+/// Answers ray queries with optixTrace.
 ///
-/// Hits on spheres are verified with our own, robust test: the built-in one works in float from the sphere's centre,
-/// and on a ground sphere of radius 1000 may hit the surface that the ray starts on. The triangle that the ray starts
-/// on is skipped (`Ray::left`).
+/// Hits on spheres are verified with our own, robust test: the built-in one computes in float from the centre of the
+/// sphere, and on a ground sphere of radius 1000 it may hit the surface that the ray starts on. The triangle that the
+/// ray starts on is skipped (`Ray::left`).
 class OptixIntersector {
  public:
   template <class Stacks>
@@ -96,7 +96,7 @@ class OptixIntersector {
     return intersect_primitive(*scene_, sphere, ray, ShearedRay<float>{}, hit);
   }
 
-  /// Returns a step along the ray past a hit that OptiX found on a sphere.
+  /// Returns a step along the ray that passes a hit that OptiX found on a sphere.
   __device__ float beyond(const Hit<float>& met) const {
     const uint32_t index = met.primitive.index();
     const bool moves = met.primitive.kind() == PrimitiveKind::moving_sphere;
