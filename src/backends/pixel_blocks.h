@@ -1,6 +1,6 @@
 #pragma once
 
-// What the CPU backends share: the blocks of one pixel, counted and timed.
+// Blocks of samples on the CPU backends: requests, batches and statistics.
 
 #include <chrono>
 
@@ -8,7 +8,7 @@
 
 namespace alhazen {
 
-/// Adds the time from its making to its end to a thread's busy seconds.
+/// Adds the time between its construction and its destruction to the busy seconds of a thread.
 class BusyTimer {
  public:
   explicit BusyTimer(ThreadStatistics& statistics) : statistics_(statistics), start_(Clock::now()) {}
@@ -27,7 +27,8 @@ uint32_t block_count(const RenderPass<Real>& pass) {
   return (pass.sample_count + samples_per_block - 1) / samples_per_block;
 }
 
-/// The block to begin with at pixel (x, y): a pixel that the pass had reached when the render was stopped holds some.
+/// Returns the first block to take at pixel (x, y). If the render was stopped during this pass and resumed, the film
+/// already contains earlier blocks.
 template <class Real>
 uint32_t first_block(const RenderPass<Real>& pass, int x, int y) {
   const uint32_t held = pass.film.samples_at(x, y);
@@ -55,7 +56,8 @@ void take_requests(const RenderPass<Real>& pass, const BlockRequest* requests, u
   }
 }
 
-/// Takes blocks of the pass, which are handed in one by one, many at a time, and adds them to the film in that order.
+/// Collects blocks of the pass, takes many of them in one call of the kernel, and adds them to the film in the order in
+/// which they were collected.
 template <class Real>
 class BlockBatch {
  public:
@@ -64,7 +66,7 @@ class BlockBatch {
   BlockBatch(const BlockBatch&) = delete;
   BlockBatch& operator=(const BlockBatch&) = delete;
 
-  /// All blocks of pixel (x, y) that are not yet taken; nothing where the render is to stop.
+  /// Adds all blocks of pixel (x, y) that have not been taken yet. Once the render is stopped, blocks are dropped.
   void add_pixel(int x, int y) {
     for (uint32_t block = first_block(pass_, x, y); block < block_count(pass_); ++block) {
       if (count_ == max_blocks_per_request) take();

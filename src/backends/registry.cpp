@@ -1,5 +1,5 @@
-// Every backend and every denoiser that there is, in the order in which they are listed. A folder of src/backends is
-// made known by its name in the list.
+// Lists all backends and denoisers, in the order in which they are displayed. A new folder of src/backends is
+// registered by its name here.
 
 #include "render/backend.h"
 #include "render/denoiser.h"

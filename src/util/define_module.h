@@ -1,12 +1,12 @@
 #pragma once
 
-// For the one file of a module that declares it.
+// Included by the one source file of a module that defines it.
 
 #include <alhazen_interface.h>
 
 #include "util/module_identity.h"
 
-/// Makes the shared object that this is compiled into the module `NAME`, which hands out the table `TABLE`.
+/// Makes this shared object the module `NAME` with the function table `TABLE`.
 #define ALHAZEN_MODULE(NAME, TABLE)                                                                   \
   extern "C" {                                                                                        \
   __attribute__((section(".alhazen"), used)) const ::alhazen::ModuleIdentity alhazen_module_identity{ \

@@ -29,13 +29,13 @@ class InputError : public std::runtime_error {
   InputError(const SourceLocation& where, const std::string& message, const std::string& excerpt = {});
 };
 
-/// A failure while the program runs: a full disk, no memory. Exit code 1.
+/// A failure while the program runs, such as a full disk or a lack of memory. The command line exits with code 1.
 class RenderError : public std::runtime_error {
  public:
   explicit RenderError(const std::string& message);
 };
 
-/// Collects warnings. The same text is kept once, with the place of its first occurrence.
+/// Collects warnings. Each text is kept once, with the location of its first occurrence.
 class Diagnostics {
  public:
   struct Warning {

@@ -65,7 +65,8 @@ std::vector<Hierarchy> hierarchies(const std::string& mountinfo) {
   return all;
 }
 
-/// The group of the process, from lines such as `4:memory:/a/b`, in version 2 `0::/a/b`; empty if there is none.
+/// Returns the group of the process, from lines such as `4:memory:/a/b`, in version 2 `0::/a/b`; empty if there is
+/// none.
 std::string group_in(const std::string& groups, bool version_2) {
   std::ifstream file(groups);
   for (std::string line; std::getline(file, line);) {
@@ -87,8 +88,8 @@ uint64_t limit_in(const std::string& path) {
   return error == std::errc() && end == text.data() + text.size() && limit > 0 ? limit : no_limit;
 }
 
-/// The path from the mounted group down to `group`. A group that appears to be elsewhere, as it may from within a
-/// container, is taken for the mounted one.
+/// Returns the path from the mounted group down to `group`. A group that appears to be elsewhere, as it may from within
+/// a container, is taken for the mounted one.
 std::string path_to(const std::string& group, const std::string& root) {
   const std::string above = root == "/" ? "" : root;
   const bool is_below = group.starts_with(above) && (group.size() == above.size() || group[above.size()] == '/');

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Says what differs between the program and a module, or nothing.
+/// Returns how a module differs from the program, or an empty string if it does not.
 std::string explain_difference(const ModuleIdentity& module, const std::string& name) {
   if (module.name != name) return "is the module '" + std::string(module.name) + "' under another name";
   if (module.version == std::string(ALHAZEN_VERSION) && module.interface == std::string(ALHAZEN_INTERFACE_HASH))
@@ -23,7 +23,7 @@ std::string explain_difference(const ModuleIdentity& module, const std::string& 
          module.interface + "; the program has version " ALHAZEN_VERSION ", interface " ALHAZEN_INTERFACE_HASH ")";
 }
 
-/// The dynamic linker's reason, as a sentence.
+/// Turns the dynamic linker's error into a message.
 std::string explain_load_error(const std::string& path) {
   const char* const text = dlerror();
   const std::string reason = text ? text : "no reason was given";
@@ -58,7 +58,7 @@ Module open_module(const std::string& folder, const std::string& name, const std
   if (!handle) return {path, nullptr, explain_load_error(path)};
   using Functions = const void*();
   auto* const functions = reinterpret_cast<Functions*>(dlsym(handle, "alhazen_module_functions"));
-  if (!functions) return {path, nullptr, path + " hands out no functions: build or install it again"};
+  if (!functions) return {path, nullptr, path + " exports no functions: build or install it again"};
   return {path, functions(), ""};
 }
 

@@ -11,7 +11,7 @@ namespace alhazen {
 
 namespace {
 
-/// An ELF file of this machine's kind, of which nothing is believed before it was checked.
+/// A 64-bit ELF shared object. All offsets and sizes in it are checked before use.
 class ElfFile {
  public:
   explicit ElfFile(const std::string& path) : file_(path, std::ios::binary) {
@@ -33,7 +33,8 @@ class ElfFile {
            header_.e_phentsize == sizeof(Elf64_Phdr) && header_.e_shentsize == sizeof(Elf64_Shdr);
   }
 
-  /// Whether the file holds all that the dynamic linker will map: reading beyond its end would end the process.
+  /// Returns whether the file contains all of its segments. The dynamic linker maps them, and an access beyond the end
+  /// of the file would kill the process.
   bool holds_its_segments() {
     std::vector<Elf64_Phdr> segments(header_.e_phnum);
     if (!read(header_.e_phoff, segments.data(), segments.size() * sizeof(Elf64_Phdr))) return false;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Reads what a module's file says of itself, before anything of it is loaded.
+// Reads the identity of a module from its file, without loading it.
 
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace alhazen {
 
-/// The identity in the shared object `path`; nothing where the file is not a whole one, or no module of Alhazen.
+/// Returns the identity in the shared object `path`, or nothing if the file is truncated or not a module of Alhazen.
 std::optional<ModuleIdentity> read_module_identity(const std::string& path);
 
 }  // namespace alhazen

@@ -1,6 +1,7 @@
 #pragma once
 
-// What a module says of itself, where it can be read without running anything of it: in a section of its file.
+// The identity of a module. It is in a section of the file, so that it can be read without running any code of the
+// module.
 
 #include <cstdint>
 

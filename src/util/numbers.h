@@ -16,8 +16,8 @@ inline std::string_view without_plus(std::string_view text) {
   return plus ? text.substr(1) : text;
 }
 
-/// Parses the whole of `text` as a number; nothing if it is not one. `nan` and `inf` are numbers. Numbers too large for
-/// a double become infinity, numbers too small become zero.
+/// Parses the whole of `text` as a number. Returns nothing if it is not one. `nan` and `inf` are numbers. Numbers too
+/// large for a double become infinity, numbers too small become zero.
 inline std::optional<double> parse_real(std::string_view text) {
   text = without_plus(text);
   double value = 0;
@@ -32,7 +32,7 @@ inline std::optional<double> parse_real(std::string_view text) {
   return value;
 }
 
-/// Parses the whole of `text` as an integer; nothing if it is not one or does not fit.
+/// Parses the whole of `text` as an integer. Returns nothing if it is not one or does not fit.
 inline std::optional<int64_t> parse_integer(std::string_view text) {
   text = without_plus(text);
   int64_t value = 0;

@@ -10,7 +10,8 @@
 
 namespace alhazen {
 
-/// `text` in single quotes, cut after 40 bytes at a character boundary; characters that act on a terminal are escaped.
+/// Returns `text` in single quotes, cut after 40 bytes at a character boundary; characters that act on a terminal are
+/// escaped.
 inline std::string quoted(std::string_view text) {
   constexpr size_t longest = 40;
   size_t size = std::min(longest, text.size());

@@ -14,13 +14,14 @@ namespace alhazen {
 
 namespace {
 
-/// The progress reporter and the thread that waits for signals.
+/// Threads that run beside a render: the progress reporter and the one that waits for signals.
 constexpr int threads_beside = 2;
 
-/// Address space that must be left when all threads run: their allocators reserve some each, and the scene must fit.
+/// Address space that must remain when all threads run: their allocators reserve some for each thread, and the scene
+/// must fit. In bytes.
 constexpr size_t spare_bytes = size_t{64} << 20;
 
-/// Blocks threads until all that can be started are.
+/// Blocks the started threads until no more are to be started.
 class Gate {
  public:
   void wait() {
@@ -70,7 +71,7 @@ size_t change_default_stack(const Choose& choose) {
   return is_set ? size : 0;
 }
 
-/// Tries to start `count` threads at once and returns how many were started.
+/// Tries to start `count` concurrent threads and returns how many were started.
 int start_and_end(int count) {
   void* const spare = ::mmap(nullptr, spare_bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   Gate gate;
@@ -91,7 +92,7 @@ ThreadDefaults::ThreadDefaults() : team_(omp_get_max_threads()) {
   DefaultStack& stack = default_stack();
   const std::lock_guard lock(stack.mutex);
   if (stack.users++ > 0) return;
-  // OpenMP's threads use this default too.
+  // The threads of OpenMP use this default too.
   stack.before = change_default_stack([](size_t size) { return size < thread_stack_bytes ? thread_stack_bytes : 0; });
 }
 
@@ -100,7 +101,7 @@ ThreadDefaults::~ThreadDefaults() {
   DefaultStack& stack = default_stack();
   const std::lock_guard lock(stack.mutex);
   if (--stack.users > 0 || stack.before == 0) return;
-  // A value that someone else has set since then stays.
+  // If other code has set a new value since then, it is kept.
   change_default_stack([&](size_t size) { return size == thread_stack_bytes ? stack.before : 0; });
 }
 

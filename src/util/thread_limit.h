@@ -1,7 +1,7 @@
 #pragma once
 
-// How many threads the system grants this process. OpenMP ends the program if it cannot start a thread, so its team
-// size is tested before.
+// Determines how many threads the system grants this process. OpenMP ends the program if it cannot start a thread, so
+// the team size is tested in advance.
 
 #include <cstddef>
 
@@ -24,9 +24,9 @@ class ThreadDefaults {
   int team_;  ///< threads
 };
 
-/// The number of threads, including the calling one and at most `wanted`, that can run at the same time: limits on
-/// processes, containers or memory may allow fewer than there are processors. It starts and ends that many, plus two
-/// for those that run beside a render. A result that was `wanted` or more is remembered.
+/// Returns how many threads, including the calling one and at most `wanted`, can run at the same time: limits on
+/// processes, containers or memory may allow fewer than there are processors. To find out, it starts and ends that many
+/// threads, plus two for those that run beside a render. A result of at least `wanted` is cached.
 int threads_available(int wanted);
 
 /// Limits the teams that OpenMP starts without a given size, on the calling thread, to the available threads; a

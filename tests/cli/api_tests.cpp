@@ -234,7 +234,7 @@ TEST_F(Api, ErrorsAreOneMessage) {
 }
 
 TEST_F(Api, RendersSideBySide) {
-  // Two renders at once in one process, as in programs that embed the library.
+  // Two concurrent renders in one process, as in programs that embed the library.
   const RenderedImage expected = render(scene_, quick());
   RenderedImage inside;
   Settings settings = quick();

@@ -23,7 +23,7 @@ class ClosedRoom : public Command {
     };
     std::string room = "AttributeBegin\n" + translate(place) + turn +
                        (is_instance ? "ObjectInstance \"room\"\n" : cube) + "AttributeEnd\n";
-    // Motion makes an object of it, and makes all others instances.
+    // Motion turns this shape into an object, and all others into instances.
     if (is_instance)
       room = std::string("ObjectBegin \"room\"\n") + cube + "ObjectEnd\n" + room +
              "AttributeBegin\nActiveTransform StartTime\nTranslate 0 9000 0\nActiveTransform EndTime\n"

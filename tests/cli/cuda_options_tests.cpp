@@ -1,5 +1,5 @@
-// The settings of the CUDA backend on the command line: its kernels on the host, and one sentence for each invalid
-// setting.
+// The settings of the CUDA backend on the command line, with the CPU-emulated kernels, and one sentence for each
+// invalid setting.
 
 #include "cli/fixture.h"
 
@@ -49,7 +49,7 @@ TEST_F(CudaOptions, WhatCannotBeIsOneSentence) {
     all.insert(all.end(), arguments.begin(), arguments.end());
     const CommandResult result = render(all);
     EXPECT_EQ(result.exit_code, 2) << message;
-    // Without a GPU device numbers are not checked.
+    // Device numbers are only checked if there is a GPU.
     const bool no_gpu = result.err.find("is not available") != std::string::npos && arguments[1] != "host";
     EXPECT_TRUE(no_gpu || result.err.find(message) != std::string::npos) << message << "\n" << result.err;
     EXPECT_EQ(lines_of(result.err).size(), 1u) << result.err;

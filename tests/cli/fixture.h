@@ -1,6 +1,6 @@
 #pragma once
 
-// A folder with a small scene, and the program run there.
+// A fixture that runs the program in a folder with a small scene.
 
 #include <nlohmann/json.hpp>
 

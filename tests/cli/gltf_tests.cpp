@@ -1,4 +1,5 @@
-// glTF files from the command line: the choices that they offer, and the messages for bad choices and bad files.
+// glTF files on the command line: the cameras, variants and animations that they offer, and the messages for invalid
+// choices and files.
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Untrusted scenes: references to things that are not files, files outside the folder, names with control characters,
-// and limits of the system. The program prints one sentence of its own and ends with exit code 2, at once.
+// and limits of the system. The program prints one error message of its own and exits with code 2 without delay.
 
 #include <sys/stat.h>
 #include <zlib.h>
@@ -257,7 +257,7 @@ TEST_F(Hostile, TextOfGigabytesInASmallFile) {
   EXPECT_NE(result.err.find(" 4 | Shap\n   | ^"), std::string::npos) << result.err;
 }
 
-/// Whatever the limits, the program ends by itself with one sentence of its own.
+/// Whatever the limits, the program exits by itself with one error message of its own.
 TEST_F(Hostile, ThreadsThatTheSystemRefuses) {
   if (test::is_sanitized) GTEST_SKIP() << "the address sanitizer needs more address space than the test allows";
   const CommandResult refused =

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs Alhazen to a folder of its own and takes its modules away, exchanges and damages them: the program goes on without,
+# Installs Alhazen to a folder of its own and removes, exchanges and damages its modules: the program still runs,
 # and `alhazen devices` says what is wrong with each. Argument: the build folder.
 set -euo pipefail
 build=$1
@@ -18,10 +18,11 @@ scene=$work/prefix/share/alhazen/scenes/cornell.pbrt
 library=$(find "$work/prefix" -name 'libalhazen.so*' | head -1)
 modules=$(dirname "$library")/alhazen
 
-# What `alhazen devices` says of the backend embree.
+# Prints what `alhazen devices` says of the backend embree.
 devices() { "$alhazen" devices >"$work/devices.txt" && sed -n '/^embree/,/^cuda/p' "$work/devices.txt"; }
 
-# The program renders, `devices` says the words given of embree, and a render by it ends with them and exit code 2.
+# Expects that the program renders, that `devices` prints the given words about embree, and that a render with embree
+# fails with them and exit code 2.
 expect_without_embree() {
   "$alhazen" render "$scene" --backend serial --spp 1 --size 8x8 -q -o "$work/without.png" || fail "$1: the program does not run"
   devices | grep -q '^embree *not available' || { cat "$work/devices.txt"; fail "$1: embree is listed as available"; }
@@ -53,7 +54,7 @@ cp "$work/whole.so" "$work/elsewhere/libalhazen_embree.so"
 ALHAZEN_MODULES=$work/elsewhere "$alhazen" render "$scene" --backend embree --spp 1 --size 8x8 -q -o "$work/elsewhere.png" ||
   fail "ALHAZEN_MODULES is not looked at"
 
-# Bytes of the file are exchanged for as many others.
+# Changes bytes of the file without changing its size.
 version=$("$alhazen" --version | grep -oE '[0-9]+\.[0-9]+\.[0-9]+')
 LC_ALL=C sed "s/\(Alhazen module.\{2\}embree.\{26\}\)$version/\17${version:1}/" "$work/whole.so" >"$module"
 expect_without_embree "of another version" "was built from other sources than this program (version 7${version:1}, interface"

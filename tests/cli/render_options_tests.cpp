@@ -80,7 +80,7 @@ Material "diffuse" "texture reflectance" "t" Shape "sphere")");
   EXPECT_EQ(run(fitted).err.find("budget"), std::string::npos) << "0 is none";
 }
 
-/// A rough coat over white in a white furnace: it loses nothing, or as much as in pbrt-v4.
+/// A rough coat over a white base in a white furnace loses no energy, or as much as in pbrt-v4 on request.
 TEST_F(RenderOptions, CoatsLoseLightOnlyWherePbrtsAreAskedFor) {
   folder_.write_text("coat.pbrt", R"(LookAt 0 0 3  0 0 0  0 1 0 Camera "perspective" "float fov" 20
 Film "rgb" "integer xresolution" 8 "integer yresolution" 8

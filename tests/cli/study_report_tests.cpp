@@ -1,4 +1,4 @@
-// alhazen study report, compare.
+// The subcommands `alhazen study report` and `alhazen study compare`.
 
 #include <cmath>
 #include <map>

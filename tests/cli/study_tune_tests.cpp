@@ -1,4 +1,4 @@
-// alhazen study tune, and its effect on --backend auto.
+// The subcommand `alhazen study tune`, and its effect on --backend auto.
 
 #include "cli/study_fixture.h"
 

@@ -1,4 +1,4 @@
-// compare, devices, info, and the program's help.
+// The subcommands compare, devices and info, and the help of the program.
 
 #include "cli/fixture.h"
 

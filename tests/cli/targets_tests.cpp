@@ -1,4 +1,4 @@
-// Targets of images: links, pipes, several at once, and existing files.
+// Targets of images: links, pipes, several in one render, and existing files.
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The bytes of an input as a file that has a path but takes no disk space, for readers that open their files.
+// Presents the bytes of an input as a file that has a path but takes no disk space, for readers that open their files.
 
 #include <sys/mman.h>
 #include <unistd.h>

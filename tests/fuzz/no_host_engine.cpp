@@ -1,4 +1,5 @@
-// The fuzz targets render by the serial backend; the CPU-emulated GPU kernels take long to compile.
+// The fuzz targets render with the serial backend. This stub replaces the CPU-emulated GPU kernels, which take long to
+// compile.
 
 #include "backends/cuda/device.h"
 

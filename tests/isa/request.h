@@ -6,7 +6,8 @@
 
 namespace alhazen::test {
 
-/// One ray per call, interleaved, all in one call as in renders, or all in one call as coherent packets.
+/// How the queries are made: one ray per call, interleaved, all in one call as in renders, or all in one call as
+/// coherent packets.
 enum class QueryMode : uint32_t { single, interleaved, many, coherent };
 inline constexpr QueryMode query_modes[] = {QueryMode::single, QueryMode::interleaved, QueryMode::many,
                                             QueryMode::coherent};

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the module of the tests hands out.
+// The interface of the module that the tests load.
 
 namespace alhazen::test {
 

@@ -1,6 +1,5 @@
-// GPUs give the images of the CPU: in double to 1e-9, in float the same image up to noise, with all four schedules. The
-// same comparisons run for the CPU-emulated kernels, which shows that they can be satisfied; without a GPU only those
-// run.
+// GPUs give the images of the CPU with all four schedules: in double to 1e-9, in float up to noise. The same
+// comparisons run for the CPU-emulated kernels, which shows that they can pass; without a GPU only those run.
 
 #include "backends/cuda/device.h"
 #include "parity/scenes.h"
@@ -40,7 +39,7 @@ FilmPointer<Real> film_of(const std::string& scene_name, const Settings& setting
   return std::move(std::get<FilmPointer<Real>>(rendering.film));
 }
 
-/// Fraction of the pixels whose radiance is within `tolerance`, relative to the largest channel.
+/// Returns the fraction of the pixels whose radiance is within `tolerance`, relative to the largest channel.
 template <class Real>
 double part_alike(const Film<Real>& a, const Film<Real>& b, double tolerance) {
   size_t alike = 0;
@@ -54,7 +53,7 @@ double part_alike(const Film<Real>& a, const Film<Real>& b, double tolerance) {
   return static_cast<double>(alike) / static_cast<double>(pixels);
 }
 
-/// Black images would also be equal.
+/// Returns whether an image is black. Black images would be equal too.
 template <class Real>
 bool is_black(const Film<Real>& film) {
   const Vec3<Real>* radiance = film.view().radiance;
@@ -62,7 +61,7 @@ bool is_black(const Film<Real>& film) {
                      [](const Vec3<Real>& v) { return v.x == 0 && v.y == 0 && v.z == 0; });
 }
 
-/// Moments of the pixel luminance in each of 4x4 parts of the image, by rows.
+/// Returns the moments of the pixel luminance in each of 4x4 parts of the image, by rows.
 template <class Real>
 std::vector<Moments> moments_of(const Film<Real>& film) {
   constexpr size_t parts = 4;
@@ -92,7 +91,8 @@ class CudaOnDevice : public ::testing::TestWithParam<Case> {
     return settings;
   }
 
-  /// Every schedule's image against the serial one: at least this fraction of the pixels is within `tolerance`.
+  /// Compares the image of every schedule with the serial one: at least this fraction of the pixels is within
+  /// `tolerance`.
   template <class Real>
   void expect_alike(const std::string& precision, double tolerance, double part) const {
     const auto serial = film_of<Real>(scene_, settings_of("serial", precision, integrator_));
@@ -112,7 +112,7 @@ TEST_P(CudaOnDevice, InDoubleGivesTheSerialImage) { expect_alike<double>("double
 /// of a pixel.
 TEST_P(CudaOnDevice, InFloatGivesTheSameImageByEverySchedule) { expect_alike<float>("float", 1e-3, 0.9); }
 
-/// An image in double, with a seed of its own.
+/// Renders in double, with a different seed.
 std::vector<Moments> reference_of(const std::string& scene, const std::string& integrator) {
   Settings settings = settings_of("serial", "double", integrator);
   settings.sampler = "independent";
@@ -121,7 +121,8 @@ std::vector<Moments> reference_of(const std::string& scene, const std::string& i
   return moments_of(*film_of<double>(scene, settings));
 }
 
-/// Z-test of an image in float, part by part. All such tests of this file hold at 0.01 together.
+/// Compares an image in float with the reference by a Z-test of each part. All such tests of this file together have
+/// the level 0.01.
 void expect_unbiased(const std::vector<Moments>& reference, const std::string& scene, Settings settings) {
   constexpr size_t images = 2 * 2 * (2 * 4 + 1);  // scenes, integrators; devices and schedules, OptiX
   settings.sampler = "independent";

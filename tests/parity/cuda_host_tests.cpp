@@ -1,5 +1,5 @@
-// The kernels of the CUDA backend as loops on the host: all schedules give the serial bits, whatever the size of image
-// and block, the number of chunks and the depth.
+// The CPU-emulated CUDA kernels: all schedules give the bits of the serial backend, for any size of image and block,
+// any number of chunks and any depth.
 
 #include "backends/cuda/device_render.h"
 #include "backends/cuda/host_executor.h"
@@ -118,7 +118,7 @@ TEST(CudaOnHostChunks, OfEverySize) {
   }
 }
 
-/// No geometry: every path ends at once, and the queues of hits stay empty.
+/// Without geometry every path ends immediately, and the queues of hits stay empty.
 TEST(CudaOnHostQueues, ThatStayEmpty) {
   const Scene empty = scene_of(
       "Film \"rgb\" \"integer xresolution\" 9 \"integer yresolution\" 7\n"
@@ -129,7 +129,7 @@ TEST(CudaOnHostQueues, ThatStayEmpty) {
   expect_serial_bits(empty, serial);
 }
 
-/// The tree that GPUs traverse in float. If two surfaces are hit at the same distance it may find the other one.
+/// The tree that GPUs traverse in float. If two surfaces are hit at the same distance, it may return the other one.
 TEST(CudaOnHostWideBvh, GivesAllButTheSameBits) {
   for (const std::string name : {"cornell", "spheres"})
     for (const std::string& strategy : schedules) {
@@ -155,7 +155,7 @@ TEST(CudaOnHostWideBvh, GivesAllButTheSameBits) {
     }
 }
 
-/// Devices that render parts of one image, one after the other.
+/// Several devices render parts of one image, one after the other.
 TEST(CudaOnHostShares, AddUpToTheImage) {
   for (const uint32_t devices : {2u, 3u}) {
     Settings serial = serial_settings("double");

@@ -1,4 +1,5 @@
-// Embree answers ray queries like our own BVH, so the images are alike. Skipped if Embree is not built in.
+// Embree answers ray queries like our own BVH, so the images are nearly equal. The tests are skipped if Embree is not
+// built in.
 
 #include "parity/scenes.h"
 

@@ -1,5 +1,5 @@
 // The bits of images of scenes of all kinds, by every integrator, precision and CPU engine, against the checksums in
-// golden.txt. If images are meant to change, write it anew and say so in the commit:
+// golden.txt. After an intended change, rewrite the file and mention it in the commit:
 //   ALHAZEN_WRITE_GOLDEN=1 build/release/tests/parity_tests --gtest_filter='Scenes/GoldenImages*'
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ struct Engine {
   const char* strategy;
 };
 
-/// All of these have the same bits. The kernels of GPUs do not recurse.
+/// All of these engines give the same bits. The GPU kernels do not support recursive integrators.
 std::vector<Engine> engines_for(const std::string& integrator) {
   if (integrator == "path")
     return {{"openmp", "tiles"},     {"openmp", "rows"},     {"openmp", "collapse"},

@@ -1,5 +1,5 @@
-// The host part of the OptiX backend over a mock driver: a function table that records and checks its arguments, and
-// runs launches on the host, with our own BVH instead of optixTrace. The image has the serial bits.
+// The host code of the OptiX backend with a mock driver: a function table that records and checks its arguments, and
+// runs launches on the CPU with our own BVH instead of optixTrace. The image has the bits of the serial backend.
 
 #ifdef ALHAZEN_WITH_OPTIX
 

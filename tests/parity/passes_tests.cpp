@@ -84,7 +84,7 @@ TEST_P(Passes, ATimeLimitThatIsNotReachedChangesNothing) {
   EXPECT_TRUE(same_bits(expected, limited));
 }
 
-/// The part x0 <= x < x1, y0 <= y < y1 of the rows.
+/// Returns the part x0 <= x < x1, y0 <= y < y1 of the rows.
 std::vector<float> part_of(const Outcome& whole, int x0, int x1, int y0, int y1) {
   std::vector<float> part;
   const size_t channels = whole.channels.size(), width = static_cast<size_t>(whole.width);

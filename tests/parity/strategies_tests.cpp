@@ -1,5 +1,5 @@
-// The image does not depend on who renders which part of it: serial, and every OpenMP strategy, schedule and thread
-// count, give the same bits.
+// The image does not depend on which thread renders which part of it: serial, and every OpenMP strategy, schedule and
+// thread count, give the same bits.
 
 #include "parity/scenes.h"
 

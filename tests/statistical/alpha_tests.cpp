@@ -1,4 +1,4 @@
-// Transparent surfaces: the light that arrives behind them, and the agreement of light sampling and BSDF sampling.
+// Transparent surfaces: the light that they transmit, and the agreement of light sampling and BSDF sampling.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// pbrt's coats against a random walk between interface and base, as in pbrt-v4's LayeredBxDF.
+// The coated materials of pbrt against a random walk between interface and base, as in pbrt-v4's LayeredBxDF.
 
 #include "core/materials/conductor.h"
 #include "support/density_check.h"

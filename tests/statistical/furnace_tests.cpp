@@ -1,4 +1,4 @@
-// The furnace: in a closed surface of albedo a that emits radiance 1, D segments give 1 + a + ... + a^(D-1).
+// White furnace: in a closed surface of albedo a that emits radiance 1, paths of D segments give 1 + a + ... + a^(D-1).
 
 #include <gtest/gtest.h>
 

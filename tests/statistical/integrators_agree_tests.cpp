@@ -1,5 +1,5 @@
-// All integrators give the same image: every pair, on every block of pixels, by Welch's test over images with different
-// seeds. Three of them find light by BSDF sampling alone, the fourth samples lights.
+// All integrators converge to the same image: every pair is compared, on every block of pixels, by Welch's test over
+// images with different seeds. Three of them find light by BSDF sampling alone, the fourth samples lights.
 
 #include <gtest/gtest.h>
 

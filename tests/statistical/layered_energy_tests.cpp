@@ -1,5 +1,5 @@
 // Furnaces at a point: the fraction of uniform light that the layered materials scatter, over the ranges of their
-// parameters. Without absorption it is all of it.
+// parameters. Without absorption it is 1.
 
 #include <gtest/gtest.h>
 
@@ -217,7 +217,7 @@ TEST(CoatFurnace, MetalBelowAnyIndexGainsNothing) {
     }
 }
 
-/// Values that a file may contain though nobody intends them: results are still numbers.
+/// Values that a file may contain although nobody intends them: the results are still finite.
 TEST(CoatFurnace, NoParameterMakesNumbersThatAreNone) {
   Random random(29);
   for (const MaterialKind kind : {MaterialKind::coated_diffuse, MaterialKind::coated_conductor, MaterialKind::conductor,

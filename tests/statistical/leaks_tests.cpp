@@ -1,5 +1,5 @@
-// No ray escapes from a closed mesh, nor hits the surface that it leaves: with any tree, with any number of rays at a
-// time, in the world and in instances, at the origin and 10^5 radii from it. Most points are so close to edges and
+// No ray escapes from a closed mesh or hits the surface that it starts on. Tested with every tree, single rays and
+// batches, in the world and in instances, at the origin and 10^5 radii from it. Most points are so close to edges and
 // vertices that their distance is lost in rounding. ALHAZEN_LEAK_RAYS sets how many rays start in each mesh.
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ struct Place {
   static constexpr double time = 0.5;  ///< of all rays
 };
 
-/// A mesh, once in the world or twice as an object.
+/// A mesh that is placed once in the world or twice as an object.
 struct ClosedMesh {
   Mesh mesh;
   Place place;
@@ -141,7 +141,7 @@ size_t count_hits(const SceneView<Real>& view, InstructionSet set, QueryMode mod
   return static_cast<size_t>(std::count(found.get(), found.get() + rays.size(), true));
 }
 
-/// By engine.
+/// The number of rays that failed, for one engine.
 struct Tally {
   size_t got_out = 0, hit_again = 0;
 };

@@ -102,7 +102,7 @@ TYPED_TEST(LightTree, LightsComeUpAsOftenAsTheyShould) {
   });
 }
 
-/// Light that reaches the front of a surface has a chance of being chosen.
+/// Lights that illuminate the front of a surface have a positive probability.
 TYPED_TEST(LightTree, NoLightThatMattersIsLeftOut) {
   using Real = TypeParam;
   const CompiledScene<Real> scene = compiled_scene_of<Real>("WorldBegin " + small_lights(200, 5, true));
@@ -141,7 +141,8 @@ TYPED_TEST(LightTree, LightsThatNoPlaneParts) {
   }
 }
 
-/// Few lights are chosen by power, unless the scene requests the tree, and many by the tree, unless it requests power.
+/// With few lights, they are chosen by power unless the scene requests the tree; with many, by the tree unless it
+/// requests power.
 TYPED_TEST(LightTree, IsBuiltWhereItIsOfUse) {
   using Real = TypeParam;
   const auto nodes = [](int count, const std::string& sampler) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Renders in this process, with the results as bytes for bitwise comparison.
+// Renders in this process and compares results bitwise.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 
 namespace alhazen::test {
 
-/// All layers.
+/// All layers that a render can write.
 inline const std::vector<std::string> all_aovs{"albedo", "normal", "depth", "bounces", "samples", "variance"};
 
 struct Outcome {
@@ -60,7 +60,7 @@ inline Scene scene_of(const std::string& text) {
   return scene;
 }
 
-/// Success if both have the same bits; otherwise the first difference.
+/// Succeeds if both have the same bits; otherwise the message names the first difference.
 inline ::testing::AssertionResult same_bits(const Outcome& a, const Outcome& b) {
   if (a.width != b.width || a.height != b.height || a.channels != b.channels)
     return ::testing::AssertionFailure() << "sizes or channels differ";

@@ -1,6 +1,6 @@
 #pragma once
 
-// Scattering functions for the tests, and directions for evaluating them.
+// BSDFs for the tests, and directions in which to evaluate them.
 
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace alhazen::test {
 
-/// A normal along no axis, so that the shading frame matters.
+/// Returns a frame whose normal is along no axis, so that errors in the shading frame are visible.
 template <class Real>
 Frame<Real> tilted_frame() {
   return frame_about(normalize(Vec3<Real>{Real(0.36), Real(-0.48), Real(0.8)}));
@@ -28,7 +28,7 @@ NamedBsdf<Real> diffuse_bsdf(double albedo) {
   return named;
 }
 
-/// Gold's index and absorption in the three channels.
+/// A conductor with the complex index of refraction of gold in three channels.
 template <class Real>
 NamedBsdf<Real> metal_bsdf(double alpha) {
   NamedBsdf<Real> named{"metal, alpha " + std::to_string(alpha), {MaterialKind::conductor, tilted_frame<Real>()}};
@@ -54,7 +54,7 @@ NamedBsdf<Real> glass_bsdf(double alpha, double ior = 1.5) {
   return named;
 }
 
-/// The direction in frame space with that cosine to the normal; in world space.
+/// Returns the world-space direction with the given cosine to the normal of `frame` and the given azimuth.
 template <class Real>
 Vec3<Real> direction_at(const Frame<Real>& frame, double cosine, double azimuth) {
   const double sine = safe_sqrt(1 - cosine * cosine);

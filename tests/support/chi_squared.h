@@ -12,8 +12,8 @@
 
 namespace alhazen::test {
 
-/// The regularized upper incomplete gamma function Q(a, x): by its series below a + 1, by Lentz's continued fraction
-/// above (Press et al., Numerical Recipes 3rd ed., 6.2).
+/// Returns the regularized upper incomplete gamma function Q(a, x): by its series below a + 1, by Lentz's continued
+/// fraction above (Press et al., Numerical Recipes 3rd ed., 6.2).
 inline double incomplete_gamma_q(double a, double x) {
   if (x <= 0) return 1;
   const double front = std::exp(-x + a * std::log(x) - std::lgamma(a));
@@ -35,7 +35,7 @@ inline double incomplete_gamma_q(double a, double x) {
   return front * fraction;
 }
 
-/// Probability of a statistic at least as large, for that number of degrees of freedom.
+/// Returns the probability that a chi-squared variable with that many degrees of freedom is at least `statistic`.
 inline double chi_squared_p_value(double statistic, double degrees_of_freedom) {
   return incomplete_gamma_q(degrees_of_freedom / 2, statistic / 2);
 }
@@ -49,9 +49,9 @@ struct ChiSquared {
 
 inline constexpr double min_expected = 5;
 
-/// Bins with fewer than `min_expected` are merged, the smallest first, into pools of at least that many. The
-/// remainder joins the last pool; a pool with expectation 0 must be empty. The counts must have the same sum, which
-/// removes one degree of freedom.
+/// Tests counts against expected counts. Bins that expect fewer than `min_expected` are merged, the smallest first,
+/// into pools that expect at least that many. The remainder joins the last pool; a pool with expectation 0 must be
+/// empty. Both must have the same sum, which removes one degree of freedom.
 inline ChiSquared chi_squared_test(const std::vector<double>& observed, const std::vector<double>& expected) {
   std::vector<size_t> order(expected.size());
   std::iota(order.begin(), order.end(), size_t{0});

@@ -1,6 +1,6 @@
 #pragma once
 
-// Chi-squared test of numbers that should be uniform, over equal cells of the unit interval or square.
+// Tests with chi-squared whether numbers are uniform, over equal cells of the unit interval or square.
 
 #include <cstddef>
 #include <vector>
@@ -11,7 +11,7 @@ namespace alhazen::test {
 
 class UniformGrid {
  public:
-  /// 1 row: an interval.
+  /// With one row, the cells divide an interval.
   UniformGrid(size_t columns, size_t rows) : columns_(columns), rows_(rows), counts_(columns * rows) {}
 
   void add(double x, double y = 0) {

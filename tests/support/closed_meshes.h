@@ -50,7 +50,7 @@ inline Mesh cube() {
   return mesh;
 }
 
-/// Moves vertices in and out by up to `amount` of their distance from the origin, which stays inside.
+/// Moves vertices radially by up to `amount` of their distance from the origin, which stays inside.
 inline void jitter_radii(Mesh& mesh, double amount, Random& random) {
   for (Vec3d& p : mesh.positions) p *= 1 + random.between(-amount, amount);
 }

@@ -16,7 +16,7 @@ inline void expect_no_warnings(const Diagnostics& diagnostics) {
   for (const Diagnostics::Warning& warning : diagnostics.warnings()) ADD_FAILURE() << warning.to_string();
 }
 
-/// In world space, wherever the scene is, since the tests construct rays there.
+/// Compiles in world space even if the scene is far from the origin, since the tests construct rays there.
 template <class Real>
 CompiledScene<Real> compiled_scene(Scene scene, int threads = 1) {
   Diagnostics diagnostics;
@@ -41,8 +41,7 @@ CompiledScene<Real> compiled_scene_of(const std::string& text) {
   return compiled_scene<Real>(described_scene(text));
 }
 
-/// These tests do not concern the reader's scaling of radiance: with this film the values of lights are the values on
-/// the film.
+/// Returns a film that does not scale radiance, so that pixel values are in the units of the lights.
 inline std::string film_of(int width, int height) {
   return "Film \"rgb\" \"integer xresolution\" " + std::to_string(width) + " \"integer yresolution\" " +
          std::to_string(height) + "\nPixelFilter \"box\"\n";

@@ -13,7 +13,8 @@
 
 namespace alhazen::test {
 
-/// A chi-squared test, one of `cases`; the density may integrate to `slack` above 1, the error of the quadrature.
+/// Tests with chi-squared, as one of `cases` tests. The density may integrate to `slack` above 1, which is the error of
+/// the quadrature.
 template <class Real>
 void check_density(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, Random& random, size_t cases, const std::string& name,
                    size_t samples = 200'000, double slack = 2e-3) {

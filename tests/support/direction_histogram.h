@@ -81,7 +81,7 @@ class DirectionHistogram {
     return sum * half_theta * half_phi;
   }
 
-  /// The integral over the cell, of which `whole` is an estimate: subdivides it until the estimates agree.
+  /// Integrates over a cell, of which `whole` is an estimate: subdivides it until the estimates agree.
   template <class Pdf>
   double refine(const Pdf& pdf, const Cell& cell, double whole, int depth) const {
     const double theta = (cell.theta0 + cell.theta1) / 2, phi = (cell.phi0 + cell.phi1) / 2;

@@ -14,10 +14,10 @@ inline constexpr bool is_sanitized = __has_feature(address_sanitizer);
 inline constexpr bool is_sanitized = false;
 #endif
 
-/// `full`, or a sixteenth of it under sanitizers.
+/// Returns `full`, or a sixteenth of it under sanitizers.
 constexpr size_t effort(size_t full) { return is_sanitized ? full / 16 : full; }
 
-/// A bound on the error of a mean over `effort(n)` samples; a sixteenth of them has four times the error.
+/// Returns a bound on the error of a mean over `effort(n)` samples; a sixteenth of them has four times the error.
 constexpr double widened(double bound) { return is_sanitized ? 4 * bound : bound; }
 
 }  // namespace alhazen::test

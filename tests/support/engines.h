@@ -26,7 +26,7 @@ struct Bvh8Engine {
   using Intersector = Bvh8Intersector<Any>;
 };
 
-/// The same as compiled for one of the instruction sets.
+/// The wide BVH of the CPU, as compiled for one of the instruction sets.
 template <class Any, InstructionSet set>
 struct IsaEngine {
   using Real = Any;

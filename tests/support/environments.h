@@ -38,7 +38,7 @@ inline ImageTexels lamps_map(int width, int height) {
   return map;
 }
 
-/// The texels as an image that can be written.
+/// Converts the texels to an image that can be written.
 inline Image image_of(const ImageTexels& map) {
   Image image{map.width, map.height, {"R", "G", "B"}, std::vector<std::vector<float>>(3)};
   for (size_t i = 0; i < map.floats.size(); ++i) image.planes[i % 3].push_back(map.floats[i]);
@@ -70,7 +70,7 @@ inline Scene map_alone(ImageTexels map, const Frame<double>& axes = map_as_world
   return lit_by(std::move(scene), std::move(map), axes, scale);
 }
 
-/// Integral of `value(direction)` over the sphere by the midpoints of side x side equal areas.
+/// Integrates `value(direction)` over the sphere, by the midpoints of side x side cells of equal area.
 template <class Value>
 double integral_over_sphere(int side, const Value& value) {
   double sum = 0;

@@ -10,7 +10,7 @@
 
 namespace alhazen::test {
 
-/// The folder in ALHAZEN_SCENES, else `shared/scenes` in the repository or beside it; empty if there is none.
+/// Returns the folder in ALHAZEN_SCENES, else `shared/scenes` in the repository or beside it; empty if there is none.
 inline std::filesystem::path external_scenes() {
   std::vector<std::filesystem::path> candidates;
   if (const char* folder = std::getenv("ALHAZEN_SCENES")) candidates.emplace_back(folder);
@@ -22,7 +22,7 @@ inline std::filesystem::path external_scenes() {
   return {};
 }
 
-/// The files in its subfolders that end in one of `extensions`, sorted.
+/// Returns the files below the subfolder `folder` of external_scenes() that have one of these extensions, sorted.
 inline std::vector<std::filesystem::path> external_files(const std::string& folder,
                                                          const std::vector<std::string>& extensions) {
   std::vector<std::filesystem::path> files;

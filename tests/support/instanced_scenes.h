@@ -19,14 +19,14 @@ inline Transform random_placement(Random& random, double reach) {
          Transform::rotate(360 * random.uniform<double>(), random.on_sphere());
 }
 
-/// A group of a rough ball and a ball without shading normals, `instances` of it, and a ball in the world among them.
+/// A group of a dented ball and a ball without shading normals, `instances` of it, and a ball in the world among them.
 /// With `moving`, one instance in three moves and rotates while the shutter is open.
 inline Scene instanced_scene(uint64_t seed, int instances, double reach, bool moving = false) {
   Random random(seed);
   Scene scene;
   for (const int level : {2, 1}) {
     Mesh mesh = icosphere(level);
-    // So little that stretching flips no face against its shading normals.
+    // The jitter is so small that stretching flips no face against its shading normals.
     jitter_radii(mesh, 0.02, random);
     if (level == 2)
       for (const Vec3d& p : mesh.positions) mesh.normals.push_back(convert<float>(normalize(p)));
@@ -57,7 +57,7 @@ inline Scene instanced_scene(uint64_t seed, int instances, double reach, bool mo
   return scene;
 }
 
-/// With instances, or copied into the world.
+/// Compiles the scene with instances, or with all of them copied into the world.
 template <class Real>
 CompiledScene<Real> flat_instanced_scene(const Scene& scene, bool as_copies) {
   Diagnostics diagnostics;

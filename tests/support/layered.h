@@ -13,7 +13,7 @@
 
 namespace alhazen::test {
 
-/// Inputs by name; others have their defaults.
+/// The inputs of the principled material that tests vary; all others have their defaults.
 struct PrincipledValues {
   double metallic = 0, roughness = 0.5, transmission = 0, clearcoat = 0, clearcoat_roughness = 0;
   double sheen = 0, sheen_roughness = 0.5, anisotropy = 0, iridescence = 0, specular = 1, ior = 1.5, dispersion = 0;
@@ -51,7 +51,7 @@ inline Material principled_material(Scene& scene, const PrincipledValues& values
   return material;
 }
 
-/// One material of a compiled scene without shapes.
+/// A compiled scene with one material and no shapes.
 template <class Real>
 class FlatMaterial {
  public:
@@ -63,7 +63,7 @@ class FlatMaterial {
     view_.albedo_tables = arrays_.albedo_tables.data();
   }
 
-  /// The material seen at that cosine, in a tilted frame.
+  /// Returns the BSDF for that cosine of the view direction, in a tilted frame.
   Bsdf<Real> bsdf(double cosine, Real u_channel = 0) const {
     Bsdf<Real> bsdf{};
     bsdf.frame = tilted_frame<Real>();

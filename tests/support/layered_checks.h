@@ -1,6 +1,6 @@
 #pragma once
 
-// Common to the tests of layered materials: how much light they scatter.
+// Measures how much light layered materials scatter.
 
 #include <gtest/gtest.h>
 
@@ -16,10 +16,12 @@ struct Energy {
   double mean, error;
 };
 
-/// Fraction of the light that is scattered, in the strongest channel, without the change of radiance by refraction.
+/// Returns the fraction of the light that is scattered, in the strongest channel, and its standard error. The scaling
+/// of radiance by refraction is removed.
 template <class Real>
 Energy energy_of(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, int samples, Random& random) {
-  // Per channel: lobes of complementary colours each have weights above 1 in a channel of their own.
+  // The channels are averaged separately, since lobes of complementary colours have weights above 1 in different
+  // channels.
   Vec3d sum{}, squares{};
   for (int i = 0; i < samples; ++i) {
     const Real u_lobe = random.uniform<Real>();

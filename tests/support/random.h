@@ -14,7 +14,7 @@ class Random {
  public:
   explicit Random(uint64_t seed) : engine_(seed) {}
 
-  /// A number in [0, 1) with all the bits of Real.
+  /// Returns a number in [0, 1) with all the bits of Real.
   template <class Real>
   Real uniform() {
     if constexpr (sizeof(Real) == sizeof(float))
@@ -30,7 +30,7 @@ class Random {
   }
 
   double between(double low, double high) { return low + (high - low) * uniform<double>(); }
-  /// Log-uniform: every magnitude between the two is equally likely.
+  /// Returns a log-uniform number: every magnitude between the two is equally likely.
   double magnitude_between(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
   uint32_t below(uint32_t count) { return static_cast<uint32_t>(uniform<double>() * count); }
 
@@ -44,7 +44,7 @@ class Random {
     return {r * std::cos(phi), r * std::sin(phi), z};
   }
 
-  /// A direction on the side of `normal`.
+  /// Returns a uniform direction on the side of `normal`.
   Vec3d on_hemisphere(const Vec3d& normal) { return face_forward(on_sphere(), normal); }
 
  private:

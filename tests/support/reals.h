@@ -8,7 +8,7 @@ namespace alhazen::test {
 
 using Reals = ::testing::Types<float, double>;
 
-/// `for_float` or `for_double`, depending on Real.
+/// Returns `for_float` or `for_double`, depending on Real.
 template <class Real>
 constexpr double by_precision(double for_float, double for_double) {
   return sizeof(Real) == sizeof(float) ? for_float : for_double;

@@ -15,7 +15,7 @@ inline constexpr IntegratorKind all_integrators[] = {IntegratorKind::branching, 
                                                      IntegratorKind::iterative, IntegratorKind::path};
 inline constexpr SamplerType all_samplers[] = {SamplerType::sobol, SamplerType::independent};
 
-/// The settings of an image.
+/// The settings with which pixels are rendered.
 struct Take {
   IntegratorKind integrator = IntegratorKind::path;
   SamplerType sampler = SamplerType::sobol;
@@ -29,7 +29,7 @@ struct Take {
   }
 };
 
-/// Mean radiance of one pixel, weighted by the pixel filter.
+/// Returns the mean radiance of one pixel, weighted by the pixel filter.
 template <class Real>
 Vec3d render_pixel(const SceneView<Real>& scene, const Take& take, uint32_t x, uint32_t y) {
   const SampleKernel<Real> kernel = select_sample_kernel<Real>(take.integrator, take.sampler);
@@ -46,7 +46,8 @@ Vec3d render_pixel(const SceneView<Real>& scene, const Take& take, uint32_t x, u
   return sum / weight;
 }
 
-/// Moments of the pixels' luminance. Pixels are independent of each other, samples within a pixel need not be.
+/// Returns the moments of the luminance of the pixels. Pixels are independent of each other, samples within a pixel
+/// need not be.
 template <class Real>
 Moments render_pixels(const SceneView<Real>& scene, const Take& take, uint32_t width, uint32_t height) {
   Moments moments;

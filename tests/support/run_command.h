@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs a program as a user would, with its output, errors and exit code, and signals sent to it.
+// Runs a program as a user would, captures its output, errors and exit code, and can send it signals.
 
 #include <csignal>
 #include <functional>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Scene texts that several tests render, without a film: put film_of(width, height) in front.
+// Scene texts that several tests render. They have no film: prepend film_of(width, height).
 
 #include <string>
 

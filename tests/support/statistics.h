@@ -20,9 +20,9 @@ class Moments {
 
   size_t count() const { return count_; }
   double mean() const { return mean_; }
-  /// Unbiased estimate for the population.
+  /// Returns the unbiased estimate of the variance of the population.
   double variance() const { return count_ > 1 ? m2_ / static_cast<double>(count_ - 1) : 0; }
-  /// Of the mean.
+  /// Returns the variance of the mean.
   double variance_of_mean() const { return count_ > 0 ? variance() / static_cast<double>(count_) : 0; }
   double standard_error() const { return std::sqrt(variance_of_mean()); }
 
@@ -31,14 +31,15 @@ class Moments {
   double mean_ = 0, m2_ = 0;
 };
 
-/// The level for each of `cases` independent tests such that all of them together have the level `alpha`.
+/// Returns the significance level of each of `cases` independent tests with which all of them together have the level
+/// `alpha`.
 inline double sidak(double alpha, size_t cases) { return -std::expm1(std::log1p(-alpha) / static_cast<double>(cases)); }
 
-/// Probability that a standard normal variable is at least as far from 0 as z.
+/// Returns the probability that a standard normal variable is at least as far from 0 as z.
 inline double normal_p_value(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
 
-/// The regularized incomplete beta function I_x(a, b), by Lentz's continued fraction (Press et al., Numerical Recipes
-/// 3rd ed., 6.4).
+/// Returns the regularized incomplete beta function I_x(a, b), by Lentz's continued fraction (Press et al., Numerical
+/// Recipes 3rd ed., 6.4).
 inline double incomplete_beta(double a, double b, double x) {
   if (x <= 0) return 0;
   if (x >= 1) return 1;
@@ -62,13 +63,13 @@ inline double incomplete_beta(double a, double b, double x) {
   return front * fraction;
 }
 
-/// Probability that a variable with Student's distribution is at least as far from 0 as t.
+/// Returns the probability that a variable with Student's distribution is at least as far from 0 as t.
 inline double student_p_value(double t, double degrees_of_freedom) {
   return incomplete_beta(degrees_of_freedom / 2, 0.5, degrees_of_freedom / (degrees_of_freedom + t * t));
 }
 
-/// Two-sided test that the samples have the mean `expected`. `rounding` bounds the effect of arithmetic on the mean: it
-/// is the tolerance for samples without variance.
+/// Returns the p-value of the two-sided test that the samples have the mean `expected`. `rounding` bounds the effect of
+/// arithmetic on the mean; it is the tolerance if the samples have no variance.
 inline double mean_p_value(const Moments& samples, double expected, double rounding) {
   const double distance = std::abs(samples.mean() - expected) - rounding;
   if (distance <= 0) return 1;
@@ -76,7 +77,8 @@ inline double mean_p_value(const Moments& samples, double expected, double round
   return student_p_value(distance / samples.standard_error(), static_cast<double>(samples.count() - 1));
 }
 
-/// Two-sided test that two sets of samples have the same mean, whatever their variances (Welch 1947).
+/// Returns the p-value of the two-sided test that two sets of samples have the same mean, whatever their variances
+/// (Welch 1947).
 inline double welch_p_value(const Moments& a, const Moments& b, double rounding) {
   const double distance = std::abs(a.mean() - b.mean()) - rounding;
   if (distance <= 0) return 1;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Distance of numbers, counted in representable numbers between them.
+// The distance of two numbers, as the number of representable steps between them.
 
 #include <bit>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-// The sizes of blocks of threads and the numbers of chunks that may be asked for.
+// Parses block sizes and numbers of chunks.
 
 #include <string>
 
@@ -8,9 +8,9 @@
 
 namespace alhazen::cuda {
 
-/// Parses `16x16`: a block that a GPU can run. Throws InputError.
+/// Parses a block size such as `16x16`, in threads. Throws InputError unless a GPU can run such a block.
 BlockSize parse_block(const std::string& text);
-/// Parses `4x4`: chunks in each direction. Throws InputError.
+/// Parses numbers of chunks in x and y such as `4x4`. Throws InputError.
 BlockSize parse_chunks(const std::string& text);
 std::string to_string(const BlockSize& size);
 

@@ -1,4 +1,4 @@
-// The backend `cuda`: our own kernels on GPUs.
+// The backend `cuda` runs our own kernels on GPUs.
 
 #include "backends/cuda/blocks.h"
 #include "backends/cuda/device_backend.h"

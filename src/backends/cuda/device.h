@@ -1,6 +1,6 @@
 #pragma once
 
-// Devices as the backend sees them: what there is, and an engine that renders on one of them.
+// The devices that the backend can use, and the engine that renders on one of them.
 
 #include <cstdint>
 #include <memory>
@@ -12,17 +12,17 @@
 
 namespace alhazen::cuda {
 
-/// Renders its share of the rows of every pass on one device.
+/// Renders the rows of every pass that are assigned to one device (RowShare).
 class Engine {
  public:
   virtual ~Engine() = default;
-  /// As Backend::prepare.
+  /// See Backend::prepare.
   virtual void prepare(const CompiledScene<float>&) {}
   virtual void render_pass(const RenderPass<float>& pass, ThreadStatistics& statistics) = 0;
   virtual void render_pass(const RenderPass<double>& pass, ThreadStatistics& statistics) = 0;
 };
 
-/// The kernels on the host.
+/// Returns an engine with the CPU-emulated kernels.
 std::unique_ptr<Engine> make_host_engine(const RowShare& share);
 
 struct DeviceInfo {
@@ -34,13 +34,14 @@ struct DeviceInfo {
 
 struct DeviceList {
   std::vector<DeviceInfo> devices;
-  std::string problem;  ///< where there are none: why, and what to do
+  std::string problem;  ///< if there are none: the reason, and what to do
 };
 
-/// The GPUs of this machine. Without the module `cuda`: none, and how to get it.
+/// Returns the GPUs of this machine. Without the module `cuda` there are none, and `problem` says how to get it.
 const DeviceList& list_devices();
 
-/// The kernels on GPU `device`, for passes in that precision alone. Starts the GPU.
+/// Returns an engine that renders passes in `precision` on GPU `device`, and initializes the GPU. Throws InputError if
+/// the module `cuda` cannot be loaded.
 std::unique_ptr<Engine> make_gpu_engine(int device, const RowShare& share, Precision precision);
 
 }  // namespace alhazen::cuda

@@ -23,7 +23,7 @@ int DeviceBackend::parse_device(const std::string& text) const {
   return device;
 }
 
-/// Each device has one line of statistics.
+/// Each device counts as one thread, since the statistics have one entry per thread.
 void DeviceBackend::configure(const Settings& asked, RenderSettings& settings) const {
   settings.runs_on_device = true;
   settings.device = parse_device(asked.device.empty() ? "0" : asked.device);

@@ -1,7 +1,8 @@
 #pragma once
 
-// A pass on one device: the scene goes over once, the film stays there, slices of the pass are launched by one of four
-// schedules, and the film comes back at the end. The same for a GPU and for the host in its place.
+// Renders a pass on one device. The scene is uploaded once and the film stays on the device; slices of the pass are
+// launched by one of four schedules, and the film is downloaded at the end. A GPU and the host in its place run the same
+// code.
 
 #include <chrono>
 #include <optional>
@@ -18,9 +19,9 @@
 
 namespace alhazen::cuda {
 
-/// Ray queries by the binary BVH.
+/// Traces rays with the binary BVH.
 struct Bvh2Tracing {
-  static constexpr bool by_launch_of_pixels = false;  ///< whether there is no schedule but a launch of all pixels
+  static constexpr bool by_launch_of_pixels = false;  ///< whether launching pixels is the only schedule
 
   template <class Real, StackMaker Stacks>
   ALHAZEN_HD static Bvh2Intersector<Real, Stacks> intersector(const SceneView<Real>& scene, const Stacks& stacks) {
@@ -28,7 +29,7 @@ struct Bvh2Tracing {
   }
 };
 
-/// Ray queries by the compressed wide BVH, of floats alone.
+/// Traces rays with the compressed wide BVH, which exists for float only.
 struct CwbvhTracing {
   static constexpr bool by_launch_of_pixels = false;
 
@@ -51,7 +52,7 @@ class DeviceRender {
         slots_memory_(executor),
         counter_(executor) {}
 
-  /// For executors that trace rays by something of their own: has it built.
+  /// Builds the acceleration structure of executors that have their own.
   void prepare(const CompiledScene<Real>& scene) {
     upload_scene(scene);
     executor_.build(scene.view, device_scene(scene));
@@ -81,7 +82,7 @@ class DeviceRender {
  private:
   using Clock = std::chrono::steady_clock;
 
-  // ---- what is on the device -------------------------------------------------------------------------------------
+  // ---- memory of the device -------------------------------------------------------------------------------------
 
   void upload(const RenderPass<Real>& pass) {
     if (scene_ != &pass.scene) upload_scene(pass.scene);
@@ -102,7 +103,7 @@ class DeviceRender {
     scene_ = &scene;
   }
 
-  /// The view of the scene with its pointers shifted from the host's arena to the device's.
+  /// Returns the view of the scene with its pointers moved from the host's arena to the device's.
   SceneView<Real> device_scene(const CompiledScene<Real>& scene) const {
     SceneView<Real> view = scene.view;
     const auto shift = [&](auto& pointer) {
@@ -116,7 +117,7 @@ class DeviceRender {
     return view;
   }
 
-  /// The planes of the film one after the other, as visit_planes has them.
+  /// Allocates the planes of the film one after the other, in the order of visit_planes.
   void upload_film(Film<Real>& film) {
     size_t bytes = 0;
     film.visit_planes([&](const void*, size_t size) { bytes += padded(size); });
@@ -140,7 +141,7 @@ class DeviceRender {
 #undef ALHAZEN_PLANE
   }
 
-  /// Brings back the rows of this device, or, where it has all of them, whole planes.
+  /// Downloads the rows of this device; if it has all of them, whole planes.
   void download(const RenderPass<Real>& pass) {
     const typename Executor::Range range("download the film");
     const FilmView<Real> host = pass.film.view();
@@ -192,7 +193,7 @@ class DeviceRender {
             pass.settings.max_segments};
   }
 
-  /// As many items as a third of the free memory holds sums of, but not so many that 32 bits could not count them.
+  /// Returns the number of items whose sums fill a third of the free memory, limited so that 32 bits can count them.
   uint64_t max_items(const RenderPass<Real>& pass) const {
     const CudaStrategy strategy = strategy_of(pass.settings);
     if (strategy == CudaStrategy::pixel || strategy == CudaStrategy::chunk) return uint64_t{1} << 40;
@@ -205,7 +206,7 @@ class DeviceRender {
                                                             : run_slice<IntegratorKind::iterative>(pass, launch);
   }
 
-  /// False where the render was stopped within the slice, of which nothing is in the film then.
+  /// Returns false if the render was stopped within the slice; nothing of the slice is in the film then.
   template <IntegratorKind kind>
   bool run_slice(const RenderPass<Real>& pass, const Launch<Real>& launch) {
     if constexpr (!Tracing::by_launch_of_pixels) {
@@ -273,8 +274,8 @@ class DeviceRender {
     }
   }
 
-  /// Slots for as many paths as a third of the free memory holds, but no more than keep a large device busy or than
-  /// there are items.
+  /// Allocates slots: as many as a third of the free memory holds, but no more than keep a large device busy and no more
+  /// than there are items.
   template <IntegratorKind kind>
   Slots<kind, Real> make_slots(uint32_t items) {
     Slots<kind, Real> slots;
@@ -299,7 +300,7 @@ class DeviceRender {
     return slots;
   }
 
-  /// The queues are looked at from the host, which waits for them, only so often.
+  /// Rounds between two checks of the queues, for which the host waits.
   static constexpr int rounds_between_looks = 8;
 
   Executor& executor_;

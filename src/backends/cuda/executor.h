@@ -1,6 +1,6 @@
 #pragma once
 
-// What runs kernels.
+// Executors run kernels and own device memory.
 
 #include <concepts>
 #include <cstddef>
@@ -13,10 +13,10 @@ struct Extent {
   uint32_t width = 1, height = 1;
 };
 
-/// A device with one queue of work: a GPU (cuda_executor.cuh) or the host in its place (host_executor.h). allocate()
-/// throws RenderError where there is not enough memory. upload(), download() and clear() are in the order of the queue;
-/// download() and wait() return when it is empty. A Range names what happens while it lives, for profilers.
-/// `first_items` are those of the first slice, before any speed is known.
+/// A device with one queue of commands: a GPU (cuda_executor.cuh) or the CPU in place of one (host_executor.h).
+/// allocate() throws RenderError if there is not enough memory. upload(), download() and clear() are executed in the
+/// order of the queue; download() and wait() return when the queue is empty. A Range marks its lifetime in profilers.
+/// `first_items` is the number of items in the first slice, when the speed is still unknown.
 template <class Executor>
 concept KernelExecutor = requires(Executor& executor, const Executor& unchanged, void* memory, const void* source,
                                   size_t bytes) {
@@ -35,23 +35,23 @@ concept KernelExecutor = requires(Executor& executor, const Executor& unchanged,
 template <class Kernel>
 concept DeviceKernel = std::is_trivially_copyable_v<Kernel>;
 
-/// Launches at least `threads` threads of this kernel, in blocks of that size.
+/// Launches at least `threads` threads of the kernel, in blocks of the given size.
 template <class Executor, class Kernel>
 concept LaunchesKernel = KernelExecutor<Executor> && DeviceKernel<Kernel> &&
     requires(Executor& executor, const Kernel& kernel, Extent extent) {
   executor.launch(kernel, extent, extent);
 };
 
-/// The same, and tells how many of its threads run at a time.
+/// Also returns how many threads of the kernel are resident at the same time.
 template <class Executor, class Kernel>
 concept LaunchesResidentKernel = LaunchesKernel<Executor, Kernel> && requires(Executor& executor, uint32_t block) {
   { executor.template resident_threads<Kernel>(block) } -> std::same_as<uint32_t>;
 };
 
-/// Threads of a block where nobody asked for another number.
+/// Threads per block, unless the user asks for another number.
 inline constexpr uint32_t usual_block = 128;
 
-/// Memory of an executor for elements of one type.
+/// Owns memory of an executor for elements of one type.
 template <KernelExecutor Executor, class T>
 class Buffer {
  public:
@@ -62,7 +62,7 @@ class Buffer {
 
   T* data() const { return data_; }
   size_t size() const { return size_; }
-  /// Room for `size` elements or more; what was there is lost where it had less.
+  /// Makes room for at least `size` elements. The contents are lost if the memory grows.
   void reserve(size_t size) {
     if (size <= size_) return;
     reset();

@@ -1,4 +1,4 @@
-// GPUs by way of the module `cuda`.
+// Uses GPUs through the module `cuda`.
 
 #include "backends/cuda/device.h"
 #include "backends/cuda/module.h"

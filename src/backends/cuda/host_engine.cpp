@@ -1,4 +1,4 @@
-// The kernels of the GPU as loops on the host: `--backend cuda --device host`.
+// The CPU-emulated kernels: `--backend cuda --device host`.
 
 #include "backends/cuda/device.h"
 #include "backends/cuda/device_render.h"

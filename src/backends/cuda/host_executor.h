@@ -1,7 +1,7 @@
 #pragma once
 
-// Runs kernels as loops on the host: the same kernels, queues and schedules as on a GPU, where a test or a debugger can
-// look at them. Threads run one after another, the last first, so that nothing can lean on their order.
+// Runs kernels as loops on the CPU. The kernels, queues and schedules are those of a GPU, but tests and debuggers can
+// inspect them. Threads run one after another, the last first, so that kernels that depend on their order are found.
 
 #include <unistd.h>
 
@@ -31,7 +31,7 @@ class HostThread {
 
 class HostExecutor {
  public:
-  /// Items of the first slice: few, so that small tests too see more than one.
+  /// Small, so that even small tests need more than one slice.
   static constexpr uint64_t first_items = 256;
 
   struct Range {
@@ -41,7 +41,7 @@ class HostExecutor {
   void* allocate(size_t bytes) {
     void* memory = std::malloc(bytes);
     if (!memory) throw RenderError("out of memory");
-    std::memset(memory, 0xa5, bytes);  // as on a GPU, what nobody wrote is no zero
+    std::memset(memory, 0xa5, bytes);  // as on a GPU, uninitialized memory is not zero
     return memory;
   }
   void release(void* memory) { std::free(memory); }

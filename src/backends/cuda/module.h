@@ -1,6 +1,6 @@
 #pragma once
 
-// What the module `cuda` hands out: everything that needs the CUDA runtime.
+// The interface of the module `cuda`, which contains everything that needs the CUDA runtime.
 
 #include "backends/cuda/device.h"
 

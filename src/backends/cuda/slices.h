@@ -1,7 +1,7 @@
 #pragma once
 
-// A pass cut into launches that each take about a quarter of a second, so that progress, Ctrl-C and time limits work
-// and no launch holds a desktop GPU for long.
+// Divides a pass into launches of about a quarter of a second each, so that progress, Ctrl-C and time limits work and
+// no launch blocks a desktop GPU for long.
 
 #include <algorithm>
 
@@ -11,8 +11,9 @@ namespace alhazen::cuda {
 
 class SlicePlan {
  public:
-  /// Samples [first, first + count) of `rows` rows of `width` pixels. `items`, blocks of samples of a pixel, is how
-  /// many the first slice takes about, `max_items` the most that a slice may take, but for one band of rows.
+  /// Plans samples [first, first + count) of `rows` rows of `width` pixels. An item is one block of samples of one
+  /// pixel. The first slice has about `items` items. No slice has more than `max_items`, unless it is a single band of
+  /// rows.
   SlicePlan(uint32_t width, uint32_t rows, uint32_t first, uint32_t count, uint64_t items, uint64_t max_items)
       : width_(width), rows_(rows), first_(first), end_(first + count), items_(items), max_items_(max_items) {}
 
@@ -31,7 +32,7 @@ class SlicePlan {
     return slice;
   }
 
-  /// Goes on behind `slice`, which took so long.
+  /// Continues after `slice`, which took `seconds`, and adapts the size of the next slice.
   void advance(const Slice& slice, double seconds) {
     const double items = static_cast<double>(width_) * slice.rows * slice.blocks();
     const double wanted = items * target_seconds / std::max(seconds, 1e-6);
@@ -42,7 +43,7 @@ class SlicePlan {
     sample_ += slice.count;
   }
 
-  /// What the last slices were worth, for the plan of the next pass.
+  /// Returns the current number of items per slice, with which the plan of the next pass should start.
   uint64_t items() const { return items_; }
 
  private:

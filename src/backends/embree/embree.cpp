@@ -1,4 +1,4 @@
-// The backend `embree`: the strategies of OpenMP, with Embree as what answers ray queries.
+// The backend `embree` runs the OpenMP strategies and traces rays with Embree.
 
 #include "backends/embree/module.h"
 #include "backends/openmp/openmp.h"

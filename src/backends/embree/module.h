@@ -1,6 +1,6 @@
 #pragma once
 
-// What the module `embree` hands out. The program itself is built without Embree's headers.
+// The interface of the module `embree`. The program itself is built without the headers of Embree.
 
 #include <memory>
 #include <string>
@@ -12,11 +12,11 @@
 
 namespace alhazen {
 
-/// Embree's structures over a compiled scene, which must outlive them.
+/// The Embree structures of a compiled scene, which must outlive them.
 class EmbreeStructures {
  public:
   virtual ~EmbreeStructures() = default;
-  /// What the kernels below trace rays by.
+  /// Returns the tracer to pass to the kernels that select_kernel returns.
   virtual const ExternalTracer* tracer_for_kernels() const = 0;
 };
 
@@ -25,7 +25,8 @@ struct EmbreeModule {
   static constexpr const char* how_to_get = "install libembree-dev and build the target alhazen_embree";
 
   std::string (*version)();
-  /// Throws std::runtime_error with Embree's reason where they cannot be built.
+  /// Throws InputError if the scene exceeds the range of Embree, and std::runtime_error with the reason if Embree
+  /// fails.
   std::unique_ptr<EmbreeStructures> (*build)(const SceneView<float>& view, int threads);
   RawKernel (*select_kernel)(IntegratorKind integrator, SamplerType sampler);
 };

@@ -11,17 +11,17 @@ namespace alhazen {
 
 namespace {
 
-/// Edge length of a tile of strategy `tiles`, in pixels.
+/// Side of a tile of the strategy `tiles`, in pixels.
 constexpr int tile_size = 16;
 
-/// Sums the blocks of one pixel by all threads of a team; the sum is then taken in their order.
+/// Takes the blocks of one pixel with all threads of a team, then adds them to the film in order.
 template <class Real>
 void reduce_pixel(const RenderPass<Real>& pass, int x, int y) {
   BlockSum<Real> blocks[usual_samples_per_pass / samples_per_block];
   const int first = static_cast<int>(first_block(pass, x, y)), count = static_cast<int>(block_count(pass));
 #pragma omp parallel num_threads(pass.settings.threads)
   {
-    // Within another parallel region this is a team of one, and the thread of the outer team is the one that works.
+    // A nested parallel region has a team of one thread. Its work counts for the thread of the outer team.
     const int index = omp_get_level() > 1 ? omp_get_ancestor_thread_num(1) : omp_get_thread_num();
     ThreadStatistics& statistics = pass.control.thread(index);
     const BusyTimer timer(statistics);
@@ -34,7 +34,7 @@ void reduce_pixel(const RenderPass<Real>& pass, int x, int y) {
   for (int block = first; block < count; ++block) pass.film.add(x, y, blocks[block]);
 }
 
-/// Algorithm 4: the outer loop in parallel.
+/// Algorithm 4: parallelizes the loop over rows.
 template <class Real>
 void render_rows(const RenderPass<Real>& pass) {
   const PixelWindow& window = pass.film.window();
@@ -54,7 +54,7 @@ void render_rows(const RenderPass<Real>& pass) {
   }
 }
 
-/// Algorithm 4 with both loops joined.
+/// Algorithm 4 with the loops over rows and columns collapsed into one.
 template <class Real>
 void render_collapsed(const RenderPass<Real>& pass) {
   const PixelWindow& window = pass.film.window();
@@ -72,8 +72,8 @@ void render_collapsed(const RenderPass<Real>& pass) {
   }
 }
 
-/// Algorithm 4 with a parallel sum over samples inside the parallel loop over rows. All threads are at the rows, so
-/// OpenMP gives the inner loop a team of one, and it is the inner loop's overhead that shows, as in the report.
+/// Algorithm 4 with a parallel reduction over samples inside the parallel loop over rows. All threads already render
+/// rows, so OpenMP gives the inner loop a team of one thread, and only its overhead is measured, as in the report.
 template <class Real>
 void render_rows_with_reduction(const RenderPass<Real>& pass) {
   const PixelWindow& window = pass.film.window();
@@ -85,7 +85,7 @@ void render_rows_with_reduction(const RenderPass<Real>& pass) {
   }
 }
 
-/// Only the sum over samples in parallel.
+/// Parallelizes only the reduction over the samples of each pixel.
 template <class Real>
 void render_with_reduction(const RenderPass<Real>& pass) {
   const PixelWindow& window = pass.film.window();
@@ -96,7 +96,7 @@ void render_with_reduction(const RenderPass<Real>& pass) {
   }
 }
 
-/// Square tiles, so that neighbouring rays stay with one thread.
+/// Parallelizes the loop over square tiles, so that one thread traces neighbouring rays.
 template <class Real>
 void render_tiles(const RenderPass<Real>& pass) {
   const PixelWindow& window = pass.film.window();

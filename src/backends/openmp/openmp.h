@@ -1,6 +1,6 @@
 #pragma once
 
-// The strategies of OpenMP, for the backends that trace by them.
+// The OpenMP strategies, for all backends that run on CPU threads.
 
 #include "render/backend.h"
 
@@ -9,10 +9,10 @@ namespace alhazen {
 /// The first is the fastest.
 enum class OpenMpStrategy : uint32_t { tiles, rows, collapse, rows_with_reduction, reduction };
 
-/// Their names, in order.
+/// Returns the names of the strategies, in the order of the enumerators.
 std::vector<std::string> openmp_strategies();
 
-/// Takes the pass by the strategy, schedule and number of threads of its settings.
+/// Renders a pass with the strategy, schedule and number of threads of its settings.
 void render_openmp(const RenderPass<float>& pass);
 void render_openmp(const RenderPass<double>& pass);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the module `optix` hands out: OptiX on top of CUDA's runtime.
+// The interface of the module `optix`, which contains everything that needs OptiX.
 
 #include "backends/cuda/device.h"
 #include "render/denoiser.h"
@@ -12,9 +12,9 @@ struct OptixModule {
   static constexpr const char* how_to_get =
       "configure with -DOptiX_ROOT= set to the headers of OptiX 9.0, and with CUDA, and build the target alhazen_optix";
 
-  /// Why the driver's library of OptiX cannot be used here; empty where it can.
+  /// Returns why the OptiX library of the driver cannot be used, or an empty string if it can.
   std::string (*problem)();
-  /// Rendering on GPU `device`, in float.
+  /// Returns an engine that renders in float on GPU `device`.
   std::unique_ptr<cuda::Engine> (*make_engine)(int device, const cuda::RowShare& share);
   std::vector<float> (*denoise)(const NoisyImage& image, int device);
 };

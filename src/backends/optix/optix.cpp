@@ -1,4 +1,4 @@
-// The backend and the denoiser `optix`: the same core, with rays traced by the vendor's library.
+// The backend `optix`, which renders with the same core but traces rays with OptiX, and the denoiser `optix`.
 
 #include "backends/optix/module.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 using optix::OptixModule;
 
-/// Why it cannot be used here; empty where it can. GPUs are listed by the module `cuda`.
+/// Returns why OptiX cannot be used here, or an empty string if it can. The module `cuda` lists the GPUs.
 std::string problem() {
   const Module& module = load_module<OptixModule>();
   if (!module.functions) return module.problem;

@@ -5,7 +5,7 @@ namespace alhazen {
 
 namespace {
 
-/// The report's Algorithm 1: one thread, pixel after pixel.
+/// The report's Algorithm 1: one thread renders the pixels one after the other.
 class SerialBackend final : public Backend {
  public:
   BackendTraits traits() const override { return {"serial", {}, "one core"}; }

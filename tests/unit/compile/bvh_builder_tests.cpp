@@ -213,7 +213,7 @@ TYPED_TEST(BvhBuilderOf, MovesMakeTheTreeCheaper) {
   EXPECT_LT(inner_cost(tree), 0.9 * before);
 }
 
-/// A tree that halves the given order.
+/// Builds a tree that splits the given order into halves.
 template <class Real>
 Bvh2<Real> halved(const Boxes<Real>& boxes, std::vector<uint32_t> order) {
   Bvh2<Real> tree;

@@ -1,4 +1,4 @@
-// Light that `path` does not find causes a warning with the locations of the light and the glass; if nothing is lost
+// A warning names light that `path` does not find, with the locations of the light and the glass. If no light is lost
 // there is no warning.
 
 #include <gtest/gtest.h>

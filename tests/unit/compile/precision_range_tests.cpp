@@ -1,5 +1,5 @@
-// Values that a file may contain but the render's precision cannot represent: refused, or omitted with a warning, in
-// float, and rendered in double.
+// Values in a file that the precision of the render cannot represent: in float they are refused, or omitted with a
+// warning; in double they are rendered.
 
 #include "core/textures/image.h"
 #include "core/textures/noise.h"

@@ -1,4 +1,4 @@
-// Scenes far from the origin are moved to it with everything that has a position; others remain unchanged.
+// Scenes far from the origin are translated to it, with everything that has a position. Others remain unchanged.
 
 #include "compile/render_space.h"
 

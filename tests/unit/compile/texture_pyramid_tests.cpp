@@ -1,4 +1,4 @@
-// Image pyramids: means are preserved, sharp where magnified, grey from afar; the texture budget.
+// Image pyramids preserve means, are sharp under magnification and grey from afar, and respect the texture budget.
 
 #include <gtest/gtest.h>
 

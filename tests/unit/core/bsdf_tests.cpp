@@ -1,4 +1,4 @@
-// Scattering functions: weight, density and value are consistent; energy, reciprocity.
+// BSDFs: weight, density and value are consistent; energy conservation and reciprocity.
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@ Ray<Real> ray_from(const Vec3d& origin, const Vec3d& direction, double time = 0)
   return {convert<Real>(origin), normalize(convert<Real>(direction)), static_cast<Real>(time)};
 }
 
-/// Both intersectors agree on the ray. Returns whether it hit anything.
+/// Expects that both intersectors agree on the ray. Returns whether it hits anything.
 template <class Tree, class Real = typename Tree::Real>
 bool expect_same(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max = infinity<Real>) {
   const typename Tree::Intersector bvh(scene);

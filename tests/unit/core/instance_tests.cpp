@@ -1,5 +1,5 @@
-// Objects with several instances are hit where their copies would be, with every tree, and rays leave them without
-// hitting them again.
+// Instances are hit where copies of their object would be, with every tree, and rays that start on them do not hit them
+// again.
 
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ TYPED_TEST(InstancesInTree, AreHitWhereTheyMove) {
   EXPECT_GT(hit_moving, effort(5'000) / 100);
 }
 
-/// Two coincident instances: the lower one counts, whichever is visited first.
+/// Of two coincident instances, the lower one is hit, whichever is visited first.
 TYPED_TEST(InstancesInTree, OfTwoInOnePlaceTheLowerCounts) {
   using Real = typename TypeParam::Real;
   Scene twice = instanced_scene(3, 20, reach);
@@ -111,7 +111,7 @@ TYPED_TEST(Instances, OfMeshesThatMoveWithinAnObject) {
   Random random(22);
   Shape& moving = described.groups[1].shapes[1];
   moving.world_from_object.end = Transform::translate({0.5, 1, -0.5}) * moving.world_from_object.start;
-  // The same made by hand: the still mesh in the object, the moving one in a group of its own.
+  // The same, constructed explicitly: the static mesh in the object, the moving one in a group of its own.
   Scene expected = described;
   const Shape taken = expected.groups[1].shapes[1];
   expected.groups[1].shapes.pop_back();

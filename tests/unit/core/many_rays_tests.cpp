@@ -1,5 +1,5 @@
-// Rays traced many at a time have, to the last bit, the same hits as alone, interleaved or in packets, with every
-// instruction set; and these are the hits of a linear scan.
+// Rays that are traced in batches have bitwise the same hits as single rays, interleaved or in packets, with every
+// instruction set. These hits are those of a linear scan.
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ Queries<Real> bundles(Random& random, size_t rays, double size) {
   return queries;
 }
 
-/// Rays along axes, and with NaN and infinity: whatever the result, it is the same together.
+/// Rays along axes, and with NaN and infinity: batches give the result of single rays, whatever it is.
 template <class Real>
 void add_odd_rays(Queries<Real>& queries) {
   for (const double x : {0.0, -0.0, 1.0, 1e30, infinity<double>, std::numeric_limits<double>::quiet_NaN()})

@@ -1,5 +1,6 @@
-// One-sided surfaces, as in glTF: the camera looks through their backs, and light enters where it does; all others stop
-// light from both sides, so that rooms are dark inside and cards cast shadows.
+// One-sided surfaces, as in glTF: the camera sees through their backs, and light enters a room through backs that the
+// camera sees through. All other surfaces block light from both sides, so that rooms are dark inside and cards cast
+// shadows.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The principled material at a point: decisions made by the scene compiler agree with evaluation.
+// The principled material at a point: decisions of the scene compiler agree with the evaluation.
 
 #include <gtest/gtest.h>
 

@@ -59,7 +59,7 @@ class RayIntersectors : public ::testing::Test {
 
   static Ray<RealOf> ray_along_z(RealOf x) { return {{x, 0, 0}, {0, 0, 1}}; }
 
-  /// Whether there is a hit, which closest_hit and occluded must agree on.
+  /// Returns whether the ray hits anything. closest_hit and occluded must agree.
   static bool hits(const Over& over, const Ray<RealOf>& ray, RealOf t_max, Hit<RealOf>* hit = nullptr) {
     Hit<RealOf> found;
     const bool is_hit = over.intersector.closest_hit(ray, t_max, found);
@@ -97,7 +97,7 @@ TYPED_TEST(RayIntersectors, IntervalIsOpen) {
   }
 }
 
-/// Also where the first triangle of all is that of an object.
+/// The same if the first triangle belongs to an object.
 TYPED_TEST(RayIntersectors, IntervalIsOpenInInstances) {
   using Real = typename TypeParam::Real;
   Scene scene;
@@ -130,7 +130,7 @@ TYPED_TEST(RayIntersectors, IntervalIsOpenInInstances) {
   }
 }
 
-/// Of two triangles in one place the lower counts, unless the ray leaves it.
+/// Of two coincident triangles, the one with the lower PrimitiveId is hit, unless the ray starts on it.
 TYPED_TEST(RayIntersectors, TiesGoToTheLowestPrimitive) {
   using Real = typename TypeParam::Real;
   PrimitiveScene primitives;

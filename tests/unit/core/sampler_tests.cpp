@@ -1,4 +1,5 @@
-// Samplers: pure functions of their arguments, in [0, 1); Sobol' points that are nets; numbers that are not used twice.
+// Samplers are pure functions of their arguments with values in [0, 1). Sobol' points form nets, and no dimension is
+// used twice.
 
 #include <gtest/gtest.h>
 

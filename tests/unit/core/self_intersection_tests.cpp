@@ -1,5 +1,5 @@
-// A ray that leaves a surface does not hit it at once, over many magnitudes of size and distance. The starting point is
-// the hit of a ray, as in a render.
+// A ray that starts on a surface does not hit it again at its origin, over many magnitudes of size and distance. The
+// starting point is the hit of a ray, as in a render.
 
 #include <gtest/gtest.h>
 

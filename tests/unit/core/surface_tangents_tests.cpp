@@ -1,5 +1,5 @@
-// Tangents are derivatives of the position by uv, for any shape and placement: a step along dpdu changes u but not v.
-// And normal maps and bump maps tilt normals the right way.
+// Tangents are derivatives of the position by uv, for any shape and transform: a step along dpdu changes u but not v.
+// Normal maps and bump maps tilt normals in the right direction.
 
 #include <gtest/gtest.h>
 

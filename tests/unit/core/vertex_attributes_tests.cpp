@@ -1,4 +1,4 @@
-// Vertex attributes other than normals and uv: second uvs, colours, tangents.
+// Vertex attributes other than normals and the first uv set: second uvs, colours, tangents.
 
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// Image metrics: MSE, relative MSE, SSIM and FLIP, and the difference image.
+
 #include "images/metrics/compare.h"
 
 #include <gtest/gtest.h>

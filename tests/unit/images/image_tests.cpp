@@ -1,3 +1,5 @@
+// Writing of images: EXR and PNG files, tone mapping, and atomic replacement of existing files.
+
 #include "images/image.h"
 
 #include <ImathBox.h>

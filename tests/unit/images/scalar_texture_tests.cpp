@@ -1,4 +1,5 @@
-// Images as scalar textures: their alpha, in every format that has any, unless it is 1 everywhere; else their colours.
+// Images as scalar textures: their alpha, in every format that supports it, unless it is 1 everywhere; else their
+// colours.
 
 #include "images/read_scalar_texture.h"
 

@@ -1,3 +1,5 @@
+// Image files as colour textures: formats, pixel types, orientations, and damaged files.
+
 #include "images/read_texture.h"
 
 #include <gtest/gtest.h>

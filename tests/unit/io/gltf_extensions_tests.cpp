@@ -130,7 +130,7 @@ TEST(GltfMaterials, ReadDiffuseTransmission) {
 
 // Views and lights ----------------------------------------------------------------------------------------------------
 
-/// A row of triangles, `wide` times as wide as high.
+/// A row of triangles, `wide` times as wide as it is high.
 ParsedGltf row(double wide, double aspect) {
   GltfFile file;
   const int mesh = file.add_mesh(file.triangle());

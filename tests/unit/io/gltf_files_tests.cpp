@@ -1,4 +1,4 @@
-// Real glTF files: all well-formed ones are read, and all others are refused or read, with one sentence.
+// Real glTF files: all valid ones are read, and all others are either read or refused with one message.
 
 #include "io/read_scene.h"
 #include "support/external_scenes.h"

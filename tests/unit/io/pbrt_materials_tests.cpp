@@ -1,3 +1,5 @@
+// Materials and colours of pbrt scenes.
+
 #include <filesystem>
 #include <fstream>
 

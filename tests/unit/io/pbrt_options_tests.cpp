@@ -1,3 +1,5 @@
+// Options of pbrt scenes: film, camera, filter, sampler, integrator; syntax of numbers and comments; included files.
+
 #include <zlib.h>
 
 #include <cmath>

@@ -1,3 +1,5 @@
+// Shapes and lights of pbrt scenes.
+
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -1,3 +1,5 @@
+// Textures of pbrt scenes.
+
 #include <cmath>
 #include <cstring>
 #include <filesystem>

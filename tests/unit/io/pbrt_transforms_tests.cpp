@@ -1,3 +1,5 @@
+// Transforms, attribute blocks and object instances of pbrt scenes.
+
 #include <cmath>
 #include <numbers>
 

@@ -1,4 +1,4 @@
-// Checkpoint files: every damaged bit is found, and checkpoints of other renders are recognized.
+// Checkpoint files: every changed bit is detected, and checkpoints of other renders are recognized.
 
 #include "render/checkpoint.h"
 

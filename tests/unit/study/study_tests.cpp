@@ -39,7 +39,7 @@ Trial trial_of(const std::string& key, std::vector<double> seconds, uint64_t sam
   return trial;
 }
 
-/// Two cells of a table over a baseline.
+/// A table of two cells over a baseline.
 Study small_study(Measure measure = Measure::seconds) {
   Study study;
   study.machine.processor = "a processor";

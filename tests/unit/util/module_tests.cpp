@@ -1,4 +1,4 @@
-// Modules: one that fits is loaded, and what is wrong with one that does not is one sentence.
+// A module that matches the program is loaded. For any other, one message says what is wrong.
 
 #include "util/module.h"
 

@@ -1,21 +1,22 @@
 #pragma once
 
-// Work that is taken from a queue: an item is one block of samples of one pixel. Items lie in the order in which a warp
-// should take them: 32 pixels of a tile, block after block of them, then the next tile.
+// The items of a work queue. An item is one block of samples of one pixel. Items are stored in the order in which a
+// warp should take them: one block of each of the 32 pixels of a tile, then the next block of these pixels, then the
+// next tile.
 
 #include "backends/cuda/kernels/launch.h"
 
 namespace alhazen::cuda {
 
 struct ItemGrid {
-  static constexpr uint32_t tile_width = 8, tile_height = 4;  ///< pixels; a tile is as many as a warp has lanes
+  static constexpr uint32_t tile_width = 8, tile_height = 4;  ///< pixels; a tile has as many as a warp has lanes
   static constexpr uint32_t tile_pixels = tile_width * tile_height;
 
   uint32_t width, rows, blocks;
 
   ALHAZEN_HD uint32_t tiles_x() const { return (width + tile_width - 1) / tile_width; }
   ALHAZEN_HD uint32_t tiles_y() const { return (rows + tile_height - 1) / tile_height; }
-  /// Items, those of tiles that stand over the edge included.
+  /// Number of items, including those outside the image in tiles at its edges.
   ALHAZEN_HD uint32_t count() const { return tiles_x() * tiles_y() * tile_pixels * blocks; }
 
   ALHAZEN_HD uint32_t item_of(uint32_t x, uint32_t row, uint32_t block) const {
@@ -24,7 +25,7 @@ struct ItemGrid {
   }
 };
 
-/// An item of a launch, taken apart.
+/// The coordinates of an item: column, row of the slice, block.
 struct Item {
   uint32_t x, row, block;
 };
@@ -36,7 +37,7 @@ ALHAZEN_HD inline Item item_at(const ItemGrid& grid, uint32_t index) {
           tile / grid.tiles_x() * ItemGrid::tile_height + lane / ItemGrid::tile_width, group % grid.blocks};
 }
 
-/// Takes the next item that there is anything to do for. False: the queue is empty.
+/// Claims the next item that is in the image and not yet in the film. Returns false if the queue is empty.
 template <QueueThread Thread, class Real>
 ALHAZEN_HD bool claim_item(const Thread& thread, const Launch<Real>& launch, const ItemGrid& grid, uint32_t* next_item,
                            uint32_t& index, Item& item) {
@@ -50,12 +51,12 @@ ALHAZEN_HD bool claim_item(const Thread& thread, const Launch<Real>& launch, con
   }
 }
 
-/// Adds the blocks of each pixel to the film, in the order of their samples. A thread a pixel, by index().
+/// Adds the blocks of each pixel to the film, in the order of their samples. Each thread handles the pixel index().
 template <class Real>
 struct FoldKernel {
   Launch<Real> launch;
   ItemGrid grid;
-  const BlockSum<Real>* sums;  ///< one an item
+  const BlockSum<Real>* sums;  ///< one per item
 
   template <QueueThread Thread>
   ALHAZEN_HD void operator()(const Thread& thread) const {

@@ -1,7 +1,7 @@
 #pragma once
 
-// What kernels are given: the scene, the film, and which pixels and samples. A kernel is an object whose operator()
-// runs once a thread.
+// The arguments of kernels: the scene, the film, and the pixels and samples to take. A kernel is a function object that
+// each thread calls once.
 
 #include <concepts>
 
@@ -11,8 +11,8 @@
 
 namespace alhazen::cuda {
 
-/// A thread of a launch of pixels. x() and y() are its place in the launch, stacks() makes what its intersector
-/// traverses by, add() adds to a sum that all threads share.
+/// A thread of a two-dimensional launch. x() and y() are its coordinates in the launch, stacks() makes the traversal
+/// stacks of its intersector, and add() adds to a total that all threads share.
 template <class Thread>
 concept PixelThread = requires(const Thread& thread, unsigned long long* total, uint32_t value) {
   { thread.x() } -> std::same_as<uint32_t>;
@@ -21,8 +21,8 @@ concept PixelThread = requires(const Thread& thread, unsigned long long* total, 
   thread.add(total, value);
 };
 
-/// A thread that takes work from queues too. index() is its place in a launch of one dimension; increment() adds 1 to a
-/// counter that all threads share and returns what it was before.
+/// A thread that can also take work from queues. index() is its index in a one-dimensional launch. increment()
+/// atomically adds 1 to a counter that all threads share and returns the previous value.
 template <class Thread>
 concept QueueThread = PixelThread<Thread> && requires(const Thread& thread, uint32_t* counter) {
   { thread.index() } -> std::same_as<uint32_t>;
@@ -35,14 +35,15 @@ concept RayTracing = requires {
   { Tracing::by_launch_of_pixels } -> std::convertible_to<bool>;  // whether pixels are all that it can launch
 };
 
-/// The rows of a window that one device renders: bands of rows dealt to the devices in turn, counted without gaps.
+/// Selects the rows of a window that one device renders. Bands of rows are assigned to the devices in turn, and each
+/// device numbers its rows consecutively.
 struct RowShare {
   static constexpr uint32_t band = 8;  ///< rows
   uint32_t device = 0, devices = 1;
 
-  /// The row of the window that is this device's row `row`.
+  /// Returns the row of the window that is row `row` of this device.
   ALHAZEN_HD uint32_t window_row(uint32_t row) const { return (row / band * devices + device) * band + row % band; }
-  /// How many rows of a window of `height` rows are this device's.
+  /// Returns how many rows of a window of `height` rows this device renders.
   ALHAZEN_HD uint32_t rows_of(uint32_t height) const {
     const uint32_t whole = height / (band * devices), rest = height % (band * devices);
     const uint32_t before = device * band;
@@ -50,8 +51,8 @@ struct RowShare {
   }
 };
 
-/// Samples [first, first + count) of the rows [row, row + rows) of a device's share: the work of one launch. `first` is
-/// a multiple of samples_per_block.
+/// The work of one launch: samples [first, first + count) of rows [row, row + rows) of a device. `first` is a multiple
+/// of samples_per_block.
 struct Slice {
   uint32_t row, rows;
   uint32_t first, count;
@@ -59,7 +60,7 @@ struct Slice {
   ALHAZEN_HD uint32_t blocks() const { return (count + samples_per_block - 1) / samples_per_block; }
 };
 
-/// Sums over everything that a device did.
+/// Totals over all launches of a device.
 struct Totals {
   unsigned long long samples, rays, shadow_rays, nonfinite;
 };
@@ -69,7 +70,7 @@ struct Launch {
   SceneView<Real> scene;
   FilmView<Real> film;
   Totals* totals;
-  uint32_t x0, y0;  ///< of the film's window in the image
+  uint32_t x0, y0;  ///< corner of the film's window in the image
   uint32_t width;   ///< of the window
   RowShare share;
   Slice slice;
@@ -77,17 +78,18 @@ struct Launch {
   uint32_t seed;
   uint32_t max_segments;
 
-  /// Index into the film of column `x` of the slice's row `row`.
+  /// Returns the index in the film of column `x` of row `row` of the slice.
   ALHAZEN_HD size_t film_index(uint32_t x, uint32_t row) const {
     return static_cast<size_t>(share.window_row(slice.row + row)) * width + x;
   }
   ALHAZEN_HD uint32_t image_x(uint32_t x) const { return x0 + x; }
   ALHAZEN_HD uint32_t image_y(uint32_t row) const { return y0 + share.window_row(slice.row + row); }
-  /// Whether the film holds block `block` of the slice at that pixel: an earlier pass may have been stopped.
+  /// Returns whether the film already contains block `block` of the slice at that pixel. It can if an earlier render
+  /// was stopped within this pass.
   ALHAZEN_HD bool holds_block(size_t film_pixel, uint32_t block) const {
     return film.samples[film_pixel] > slice.first + block * samples_per_block;
   }
-  /// Samples of a block of the slice: samples_per_block, or fewer in the last.
+  /// Returns the number of samples in a block of the slice: samples_per_block, or fewer in the last block.
   ALHAZEN_HD uint32_t samples_in_block(uint32_t block) const {
     const uint32_t left = slice.count - block * samples_per_block;
     return left < samples_per_block ? left : samples_per_block;
@@ -105,7 +107,7 @@ ALHAZEN_HD void finish_block(const Thread& thread, const Launch<Real>& launch, s
   if (sum.nonfinite > 0) thread.add(&launch.totals->nonfinite, sum.nonfinite);
 }
 
-/// A record that hands the first hit on to the block at once instead of carrying it along the path.
+/// A path record that adds the first hit to the block immediately instead of storing it along the path.
 template <class Real>
 struct SumRecord : PathRecord<Real> {
   BlockSum<Real>* sum;

@@ -1,8 +1,8 @@
 #pragma once
 
-// Threads that stay until the queue is empty (Aila and Laine 2009, "Understanding the Efficiency of Ray Traversal on
-// GPUs"). A lane whose path has ended takes the next sample at once, while the others of its warp go on: between two
-// segments all of them meet again.
+// Persistent threads, which run until the queue is empty (Aila and Laine 2009, "Understanding the Efficiency of Ray
+// Traversal on GPUs"). A lane whose path has ended immediately starts the next sample while the other lanes of its warp
+// continue. All lanes reconverge between two segments.
 
 #include "backends/cuda/kernels/items.h"
 
@@ -12,8 +12,8 @@ template <RayTracing Tracing, IntegratorKind kind, class Real>
 struct PersistentKernel {
   Launch<Real> launch;
   ItemGrid grid;
-  uint32_t* next_item;   ///< 0 at the start
-  BlockSum<Real>* sums;  ///< one an item
+  uint32_t* next_item;   ///< initially 0
+  BlockSum<Real>* sums;  ///< one per item
 
   template <QueueThread Thread>
   ALHAZEN_HD void operator()(const Thread& thread) const {

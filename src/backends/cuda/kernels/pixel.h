@@ -1,19 +1,19 @@
 #pragma once
 
-// The report's kernels: a thread a pixel (Algorithm 6), and a thread for the same place of every chunk of the image
-// (Algorithm 7). One chunk is the first, so both are one kernel.
+// The report's kernels: one thread per pixel (Algorithm 6), and one thread for the pixels at the same position in every
+// chunk of the image (Algorithm 7). Algorithm 6 is the case of a single chunk, so one kernel implements both.
 
 #include "backends/cuda/kernels/launch.h"
 
 namespace alhazen::cuda {
 
-/// Thread (x, y) renders pixel (x, y) of each of chunks_x * chunks_y chunks. Chunk sizes are rounded up, and what then
-/// lies outside is left out, so that no pixel is lost where the chunks do not divide the image.
+/// Thread (x, y) renders pixel (x, y) of each of chunks_x * chunks_y chunks. Chunk sizes are rounded up and pixels
+/// outside the slice are skipped, so that no pixel is lost if the chunks do not divide the image evenly.
 template <RayTracing Tracing, IntegratorKind kind, class Real>
 struct PixelKernel {
   Launch<Real> launch;
   uint32_t chunks_x, chunks_y;
-  BlockSum<Real>* sums;  ///< one a thread
+  BlockSum<Real>* sums;  ///< one per thread
 
   ALHAZEN_HD uint32_t chunk_width() const { return (launch.width + chunks_x - 1) / chunks_x; }
   ALHAZEN_HD uint32_t chunk_height() const { return (launch.slice.rows + chunks_y - 1) / chunks_y; }

@@ -1,15 +1,16 @@
 #pragma once
 
-// Paths in queues, a kernel a stage (Laine, Karras, Aila 2013, "Megakernels Considered Harmful"). A slot is the place
-// of one path; it takes an item after another, and the samples of an item one after another. Queues hold slots, and are
-// filled without gaps. One round is: generate, reset, intersect, shade (sorted by kind of material), shadow.
+// The wavefront schedule: one kernel per stage, with queues between them (Laine, Karras, Aila 2013, "Megakernels
+// Considered Harmful"). A slot holds the state of one path. It takes one item after another, and the samples of an item
+// in order. Queues hold indices of slots without gaps. The stages of a round are: generate, reset, intersect, shade
+// (sorted by kind of material), shadow.
 
 #include "backends/cuda/kernels/items.h"
 #include "core/simd/soa.h"
 
 namespace alhazen::cuda {
 
-/// Queues of shading: one each for the kinds of material that are frequent, one for the others.
+/// Shading queues: one for each frequent kind of material, and one for all others.
 inline constexpr uint32_t material_queues = frequent_material_kinds + 1;
 inline constexpr uint32_t warp_lanes = 32;
 
@@ -21,10 +22,10 @@ struct QueueCounts {
   uint32_t materials[material_queues];
 };
 
-/// What a slot keeps from sample to sample of its item.
+/// The sample that a slot is at.
 template <class Real>
 struct SlotSample {
-  uint32_t item, taken;  ///< taken: samples of the item before this one
+  uint32_t item, taken;  ///< taken: number of samples of the item before this one
   Real filter_weight;
 
   using Fields = FieldList<&SlotSample::item, &SlotSample::taken, &SlotSample::filter_weight>;
@@ -82,14 +83,14 @@ ALHAZEN_HD void push(const Thread& thread, uint32_t* queue, uint32_t* length, ui
   queue[thread.increment(length)] = slot;
 }
 
-/// What the stages have in common.
+/// The arguments of all stages.
 template <IntegratorKind kind, class Real>
 struct WavefrontStage {
   Launch<Real> launch;
   ItemGrid grid;
   Slots<kind, Real> slots;
-  BlockSum<Real>* sums;  ///< one an item
-  uint32_t parity;       ///< 0 and 1 in turn, round after round
+  BlockSum<Real>* sums;  ///< one per item
+  uint32_t parity;       ///< alternates between 0 and 1 from round to round
 
   ALHAZEN_HD AnySampler sampler_of(uint32_t slot) const {
     const SlotSample<Real> sample = slots.samples[slot];
@@ -99,7 +100,7 @@ struct WavefrontStage {
   }
 };
 
-/// Every slot has ended, with nothing taken: where a slice begins. A thread a slot.
+/// Begins a slice: marks every slot as ended. One thread per slot.
 template <IntegratorKind kind, class Real>
 struct StartKernel {
   WavefrontStage<kind, Real> stage;
@@ -116,7 +117,7 @@ struct StartKernel {
   static constexpr uint32_t no_item = 0xffffffffu;
 };
 
-/// Closes the samples that have ended and begins the next ones. A thread an entry of the queue of ended slots.
+/// Adds the samples that have ended to their items and begins the next ones. One thread per ended slot.
 template <IntegratorKind kind, class Real>
 struct GenerateKernel {
   WavefrontStage<kind, Real> stage;
@@ -161,7 +162,7 @@ struct GenerateKernel {
   }
 };
 
-/// Empties the queues that this round fills, once `generate` has read the last of them. One thread.
+/// Empties the queues that this round fills, after `generate` has read them. One thread.
 template <IntegratorKind kind, class Real>
 struct ResetKernel {
   WavefrontStage<kind, Real> stage;
@@ -175,7 +176,7 @@ struct ResetKernel {
   }
 };
 
-/// Traces the rays, and queues those that hit something by the kind of its material. One thread per queue entry.
+/// Traces the rays and queues the slots that hit something by their kind of material. One thread per queue entry.
 template <RayTracing Tracing, IntegratorKind kind, class Real>
 struct IntersectKernel {
   WavefrontStage<kind, Real> stage;
@@ -208,11 +209,11 @@ struct IntersectKernel {
   }
 };
 
-/// Gathers, samples lights, scatters. Threads go through the queues of the kinds of material one after another, each
-/// beginning with a warp of its own: at least as many warps more than slots as there are queues.
+/// Adds emission, samples lights and scatters. The threads are assigned to the shading queues one after another, and
+/// each queue begins with a new warp, so the launch needs one more warp per queue than the slots fill.
 template <IntegratorKind kind, class Real>
 struct ShadeKernel {
-  /// In float three fit without spilling, where the compiler left alone makes two of them.
+  /// In float, three fit almost without spilling; without this bound the compiler uses registers for two.
   static constexpr uint32_t resident_blocks = sizeof(Real) == sizeof(float) ? 3 : 1;
 
   WavefrontStage<kind, Real> stage;
@@ -258,7 +259,7 @@ struct ShadeKernel {
   }
 };
 
-/// Traces shadow rays, and adds the light of those that are not occluded. One thread per queue entry.
+/// Traces shadow rays and adds the light of those that are not occluded. One thread per queue entry.
 template <RayTracing Tracing, IntegratorKind kind, class Real>
 struct ShadowKernel {
   WavefrontStage<kind, Real> stage;

@@ -33,7 +33,7 @@ std::string explain_no_device(cudaError_t error) {
 
 void check(cudaError_t result, const char* doing) {
   if (result == cudaSuccess) return;
-  cudaGetLastError();  // so that it is not found again by a later call
+  cudaGetLastError();  // clears the error, which a later call would report again
   const std::string where = std::string("while ") + doing;
   switch (result) {
     case cudaErrorMemoryAllocation:
@@ -43,8 +43,8 @@ void check(cudaError_t result, const char* doing) {
     case cudaErrorInvalidDeviceFunction:
     case cudaErrorUnsupportedPtxVersion:
       throw InputError(
-          "this binary holds no code for this GPU: build it with ALHAZEN_CUDA_ARCHITECTURES set to the "
-          "GPU's compute capability, which 'alhazen devices' tells, or update the driver");
+          "this binary contains no code for this GPU: build it with ALHAZEN_CUDA_ARCHITECTURES set to the "
+          "GPU's compute capability, which 'alhazen devices' prints, or update the driver");
     case cudaErrorNoDevice:
     case cudaErrorInsufficientDriver:
     case cudaErrorSystemDriverMismatch:

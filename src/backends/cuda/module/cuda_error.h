@@ -1,6 +1,6 @@
 #pragma once
 
-// Errors of the CUDA runtime as sentences that say what to do.
+// Turns errors of the CUDA runtime into messages that say what to do.
 
 #include <cuda_runtime_api.h>
 
@@ -8,10 +8,10 @@
 
 namespace alhazen::cuda {
 
-/// Why no GPU can be used, and what to do.
+/// Returns why no GPU can be used, and what to do.
 std::string explain_no_device(cudaError_t error);
 
-/// Throws RenderError, or InputError where a setting is to blame, unless `result` is a success. `doing` ends the
+/// Throws RenderError, or InputError if a setting is the cause, unless `result` is a success. `doing` completes the
 /// sentence "the GPU failed while ...".
 void check(cudaError_t result, const char* doing);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs kernels on a GPU (executor.h says what an executor does).
+// Runs kernels on a GPU. executor.h describes what an executor does.
 
 #include <nvtx3/nvToolsExt.h>
 
@@ -19,8 +19,8 @@ __global__ void run_kernel(const __grid_constant__ Kernel kernel) {
   kernel(DeviceThread(traversal_stacks));
 }
 
-/// The same of kernels that are launched in blocks of `usual_block` threads alone. So many registers may a thread take
-/// that `resident_blocks` of them fit on a multiprocessor at once.
+/// The same for kernels that are only launched in blocks of `usual_block` threads. The compiler limits the registers
+/// per thread so that `resident_blocks` blocks fit on a multiprocessor at the same time.
 template <DeviceKernel Kernel>
 __global__ void __launch_bounds__(usual_block, Kernel::resident_blocks)
     run_resident_kernel(const __grid_constant__ Kernel kernel) {
@@ -38,7 +38,7 @@ constexpr auto kernel_function() {
 
 class CudaExecutor {
  public:
-  /// Enough to fill a large GPU, and little for a small one.
+  /// Fills a large GPU, and takes little time on a small one.
   static constexpr uint64_t first_items = uint64_t{1} << 17;
 
   class Range {
@@ -62,7 +62,7 @@ class CudaExecutor {
 
   void* allocate(size_t bytes) {
     void* memory = nullptr;
-    check(cudaMalloc(&memory, bytes), "taking memory for the scene, the film and the paths");
+    check(cudaMalloc(&memory, bytes), "allocating memory for the scene, the film and the paths");
     return memory;
   }
   void release(void* memory) { cudaFree(memory); }
@@ -77,7 +77,7 @@ class CudaExecutor {
   void clear(void* memory, size_t bytes) { check(cudaMemsetAsync(memory, 0, bytes, stream_), "clearing its memory"); }
   size_t free_bytes() const {
     size_t free = 0, total = 0;
-    check(cudaMemGetInfo(&free, &total), "asking for its memory");
+    check(cudaMemGetInfo(&free, &total), "querying its free memory");
     return free;
   }
   cudaStream_t stream() const { return stream_; }
@@ -88,8 +88,8 @@ class CudaExecutor {
     int blocks = 0, multiprocessors = 0;
     check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel_function<Kernel>(), static_cast<int>(block),
                                                         stack_bytes(block)),
-          "asking how many threads it runs");
-    check(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device_), "asking what it is");
+          "querying its occupancy");
+    check(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device_), "querying its properties");
     return static_cast<uint32_t>(blocks < 1 ? 1 : blocks) * static_cast<uint32_t>(multiprocessors) * block;
   }
 
@@ -108,11 +108,12 @@ class CudaExecutor {
     return static_cast<size_t>(threads) * shared_entries * shared_entry_bytes;
   }
 
-  /// The report's cells without a number: blocks whose threads need more registers than there are.
+  /// Throws InputError if the threads of a block need more registers than there are. The report's tables have no values
+  /// for such blocks.
   template <DeviceKernel Kernel>
   static void check_block(Extent block) {
     cudaFuncAttributes attributes{};
-    check(cudaFuncGetAttributes(&attributes, kernel_function<Kernel>()), "asking for a kernel");
+    check(cudaFuncGetAttributes(&attributes, kernel_function<Kernel>()), "querying a kernel");
     const uint32_t threads = block.width * block.height;
     if (threads > static_cast<uint32_t>(attributes.maxThreadsPerBlock))
       throw InputError("a block of " + std::to_string(block.width) + "x" + std::to_string(block.height) +
@@ -124,7 +125,7 @@ class CudaExecutor {
     if (bytes > 48 * 1024)
       check(cudaFuncSetAttribute(kernel_function<Kernel>(), cudaFuncAttributeMaxDynamicSharedMemorySize,
                                  static_cast<int>(bytes)),
-            "asking for shared memory");
+            "reserving shared memory");
   }
 
   int device_;

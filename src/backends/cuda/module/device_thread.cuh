@@ -1,17 +1,17 @@
 #pragma once
 
-// A thread of a GPU, as kernels see it (kernels/launch.h).
+// The GPU thread that kernels receive (kernels/launch.h).
 
 #include "core/bvh/stack.h"
 
 namespace alhazen::cuda {
 
-/// How many entries of a traversal stack lie in shared memory; the rest, which few rays reach, in the thread's own.
+/// Number of entries of a traversal stack in shared memory. The others, which few rays need, are in local memory.
 inline constexpr int shared_entries = 8;
-/// The largest entry: that of the binary BVH in double.
+/// Size of the largest entry, that of the binary BVH in double, in bytes.
 inline constexpr int shared_entry_bytes = 16;
 
-/// Entry `i` of the threads of a block lie side by side, so that a warp's accesses fall into different banks.
+/// Entries `i` of all threads of a block are adjacent, so that the accesses of a warp fall into different banks.
 template <class Entry, int capacity>
 class SharedStack {
  public:
@@ -58,7 +58,7 @@ class DeviceThread {
   __device__ uint32_t index() const { return x(); }
   __device__ SharedStacks stacks() const { return {shared_}; }
 
-  /// One atomic operation for all lanes that count at the same place at the same time.
+  /// Lanes that increment the same counter together share one atomic operation.
   __device__ uint32_t increment(uint32_t* counter) const {
     const unsigned peers = __match_any_sync(__activemask(), reinterpret_cast<unsigned long long>(counter));
     const int leader = __ffs(static_cast<int>(peers)) - 1;

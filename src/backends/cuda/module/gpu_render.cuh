@@ -1,6 +1,6 @@
 #pragma once
 
-// The body of the two files that hold the compiled kernels.
+// The implementation of GpuRender, which gpu_render_float.cu and gpu_render_double.cu instantiate.
 
 #include "backends/cuda/device_render.h"
 #include "backends/cuda/module/cuda_executor.cuh"

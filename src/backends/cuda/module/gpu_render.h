@@ -1,6 +1,6 @@
 #pragma once
 
-// Rendering on a GPU in one precision. Two files, one a precision, hold the compiled kernels.
+// Renders on a GPU in one precision. The kernels of each precision are compiled in a file of their own.
 
 #include <memory>
 

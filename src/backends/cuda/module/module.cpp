@@ -8,7 +8,7 @@ namespace alhazen::cuda {
 
 namespace {
 
-/// What the CUDA runtime says of this machine, in sentences.
+/// Lists the GPUs that the CUDA runtime finds, or explains why there are none.
 DeviceList query_devices() {
   DeviceList list;
   int count = 0;
@@ -19,14 +19,14 @@ DeviceList query_devices() {
   }
   for (int i = 0; i < count; ++i) {
     cudaDeviceProp properties{};
-    check(cudaGetDeviceProperties(&properties, i), "asking what it is");
+    check(cudaGetDeviceProperties(&properties, i), "querying its properties");
     list.devices.push_back({properties.name, properties.major, properties.minor, properties.totalGlobalMem,
                             properties.multiProcessorCount});
   }
   return list;
 }
 
-/// The engine of a GPU, made in the precision that is asked for.
+/// Renders on a GPU in the precision that is passed to the constructor.
 class GpuEngine final : public Engine {
  public:
   GpuEngine(int device, const RowShare& share, Precision precision) {

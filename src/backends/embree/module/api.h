@@ -1,6 +1,6 @@
 #pragma once
 
-// Embree 4 where it is, else Embree 3, by the names that both have and the few that differ.
+// Includes Embree 4 if it is installed, else Embree 3, and wraps the functions in which they differ.
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -16,22 +16,22 @@
 
 namespace ALHAZEN_CORE {
 
-/// The geometry's identifier of the first instance; lower ones are kinds of primitives.
+/// The geometry id of the first instance. Lower ids are kinds of primitives.
 inline constexpr uint32_t embree_instances = static_cast<uint32_t>(PrimitiveKind::instance);
 
-/// Embree takes no coordinate beyond this, its FLT_LARGE, and leaves out geometry that has one.
+/// Embree ignores geometry with coordinates beyond this, its FLT_LARGE.
 inline constexpr float max_embree_coordinate = 1.844e18f;
 
-/// Whether Embree may be asked about a ray: where it was built with assertions, as Debian's is, it ends the process on
-/// one that is NaN or out of its range. EmbreeScene refuses scenes that reach that far out, so what is left are rays
-/// whose arithmetic overflowed; they hit nothing by our own BVHs either.
+/// Returns whether Embree can trace a ray. Embree built with assertions, as Debian's is, aborts the process on rays
+/// that contain NaN or exceed its range. EmbreeScene rejects scenes of that extent, so only rays whose arithmetic
+/// overflowed are excluded here. They hit nothing in our own BVHs either.
 inline bool is_traced_by_embree(const Ray<float>& ray, float t_max) {
   const Vec3<float> size = abs(ray.origin) + abs(ray.direction);
   return size.x <= max_embree_coordinate && size.y <= max_embree_coordinate && size.z <= max_embree_coordinate &&
          t_max > 0;
 }
 
-/// What the intersector is handed besides the scene.
+/// Passed to the intersector in addition to the scene.
 struct EmbreeTracer : ExternalTracer {
   RTCScene scene;
 };
@@ -42,15 +42,15 @@ using EmbreeContext = RTCRayQueryContext;
 using EmbreeContext = RTCIntersectContext;
 #endif
 
-/// A query's context, and with it the query: filters are shown only the distance of the hit in question, and within
-/// instances another ray.
+/// The context of a query, with a copy of its arguments. Filter functions receive only the distance of the current hit,
+/// and within instances a transformed ray.
 struct EmbreeQuery {
   EmbreeContext context;
   const Ray<float>* ray;
   float t_max;
 };
 
-/// Embree's interval is closed at tfar: the float below t_max > 0 keeps ours open.
+/// Embree's interval is closed at tfar. The float below t_max > 0 keeps our interval open.
 inline RTCRay embree_ray(const Ray<float>& ray, float t_max) {
   const float t_far = std::bit_cast<float>(std::bit_cast<uint32_t>(t_max) - 1);
   return {ray.origin.x,
@@ -67,7 +67,7 @@ inline RTCRay embree_ray(const Ray<float>& ray, float t_max) {
           0};
 }
 
-/// `query` was made from `ray`.
+/// Finds the closest hit. `query.ray` must be the embree_ray of `ray`.
 inline void intersect_1(RTCScene scene, const Ray<float>& ray, RTCRayHit& query) {
   EmbreeQuery of;
   of.ray = &ray;
@@ -84,7 +84,7 @@ inline void intersect_1(RTCScene scene, const Ray<float>& ray, RTCRayHit& query)
 #endif
 }
 
-/// tfar is negative afterwards where something is hit.
+/// Sets query.tfar to a negative value if the ray is occluded. `query` must be the embree_ray of `ray`.
 inline void occluded_1(RTCScene scene, const Ray<float>& ray, RTCRay& query) {
   EmbreeQuery of;
   of.ray = &ray;

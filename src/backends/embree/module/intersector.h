@@ -1,6 +1,6 @@
 #pragma once
 
-// Ray queries by Embree. The identifiers of its geometries are our kinds of primitives; from embree_instances on they
+// Answers ray queries with Embree. The ids of its geometries are our kinds of primitives; from embree_instances on they
 // are instances.
 
 #include "backends/embree/module/api.h"
@@ -23,7 +23,7 @@ class EmbreeIntersector {
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     intersect_1(scene_, ray, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    // Weights by which the point is interpolated, whatever rounding there is in them, are of a point of the plane.
+    // The barycentric coordinates are rounded, but the interpolated point is still in the plane of the triangle.
     hit = {query.ray.tfar, query.hit.u, query.hit.v, {static_cast<PrimitiveKind>(query.hit.geomID), query.hit.primID}};
     if (query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) set_instance(query.hit, hit);
     return true;

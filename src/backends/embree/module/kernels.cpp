@@ -1,4 +1,5 @@
-// The sample kernels over Embree. Compiled once an instruction set, in its namespace, as those in render/kernels are.
+// The sample kernels that trace with Embree, compiled once per instruction set, in its namespace, like those in
+// render/kernels.
 
 #include "backends/embree/module/intersector.h"
 #include "render/kernels/instances.h"

@@ -14,7 +14,7 @@ namespace alhazen {
 
 namespace {
 
-/// The sphere of number `index` at `time`.
+/// Returns the sphere with that index at `time`.
 template <PrimitiveKind kind>
 Sphere<float> sphere_of(const void* view, uint32_t index, float time) {
   const SceneView<float>& scene = *static_cast<const SceneView<float>*>(view);
@@ -49,7 +49,7 @@ bool intersect(const void* view, uint32_t index, const RTCRay& query, float& t) 
 template <PrimitiveKind kind>
 void intersect_sphere_n(const RTCIntersectFunctionNArguments* arguments) {
   if (arguments->valid[0] == 0) return;
-  RTCRayHit& query = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);  // queries are of one ray each
+  RTCRayHit& query = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);  // all queries are single rays
   float t;
   if (!intersect<kind>(arguments->geometryUserPtr, arguments->primID, query.ray, t)) return;
   query.ray.tfar = t;
@@ -166,7 +166,7 @@ bool is_in_range(const SceneView<float>& view, uint32_t triangles_in_world) {
 }
 
 bool count_bytes(void* bytes, ssize_t change, bool) {
-  // Threads of the builder call this side by side.
+  // The threads of the builder call this concurrently.
   __atomic_fetch_add(static_cast<int64_t*>(bytes), static_cast<int64_t>(change), __ATOMIC_RELAXED);
   return true;
 }
@@ -211,7 +211,8 @@ EmbreeScene::~EmbreeScene() {
 
 void EmbreeScene::add_triangles(RTCScene to, uint32_t first, uint32_t count) {
   const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-  // The vertices of a record are its first words. Embree reads 4 bytes beyond the last position, which are the arena's.
+  // The vertex indices are the first words of a record. Embree reads 4 bytes beyond the last position, which are within
+  // the arena.
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, view_.triangles + first, 0,
                              sizeof(TriangleRecord), count);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, view_.positions, 0,

@@ -1,6 +1,7 @@
 #pragma once
 
-// A compiled scene as Embree takes it: triangles read from the arena where they lie, spheres by our own test.
+// Builds the Embree structures of a compiled scene. Embree reads triangles in place from the arena and intersects
+// spheres with our own test.
 
 #include <vector>
 
@@ -9,21 +10,22 @@
 
 namespace alhazen {
 
-/// Owns Embree's structures over `view`, which must outlive it.
+/// Owns the Embree structures of `view`, which must outlive them.
 class EmbreeScene {
  public:
-  /// Throws std::runtime_error with Embree's reason where it cannot be built.
+  /// Throws InputError if the scene exceeds the range of Embree, and std::runtime_error with the reason if Embree
+  /// fails.
   EmbreeScene(const SceneView<float>& view, int threads);
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
   const EmbreeTracer& tracer() const { return tracer_; }
-  /// Memory that Embree holds for it, bytes.
+  /// Returns the memory that Embree has allocated for the scene, in bytes.
   int64_t bytes() const { return bytes_; }
 
  private:
-  /// One for the world and one for each object.
+  /// Returns an empty scene, for the world or for an object.
   RTCScene new_scene();
   void add_triangles(RTCScene to, uint32_t first, uint32_t count);
   void add_instances();

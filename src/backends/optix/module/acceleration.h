@@ -1,7 +1,7 @@
 #pragma once
 
-// Acceleration structures from the scene's arena where it lies on the device: one a kind of primitive and one an
-// object, compacted, and one of instances above them where there is more than one.
+// Builds acceleration structures from the scene on the device: one geometry structure per kind of primitive and per
+// object, compacted, and an instance structure above them if there is more than one.
 
 #include <array>
 #include <cstring>
@@ -18,10 +18,10 @@ namespace alhazen::optix {
 
 inline CUdeviceptr address(const void* pointer) { return reinterpret_cast<CUdeviceptr>(pointer); }
 
-/// What the programs must be compiled for.
+/// The features of a scene that decide how the programs are compiled.
 struct SceneTraits {
   bool has[primitive_kinds];  ///< by PrimitiveKind, in the world or in objects
-  bool has_objects;           ///< which instances place
+  bool has_objects;           ///< whether instances place objects
 
   explicit SceneTraits(const SceneView<float>& scene)
       : has{
@@ -53,10 +53,11 @@ class Acceleration {
         structures_{Bytes(executor), Bytes(executor), Bytes(executor)},
         top_(executor) {}
 
-  /// `host` and `device` are views of the same scene, here and there.
+  /// `host` and `device` are views of the same scene in host and device memory. Throws std::runtime_error if meshes
+  /// move.
   void build(OptixDeviceContext context, const SceneView<float>& host, const SceneView<float>& device) {
     if (host.instance_motions_count > 0)
-      throw std::runtime_error("OptiX: meshes that move are not supported there; render with --backend cuda");
+      throw std::runtime_error("OptiX: moving meshes are not supported; render with --backend cuda");
     context_ = context;
     traversable_ = 0;
     sbt_offset_ = 0;
@@ -76,7 +77,7 @@ class Acceleration {
     build_instances(instances);
   }
 
-  OptixTraversableHandle traversable() const { return traversable_; }  ///< 0: there is nothing to meet
+  OptixTraversableHandle traversable() const { return traversable_; }  ///< 0 if there is nothing to hit
   uint32_t sbt_offset() const { return sbt_offset_; }
 
  private:
@@ -140,11 +141,12 @@ class Acceleration {
     return build_structure(sphere_input<Record>(&centres, &radii, device.spheres_count), 1, structures_[1]);
   }
 
-  /// Two motion keys, at the ends of the shutter; the centres of the second are where the motion leads.
+  /// Uses two motion keys, at the ends of the shutter. The centres of the second key are displaced by the motion.
   OptixTraversableHandle build_moving_spheres(const SceneView<float>& host, const SceneView<float>& device) {
     using Record = MovingSphereRecord<float>;
     const uint32_t count = host.moving_spheres_count;
-    // Both keys have one stride, so the second has records too, of which only the centre counts.
+    // Both keys have the same stride, so the second key is an array of records too, although OptiX reads only the
+    // centres.
     std::vector<Record> last(host.moving_spheres, host.moving_spheres + count);
     for (Record& sphere : last) sphere.centre += sphere.motion;
     cuda::Buffer<Executor, Record> memory(executor_);
@@ -157,7 +159,7 @@ class Acceleration {
     return build_structure(sphere_input<Record>(centres, radii, count), 2, structures_[2]);
   }
 
-  /// Centres and radii lie in records, one address of each a motion key.
+  /// Centres and radii are fields of records. There is one address of each per motion key.
   template <class Record>
   OptixBuildInput sphere_input(const CUdeviceptr* centres, const CUdeviceptr* radii, uint32_t count) const {
     OptixBuildInput input{};
@@ -184,7 +186,7 @@ class Acceleration {
     traversable_ = build_structure(input, 1, top_);
   }
 
-  /// Builds, then copies to as little memory as the structure needs; when it returns, the input may go.
+  /// Builds a structure and compacts it. The input may be freed when the function returns.
   OptixTraversableHandle build_structure(const OptixBuildInput& input, unsigned motion_keys, Bytes& structure) {
     OptixAccelBuildOptions options{};
     options.buildFlags = build_flags;

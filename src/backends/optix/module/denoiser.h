@@ -1,6 +1,7 @@
 #pragma once
 
-// The denoiser of OptiX: the model for any number of layers, which takes normals in world space, with one layer.
+// Denoises images with OptiX. The model is the one for several layers (AOV), since its normals are in world space; here
+// it has one layer.
 
 #include "backends/optix/module/pipeline.h"
 #include "render/denoiser.h"
@@ -46,7 +47,7 @@ class Denoiser {
     layer.input = upload(radiance_, image.radiance, width, height);
     output_.reserve(image.radiance.size());
     layer.output = image(output_, width, height);
-    const OptixDenoiserParams params{};  // exposure: found by itself
+    const OptixDenoiserParams params{};  // without a given intensity, OptiX determines the exposure
     ask(functions_.optixDenoiserInvoke(denoiser_, executor_.stream(), &params, address(state_.data()),
                                        sizes.stateSizeInBytes, &guides, &layer, 1, 0, 0, address(scratch_.data()),
                                        sizes.withoutOverlapScratchSizeInBytes));

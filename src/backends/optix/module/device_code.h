@@ -1,6 +1,6 @@
 #pragma once
 
-// The compiled device programs, as bytes in the binary (cmake/Optix.cmake makes them).
+// The compiled device programs, embedded as bytes by cmake/Optix.cmake.
 
 #include <cstddef>
 #include <span>
@@ -9,7 +9,7 @@ namespace alhazen::optix {
 
 struct DeviceCode {
   std::span<const unsigned char> optix_ir;
-  std::span<const unsigned char> ptx;  ///< for drivers that do not take the former
+  std::span<const unsigned char> ptx;  ///< for drivers that reject the OptiX IR
 };
 
 DeviceCode device_code();

@@ -7,7 +7,7 @@
 
 namespace alhazen::optix {
 
-/// Rendering by OptiX on GPU `device`, in float.
+/// Returns an engine that renders with OptiX on GPU `device`, in float.
 std::unique_ptr<cuda::Engine> make_optix_engine(int device, const cuda::RowShare& share);
 
 std::vector<float> denoise(const NoisyImage& image, int device);

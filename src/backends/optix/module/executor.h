@@ -1,7 +1,7 @@
 #pragma once
 
-// An executor (backends/cuda/executor.h) whose pixel kernels are launches of OptiX. `Base` does the rest, and has a
-// stream().
+// An executor (backends/cuda/executor.h) that runs pixel kernels as OptiX launches. `Base` implements everything else
+// and provides stream().
 
 #include <optional>
 #include <utility>
@@ -23,7 +23,8 @@ class OptixExecutor : public Base {
         records_(*this),
         params_(*this) {}
 
-  /// Makes ready for a scene that lies on the device.
+  /// Compiles the programs and builds the acceleration structures for a scene. `device` is the view of its copy on the
+  /// device.
   void build(const SceneView<float>& host, const SceneView<float>& device) {
     const typename Base::Range range("build for OptiX");
     pipeline_.emplace(functions_, context_, code_, SceneTraits(host));
@@ -34,7 +35,7 @@ class OptixExecutor : public Base {
     params_.reserve(1);
   }
 
-  /// A thread a pixel; OptiX chooses the blocks.
+  /// Launches one thread per pixel. OptiX chooses the block size.
   template <IntegratorKind kind>
   void launch(const OptixKernel<kind>& kernel, cuda::Extent threads, cuda::Extent) {
     const OptixParams params{kernel.launch, kernel.sums, acceleration_.traversable(), acceleration_.sbt_offset()};

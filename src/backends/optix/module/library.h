@@ -1,6 +1,6 @@
 #pragma once
 
-// The library of OptiX, which comes with the driver and is looked for when the program runs.
+// The OptiX library, which is part of the NVIDIA driver and is loaded at run time.
 
 #include <optix_types.h>
 
@@ -12,15 +12,16 @@ namespace alhazen::optix {
 
 struct OptixLibrary {
   OptixFunctionTable functions{};
-  std::string problem;  ///< where it cannot be used: why, and what to do
+  std::string problem;  ///< if it cannot be used: the reason, and what to do
 };
 
-/// Loaded once. `name` is there for tests.
+/// Loads the library, which only tests call by another name.
 OptixLibrary load_optix(const char* name = "libnvoptix.so.1");
+/// Returns the library, which is loaded once.
 const OptixLibrary& optix_library();
 
-/// Throws RenderError unless `result` is a success. `doing` ends the sentence "OptiX failed while ..."; `log` is what
-/// OptiX itself says.
+/// Throws RenderError unless `result` is a success. `doing` completes the sentence "OptiX failed while ..."; `log`
+/// holds the messages of OptiX.
 void check(const OptixFunctionTable& functions, OptixResult result, const char* doing, const std::string& log = "");
 
 }  // namespace alhazen::optix

@@ -1,6 +1,7 @@
 #pragma once
 
-// What host and device programs agree on: names, payloads, the layout of the shader binding table, launch parameters.
+// Definitions that host code and device programs share: names, payloads, the layout of the shader binding table, launch
+// parameters.
 
 #include <optix_types.h>
 
@@ -8,8 +9,8 @@
 
 namespace alhazen::optix {
 
-/// Ray queries by optixTrace. What a thread offers as its stacks says which intersector that is: on the device
-/// OptixIntersector (programs.cu).
+/// Traces rays with the intersector that belongs to the stacks of the thread. On the device this is OptixIntersector
+/// (programs.cu), which calls optixTrace.
 struct OptixTracing {
   static constexpr bool by_launch_of_pixels = true;
 
@@ -19,25 +20,26 @@ struct OptixTracing {
   }
 };
 
-/// The kernel that ray generation runs: a thread a pixel, taking all samples of the slice.
+/// The kernel that ray generation runs. Each thread takes all samples of the slice for one pixel.
 template <IntegratorKind kind>
 using OptixKernel = cuda::PixelKernel<OptixTracing, kind, float>;
 
 struct OptixParams {
   cuda::Launch<float> launch;
-  BlockSum<float>* sums;  ///< one a thread
+  BlockSum<float>* sums;  ///< one per thread
   OptixTraversableHandle traversable;
-  uint32_t sbt_offset;  ///< of rays: 0 where instances have offsets of their own, else the only kind of primitive
+  uint32_t sbt_offset;  ///< for optixTrace: 0 if instances have offsets of their own, else the only kind of primitive
 };
 
-/// Closest hits. Words of the payload: t, b1, b2, PrimitiveId, instance.
+/// Number of payload words of a closest-hit query: t, b1, b2, PrimitiveId, instance.
 inline constexpr unsigned closest_words = 5;
-/// Identifiers of OptiX's instances: below this the kinds of primitives of the world, from it on ours.
+/// OptiX instances with lower ids are the kinds of primitives in the world. From this id on, they are the instances of
+/// the scene.
 inline constexpr unsigned first_instance_id = primitive_kinds;
-/// Occlusion. The payload is one word: 1, or 0 if the ray missed everything.
+/// Number of payload words of an occlusion query: 1 if the ray is occluded, else 0.
 inline constexpr unsigned occlusion_words = 1;
 
-// Records of the shader binding table, each no more than its header.
+// The records of the shader binding table, which consist of their headers.
 enum RaygenRecord : unsigned { raygen_path, raygen_iterative };
 enum MissRecord : unsigned { miss_closest, miss_occlusion };
 inline constexpr unsigned raygen_records = 2, miss_records = 2;

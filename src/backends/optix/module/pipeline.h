@@ -1,6 +1,6 @@
 #pragma once
 
-// The programs of OptiX, compiled by the driver for what the scene holds.
+// The OptiX pipeline. The driver compiles its programs for the features of the scene.
 
 #include <cstring>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace alhazen::optix {
 
-/// The device context. What OptiX has to say is kept for the next error.
+/// The device context. Messages of OptiX are kept for the next error.
 class Context {
  public:
   explicit Context(const OptixFunctionTable& functions) : functions_(functions) {
@@ -30,7 +30,7 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   OptixDeviceContext get() const { return context_; }
-  /// What OptiX said in all, `of_call` first.
+  /// Returns `of_call`, followed by all messages so far.
   std::string log(const std::string& of_call = "") const {
     return of_call + (of_call.empty() || log_.empty() ? "" : "; ") + log_;
   }
@@ -46,12 +46,12 @@ class Context {
   OptixDeviceContext context_ = nullptr;
 };
 
-/// A record of the shader binding table is its header alone.
+/// A record of the shader binding table consists of its header.
 struct alignas(OPTIX_SBT_RECORD_ALIGNMENT) SbtRecord {
   char header[OPTIX_SBT_RECORD_HEADER_SIZE];
 };
 
-/// Where a call of OptiX writes what it has to say.
+/// The buffer for the messages of one OptiX call.
 struct CallLog {
   char text[2048] = "";
   size_t size = sizeof(text);
@@ -78,7 +78,7 @@ class Pipeline {
 
   OptixPipeline get() const { return pipeline_; }
 
-  /// Records of ray generation, misses and hits, one after the other.
+  /// Returns the records of ray generation, misses and hits, in this order.
   std::vector<SbtRecord> records() const {
     std::vector<SbtRecord> records(groups_.size());
     for (size_t i = 0; i < groups_.size(); ++i)
@@ -129,7 +129,7 @@ class Pipeline {
       check(functions_,
             functions_.optixBuiltinISModuleGet(context_.get(), &module_options_, &pipeline_options_, &options,
                                                &sphere_modules_[static_cast<unsigned>(kind)]),
-            "asking for its spheres", context_.log());
+            "getting its sphere intersection program", context_.log());
     }
   }
 
@@ -149,7 +149,7 @@ class Pipeline {
     }
     OptixProgramGroupDesc miss{};
     miss.kind = OPTIX_PROGRAM_GROUP_KIND_MISS;
-    add_group(miss);  // closest hits: the payload stays as the caller made it
+    add_group(miss);  // for closest hits, no program runs and the payload keeps its initial values
     miss.miss = {module_, miss_occlusion_name};
     add_group(miss);
     for (unsigned kind = 0; kind < hit_records; ++kind) {

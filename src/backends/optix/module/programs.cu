@@ -1,5 +1,5 @@
-// The device programs of OptiX. Ray generation runs the core's integrators; hit programs return which primitive was
-// met, and where, and nothing else.
+// The OptiX device programs. Ray generation runs the integrators of the core. Hit programs only return the hit
+// primitive, its instance, t and the barycentric coordinates.
 
 #include <optix.h>
 
@@ -8,18 +8,18 @@
 
 namespace alhazen::optix {
 
-// Bytes, since a constant has no constructor.
+// A byte array, since variables in constant memory cannot have constructors.
 extern "C" {
 __constant__ __align__(16) unsigned char params[sizeof(OptixParams)];
 }
 
 __device__ inline const OptixParams& launch_params() { return *reinterpret_cast<const OptixParams*>(params); }
 
-/// Answers ray queries by optixTrace.
+/// Answers ray queries with optixTrace.
 ///
-/// Hits on spheres are verified with our own, robust test: the built-in one works in float from the sphere's centre,
-/// and on a ground sphere of radius 1000 may hit the surface that the ray starts on. The triangle that the ray starts
-/// on is skipped (`Ray::left`).
+/// Hits on spheres are verified with our own, robust test: the built-in one computes in float from the centre of the
+/// sphere, and on a ground sphere of radius 1000 it may hit the surface that the ray starts on. The triangle that the
+/// ray starts on is skipped (`Ray::left`).
 class OptixIntersector {
  public:
   template <class Stacks>
@@ -30,21 +30,21 @@ class OptixIntersector {
     bool found = false;
     float t_min = 0;
     for (int attempt = 0; attempt < max_attempts && t_min < hit.t; ++attempt) {
-      Hit<float> met;
-      if (!trace(ray, t_min, hit.t, OPTIX_RAY_FLAG_DISABLE_ANYHIT, met)) break;
-      if (met.primitive.kind() == PrimitiveKind::triangle) {
-        if (is_left(ray, met)) {
-          t_min = next_towards(met.t, 1.0f);
+      Hit<float> candidate;
+      if (!trace(ray, t_min, hit.t, OPTIX_RAY_FLAG_DISABLE_ANYHIT, candidate)) break;
+      if (candidate.primitive.kind() == PrimitiveKind::triangle) {
+        if (is_left(ray, candidate)) {
+          t_min = next_towards(candidate.t, 1.0f);
           continue;
         }
-        hit = met;
+        hit = candidate;
         return true;
       }
       // If our own test hits the sphere farther away or not at all, another primitive may be closer.
-      t_min = met.t + beyond(met);
-      if (!intersects_sphere(ray, met.primitive, hit)) continue;
+      t_min = candidate.t + beyond(candidate);
+      if (!intersects_sphere(ray, candidate.primitive, hit)) continue;
       found = true;
-      if (hit.t <= met.t) break;
+      if (hit.t <= candidate.t) break;
     }
     return found;
   }
@@ -53,10 +53,10 @@ class OptixIntersector {
     constexpr unsigned flags = OPTIX_RAY_FLAG_DISABLE_ANYHIT | OPTIX_RAY_FLAG_TERMINATE_ON_FIRST_HIT;
     // A miss is final. A hit is traced again, since only the hit programs return which primitive it is.
     if (!is_anything_between(ray, t_max, flags | OPTIX_RAY_FLAG_DISABLE_CLOSESTHIT)) return false;
-    Hit<float> met, own = end_of_interval(t_max);
-    if (!trace(ray, 0, t_max, flags, met)) return false;
-    const bool is_triangle = met.primitive.kind() == PrimitiveKind::triangle;
-    if (is_triangle ? !is_left(ray, met) : intersects_sphere(ray, met.primitive, own)) return true;
+    Hit<float> candidate, own = end_of_interval(t_max);
+    if (!trace(ray, 0, t_max, flags, candidate)) return false;
+    const bool is_triangle = candidate.primitive.kind() == PrimitiveKind::triangle;
+    if (is_triangle ? !is_left(ray, candidate) : intersects_sphere(ray, candidate.primitive, own)) return true;
     return closest_hit(ray, t_max, own);
   }
 
@@ -64,8 +64,8 @@ class OptixIntersector {
   static constexpr int max_attempts = 8;
 
   /// Returns whether the hit is on the triangle that the ray starts on, which cannot be hit.
-  __device__ static bool is_left(const Ray<float>& ray, const Hit<float>& met) {
-    return met.primitive == ray.left && met.instance == ray.left_instance;
+  __device__ static bool is_left(const Ray<float>& ray, const Hit<float>& candidate) {
+    return candidate.primitive == ray.left && candidate.instance == ray.left_instance;
   }
 
   __device__ static float3 vector(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
@@ -96,11 +96,11 @@ class OptixIntersector {
     return intersect_primitive(*scene_, sphere, ray, ShearedRay<float>{}, hit);
   }
 
-  /// Returns a step along the ray past a hit that OptiX found on a sphere.
-  __device__ float beyond(const Hit<float>& met) const {
-    const uint32_t index = met.primitive.index();
-    const bool moves = met.primitive.kind() == PrimitiveKind::moving_sphere;
-    return 1e-5f * met.t + 1e-6f * (moves ? scene_->moving_spheres[index].radius : scene_->spheres[index].radius);
+  /// Returns a step along the ray that passes a hit that OptiX found on a sphere.
+  __device__ float beyond(const Hit<float>& candidate) const {
+    const uint32_t index = candidate.primitive.index();
+    const bool moves = candidate.primitive.kind() == PrimitiveKind::moving_sphere;
+    return 1e-5f * candidate.t + 1e-6f * (moves ? scene_->moving_spheres[index].radius : scene_->spheres[index].radius);
   }
 
   const SceneView<float>* scene_;
