@@ -1,8 +1,8 @@
 #pragma once
 
 // Renders a pass on one device. The scene is uploaded once and the film stays on the device; slices of the pass are
-// launched by one of four schedules, and the film is downloaded at the end. A GPU and the host in its place run the same
-// code.
+// launched by one of four schedules, and the film is downloaded at the end. A GPU and the host in its place run the
+// same code.
 
 #include <chrono>
 #include <optional>
@@ -274,8 +274,8 @@ class DeviceRender {
     }
   }
 
-  /// Allocates slots: as many as a third of the free memory holds, but no more than keep a large device busy and no more
-  /// than there are items.
+  /// Allocates slots: as many as a third of the free memory holds, but no more than keep a large device busy and no
+  /// more than there are items.
   template <IntegratorKind kind>
   Slots<kind, Real> make_slots(uint32_t items) {
     Slots<kind, Real> slots;
