@@ -13,6 +13,7 @@
 #include "core/sampling/hash.h"
 #include "files/atomic_file.h"
 #include "render/sample_kernel.h"
+#include "render/setting_table.h"
 
 namespace alhazen {
 
@@ -92,14 +93,11 @@ uint64_t join_settings(const RenderSettings& s, uint64_t scene) {
   Hasher h;
   h.add(scene);
   h.add_bytes(version(), std::strlen(version()));
-  for (const int64_t value :
-       {static_cast<int64_t>(s.precision), static_cast<int64_t>(s.integrator), static_cast<int64_t>(s.sampler),
-        static_cast<int64_t>(s.max_segments), static_cast<int64_t>(s.width), static_cast<int64_t>(s.height),
-        static_cast<int64_t>(s.window.x0), static_cast<int64_t>(s.window.x1), static_cast<int64_t>(s.window.y0),
-        static_cast<int64_t>(s.window.y1), static_cast<int64_t>(s.seed)})
-    h.add(static_cast<uint64_t>(value));
-  for (const bool layer : {s.aovs.albedo, s.aovs.normal, s.aovs.depth, s.aovs.bounces, s.aovs.samples, s.aovs.variance})
-    h.add(static_cast<uint64_t>(layer));
+  for (const SettingEntry& entry : setting_table()) {
+    if (!entry.of_samples) continue;
+    const std::string text = entry.name + ("=" + entry.of_samples(s));
+    h.add_bytes(text.data(), text.size());
+  }
   return h.value();
 }
 

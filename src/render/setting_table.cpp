@@ -139,12 +139,34 @@ SettingEntry entry(SettingGroup group, const char* name, const char* other_flags
   return {group, name, other_flags, value_name, std::move(help), is_list, std::move(codec.text), std::move(codec.set)};
 }
 
+/// An entry whose value changes the samples.
+SettingEntry of_samples(std::function<std::string(const RenderSettings&)> text, SettingEntry entry) {
+  entry.of_samples = std::move(text);
+  return entry;
+}
+
+std::string layer_flags(const RenderSettings& s) {
+  std::string flags;
+  for (const bool layer : {s.aovs.albedo, s.aovs.normal, s.aovs.depth, s.aovs.bounces, s.aovs.samples, s.aovs.variance})
+    flags += layer ? '1' : '0';
+  return flags;
+}
+
+std::string window_bounds(const RenderSettings& s) {
+  std::string text;
+  for (const int bound : {s.window.x0, s.window.x1, s.window.y0, s.window.y1})
+    text += (text.empty() ? "" : ",") + std::to_string(bound);
+  return text;
+}
+
 std::vector<SettingEntry> output_settings() {
   constexpr SettingGroup group = SettingGroup::output;
   return {
-      entry(group, "aov", "", "NAMES",
-            "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance",
-            layers(), true),
+      of_samples(
+          layer_flags,
+          entry(group, "aov", "", "NAMES",
+                "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance",
+                layers(), true)),
       entry(group, "denoise", "", "NAME",
             "none, or optix: runs on a GPU, with any backend; adds the layers albedo and normal",
             name(&Settings::denoiser)),
@@ -156,16 +178,20 @@ std::vector<SettingEntry> image_settings() {
   return {
       entry(group, "spp", "", "N", "Samples per pixel",
             number<int64_t>("spp", &Settings::samples_per_pixel, 0, 1, 1 << 24)),
-      entry(group, "max-depth", "--maxdepth", "N", "Bounces: a path has at most N + 1 segments",
-            number<int64_t>("max-depth", &Settings::max_depth, -1, 0, 1'000'000)),
-      entry(group, "size", "", "WxH", "Pixels of the whole image", size()),
-      entry(group, "crop", "--cropwindow", "X0,X1,Y0,Y1", "Render this part only, fractions from 0 to 1",
-            bounds("crop", &Settings::crop_window, "x0,x1,y0,y1, fractions of the image from 0 to 1")),
+      of_samples([](const RenderSettings& s) { return std::to_string(s.max_segments); },
+                 entry(group, "max-depth", "--maxdepth", "N", "Bounces: a path has at most N + 1 segments",
+                       number<int64_t>("max-depth", &Settings::max_depth, -1, 0, 1'000'000))),
+      of_samples([](const RenderSettings& s) { return std::to_string(s.width) + "x" + std::to_string(s.height); },
+                 entry(group, "size", "", "WxH", "Pixels of the whole image", size())),
+      of_samples(window_bounds,
+                 entry(group, "crop", "--cropwindow", "X0,X1,Y0,Y1", "Render this part only, fractions from 0 to 1",
+                       bounds("crop", &Settings::crop_window, "x0,x1,y0,y1, fractions of the image from 0 to 1"))),
       entry(group, "pixelbounds", "", "X0,X1,Y0,Y1", "Render these pixels only",
             bounds("pixelbounds", &Settings::pixel_bounds, "x0,x1,y0,y1, in pixels")),
-      entry(group, "integrator", "", "NAME",
-            "path (next-event estimation), or BSDF sampling alone: iterative, recursive, branching",
-            name(&Settings::integrator)),
+      of_samples([](const RenderSettings& s) { return to_string(s.integrator); },
+                 entry(group, "integrator", "", "NAME",
+                       "path (next-event estimation), or BSDF sampling alone: iterative, recursive, branching",
+                       name(&Settings::integrator))),
       entry(group, "environment", "", "FILE",
             "Light the scene by this map (EXR, HDR, ...) instead of its infinite lights: 2:1 (equirectangular) or "
             "square (octahedral), +y up, its centre towards -z",
@@ -184,9 +210,11 @@ std::vector<SettingEntry> image_settings() {
             name(&Settings::variant)),
       entry(group, "confine", "", "", "Read no files outside the folder of the scene: for untrusted scenes",
             flag(&Settings::confine)),
-      entry(group, "sampler", "", "NAME", "sobol or independent", name(&Settings::sampler)),
-      entry(group, "seed", "", "N", "Seed of the random numbers",
-            optional_number("seed", &Settings::seed, uint32_t{0}, ~uint32_t{0})),
+      of_samples([](const RenderSettings& s) { return to_string(s.sampler); },
+                 entry(group, "sampler", "", "NAME", "sobol or independent", name(&Settings::sampler))),
+      of_samples([](const RenderSettings& s) { return std::to_string(s.seed); },
+                 entry(group, "seed", "", "N", "Seed of the random numbers",
+                       optional_number("seed", &Settings::seed, uint32_t{0}, ~uint32_t{0}))),
   };
 }
 
@@ -203,7 +231,8 @@ std::vector<SettingEntry> engine_settings() {
       entry(group, "chunk", "", "WxH", "cuda, chunk: chunks in each direction (4x4)", name(&Settings::chunk)),
       entry(group, "threads", "-t,--nthreads", "N", "Threads; 0 for all",
             number("threads", &Settings::threads, 0, 0, 4096)),
-      entry(group, "precision", "", "NAME", "float or double", name(&Settings::precision)),
+      of_samples([](const RenderSettings& s) { return to_string(s.precision); },
+                 entry(group, "precision", "", "NAME", "float or double", name(&Settings::precision))),
   };
 }
 

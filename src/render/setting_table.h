@@ -1,7 +1,7 @@
 #pragma once
 
 // The settings of a render in one table: each has its option's name, its help and its text form once. The command line,
-// commands that are printed, and the files of tuned engines come from it.
+// commands that are printed, the files of tuned engines and the fingerprint of checkpoints come from it.
 
 #include <functional>
 #include <string>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "alhazen/alhazen.h"
+#include "render/settings.h"
 
 namespace alhazen {
 
@@ -25,6 +26,9 @@ struct SettingEntry {
   std::function<std::string(const Settings&)> text;
   /// Parses such a text. Throws InputError that names the option and what it may be.
   std::function<void(Settings&, const std::string&)> set;
+  /// Of settings that change the values of samples: the value that a render uses, as text. A checkpoint is resumed only
+  /// with equal values.
+  std::function<std::string(const RenderSettings&)> of_samples = {};
 };
 
 const std::vector<SettingEntry>& setting_table();
