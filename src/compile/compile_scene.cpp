@@ -376,7 +376,7 @@ class SceneCompiler {
     uint32_t light = no_light;
     if (emits(shape))
       light = add_light(shape, moves ? LightKind::moving_sphere : LightKind::sphere, index,
-                        4 * 3.14159265358979 * radius * radius);
+                        4 * pi<double> * radius * radius);
     const uint32_t surface = add_surface(shape, light, no_offset, no_offset, p.reverse_orientation);
     const uint32_t frame = sphere_frame(shape, p.world_from_object.start);
     if (moves)

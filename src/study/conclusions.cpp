@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "study/cell_text.h"
+#include "study/names.h"
+#include "study/report_figures.h"
 
 namespace alhazen::study {
 
@@ -81,13 +83,17 @@ class Conclusions {
   }
 
   void precision() {
-    const Trial* in_float = trial_at(study_, "table1", "iterative (Algorithm 5)", "float");
-    const Trial* in_double = trial_at(study_, "table1", "iterative (Algorithm 5)", "double");
+    const Trial* in_float = trial_at(study_, "table1", name::iterative, "float");
+    const Trial* in_double = trial_at(study_, "table1", name::iterative, "double");
     if (!in_float || !in_double) return;
     const double ratio = cost_of(*in_double, Measure::seconds) / cost_of(*in_float, Measure::seconds);
-    add("Precision.", fmt::format("On one core double takes {:.2f} times as long as float. In the report it took 0.92 "
-                                  "times as long on cuda2 and 1.01 times on cuda3.",
-                                  ratio));
+    std::string text = fmt::format("On one core double takes {:.2f} times as long as float.", ratio);
+    const std::vector<ReportFigure> floats = report_figures("table1", name::recursive, "float"),
+                                    doubles = report_figures("table1", name::recursive, "double");
+    for (size_t i = 0; i < floats.size() && i < doubles.size(); ++i)
+      text += fmt::format("{}{:.2f} times as long on {}", i == 0 ? " In the report it took " : " and ",
+                          doubles[i].seconds / floats[i].seconds, floats[i].machine);
+    add("Precision.", text + (floats.empty() ? "" : "."));
   }
 
   void schedule() {
@@ -143,10 +149,10 @@ class Conclusions {
       std::string text =
           fmt::format("One thread per pixel is fastest in blocks of {} ({} over one core, float), chunks in {} ({}).",
                       block, times_text(pixel), chunks, times_text(chunked));
-      const double persistent = speedup_at(study_, "engines", "CUDA persistent", "float");
+      const double persistent = speedup_at(study_, "engines", name::cuda_persistent, "float");
       if (persistent > 0)
         text += fmt::format(" Persistent threads that take work from a queue: {}.", times_text(persistent));
-      const double optix = speedup_at(study_, "optix", "OptiX", "float");
+      const double optix = speedup_at(study_, "optix", name::optix, "float");
       if (optix > 0) text += fmt::format(" OptiX: {}.", times_text(optix));
       add("GPU.", text);
       return;
@@ -161,13 +167,13 @@ class Conclusions {
   }
 
   void queries() {
-    const double wide = speedup_at(study_, "queries", "wide BVH, SIMD", "float");
-    const double binary = speedup_at(study_, "queries", "binary BVH", "float");
+    const double wide = speedup_at(study_, "queries", name::wide_bvh, "float");
+    const double binary = speedup_at(study_, "queries", name::binary_bvh, "float");
     if (wide == 0 || binary == 0) return;
     std::string text = fmt::format(
         "On this scene a binary BVH answers rays {} the linear scan over {} objects, the wide one with SIMD {}",
         compared(binary, "as fast as", "slower than"), study_.scene.spheres + study_.scene.triangles, times_text(wide));
-    const double embree = speedup_at(study_, "queries", "Embree", "float");
+    const double embree = speedup_at(study_, "queries", name::embree, "float");
     if (embree > 0) text += fmt::format(", Embree {}", times_text(embree));
     add("Tree.", text + " (float, one thread, shading included).");
   }
@@ -183,7 +189,7 @@ class Conclusions {
       const double ratio = cost_of(*many, Measure::nanoseconds_per_ray) / cost_of(*few, Measure::nanoseconds_per_ray);
       growth += fmt::format("{} {} times as long with {}", growth.empty() ? "" : ",", short_number(ratio), column);
     }
-    const double million = speedup_at(study_, "objects", "1000000", "wide BVH, SIMD");
+    const double million = speedup_at(study_, "objects", "1000000", name::wide_bvh);
     if (growth.empty() || million == 0) return;
     add("Objects.", fmt::format("From 10 spheres to a million a ray takes{}: there the BVH is {} the linear scan.",
                                 growth, compared(million, "as fast as", "slower than")));
@@ -205,9 +211,9 @@ class Conclusions {
   }
 
   void glass() {
-    const Trial* branching = trial_at(study_, "glass", "12", "branching (Algorithm 2)");
-    const Trial* before = trial_at(study_, "glass", "11", "branching (Algorithm 2)");
-    const Trial* iterative = trial_at(study_, "glass", "12", "iterative (Algorithm 5)");
+    const Trial* branching = trial_at(study_, "glass", "12", name::branching);
+    const Trial* before = trial_at(study_, "glass", "11", name::branching);
+    const Trial* iterative = trial_at(study_, "glass", "12", name::iterative);
     if (!branching || !before || !iterative) return;
     const auto rays = [](const Trial& t) { return static_cast<double>(t.rays) / static_cast<double>(t.samples); };
     add("Glass.",

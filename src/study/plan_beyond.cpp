@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "study/names.h"
 #include "study/plan.h"
 
 namespace alhazen::study {
@@ -68,12 +69,12 @@ void plan_queries(Plan& plan) {
     binary.queries = Queries::binary_bvh;
     add_cell(table, "linear scan", precision, baseline, baseline,
              fmt::format("{0} x {0} pixels, S = 4", linear.settings.width));
-    add_cell(table, "binary BVH", precision, plan.add(binary), baseline);
-    add_cell(table, "wide BVH, SIMD", precision, plan.serial(precision), baseline);
+    add_cell(table, name::binary_bvh, precision, plan.add(binary), baseline);
+    add_cell(table, name::wide_bvh, precision, plan.serial(precision), baseline);
     if (std::string(precision) == "float") {
       Work embree = plan.on_cpu("embree", "float", 1);
       embree.settings.strategy = "tiles";
-      add_cell(table, "Embree", precision, plan.add(embree), baseline);
+      add_cell(table, name::embree, precision, plan.add(embree), baseline);
     }
   }
 }
@@ -106,7 +107,7 @@ void plan_depth(Plan& plan) {
                                 "camera sample.",
                                 "D",
                                 Measure::seconds,
-                                {"branching (Algorithm 2)", "recursive (Algorithm 3)", "iterative (Algorithm 5)"},
+                                {name::branching, name::recursive, name::iterative},
                                 {}});
   table.shows_rays = true;
   for (int depth = 1; depth <= 12; ++depth) {
@@ -132,7 +133,7 @@ void plan_glass(Plan& plan) {
                      "of Algorithm 2 branches. One thread, float.",
                      "D",
                      Measure::seconds,
-                     {"branching (Algorithm 2)", "iterative (Algorithm 5)"},
+                     {name::branching, name::iterative},
                      {}});
   table.shows_rays = true;
   for (int depth = 1; depth <= 12; ++depth) {
@@ -158,7 +159,7 @@ void plan_objects(Plan& plan) {
             "scan renders smaller images for more objects, as stated in its cells.",
             "spheres",
             Measure::nanoseconds_per_ray,
-            {"linear scan", "wide BVH, SIMD", "Embree"},
+            {"linear scan", name::wide_bvh, name::embree},
             {}});
   for (uint64_t count = 10; count <= 1'000'000; count *= 10) {
     const std::string row = std::to_string(count);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "study/names.h"
 #include "study/plan.h"
 
 namespace alhazen::study {
@@ -31,8 +32,7 @@ void plan_table1(Plan& plan) {
       Work work = plan.on_cpu("serial", precision, 1);
       work.settings.integrator = integrator;
       const bool is_loop = work.settings.integrator == "iterative";
-      add_cell(table, is_loop ? "iterative (Algorithm 5)" : "recursive (Algorithm 3)", precision, plan.add(work),
-               plan.serial(precision));
+      add_cell(table, is_loop ? name::iterative : name::recursive, precision, plan.add(work), plan.serial(precision));
     }
 }
 
@@ -127,7 +127,7 @@ void plan_optix(Plan& plan) {
                      Measure::seconds,
                      {"float"},
                      {}});
-  add_cell(table, "OptiX", "float", plan.add(plan.on_gpu("optix", "float")), plan.serial("float"));
+  add_cell(table, name::optix, "float", plan.add(plan.on_gpu("optix", "float")), plan.serial("float"));
 }
 
 }  // namespace
