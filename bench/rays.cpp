@@ -23,7 +23,7 @@ TraceQueries select_trace(Call call, bool is_double);
 namespace {
 
 template <class Real>
-const void* tracer_of([[maybe_unused]] const Recorded<Real>& recorded, [[maybe_unused]] Call call) {
+const ExternalTracer* tracer_of([[maybe_unused]] const Recorded<Real>& recorded, [[maybe_unused]] Call call) {
 #if defined(ALHAZEN_WITH_EMBREE)
   if (call == Call::plain_embree) return &recorded.plain_embree->tracer();
   if (call == Call::embree_backend) return &recorded.embree->tracer();
@@ -35,7 +35,7 @@ template <class Real>
 void trace(benchmark::State& state, const std::string& scene, std::vector<RaySet> sets, TraceQueries function,
            Call call) {
   const Recorded<Real>& recorded = Recorded<Real>::of(scene);
-  const void* const tracer = tracer_of(recorded, call);
+  const ExternalTracer* const tracer = tracer_of(recorded, call);
   uint64_t hits = 0, rays = 0;
   for (auto _ : state) {
     hits = rays = 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/math/ray.h"
+#include "render/kernels/request.h"
 
 namespace ALHAZEN_CORE {
 
@@ -23,7 +24,7 @@ namespace alhazen {
 enum class Call : uint32_t { one, many, coherent, plain_embree, embree_backend };
 
 /// Answers `count` queries over `scene`, a SceneView of their precision; returns the number of hits.
-using TraceQueries = uint64_t (*)(const void* scene, const void* tracer, const void* queries, uint32_t count,
+using TraceQueries = uint64_t (*)(const void* scene, const ExternalTracer* tracer, const void* queries, uint32_t count,
                                   bool any_hit);
 
 }  // namespace alhazen

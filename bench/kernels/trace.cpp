@@ -12,7 +12,8 @@ namespace ALHAZEN_CORE {
 namespace {
 
 template <class Real, RayIntersector<Real> Intersector>
-uint64_t trace_singly(const void* scene, const void* tracer, const void* queries, uint32_t count, bool any_hit) {
+uint64_t trace_singly(const void* scene, const ExternalTracer* tracer, const void* queries, uint32_t count,
+                      bool any_hit) {
   const Intersector intersector = make_intersector<Intersector>(*static_cast<const SceneView<Real>*>(scene), tracer);
   const Query<Real>* const query = static_cast<const Query<Real>*>(queries);
   uint64_t hits = 0;
@@ -58,7 +59,8 @@ uint64_t trace_together(const void* scene, const void*, const void* queries, uin
 }
 
 #if defined(ALHAZEN_WITH_EMBREE)
-uint64_t trace_by_plain_embree(const void*, const void* tracer, const void* queries, uint32_t count, bool any_hit) {
+uint64_t trace_by_plain_embree(const void*, const ExternalTracer* tracer, const void* queries, uint32_t count,
+                               bool any_hit) {
   const RTCScene scene = static_cast<const EmbreeTracer*>(tracer)->scene;
   const Query<float>* const query = static_cast<const Query<float>*>(queries);
   uint64_t hits = 0;
