@@ -44,7 +44,7 @@ uint64_t trace_coherently(const Bvh8Intersector<Real>& intersector, const Query<
 }
 
 template <class Real, bool coherent>
-uint64_t trace_together(const void* scene, const void*, const void* queries, uint32_t count, bool any_hit) {
+uint64_t trace_together(const void* scene, const ExternalTracer*, const void* queries, uint32_t count, bool any_hit) {
   const Bvh8Intersector<Real> intersector(*static_cast<const SceneView<Real>*>(scene));
   const Query<Real>* const query = static_cast<const Query<Real>*>(queries);
   uint64_t hits = 0;
