@@ -66,8 +66,8 @@ void take_blocks_together(const KernelRequest& request, const SceneView<Real>& s
 
 /// Constructs the intersector from the scene and, if it names the type of one, the tracer.
 template <class Intersector, class Real>
-requires BatchIntersector<Intersector, Real> ALHAZEN_INLINE Intersector
-make_intersector(const SceneView<Real>& scene, [[maybe_unused]] const ExternalTracer* tracer) {
+requires RayIntersector<Intersector, Real> Intersector make_intersector(const SceneView<Real>& scene,
+                                                                        [[maybe_unused]] const ExternalTracer* tracer) {
   if constexpr (requires { typename Intersector::Tracer; })
     return Intersector(scene, *static_cast<const typename Intersector::Tracer*>(tracer));
   else
