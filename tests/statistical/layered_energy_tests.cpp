@@ -108,6 +108,19 @@ TEST(PrincipledFurnace, FilmsLoseNothing) {
         }
 }
 
+/// What a film does not reflect, since the interface reflects nothing, reaches the layers below.
+TEST(PrincipledFurnace, FilmsOfWeakInterfacesLoseNothing) {
+  Random random(26);
+  for (const double specular : {0.0, 0.02, 0.3})
+    for (const double film_ior : {1.3, 2.0})
+      for (const double transmission : {0.0, 1.0}) {
+        PrincipledValues v;
+        v.roughness = 0.45, v.specular = specular, v.transmission = transmission, v.thin = true;
+        v.iridescence = 1, v.iridescence_ior = film_ior;
+        expect_all_light(v, random, 0.015);
+      }
+}
+
 /// Any mixture of lobes; few samples find sheen at the horizon, so its roughness is not minimal.
 TEST(PrincipledFurnace, MixturesOfAllLobesLoseNothing) {
   Random random(24);

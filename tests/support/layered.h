@@ -19,7 +19,7 @@ struct PrincipledValues {
   double sheen = 0, sheen_roughness = 0.5, anisotropy = 0, iridescence = 0, specular = 1, ior = 1.5, dispersion = 0;
   bool thin = true;
   double colour = 1;
-  double diffuse_transmission = 0;
+  double diffuse_transmission = 0, iridescence_ior = 1.3;
 };
 
 inline uint32_t constant_in(Scene& scene, double value) {
@@ -44,6 +44,7 @@ inline Material principled_material(Scene& scene, const PrincipledValues& values
   p.sheen_roughness = constant_in(scene, values.sheen_roughness);
   p.anisotropy = constant_in(scene, values.anisotropy);
   p.iridescence = constant_in(scene, values.iridescence);
+  p.iridescence_ior = values.iridescence_ior;
   p.diffuse_transmission = constant_in(scene, values.diffuse_transmission);
   p.ior = values.ior;
   p.dispersion = values.dispersion;

@@ -137,8 +137,10 @@ ALHAZEN_HD void add_film(PrincipledBsdf<Real>& b, const FilmLayer<Real>& film, R
   const auto with_film = [&](const Vec3<Real>& f0) {
     return lerp(f0, f0_of_reflectance(film_reflectance(film, cosine, f0), cosine), film.amount);
   };
-  const Vec3<Real> kept = with_film(b.kept_f0);
-  b.f0 = min(with_film(b.f0), splat(max(b.f90, max_component(b.f0))));
+  // A film reflects no more than the interface at grazing angles, and the layers below lose no more than that.
+  const Vec3<Real> limit = splat(max(b.f90, max_component(b.f0)));
+  const Vec3<Real> kept = min(with_film(b.kept_f0), limit);
+  b.f0 = min(with_film(b.f0), limit);
   b.kept_f0 = min(max(b.f0, kept), splat(Real(1)));
   b.metal_f0 = min(with_film(b.metal_f0), splat(Real(1)));
 }

@@ -10,6 +10,26 @@
 
 namespace ALHAZEN_CORE {
 
+/// An edge function is a difference of two products. If a triangle appears narrow to a ray, which happens close to long
+/// triangles, the edge functions are small beside the products, and rounding of the products displaces the hit: t may
+/// even get the wrong sign. If their sum is less than this part of the largest product, they are computed in double.
+inline constexpr float narrow_triangle = 1.0f / 64;
+
+/// Recomputes the edge functions of a triangle that was hit, from its vertices in the sheared space of the ray. The
+/// products are exact in double. Those that are on the other side of zero, within rounding, become 0.
+inline ALHAZEN_RARE void recompute_edge_functions(const float (&x)[3], const float (&y)[3], float (&e)[3]) {
+  double exact[3], sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    exact[i] = double{x[j]} * double{y[k]} - double{y[j]} * double{x[k]};
+    sum += exact[i];
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double positive = sum < 0 ? -exact[i] : exact[i];
+    e[i] = positive > 0 ? static_cast<float>(positive) : 0.0f;
+  }
+}
+
 /// Intersects the triangle p0 p1 p2: sets t and the barycentric coordinates of p1 and p2. Rays through a shared edge or
 /// vertex always hit one of the triangles; degenerate triangles are never hit. If |t| is within its rounding error, the
 /// sign of t is unreliable. Rays are spawned so that this only happens for the triangle that they start on
@@ -26,7 +46,19 @@ ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>
                difference_of_products(p_t[2].x, p_t[0].y, p_t[2].y, p_t[0].x),
                difference_of_products(p_t[0].x, p_t[1].y, p_t[0].y, p_t[1].x)};
   if ((e.x < 0 || e.y < 0 || e.z < 0) && (e.x > 0 || e.y > 0 || e.z > 0)) return false;
-  const Real det = e.x + e.y + e.z;
+  Real det = e.x + e.y + e.z;
+#if !defined(__CUDA_ARCH__)  // there, fused operations make the differences exact
+  if constexpr (sizeof(Real) == sizeof(float)) {
+    const Real products =
+        max(max(std::abs(p_t[1].x * p_t[2].y), std::abs(p_t[2].x * p_t[0].y)), std::abs(p_t[0].x * p_t[1].y));
+    if (ALHAZEN_UNLIKELY(std::abs(det) < narrow_triangle * products)) {
+      float edges[3];
+      recompute_edge_functions({p_t[0].x, p_t[1].x, p_t[2].x}, {p_t[0].y, p_t[1].y, p_t[2].y}, edges);
+      e = {edges[0], edges[1], edges[2]};
+      det = e.x + e.y + e.z;
+    }
+  }
+#endif
   if (det == 0) return false;
   const Real inverse_det = Real(1) / det;
   const Vec3<Real> z = Vec3<Real>{p_t[0].z, p_t[1].z, p_t[2].z} * ray.shear.z;

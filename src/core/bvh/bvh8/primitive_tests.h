@@ -5,8 +5,10 @@
 // (blocks.h), or many rays with one primitive (packets.h).
 
 #include <bit>
+#include <type_traits>
 
 #include "core/bvh/bvh2/traversal.h"
+#include "core/shapes/triangle.h"
 #include "core/simd/lanes.h"
 
 namespace ALHAZEN_CORE {
@@ -41,13 +43,23 @@ struct TriangleLanes {
   ALHAZEN_INLINE TriangleLanes(const ShearedLanes<V>& a, const ShearedLanes<V>& b, const ShearedLanes<V>& c,
                                const V& scale) {
     const V zero = V::all(0);
-    e[0] = b.x * c.y - b.y * c.x;
-    e[1] = c.x * a.y - c.y * a.x;
-    e[2] = a.x * b.y - a.y * b.x;
+    const V products[3] = {b.x * c.y, c.x * a.y, a.x * b.y};
+    e[0] = products[0] - b.y * c.x;
+    e[1] = products[1] - c.y * a.x;
+    e[2] = products[2] - a.y * b.x;
     inside = less_equal(zero, min(min(e[0], e[1]), e[2])) | less_equal(max(max(e[0], e[1]), e[2]), zero);
     if (inside == 0) return;
+    V det = e[0] + e[1] + e[2];
+    if constexpr (std::is_same_v<typename V::Component, float>) {
+      const V largest = max(max(magnitude(products[0]), magnitude(products[1])), magnitude(products[2]));
+      const uint32_t narrow = inside & less(magnitude(det), V::all(narrow_triangle) * largest);
+      if (ALHAZEN_UNLIKELY(narrow != 0)) {
+        recompute(narrow, a, b, c);
+        det = e[0] + e[1] + e[2];
+      }
+    }
     // If the sum is 0, t is infinite or NaN and the hit is rejected.
-    inverse = V::all(1) / (e[0] + e[1] + e[2]);
+    inverse = V::all(1) / det;
     t = (e[0] * (a.z * scale) + e[1] * (b.z * scale) + e[2] * (c.z * scale)) * inverse;
   }
 
@@ -60,6 +72,18 @@ struct TriangleLanes {
   }
 
  private:
+  /// Recomputes the edge functions of some lanes.
+  ALHAZEN_RARE void recompute(uint32_t lanes, const ShearedLanes<V>& a, const ShearedLanes<V>& b,
+                              const ShearedLanes<V>& c) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int lane = std::countr_zero(lanes);
+      float edges[3];
+      recompute_edge_functions({a.x.lane(lane), b.x.lane(lane), c.x.lane(lane)},
+                               {a.y.lane(lane), b.y.lane(lane), c.y.lane(lane)}, edges);
+      for (int k = 0; k < 3; ++k) e[k] = choose(uint32_t{1} << lane, V::all(edges[k]), e[k]);
+    }
+  }
+
   template <class Vertex>
   ALHAZEN_INLINE static ShearedLanes<V> sheared(const Vertex& vertex, int v, const V (&origin)[3],
                                                 const V (&shear)[3]) {
