@@ -70,7 +70,7 @@ TEST(Exr, SingleFloatsComeBackExactly) {
   const TemporaryFolder folder;
   // Over two blocks of rows, in the order in which a reader returns channels.
   const Image image = make_image(5, 131, {"R", "G", "B", "A", "albedo.R", "albedo.G", "albedo.B", "depth.Z"});
-  ExrOptions options;
+  WriteOptions options;
   options.pixel_type = ExrPixelType::single;
   write_exr(folder.file("a.exr"), source_of(image), options);
   const Image back = read_image(folder.file("a.exr"));
@@ -104,7 +104,7 @@ TEST(Exr, HalfFloatsRoundAndClampButDepthDoesNot) {
 
 TEST(Exr, HeaderHoldsMetadataAndWindows) {
   const TemporaryFolder folder;
-  ExrOptions options;
+  WriteOptions options;
   options.metadata = {{"software", "alhazen"}, {"alhazen.settings.of.a.long.name.over.31", "spp 16"}};
   options.x_offset = 10;
   options.y_offset = 20;
