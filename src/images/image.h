@@ -62,7 +62,8 @@ struct WriteOptions {
 /// chooses a format, and the names in messages and help, expand from this list.
 ///   exr  all channels
 ///   png  channels R, G, B; values are tone mapped, clamped to [0, 1] and sRGB-encoded, NaN becomes black
-#define ALHAZEN_WRITTEN_FORMATS(FORMAT) FORMAT(exr) FORMAT(png)
+///   pfm  channels R, G, B as they are, in single precision
+#define ALHAZEN_WRITTEN_FORMATS(FORMAT) FORMAT(exr) FORMAT(png) FORMAT(pfm)
 
 /// Each writes the image completely or not at all: to a temporary file beside the target, which is then renamed to it.
 /// Throws RenderError with path and cause if that fails; existing files then remain unchanged.

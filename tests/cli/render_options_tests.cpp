@@ -99,6 +99,19 @@ Material "coateddiffuse" "rgb reflectance" [ 1 1 1 ] "float roughness" 0.3 "bool
   EXPECT_EQ(run({"render", "coat.pbrt", "-o", "no.exr", "--coats", "none"}).exit_code, 2);
 }
 
+TEST_F(RenderOptions, PfmHoldsWhatEveryBitOfTheImageIs) {
+  const CommandResult result =
+      render({"-o", "a.exr", "-o", "a.pfm", "--exr-type", "float", "--spp", "2", "--aov", "depth"});
+  EXPECT_EQ(result.exit_code, 0) << result.everything();
+  const Image exr = image("a.exr"), pfm = image("a.pfm");
+  for (const char* channel : {"R", "G", "B"})
+    EXPECT_EQ(pfm.planes.at(static_cast<size_t>(pfm.channel(channel))),
+              exr.planes.at(static_cast<size_t>(exr.channel(channel))))
+        << channel;
+  EXPECT_EQ(run({"compare", "a.pfm", "a.exr", "--diff", "d.pfm"}).exit_code, 0);
+  EXPECT_EQ(image("d.pfm").width, 24);
+}
+
 TEST_F(RenderOptions, StatisticsAreOneObjectWithEveryKey) {
   const nlohmann::json j = statistics({"-o", "a.exr", "--seed", "5", "--max-depth", "3", "-t", "2"});
   for (const char* key : {"backend",
