@@ -30,7 +30,7 @@ RenderedImage render(const std::string& scene_file, const Settings& settings, co
   choice.record->refuse(settings.checkpoint, "the checkpoint");
   if (!settings.environment.empty())
     use_environment(scene, path_beside(scene_file, settings.environment, settings.confine));
-  scene.coats = parse_coats(settings.coats);
+  apply_settings(settings, scene);
   const RenderSettings resolved = resolve_settings(settings, scene);
   const Rendering rendering = render_scene(std::move(scene), resolved, 0, RenderEvents{progress, {}, {}}, diagnostics);
   const ImageSource source = rendering.source();

@@ -148,11 +148,11 @@ int run(RenderOptions& options) {
                            s.confine, record};
   Scene scene = read_scene(options.scene, choice, diagnostics);
   if (!s.environment.empty()) use_environment(scene, path_beside(options.scene, s.environment, s.confine));
-  scene.coats = parse_coats(options.settings.coats);
+  apply_settings(s, scene);
   const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene);
-  check_files(options.output.paths, settings.checkpoint,
+  check_files(options.output.paths, s.checkpoint,
               {{options.scene, "the scene"}, {s.environment, "the environment map"}}, *record);
 
   const bool fits_exposure = scene.film.fits_exposure && !options.exposure;
