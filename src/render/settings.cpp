@@ -8,6 +8,7 @@
 #include "render/backend.h"
 #include "render/checkpoint.h"
 #include "render/denoiser.h"
+#include "scene/filters.h"
 #include "util/thread_limit.h"
 
 namespace alhazen {
@@ -129,9 +130,35 @@ CoatModel parse_coats(const std::string& text) {
   throw InputError("unknown coats '" + text + "'; use lossless or pbrt");
 }
 
+/// A name, which has the radius and the shape of pbrt-v4's defaults, and optionally a comma and another radius.
+Filter parse_filter(const std::string& text) {
+  const size_t comma = text.find(',');
+  const auto named = named_filters().find(text.substr(0, comma));
+  if (named == named_filters().end()) {
+    std::string names;
+    for (const auto& [name, filter] : named_filters()) names += (names.empty() ? "" : ", ") + name;
+    throw InputError("unknown pixel filter '" + text + "': it may be " + names +
+                     ", with a radius in pixels after a comma if you like");
+  }
+  Filter filter = named->second;
+  if (comma == std::string::npos) return filter;
+  const char *const begin = text.data() + comma + 1, *const end = text.data() + text.size();
+  double radius = 0;
+  const auto [parsed, error] = std::from_chars(begin, end, radius);
+  if (error != std::errc() || parsed != end || !(radius > 0 && radius <= max_filter_radius))
+    throw InputError("the radius of a pixel filter must be a number above 0 and at most " +
+                     std::to_string(static_cast<int>(max_filter_radius)) + " pixels, not '" + std::string(begin, end) +
+                     "'");
+  filter.x_radius = filter.y_radius = radius;
+  return filter;
+}
+
 }  // namespace
 
-void apply_settings(const Settings& asked, Scene& scene) { scene.coats = parse_coats(asked.coats); }
+void apply_settings(const Settings& asked, Scene& scene) {
+  scene.coats = parse_coats(asked.coats);
+  if (!asked.filter.empty()) scene.filter = parse_filter(asked.filter);
+}
 
 Schedule parse_schedule(const std::string& text) {
   const size_t comma = text.find(',');
