@@ -18,7 +18,8 @@
 #include "core/math/frame.h"
 #include "core/math/vec.h"
 #include "core/sampling/any_sampler.h"
-#include "core/textures/functions.h"
+#include "core/textures/mapping_kind.h"
+#include "core/textures/texture_list.h"
 #include "scene/transform.h"
 #include "util/diagnostics.h"
 
@@ -49,7 +50,9 @@ struct ImageTexels {
 struct Texture {
   std::string name;
   TextureKind kind = TextureKind::constant;
-  Vec3d value{1, 1, 1};  ///< constant
+  /// constant: the value. threshold: the edge. Kinds whose file (core/textures/kinds) does not name other members:
+  /// their numbers.
+  Vec3d value{1, 1, 1};
   /// Inputs, indices into Scene::textures. checkerboard: even, odd. scale: factor, factor. mix: at 0, at 1, amount.
   /// dots: inside, outside. direction_mix: value where the normal is along `direction`, value where it is
   /// perpendicular.
