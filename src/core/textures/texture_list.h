@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/textures/kinds/arithmetic.h"
+#include "core/textures/kinds/cellular.h"
 #include "core/textures/kinds/checkerboard.h"
 #include "core/textures/kinds/constant.h"
 #include "core/textures/kinds/coordinates.h"
@@ -36,7 +37,8 @@ namespace ALHAZEN_CORE {
   KIND(dots, Dots)                  \
   KIND(windy, Windy)                \
   KIND(direction_mix, DirectionMix) \
-  KIND(threshold, Threshold)
+  KIND(threshold, Threshold)        \
+  KIND(cellular, Cellular)
 
 enum class TextureKind : uint32_t {
 #define ALHAZEN_KIND(name, Name) name,
