@@ -118,7 +118,7 @@ void add_records(Hasher& h, const LightRecord<Real>* lights, uint32_t count) {
     h.add(uint64_t{light->two_sided});
     for (const uint32_t value : {light->trail, light->texture.first, light->texture.count}) h.add(uint64_t{value});
     for (const Vec3<Real>& v : {light->radiance, light->position, light->direction}) h.add_bytes(&v, sizeof(v));
-    for (const Real value : {light->pmf, light->cos_outer, light->cos_inner}) h.add(static_cast<double>(value));
+    for (const Real value : {light->pmf, light->parameters.x, light->parameters.y}) h.add(static_cast<double>(value));
   }
 }
 

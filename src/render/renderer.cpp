@@ -309,7 +309,7 @@ Rendering render_scene(Scene&& scene, const RenderSettings& settings, double loa
                        Diagnostics& diagnostics) {
   if (settings.integrator != IntegratorKind::path)
     for (const Light& light : scene.lights)
-      if (light.kind != LightKind::constant_infinite && light.kind != LightKind::environment)
+      if (!light_traits(light.kind).has_size)
         diagnostics.warn(light.where, "rays cannot hit lights without area: the integrator '" +
                                           to_string(settings.integrator) + "' does not show them; 'path' does");
   Rendering rendering =
