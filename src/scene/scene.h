@@ -205,12 +205,12 @@ struct Instance {
 /// A light that is not a shape: of any kind but triangle, sphere and moving_sphere.
 struct Light {
   LightKind kind = LightKind::constant_infinite;
-  /// constant_infinite: radiance; environment: factor on the map; distant: irradiance at normal incidence, W / m^2;
-  /// others: intensity, W / sr.
+  /// constant_infinite: radiance; environment: factor on the map; distant, sun: irradiance at normal incidence, W /
+  /// m^2; others: intensity, W / sr.
   Vec3d radiance;
   Vec3d position;                                       ///< world space
   Vec3d direction{0, 0, 1};                             ///< world space, unit length, direction of propagation
-  double cone_angle = 30;                               ///< spot: degrees from the axis to the cone's edge
+  double cone_angle = 30;                               ///< spot, sun: degrees from the axis to the edge
   double falloff_start = 25;                            ///< spot: degrees from the axis to the start of the falloff
   uint32_t environment = no_index;                      ///< index into Scene::environments
   Frame<double> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< environment: x, y, z of the map in world space, orthonormal

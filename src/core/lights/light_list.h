@@ -13,6 +13,7 @@
 #include "core/lights/kinds/point.h"
 #include "core/lights/kinds/projection.h"
 #include "core/lights/kinds/spot.h"
+#include "core/lights/kinds/sun.h"
 
 namespace ALHAZEN_CORE {
 
@@ -25,7 +26,8 @@ namespace ALHAZEN_CORE {
   KIND(constant_infinite, ConstantInfinite) \
   KIND(environment, Environment)            \
   KIND(goniometric, Goniometric)            \
-  KIND(projection, Projection)
+  KIND(projection, Projection)              \
+  KIND(sun, Sun)
 
 enum class LightKind : uint32_t {
   triangle,
