@@ -205,8 +205,8 @@ struct Instance {
 /// A light that is not a shape: of any kind but triangle, sphere and moving_sphere.
 struct Light {
   LightKind kind = LightKind::constant_infinite;
-  /// constant_infinite: radiance; environment: factor on the map; distant, sun: irradiance at normal incidence, W /
-  /// m^2; others: intensity, W / sr.
+  /// constant_infinite: radiance; environment: factor on the map; distant and sun: irradiance at normal incidence,
+  /// W / m^2; others: intensity, W / sr.
   Vec3d radiance;
   Vec3d position;                                       ///< world space
   Vec3d direction{0, 0, 1};                             ///< world space, unit length, direction of propagation
