@@ -37,6 +37,9 @@ struct Settings {
   /// Read no files outside the folder of the scene file; for untrusted scenes. Files that are linked or mounted into
   /// the folder count as inside, hard links included.
   bool confine = false;
+  /// Pixel filter: box, triangle, gaussian, mitchell or sinc, with an optional radius in pixels: "box,0.5". Empty: that
+  /// of the scene.
+  std::string filter;
   std::string coats;      ///< pbrt: lossless, or pbrt to lose as much light as pbrt-v4 does; empty: lossless
   std::string camera;     ///< glTF: a name, or a number from 0; empty: the first
   std::string variant;    ///< glTF: a name or a number of KHR_materials_variants; empty: none

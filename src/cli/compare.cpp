@@ -61,16 +61,12 @@ std::string table_text(const ImageDifference& d) {
 
 void write_difference(const std::string& path, const Image& a, const Image& b) {
   const Image difference = difference_image(a, b);
-  if (extension_of(path) == "exr")
-    write_exr(path, source_of(difference), {});
-  else
-    write_png(path, source_of(difference), {});
+  write_image(path, source_of(difference), {});
 }
 
 void run_compare(const CompareOptions& options) {
-  const std::string extension = extension_of(options.diff);
-  if (!options.diff.empty() && extension != "png" && extension != "exr")
-    throw InputError("--diff " + options.diff + ": give a file name that ends in .png or .exr");
+  if (!options.diff.empty() && !has_written_extension(options.diff))
+    throw InputError("--diff " + options.diff + ": give a file name that ends in " + written_extensions());
   if (!options.diff.empty()) check_target(options.diff);
   refuse_same_file({options.diff, "the image of --diff"}, {{options.a, "the image"}, {options.b, "the reference"}});
   Image a = read_image(options.a), b = read_image(options.b);
@@ -90,7 +86,7 @@ CLI::App* register_compare(CLI::App& app) {
       ->type_name("");
   command->add_option("B", options->b, "the reference, of the same size")->required()->type_name("");
   command->add_flag("--json", options->json, "print one JSON object");
-  command->add_option("--diff", options->diff, "write an image of the differences (FLIP), .png or .exr")
+  command->add_option("--diff", options->diff, "write an image of the differences (FLIP), " + written_extensions())
       ->type_name("FILE");
   command
       ->add_option("--reduce", options->reduce,

@@ -11,6 +11,7 @@
 #include "compile/compile_scene.h"
 #include "pipeline/load_scene.h"
 #include "render/statistics.h"
+#include "scene/filters.h"
 #include "util/printable.h"
 
 namespace alhazen {
@@ -22,20 +23,10 @@ struct InfoOptions {
   bool json = false, list = false, confine = false;
 };
 
-const char* name_of(FilterType type) {
-  switch (type) {
-    case FilterType::box:
-      return "box";
-    case FilterType::triangle:
-      return "triangle";
-    case FilterType::gaussian:
-      return "gaussian";
-    case FilterType::mitchell:
-      return "mitchell";
-    case FilterType::sinc:
-      return "sinc";
-  }
-  return "";
+std::string name_of(FilterType type) {
+  for (const auto& [name, filter] : named_filters())
+    if (filter.type == type) return name;
+  return {};
 }
 
 void show(const InfoOptions& options) {
@@ -50,7 +41,7 @@ void show(const InfoOptions& options) {
   const RenderSettings settings = resolve_settings(asked, scene);
   const size_t materials = scene.materials.size(), textures = scene.textures.size(), images = scene.images.size(),
                meshes = scene.meshes.size(), instances = scene.instances.size();
-  const char* filter = name_of(scene.filter.type);
+  const std::string filter = name_of(scene.filter.type);
   CompileOptions as_on_cpus{.layouts = {BvhLayout::bvh8}};
   as_on_cpus.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
   const SceneStatistics sizes = compile_scene<float>(std::move(scene), as_on_cpus, diagnostics).statistics;

@@ -36,14 +36,14 @@ struct RenderOptions {
 };
 
 void parse_output_options(RenderOptions& o) {
-  if (o.exposure) o.output.png.exposure = *o.exposure;
-  if (!std::isfinite(o.output.png.exposure)) throw InputError("--exposure must be a finite number of stops");
+  if (o.exposure) o.output.how.exposure = *o.exposure;
+  if (!std::isfinite(o.output.how.exposure)) throw InputError("--exposure must be a finite number of stops");
   if (o.exr_type != "half" && o.exr_type != "float")
     throw InputError("unknown pixel type '" + o.exr_type + "': it may be half, float");
-  o.output.exr_type = o.exr_type == "half" ? ExrPixelType::half : ExrPixelType::single;
+  o.output.how.pixel_type = o.exr_type == "half" ? ExrPixelType::half : ExrPixelType::single;
   if (o.tone_map != "none" && o.tone_map != "reinhard" && o.tone_map != "filmic")
     throw InputError("unknown tone map '" + o.tone_map + "': it may be none, reinhard, filmic");
-  o.output.png.tone_map = o.tone_map == "none"       ? ToneMap::none
+  o.output.how.tone_map = o.tone_map == "none"       ? ToneMap::none
                           : o.tone_map == "reinhard" ? ToneMap::reinhard
                                                      : ToneMap::filmic;
   if (!o.stats.empty() && o.stats != "text" && o.stats != "json")
@@ -104,8 +104,8 @@ void print_end(const RenderOptions& options, const OutputReport& outputs, const 
                                    format_seconds(statistics.render_seconds));
     for (const std::string& path : outputs.written)
       line += (&path == &outputs.written[0] ? "; wrote " : ", ") + printable(path);
-    if (!options.exposure && options.output.png.exposure < 0)
-      line += fmt::format("; PNG with --exposure {}", options.output.png.exposure);
+    if (!options.exposure && options.output.how.exposure < 0)
+      line += fmt::format("; PNG with --exposure {}", options.output.how.exposure);
     tell("{}\n", line);
   }
   if (options.stats == "json") print_out("{}\n", statistics.to_json());
@@ -117,7 +117,7 @@ int finish(RenderOptions& options, const Rendering& rendering, bool fits_exposur
   const bool is_empty = is_interrupted() && !rendering.has_samples();
   const auto is_png = [](const std::string& path) { return extension_of(path) == "png"; };
   if (fits_exposure && std::any_of(options.output.paths.begin(), options.output.paths.end(), is_png))
-    options.output.png.exposure = fitting_exposure(rendering.source());
+    options.output.how.exposure = fitting_exposure(rendering.source());
   const OutputReport outputs = is_empty ? OutputReport{} : write_outputs(options.output, rendering);
   print_end(options, outputs, rendering.statistics);
   if (!outputs.failures.empty()) return exit_failed;
@@ -141,7 +141,7 @@ int run(RenderOptions& options) {
   Scene& scene = loaded.scene;
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene);
-  check_files(options.output.paths, settings.checkpoint,
+  check_files(options.output.paths, options.settings.checkpoint,
               {{options.scene, "the scene"}, {options.settings.environment, "the environment map"}}, *loaded.inputs);
 
   const bool fits_exposure = scene.film.fits_exposure && !options.exposure;
@@ -165,8 +165,9 @@ int run(RenderOptions& options) {
 
 void add_output_options(CLI::App& command, RenderOptions& o, const char* group) {
   command
-      .add_option("-o,--output,--outfile", o.output.paths,
-                  "Image to write, .exr or .png; may be given more than once. Default: as the scene says")
+      .add_option(
+          "-o,--output,--outfile", o.output.paths,
+          "Image to write, " + written_extensions() + "; may be given more than once. Default: as the scene says")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("FILE")

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/filters.h"
+
 namespace alhazen {
 
 namespace {
@@ -59,7 +61,8 @@ bool add_filter_axis(const Filter& filter, double radius, std::vector<Real>& tab
 template <class Real>
 FilterRecord<Real> filter_record(const Filter& filter, std::vector<Real>& table) {
   FilterRecord<Real> record;
-  if (!(filter.x_radius > 0 && filter.y_radius > 0) || filter.x_radius > 64 || filter.y_radius > 64)
+  if (!(filter.x_radius > 0 && filter.y_radius > 0) || filter.x_radius > max_filter_radius ||
+      filter.y_radius > max_filter_radius)
     throw InputError("the radius of the pixel filter must be above 0 and at most 64 pixels");
   record.x_radius = static_cast<Real>(filter.x_radius);
   record.y_radius = static_cast<Real>(filter.y_radius);

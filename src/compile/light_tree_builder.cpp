@@ -84,6 +84,11 @@ Item item_of(const SceneArrays<Real>& arrays, const SceneView<Real>& view, uint3
     b.box.extend(centre + splat(radius));
     item.radius = std::max(item.radius, radius);
   };
+  const auto add_point = [&](const LightCone& cone) {
+    if (cone.normals < pi_) b.normals = {convert<double>(light.direction), cone.normals};
+    b.emission = cone.emission;
+    add_ball(convert<double>(light.position), 0);
+  };
   switch (light.kind) {
     case LightKind::triangle: {
       const TriangleRecord& triangle = arrays.triangles[light.primitive];
@@ -103,25 +108,12 @@ Item item_of(const SceneArrays<Real>& arrays, const SceneView<Real>& view, uint3
       item.radius += length(convert<double>(s.motion)) / 2;
       break;
     }
-    case LightKind::spot: {
-      const double outer = std::acos(static_cast<double>(light.cos_outer));
-      // Parts of a wide cone are more than 90 degrees from its axis.
-      b.normals = {convert<double>(light.direction), std::max(0.0, outer - pi_ / 2 + 2e-3)};
-      b.emission = std::min(pi_ / 2, outer - b.normals.angle + 1e-3);
-      add_ball(convert<double>(light.position), 0);
-      break;
-    }
-    case LightKind::projection: {
-      const LightImageRecord<Real>& p = arrays.light_images[light.primitive];
-      b.normals = {convert<double>(light.direction), 0};
-      b.emission = std::min(
-          pi_ / 2, std::atan(std::hypot(static_cast<double>(p.half_width), static_cast<double>(p.half_height))) + 1e-3);
-      add_ball(convert<double>(light.position), 0);
-      break;
-    }
-    default:
-      add_ball(convert<double>(light.position), 0);
-      break;
+#define ALHAZEN_CASE(name, Name)               \
+  case LightKind::name:                        \
+    add_point(Name##Light::cone(view, light)); \
+    break;
+      ALHAZEN_LIGHTS(ALHAZEN_CASE)
+#undef ALHAZEN_CASE
   }
   item.centre = b.box.centre();
   if (light.kind == LightKind::triangle) item.radius = length(b.box.diagonal()) / 2;
@@ -252,10 +244,8 @@ void build_light_tree(const std::vector<double>& weights, SceneArrays<Real>& out
   const SceneView<Real> view = out.view();
   std::vector<Item> items;
   for (uint32_t i = 0; i < out.lights.size(); ++i) {
-    const LightKind kind = out.lights[i].kind;
-    const bool is_finite =
-        kind != LightKind::distant && kind != LightKind::constant_infinite && kind != LightKind::environment;
-    if (is_finite && weights[i] > 0) items.push_back(item_of(out, view, i, weights[i]));
+    if (!light_traits(out.lights[i].kind).is_at_infinity && weights[i] > 0)
+      items.push_back(item_of(out, view, i, weights[i]));
   }
   // The root, one unused node, and the pairs of children.
   std::vector<LightTreeNode> nodes(2 * items.size());

@@ -12,35 +12,42 @@ namespace alhazen {
 
 namespace {
 
-bool is_at_infinity(LightKind kind) {
-  return kind == LightKind::distant || kind == LightKind::constant_infinite || kind == LightKind::environment;
-}
-
-/// Emitted power, W, by luminance; for infinite lights their irradiance, W / m^2.
+/// Emitted power, W, by luminance; for lights at infinity their irradiance, W / m^2.
 template <class Real>
 double light_weight(const LightRecord<Real>& light, double measure) {
   const double value = static_cast<double>(luminance(light.radiance));
   const double strongest = static_cast<double>(max_component(light.radiance));
   const double amount = std::max(value, 1e-3 * strongest);
   switch (light.kind) {
-    case LightKind::point:
-      return amount * 4 * std::numbers::pi;
-    case LightKind::spot:
-      return amount * 2 * std::numbers::pi * (1 - 0.5 * static_cast<double>(light.cos_outer + light.cos_inner));
-    case LightKind::distant:
-      return amount;
-    case LightKind::constant_infinite:
-    case LightKind::environment:
-      return amount * std::numbers::pi;
-    case LightKind::goniometric:
-    case LightKind::projection:
-      return amount * measure;
-    default:
-      return amount * std::numbers::pi * measure * (light.two_sided ? 2 : 1);
+#define ALHAZEN_CASE(name, Name) \
+  case LightKind::name:          \
+    return Name##Light::power(light, amount, measure);
+    ALHAZEN_LIGHTS(ALHAZEN_CASE)
+#undef ALHAZEN_CASE
+    case LightKind::triangle:
+    case LightKind::sphere:
+    case LightKind::moving_sphere:
+      break;
   }
+  return amount * std::numbers::pi * measure * (light.two_sided ? 2 : 1);
 }
 
-double cos_degrees(double angle) { return std::cos(angle * std::numbers::pi / 180); }
+/// Sets the members of the kind.
+template <class Real>
+void set_record(const Light& light, LightRecord<Real>& record) {
+  switch (light.kind) {
+#define ALHAZEN_CASE(name, Name)            \
+  case LightKind::name:                     \
+    Name##Light::set_record(light, record); \
+    break;
+    ALHAZEN_LIGHTS(ALHAZEN_CASE)
+#undef ALHAZEN_CASE
+    case LightKind::triangle:
+    case LightKind::sphere:
+    case LightKind::moving_sphere:
+      break;
+  }
+}
 
 /// Appends the image of a light. Returns its luminance integrated over all directions, steradians.
 template <class Real>
@@ -92,33 +99,27 @@ void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>&
     record.radiance = convert<Real>(light.radiance);
     record.position = convert<Real>(light.position);
     record.direction = convert<Real>(light.direction);
+    set_record(light, record);
     if (!is_finite(record.radiance) || !is_finite(record.position))
       throw InputError(light.where, "the light is too bright or too far away for this precision");
-    switch (light.kind) {
-      case LightKind::constant_infinite:
-        background += light.radiance;
-        continue;
-      case LightKind::environment:
-        add_environment(light, scene, out);
-        measures.resize(out.lights.size());
-        continue;
-      case LightKind::goniometric:
-      case LightKind::projection:
-        if (is_zero(light.radiance)) continue;
+    if (light.kind == LightKind::constant_infinite) {
+      background += light.radiance;
+      continue;
+    }
+    const size_t index = out.lights.size();
+    if (light.kind == LightKind::environment) {
+      add_environment(light, scene, out);
+    } else if (!is_zero(light.radiance)) {
+      if (light_traits(light.kind).has_image) {
         record.primitive = static_cast<uint32_t>(out.light_images.size());
         record.direction = convert<Real>(light.axes.normal);
         measures.push_back(add_light_image(light, scene, out));
-        out.lights.push_back(record);
-        continue;
-      case LightKind::spot:
-        record.cos_outer = static_cast<Real>(cos_degrees(light.cone_angle));
-        record.cos_inner = static_cast<Real>(cos_degrees(std::min(light.falloff_start, light.cone_angle)));
-        break;
-      default:
-        break;
+      }
+      out.lights.push_back(record);
     }
-    if (!is_zero(light.radiance)) out.lights.push_back(record);
     measures.resize(out.lights.size());
+    if (out.lights.size() > index && light_traits(light.kind).is_at_infinity && light_traits(light.kind).has_size)
+      out.far_lights.push_back(static_cast<uint32_t>(index));
   }
   if (is_zero(background)) return;
   LightRecord<Real> record{};
@@ -134,10 +135,8 @@ void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>&
 
 template <class Real>
 bool has_only_lights_without_size(const SceneArrays<Real>& out) {
-  return std::all_of(out.lights.begin(), out.lights.end(), [](const LightRecord<Real>& light) {
-    return light.kind == LightKind::point || light.kind == LightKind::spot || light.kind == LightKind::distant ||
-           light.kind == LightKind::goniometric || light.kind == LightKind::projection;
-  });
+  return std::all_of(out.lights.begin(), out.lights.end(),
+                     [](const LightRecord<Real>& light) { return !light_traits(light.kind).has_size; });
 }
 
 template bool has_only_lights_without_size(const SceneArrays<float>&);
@@ -151,26 +150,26 @@ void assign_light_probabilities(const std::vector<double>& measures, LightSampli
   double total[2] = {0, 0};
   size_t finite = 0;
   for (size_t i = 0; i < count; ++i) {
-    const bool is_infinite = is_at_infinity(out.lights[i].kind);
+    const bool is_infinite = light_traits(out.lights[i].kind).is_at_infinity;
     weights[i] = light_weight(out.lights[i], i < measures.size() ? measures[i] : 0);
     total[is_infinite] += weights[i];
     finite += !is_infinite && weights[i] > 0 ? 1 : 0;
   }
   const bool both = total[0] > 0 && total[1] > 0;
   for (size_t i = 0; i < count; ++i) {
-    const double total_weight = total[is_at_infinity(out.lights[i].kind)];
+    const double total_weight = total[light_traits(out.lights[i].kind).is_at_infinity];
     out.lights[i].pmf = static_cast<Real>(total_weight > 0 ? weights[i] / total_weight * (both ? 0.5 : 1) : 0);
   }
   const bool has_tree = finite > 0 && sampling != LightSampling::power &&
                         (sampling == LightSampling::tree || finite > max_lights_without_tree);
   // With a tree the others are chosen among the infinite lights, which precede all shapes.
   size_t chosen = count;
-  while (has_tree && chosen > 0 && !is_at_infinity(out.lights[chosen - 1].kind)) --chosen;
+  while (has_tree && chosen > 0 && !light_traits(out.lights[chosen - 1].kind).is_at_infinity) --chosen;
   double sum = 0;
   out.light_cdf.assign(1, Real(0));
   for (size_t i = 0; i < chosen; ++i) {
-    const bool counts = !has_tree || is_at_infinity(out.lights[i].kind);
-    const double total_weight = total[is_at_infinity(out.lights[i].kind)];
+    const bool counts = !has_tree || light_traits(out.lights[i].kind).is_at_infinity;
+    const double total_weight = total[light_traits(out.lights[i].kind).is_at_infinity];
     if (counts && total_weight > 0) sum += weights[i] / total_weight * (both && !has_tree ? 0.5 : 1);
     out.light_cdf.push_back(i + 1 == chosen ? Real(1) : static_cast<Real>(sum));
   }

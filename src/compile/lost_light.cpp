@@ -20,10 +20,7 @@ constexpr double min_sharp = 0.15, min_lost = 0.005;
 /// Density over solid angle above which a lobe counts as specular: that of GGX with an alpha of 0.009.
 constexpr double sharp_pdf = 1000;
 
-bool is_without_size(LightKind kind) {
-  return kind == LightKind::point || kind == LightKind::spot || kind == LightKind::distant ||
-         kind == LightKind::goniometric || kind == LightKind::projection;
-}
+bool is_without_size(LightKind kind) { return !light_traits(kind).has_size; }
 
 bool may_be_sharp(MaterialKind kind) { return has_trait<&MaterialTraits::may_be_sharp>(kind); }
 
@@ -162,7 +159,7 @@ class LostLightSearch {
   std::optional<LostLight> lost_of(const LightRecord<Real>& light) {
     tallies_.assign(view_.materials_count, {});
     for (const Candidate& candidate : candidates_) light_candidate(light, candidate);
-    if (light.kind != LightKind::distant)
+    if (!light_traits(light.kind).is_at_infinity)
       for (uint32_t i = 0; i < rays_per_light; ++i) send_ray(light);
     for (const Tally& tally : tallies_)
       if (tally.lost > min_lost * tally.incident && tally.sharp > min_sharp * tally.incident) return tally.where;
@@ -182,20 +179,22 @@ class LostLightSearch {
     follow({si.position + s.direction * hit.t, -s.direction, Real(0)}, hit);
   }
 
+  Vec3<Real> direction_from(const LightRecord<Real>& light, const Vec2<Real>& u) const {
+    switch (light.kind) {
+#define ALHAZEN_CASE(name, Name) \
+  case LightKind::name:          \
+    return Name##Light::sample_emission(view_, light, u);
+      ALHAZEN_LIGHTS(ALHAZEN_CASE)
+#undef ALHAZEN_CASE
+      default:
+        return {};
+    }
+  }
+
   /// Tests light on the first hit in a direction of emission, so that narrow cones on large surfaces count.
   void send_ray(const LightRecord<Real>& light) {
     const Vec2<Real> u{random(), random()};
-    Vec3<Real> direction = sample_uniform_sphere(u);
-    if (light.kind == LightKind::spot) {
-      const Real cosine = 1 - u.x * (1 - light.cos_outer), sine = safe_sqrt(1 - cosine * cosine);
-      const auto [sine_phi, cosine_phi] = sine_cosine_of_turn(2 * pi<Real> * u.y);
-      direction = frame_about(light.direction).to_world({sine * cosine_phi, sine * sine_phi, cosine});
-    } else if (light.kind == LightKind::projection) {
-      const LightImageRecord<Real>& image = view_.light_images[light.primitive];
-      direction = normalize(
-          image.axes.to_world({image.half_width * (2 * u.x - 1), image.half_height * (2 * u.y - 1), Real(1)}));
-    }
-    Ray<Real> ray{light.position, direction, Real(0)};
+    Ray<Real> ray{light.position, direction_from(light, u), Real(0)};
     Hit<Real> hit;
     Real travelled = 0;
     if (!closest_stop(view_, intersector_, RayKind::scattered, ray, hit, travelled)) return;
@@ -251,24 +250,7 @@ class LostLightSearch {
   uint32_t random_count_ = 0;
 };
 
-bool has_no_size(const Light& light) {
-  return light.kind != LightKind::constant_infinite && light.kind != LightKind::environment && !is_zero(light.radiance);
-}
-
-const char* name_of(LightKind kind) {
-  switch (kind) {
-    case LightKind::spot:
-      return "spot light";
-    case LightKind::distant:
-      return "distant light";
-    case LightKind::goniometric:
-      return "goniometric light";
-    case LightKind::projection:
-      return "projection light";
-    default:
-      return "point light";
-  }
-}
+bool has_no_size(const Light& light) { return is_without_size(light.kind) && !is_zero(light.radiance); }
 
 }  // namespace
 
@@ -290,7 +272,7 @@ void warn_of_lost_light(const LostLight& lost, const Scene& scene, const SourceL
                                   [&](const Light& l) { return has_no_size(l) && before-- == 0; });
   if (light == scene.lights.end()) return;
   std::string message =
-      std::string("light of this ") + name_of(light->kind) + " is lost at the " +
+      std::string("light of this ") + light_traits(light->kind).name + " is lost at the " +
       (lost.is_mirror ? "mirror " : "glass ") + where.to_string() +
       ": 'path' connects lights without area to surfaces by straight shadow rays alone, not through glass or "
       "by mirrors";

@@ -68,8 +68,8 @@ TextureRange TextureBuilder<Real>::constant(double value) {
 
 template <class Real>
 bool TextureBuilder<Real>::looks_up_uv(const TextureRecord<Real>& node) const {
-  const bool is_flat = node.kind == TextureKind::image || node.kind == TextureKind::coordinates ||
-                       node.kind == TextureKind::dots || (node.kind == TextureKind::checkerboard && node.octaves == 0);
+  const TextureDomain domain = texture_domain(node.kind);
+  const bool is_flat = domain == TextureDomain::st || (domain == TextureDomain::st_or_space && node.number == 0);
   return is_flat && out_.texture_mappings[node.mapping].kind == TextureMappingKind::uv;
 }
 
@@ -126,46 +126,18 @@ void TextureBuilder<Real>::append(uint32_t index, uint32_t waiting, int nesting)
 /// The last node of a texture's program, which takes the values of its inputs.
 template <class Real>
 TextureRecord<Real> TextureBuilder<Real>::node_of(const Texture& texture) {
-  TextureRecord<Real> node{texture.kind, 0, 0, static_cast<uint32_t>(std::clamp(texture.octaves, 1, 64)), {}};
+  TextureRecord<Real> node{};
+  node.kind = texture.kind;
+  if (texture_domain(texture.kind) != TextureDomain::none) node.mapping = add_mapping(texture);
+  if (texture.kind == TextureKind::image) node.image = images_.record(texture);
   switch (texture.kind) {
-    case TextureKind::constant:
-      node.parameters = convert<Real>(texture.value);
-      break;
-    case TextureKind::checkerboard:
-      node.mapping = add_mapping(texture);
-      node.octaves = texture.solid_checks ? 1 : 0;
-      break;
-    case TextureKind::image:
-      node.mapping = add_mapping(texture);
-      node.image = images_.record(texture);
-      node.parameters = {static_cast<Real>(texture.image_scale), texture.invert ? Real(1) : Real(0), 0};
-      break;
-    case TextureKind::fbm:
-    case TextureKind::wrinkled:
-    case TextureKind::marble:
-      node.mapping = add_mapping(texture);
-      node.parameters = {static_cast<Real>(texture.roughness), static_cast<Real>(texture.noise_scale),
-                         static_cast<Real>(texture.variation)};
-      break;
-    case TextureKind::channel:
-      node.octaves = static_cast<uint32_t>(std::clamp(texture.channel, 0, 2));
-      break;
-    case TextureKind::coordinates:
-    case TextureKind::dots:
-    case TextureKind::windy:
-      node.mapping = add_mapping(texture);
-      break;
-    case TextureKind::direction_mix:
-      node.parameters = convert<Real>(normalize(texture.direction));
-      break;
-    case TextureKind::threshold:
-      node.parameters = convert<Real>(texture.value);
-      break;
-    case TextureKind::scale:
-    case TextureKind::mix:
-    case TextureKind::vertex_colour:
-    case TextureKind::vertex_alpha:
-      break;
+#define ALHAZEN_CASE(name, Name)                                         \
+  case TextureKind::name:                                                \
+    node.number = static_cast<uint32_t>(Name##Texture::number(texture)); \
+    node.parameters = convert<Real>(Name##Texture::parameters(texture)); \
+    break;
+    ALHAZEN_TEXTURES(ALHAZEN_CASE)
+#undef ALHAZEN_CASE
   }
   return node;
 }

@@ -51,6 +51,7 @@ namespace ALHAZEN_CORE {
   ARRAY(Real, srgb_decode_table)                      \
   ARRAY(uint8_t, noise_permutation)                   \
   ARRAY(LightRecord<Real>, lights)                    \
+  ARRAY(uint32_t, far_lights)                         \
   ARRAY(TriangleEmitter<Real>, triangle_emitters)     \
   ARRAY(EnvironmentRecord<Real>, environments)        \
   ARRAY(Real, environment_cdf)                        \

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
 
 #include "images/codecs/decoders.h"
 #include "images/read_texture.h"
@@ -44,6 +45,55 @@ std::string extension_of(const std::string& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
+}
+
+namespace {
+
+struct WrittenFormat {
+  const char* extension;
+  void (*write)(const std::string&, const ImageSource&, const WriteOptions&);
+};
+
+constexpr WrittenFormat written_formats[] = {
+#define ALHAZEN_WRITTEN_FORMAT(name) {#name, write_##name},
+    ALHAZEN_WRITTEN_FORMATS(ALHAZEN_WRITTEN_FORMAT)
+#undef ALHAZEN_WRITTEN_FORMAT
+};
+
+const WrittenFormat* written_format(const std::string& path) {
+  const std::string extension = extension_of(path);
+  const auto* format = std::find_if(std::begin(written_formats), std::end(written_formats),
+                                    [&](const WrittenFormat& f) { return extension == f.extension; });
+  return format == std::end(written_formats) ? nullptr : format;
+}
+
+}  // namespace
+
+void write_image(const std::string& path, const ImageSource& source, const WriteOptions& options) {
+  const WrittenFormat* format = written_format(path);
+  if (format == nullptr) throw RenderError("cannot write " + path + ": its name must end in " + written_extensions());
+  format->write(path, source, options);
+}
+
+bool has_written_extension(const std::string& path) { return written_format(path) != nullptr; }
+
+std::string written_extensions() {
+  constexpr size_t count = std::size(written_formats);
+  std::string text;
+  for (size_t i = 0; i < count; ++i)
+    text += (i == 0 ? "." : i + 1 < count ? ", ." : " or .") + std::string(written_formats[i].extension);
+  return text;
+}
+
+std::array<size_t, 3> rgb_channels(const std::string& path, const ImageSource& source) {
+  if (source.width <= 0 || source.height <= 0) throw RenderError("cannot write " + path + ": the image has no pixels");
+  const auto position = [&](const char* name) {
+    const auto found = std::find(source.channels.begin(), source.channels.end(), name);
+    if (found == source.channels.end())
+      throw RenderError("cannot write " + path + ": the image has no channel " + name);
+    return static_cast<size_t>(found - source.channels.begin());
+  };
+  return {position("R"), position("G"), position("B")};
 }
 
 namespace {

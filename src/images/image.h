@@ -1,7 +1,8 @@
 #pragma once
 
-// Image files: EXR with named float channels and metadata, and 8-bit PNG, read and written.
+// Image files: EXR with named float channels and metadata, and other formats, read and written.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -44,30 +45,48 @@ ImageSource source_of(const Image& image);
 Image image_of(const ImageSource& source);
 
 enum class ExrPixelType { half, single };
-
-struct ExrOptions {
-  ExrPixelType pixel_type = ExrPixelType::half;
-  /// Prefixes of channels that are always single precision, since half floats cannot hold depth or sample counts.
-  std::vector<std::string> always_single{"depth", "bounces", "samples", "variance"};
-  /// Text attributes of the header, by name.
-  std::map<std::string, std::string> metadata;
-  /// The position of the image in the full frame: origin of the data window and size of the display window.
-  int x_offset = 0, y_offset = 0;
-  int full_width = 0, full_height = 0;  ///< 0: those of the image
-};
-
 enum class ToneMap { none, reinhard, filmic };
 
-struct PngOptions {
-  double exposure = 0;  ///< in stops: values are first multiplied by 2^exposure
-  ToneMap tone_map = ToneMap::none;
+/// How an image is written. Each format uses the members that it names.
+struct WriteOptions {
+  ExrPixelType pixel_type = ExrPixelType::half;  ///< EXR
+  /// EXR: prefixes of channels that are always single precision, since half floats cannot hold depth or sample counts.
+  std::vector<std::string> always_single{"depth", "bounces", "samples", "variance"};
+  /// EXR: text attributes of the header, by name.
+  std::map<std::string, std::string> metadata = {};
+  /// EXR: the position of the image in the full frame, as origin of the data window and size of the display window.
+  int x_offset = 0, y_offset = 0;
+  int full_width = 0, full_height = 0;  ///< EXR; 0: those of the image
+  double exposure = 0;                  ///< 8-bit formats, in stops: values are first multiplied by 2^exposure
+  ToneMap tone_map = ToneMap::none;     ///< 8-bit formats
 };
 
-/// Writes the image completely or not at all: to a temporary file beside the target, which is then renamed to it.
+/// Lists every format that images are written in, by its extension. write_NAME, in a file of codecs/, writes it; what
+/// chooses a format, and the names in messages and help, expand from this list.
+///   exr  all channels
+///   png  channels R, G, B; values are tone mapped, clamped to [0, 1] and sRGB-encoded, NaN becomes black
+///   pfm  channels R, G, B as they are, in single precision
+#define ALHAZEN_WRITTEN_FORMATS(FORMAT) FORMAT(exr) FORMAT(png) FORMAT(pfm)
+
+/// Each writes the image completely or not at all: to a temporary file beside the target, which is then renamed to it.
 /// Throws RenderError with path and cause if that fails; existing files then remain unchanged.
-void write_exr(const std::string& path, const ImageSource& source, const ExrOptions& options);
-/// Takes channels R, G, B; values are tone mapped, clamped to [0, 1] and sRGB-encoded. NaN becomes black.
-void write_png(const std::string& path, const ImageSource& source, const PngOptions& options);
+#define ALHAZEN_DECLARE_WRITER(name) \
+  void write_##name(const std::string& path, const ImageSource& source, const WriteOptions& options);
+ALHAZEN_WRITTEN_FORMATS(ALHAZEN_DECLARE_WRITER)
+#undef ALHAZEN_DECLARE_WRITER
+
+/// Writes by the extension of `path`, which must be that of a format. Throws as the writer does.
+void write_image(const std::string& path, const ImageSource& source, const WriteOptions& options);
+
+/// Returns whether images can be written to a file of this name.
+bool has_written_extension(const std::string& path);
+
+/// The extensions for messages: ".exr or .png".
+std::string written_extensions();
+
+/// The positions of R, G and B among the channels, for formats that hold these alone. Throws RenderError that names
+/// `path` if one is missing or the image has no pixels.
+std::array<size_t, 3> rgb_channels(const std::string& path, const ImageSource& source);
 
 /// Reads EXR (all channels of its image part, unchanged) and the formats of read_texture (as R, G, B; files of up to 16
 /// bits are decoded to linear). Throws InputError.

@@ -27,7 +27,7 @@ LoadedScene load_scene(const std::string& path, const Settings& settings, Diagno
   loaded.inputs->refuse(settings.checkpoint, "the checkpoint");
   if (!settings.environment.empty())
     use_environment(loaded.scene, path_beside(path, settings.environment, settings.confine));
-  loaded.scene.coats = parse_coats(settings.coats);
+  apply_settings(settings, loaded.scene);
   loaded.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return loaded;
 }

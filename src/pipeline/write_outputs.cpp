@@ -17,9 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 void check_output(const std::string& path) {
-  const std::string extension = extension_of(path);
-  if (extension != "exr" && extension != "png")
-    throw InputError({path}, "images are written as .exr or .png: give a name that ends in one of them");
+  if (!has_written_extension(path))
+    throw InputError({path},
+                     "images are written as " + written_extensions() + ": give a name that ends in one of them");
   check_target(path);
 }
 
@@ -45,8 +45,7 @@ std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, c
   std::vector<std::string> paths = asked;
   if (paths.empty()) {
     const std::string name = fs::path(film_filename).filename().string();
-    const std::string extension = extension_of(name);
-    if (extension == "exr" || extension == "png") {
+    if (has_written_extension(name)) {
       paths = {name};
     } else {
       fs::path stem = fs::path(scene_path).filename();
@@ -96,17 +95,14 @@ void check_files(const std::vector<std::string>& outputs, const std::string& che
 namespace {
 
 void write_output(const std::string& path, const OutputOptions& options, const Rendering& rendering) {
-  const ImageSource source = rendering.source();
-  if (extension_of(path) == "png") return write_png(path, source, options.png);
   const RenderSettings& settings = rendering.statistics.settings;
-  ExrOptions exr;
-  exr.pixel_type = options.exr_type;
-  exr.metadata = metadata_of(rendering.statistics);
-  exr.x_offset = settings.window.x0;
-  exr.y_offset = settings.window.y0;
-  exr.full_width = settings.width;
-  exr.full_height = settings.height;
-  write_exr(path, source, exr);
+  WriteOptions how = options.how;
+  how.metadata = metadata_of(rendering.statistics);
+  how.x_offset = settings.window.x0;
+  how.y_offset = settings.window.y0;
+  how.full_width = settings.width;
+  how.full_height = settings.height;
+  write_image(path, rendering.source(), how);
 }
 
 /// Pipes may wait for their reader for long, so files are written before them.

@@ -14,8 +14,7 @@ namespace alhazen {
 
 struct OutputOptions {
   std::vector<std::string> paths;
-  ExrPixelType exr_type = ExrPixelType::half;
-  PngOptions png;
+  WriteOptions how;
 };
 
 /// Returns the requested paths, else the scene's own file name in the current folder, else the scene's name with .exr.

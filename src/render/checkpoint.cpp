@@ -116,7 +116,7 @@ void add_records(Hasher& h, const LightRecord<Real>* lights, uint32_t count) {
     h.add(uint64_t{light->two_sided});
     for (const uint32_t value : {light->trail, light->texture.first, light->texture.count}) h.add(uint64_t{value});
     for (const Vec3<Real>& v : {light->radiance, light->position, light->direction}) h.add_bytes(&v, sizeof(v));
-    for (const Real value : {light->pmf, light->cos_outer, light->cos_inner}) h.add(static_cast<double>(value));
+    for (const Real value : {light->pmf, light->parameters.x, light->parameters.y}) h.add(static_cast<double>(value));
   }
 }
 
@@ -145,19 +145,19 @@ uint64_t scene_fingerprint(const CompiledScene<Real>& scene) {
 }
 
 CheckpointFile::CheckpointFile(const RenderSettings& settings, uint64_t scene_fingerprint)
-    : path_(settings.checkpoint),
+    : path_(settings.asked.checkpoint),
       fingerprint_(join_settings(settings, scene_fingerprint)),
       samples_per_pixel_(settings.samples_per_pixel) {}
 
 void check_checkpoint(const RenderSettings& settings) {
-  const std::string& path = settings.checkpoint;
+  const std::string& path = settings.asked.checkpoint;
   struct stat file = {};
   const bool exists = ::stat(path.c_str(), &file) == 0;
   if (exists && !S_ISDIR(file.st_mode) && !S_ISREG(file.st_mode))
     throw InputError({path},
                      "a checkpoint must be a file, since it is read again later: name a file, not a device or a pipe");
   check_target(path);
-  if (!exists || file.st_size == 0 || settings.resume || settings.overwrite) return;
+  if (!exists || file.st_size == 0 || settings.asked.resume || settings.asked.overwrite) return;
   std::ifstream in(path, std::ios::binary);
   const std::optional<Header> header = read_header(in);
   if (!header || !is_intact(*header))

@@ -83,12 +83,12 @@ class ProgressReporter {
 uint32_t pass_size(const RenderSettings& settings, uint32_t max_size, uint32_t samples_done, double elapsed) {
   const uint32_t left = settings.samples_per_pixel - samples_done;
   uint32_t size = std::clamp(settings.samples_per_pixel / 16, max_size / 4, max_size);
-  if (settings.time_limit > 0) {
+  if (settings.asked.time_limit > 0) {
     size = samples_per_block;
     if (samples_done > 0) {
       const double per_sample = elapsed / samples_done;
-      size = static_cast<uint32_t>(std::clamp((settings.time_limit - elapsed) / 8 / std::max(per_sample, 1e-9), 1.0,
-                                              static_cast<double>(max_size)));
+      size = static_cast<uint32_t>(std::clamp((settings.asked.time_limit - elapsed) / 8 / std::max(per_sample, 1e-9),
+                                              1.0, static_cast<double>(max_size)));
     }
   }
   if (left < samples_per_block) return left;
@@ -110,8 +110,8 @@ class PassLoop {
         control_(settings.threads) {}
 
   void run(RenderStatistics& statistics) {
-    if (!settings_.checkpoint.empty()) checkpoint_.emplace(settings_, scene_fingerprint(scene_));
-    if (settings_.resume) samples_done_ = checkpoint_->load(film_);
+    if (!settings_.asked.checkpoint.empty()) checkpoint_.emplace(settings_, scene_fingerprint(scene_));
+    if (settings_.asked.resume) samples_done_ = checkpoint_->load(film_);
     const uint64_t pixels = static_cast<uint64_t>(settings_.window.pixels());
     control_.add_samples(pixels * samples_done_);
     std::exception_ptr problem;
@@ -141,7 +141,8 @@ class PassLoop {
     double last_pass_per_sample = 0;
     while (samples_done_ < settings_.samples_per_pixel && !control_.is_stopped()) {
       const uint32_t size = pass_size(settings_, backend_.max_samples_per_pass(), samples_done_, elapsed_);
-      if (settings_.time_limit > 0 && elapsed_ > 0 && elapsed_ + last_pass_per_sample * size > settings_.time_limit)
+      if (settings_.asked.time_limit > 0 && elapsed_ > 0 &&
+          elapsed_ + last_pass_per_sample * size > settings_.asked.time_limit)
         return;
       if (size % samples_per_block != 0) {
         save_checkpoint();
@@ -154,7 +155,7 @@ class PassLoop {
       if (control_.is_stopped()) return;
       last_pass_per_sample = seconds / size;
       samples_done_ += size;
-      if (seconds_since(saved) >= settings_.checkpoint_seconds) {
+      if (seconds_since(saved) >= settings_.asked.checkpoint_seconds) {
         save_checkpoint();
         saved = Clock::now();
       }
@@ -169,7 +170,7 @@ class PassLoop {
       checkpoint_->save(film_, samples_done_);
     } catch (const std::exception& failure) {
       const size_t before = diagnostics_.warnings().size();
-      diagnostics_.warn({settings_.checkpoint},
+      diagnostics_.warn({settings_.asked.checkpoint},
                         std::string("the checkpoint was not saved, and the render continues: ") + failure.what());
       if (events_.warned && diagnostics_.warnings().size() > before) events_.warned();
     }
@@ -308,7 +309,7 @@ Rendering render_scene(Scene&& scene, const RenderSettings& settings, double loa
                        Diagnostics& diagnostics) {
   if (settings.integrator != IntegratorKind::path)
     for (const Light& light : scene.lights)
-      if (light.kind != LightKind::constant_infinite && light.kind != LightKind::environment)
+      if (!light_traits(light.kind).has_size)
         diagnostics.warn(light.where, "rays cannot hit lights without area: the integrator '" +
                                           to_string(settings.integrator) + "' does not show them; 'path' does");
   Rendering rendering =

@@ -192,6 +192,9 @@ std::vector<SettingEntry> image_settings() {
                  entry(group, "integrator", "", "NAME",
                        "path (next-event estimation), or BSDF sampling alone: iterative, recursive, branching",
                        name(&Settings::integrator))),
+      entry(group, "filter", "", "NAME[,RADIUS]",
+            "Pixel filter: box, triangle, gaussian, mitchell or sinc, and its radius in pixels: box,0.5",
+            name(&Settings::filter)),
       entry(group, "environment", "", "FILE",
             "Light the scene by this map (EXR, HDR, ...) instead of its infinite lights: 2:1 (equirectangular) or "
             "square (octahedral), +y up, its centre towards -z",

@@ -8,6 +8,7 @@
 #include "render/backend.h"
 #include "render/checkpoint.h"
 #include "render/denoiser.h"
+#include "scene/filters.h"
 #include "util/thread_limit.h"
 
 namespace alhazen {
@@ -123,12 +124,40 @@ void resolve_denoiser(const std::string& name, RenderSettings& s) {
   s.aovs.albedo = s.aovs.normal = true;
 }
 
-}  // namespace
-
 CoatModel parse_coats(const std::string& text) {
   if (text.empty() || text == "lossless") return CoatModel::lossless;
   if (text == "pbrt") return CoatModel::pbrt;
   throw InputError("unknown coats '" + text + "'; use lossless or pbrt");
+}
+
+/// A name, which has the radius and the shape of pbrt-v4's defaults, and optionally a comma and another radius.
+Filter parse_filter(const std::string& text) {
+  const size_t comma = text.find(',');
+  const auto named = named_filters().find(text.substr(0, comma));
+  if (named == named_filters().end()) {
+    std::string names;
+    for (const auto& [name, filter] : named_filters()) names += (names.empty() ? "" : ", ") + name;
+    throw InputError("unknown pixel filter '" + text + "': it may be " + names +
+                     ", with a radius in pixels after a comma if you like");
+  }
+  Filter filter = named->second;
+  if (comma == std::string::npos) return filter;
+  const char *const begin = text.data() + comma + 1, *const end = text.data() + text.size();
+  double radius = 0;
+  const auto [parsed, error] = std::from_chars(begin, end, radius);
+  if (error != std::errc() || parsed != end || !(radius > 0 && radius <= max_filter_radius))
+    throw InputError("the radius of a pixel filter must be a number above 0 and at most " +
+                     std::to_string(static_cast<int>(max_filter_radius)) + " pixels, not '" + std::string(begin, end) +
+                     "'");
+  filter.x_radius = filter.y_radius = radius;
+  return filter;
+}
+
+}  // namespace
+
+void apply_settings(const Settings& asked, Scene& scene) {
+  scene.coats = parse_coats(asked.coats);
+  if (!asked.filter.empty()) scene.filter = parse_filter(asked.filter);
 }
 
 Schedule parse_schedule(const std::string& text) {
@@ -145,6 +174,7 @@ Schedule parse_schedule(const std::string& text) {
 
 RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   RenderSettings s;
+  s.asked = asked;
   resolve_image(asked, scene, s);
   s.precision = by_name(precisions, asked.precision, "precision");
   s.integrator = asked.integrator.empty() ? scene.integrator : by_name(integrators, asked.integrator, "integrator");
@@ -164,21 +194,16 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
       asked.threads == 0 ? processors : static_cast<int>(in_range(asked.threads, 1, 4096, "the number of threads"));
   for (const std::string& layer : asked.aovs) s.aovs.*by_name(layers, layer, "layer") = true;
   if (asked.time_limit < 0 || !std::isfinite(asked.time_limit)) throw InputError("the time limit must not be negative");
-  s.time_limit = asked.time_limit;
-  s.checkpoint = asked.checkpoint;
   if (!(asked.checkpoint_seconds >= 0) || !std::isfinite(asked.checkpoint_seconds))
     throw InputError("the time between checkpoints must be a finite number of seconds, not negative");
-  s.checkpoint_seconds = asked.checkpoint_seconds;
   s.texture_budget =
       static_cast<uint64_t>(in_range(asked.texture_budget, 0, int64_t{1} << 30, "the budget of textures")) << 20;
-  s.resume = asked.resume;
-  s.overwrite = asked.overwrite;
-  if (s.resume && s.checkpoint.empty())
+  if (asked.resume && asked.checkpoint.empty())
     throw InputError("to resume, name the file to continue from: --checkpoint FILE");
-  if (s.overwrite && s.checkpoint.empty())
+  if (asked.overwrite && asked.checkpoint.empty())
     throw InputError("--overwrite is for checkpoints: name the file with --checkpoint FILE");
-  if (s.resume && s.overwrite) throw InputError("give --resume or --overwrite, not both");
-  if (!s.checkpoint.empty()) check_checkpoint(s);
+  if (asked.resume && asked.overwrite) throw InputError("give --resume or --overwrite, not both");
+  if (!asked.checkpoint.empty()) check_checkpoint(s);
   resolve_denoiser(asked.denoiser, s);
   s.schedule = parse_schedule(asked.schedule.empty() ? "dynamic" : asked.schedule);
   choose_backend(asked, s);

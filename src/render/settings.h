@@ -41,7 +41,9 @@ struct BlockSize {
 /// Values of RenderSettings::device that are not GPU numbers.
 inline constexpr int all_devices = -1, host_device = -2;
 
+/// What was asked, and what follows from it and from the scene.
 struct RenderSettings {
+  Settings asked;  ///< checked; what is resolved has a member of its own below, which counts
   std::string backend;
   uint32_t strategy = 0;        ///< value of the backend's own enum
   bool runs_on_device = false;  ///< a GPU's backend
@@ -59,24 +61,21 @@ struct RenderSettings {
   PixelWindow window;
   uint32_t seed = 0;
   AovSet aovs;
-  std::string denoiser;  ///< empty: none
-  double time_limit = 0;
-  std::string checkpoint;
-  double checkpoint_seconds = 60;
-  bool resume = false, overwrite = false;
+  std::string denoiser;         ///< empty: none
   uint64_t texture_budget = 0;  ///< bytes; 0: no limit
 };
 
-/// Merges `asked` with `scene`. Throws InputError that names the setting and its valid values.
+/// Replaces what settings replace in a scene: how much light its coats lose. Throws InputError that names the setting
+/// and its valid values.
+void apply_settings(const Settings& asked, Scene& scene);
+
+/// Merges `asked` with `scene`. Throws InputError as above.
 RenderSettings resolve_settings(const Settings& asked, const Scene& scene);
 
 std::string to_string(Precision precision);
 std::string to_string(IntegratorKind integrator);
 std::string to_string(SamplerType sampler);
 std::string to_string(const Schedule& schedule);
-
-/// Parses `lossless` and `pbrt`; empty: lossless. Throws InputError.
-CoatModel parse_coats(const std::string& text);
 
 /// Parses `static`, `dynamic,4`, ... Throws InputError.
 Schedule parse_schedule(const std::string& text);

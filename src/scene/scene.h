@@ -13,12 +13,13 @@
 
 #include "core/cameras/camera_kind.h"
 #include "core/integrators/integrator_kind.h"
-#include "core/lights/light_kind.h"
+#include "core/lights/light_list.h"
 #include "core/materials/material_record.h"
 #include "core/math/frame.h"
 #include "core/math/vec.h"
 #include "core/sampling/any_sampler.h"
-#include "core/textures/functions.h"
+#include "core/textures/mapping_kind.h"
+#include "core/textures/texture_list.h"
 #include "scene/transform.h"
 #include "util/diagnostics.h"
 
@@ -49,7 +50,9 @@ struct ImageTexels {
 struct Texture {
   std::string name;
   TextureKind kind = TextureKind::constant;
-  Vec3d value{1, 1, 1};  ///< constant
+  /// constant: the value. threshold: the edge. Kinds whose file (core/textures/kinds) does not name other members:
+  /// their numbers.
+  Vec3d value{1, 1, 1};
   /// Inputs, indices into Scene::textures. checkerboard: even, odd. scale: factor, factor. mix: at 0, at 1, amount.
   /// dots: inside, outside. direction_mix: value where the normal is along `direction`, value where it is
   /// perpendicular.
@@ -202,12 +205,12 @@ struct Instance {
 /// A light that is not a shape: of any kind but triangle, sphere and moving_sphere.
 struct Light {
   LightKind kind = LightKind::constant_infinite;
-  /// constant_infinite: radiance; environment: factor on the map; distant: irradiance at normal incidence, W / m^2;
-  /// others: intensity, W / sr.
+  /// constant_infinite: radiance; environment: factor on the map; distant and sun: irradiance at normal incidence,
+  /// W / m^2; others: intensity, W / sr.
   Vec3d radiance;
   Vec3d position;                                       ///< world space
   Vec3d direction{0, 0, 1};                             ///< world space, unit length, direction of propagation
-  double cone_angle = 30;                               ///< spot: degrees from the axis to the cone's edge
+  double cone_angle = 30;                               ///< spot, sun: degrees from the axis to the edge
   double falloff_start = 25;                            ///< spot: degrees from the axis to the start of the falloff
   uint32_t environment = no_index;                      ///< index into Scene::environments
   Frame<double> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  ///< environment: x, y, z of the map in world space, orthonormal

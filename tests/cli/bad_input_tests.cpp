@@ -342,9 +342,9 @@ TEST_F(BadInput, Targets) {
   std::filesystem::create_directory(folder_.file("folder.exr"));
   expect_bad_usage({"-o", "no/such/folder/a.exr"}, {"no/such/folder/a.exr", "does not exist"});
   expect_bad_usage({"-o", "folder.exr"}, {"folder.exr", "folder"});
-  expect_bad_usage({"-o", "a.jpg"}, {"a.jpg", ".exr or .png"});
-  expect_bad_usage({"-o", "a"}, {".exr or .png"});
-  expect_bad_usage({"-o", ""}, {".exr or .png"});
+  expect_bad_usage({"-o", "a.jpg"}, {"a.jpg", ".exr, .png or .pfm"});
+  expect_bad_usage({"-o", "a"}, {".exr, .png or .pfm"});
+  expect_bad_usage({"-o", ""}, {".exr, .png or .pfm"});
   expect_bad_usage({"-o", "scene.pbrt/a.exr"}, {"scene.pbrt/a.exr"});
   std::filesystem::create_symlink("loop.exr", folder_.file("loop.exr"));
   std::filesystem::create_symlink("pong.exr", folder_.file("ping.exr"));

@@ -44,7 +44,7 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--maxdepth", "--size", "--crop", "--cropwindow", "--pixelbounds", "--integrator", "--sampler", "--seed",
       "--backend", "--strategy", "--schedule", "--threads", "--nthreads", "--precision", "--progress", "--quiet",
       "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--overwrite", "--device", "--block",
-      "--chunk", "--denoise", "--environment", "--texture-budget", "--coats",
+      "--chunk", "--denoise", "--environment", "--texture-budget", "--coats", "--filter",
       // Tested in gltf_tests.cpp:
       "--camera", "--time", "--animation", "--variant", "--list",
       // Tested in hostile_input_tests.cpp:
@@ -97,6 +97,52 @@ Material "coateddiffuse" "rgb reflectance" [ 1 1 1 ] "float roughness" 0.3 "bool
   EXPECT_LT(lossy, 0.85);
   EXPECT_GT(lossy, 0.5);
   EXPECT_EQ(run({"render", "coat.pbrt", "-o", "no.exr", "--coats", "none"}).exit_code, 2);
+}
+
+TEST_F(RenderOptions, PfmHoldsWhatEveryBitOfTheImageIs) {
+  const CommandResult result =
+      render({"-o", "a.exr", "-o", "a.pfm", "--exr-type", "float", "--spp", "2", "--aov", "depth"});
+  EXPECT_EQ(result.exit_code, 0) << result.everything();
+  const Image exr = image("a.exr"), pfm = image("a.pfm");
+  for (const char* channel : {"R", "G", "B"})
+    EXPECT_EQ(pfm.planes.at(static_cast<size_t>(pfm.channel(channel))),
+              exr.planes.at(static_cast<size_t>(exr.channel(channel))))
+        << channel;
+  EXPECT_EQ(run({"compare", "a.pfm", "a.exr", "--diff", "d.pfm"}).exit_code, 0);
+  EXPECT_EQ(image("d.pfm").width, 24);
+}
+
+/// The option renders what the same filter in the file does, bit for bit.
+TEST_F(RenderOptions, FilterReplacesThatOfTheScene) {
+  const std::string scene = R"(LookAt 0 0 4  0 0 0  0 1 0 Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 16 "integer yresolution" 16 FILTER
+WorldBegin LightSource "infinite" "rgb L" [ 1 0.5 0.25 ] Material "diffuse" Shape "sphere")";
+  const auto rendered = [&](const std::string& filter, const std::vector<std::string>& options) {
+    std::string text = scene;
+    text.replace(text.find("FILTER"), 6, filter);
+    folder_.write_text("filtered.pbrt", text);
+    std::vector<std::string> all{"render", "filtered.pbrt", "-o", "f.pfm", "--spp", "8"};
+    all.insert(all.end(), options.begin(), options.end());
+    const CommandResult result = run(all);
+    EXPECT_EQ(result.exit_code, 0) << result.everything();
+    return image("f.pfm");
+  };
+  const Image own = rendered("PixelFilter \"gaussian\"", {});
+  const std::vector<std::pair<std::string, std::string>> filters{
+      {"box", R"(PixelFilter "box")"},
+      {"triangle", R"(PixelFilter "triangle")"},
+      {"mitchell", R"(PixelFilter "mitchell")"},
+      {"sinc", R"(PixelFilter "sinc")"},
+      {"box,1.25", R"(PixelFilter "box" "float xradius" 1.25 "float yradius" 1.25)"},
+      {"gaussian,3", R"(PixelFilter "gaussian" "float xradius" 3 "float yradius" 3)"}};
+  for (const auto& [option, directive] : filters) {
+    const Image asked = rendered("PixelFilter \"gaussian\"", {"--filter", option});
+    EXPECT_TRUE(is_same(asked, rendered(directive, {}))) << option;
+    EXPECT_FALSE(is_same(asked, own)) << option;
+  }
+  for (const char* wrong : {"tent", "box,", "box,0", "box,-1", "box,65", "box,nan", "box,1,2", "Box"})
+    EXPECT_EQ(run({"render", "filtered.pbrt", "-o", "no.pfm", "--filter", wrong}).exit_code, 2) << wrong;
+  EXPECT_FALSE(exists("no.pfm"));
 }
 
 TEST_F(RenderOptions, StatisticsAreOneObjectWithEveryKey) {

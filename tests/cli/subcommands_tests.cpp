@@ -12,7 +12,7 @@ class Subcommands : public Command {
     const size_t pixels = static_cast<size_t>(width * height);
     Image image{width, height, {"R", "G", "B"}, std::vector(3, std::vector<float>(pixels, value))};
     if (first >= 0) image.planes[1][0] = first;
-    ExrOptions options;
+    WriteOptions options;
     options.pixel_type = ExrPixelType::single;
     write_exr(folder_.file(name), source_of(image), options);
   }

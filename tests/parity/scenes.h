@@ -42,7 +42,7 @@ AttributeBegin Translate 0.7 0 0.6 Shape "sphere" "float radius" 0.6 AttributeEn
 inline Scene read_lights() {
   Scene scene = test::with_emission_texture(scene_of(R"(Film "rgb" "integer xresolution" 20 "integer yresolution" 17
 )" + test::room_of_lights(40, true, 0.4) + R"(LightSource "infinite" "rgb L" [ 0.1 0.2 0.3 ]
-LightSource "distant" "point3 from" [ 1 2 3 ])"));
+LightSource "distant" "point3 from" [ 1 2 3 ] LightSource "distant" "point3 from" [ 3 2 1 ] "float angle" 8)"));
   for (const LightKind kind : {LightKind::goniometric, LightKind::projection}) {
     Light light;
     light.kind = kind;
@@ -65,7 +65,8 @@ WorldBegin
 LightSource "infinite" "rgb L" [ 0.1 0.2 0.3 ]
 AttributeBegin Translate 0 0 4 AreaLightSource "diffuse" "rgb L" [ 4 4 4 ] Shape "sphere" "float radius" 0.7 AttributeEnd
 Texture "waves" "float" "wrinkled"
-Material "coateddiffuse" "rgb reflectance" [ 0.6 0.4 0.3 ] "float roughness" 0.05 "texture displacement" "waves"
+Texture "cells" "spectrum" "cellular" "string value" "cell"
+Material "coateddiffuse" "texture reflectance" "cells" "float roughness" 0.05 "texture displacement" "waves"
 Shape "trianglemesh" "point3 P" [ -9 -9 0  9 -9 0  9 9 0  -9 9 0 ] "integer indices" [ 0 1 2 0 2 3 ]
 MakeNamedMaterial "metal" "string type" "conductor" "float uroughness" 0.1 "float vroughness" 0.4
 MakeNamedMaterial "coat" "string type" "coatedconductor" "float conductor.roughness" 0.1

@@ -29,6 +29,11 @@ const std::string sphere = R"(WorldBegin Translate 0 0 3 AreaLightSource "diffus
 const std::string moving_sphere = R"(WorldBegin ActiveTransform EndTime Translate 2 0 0 ActiveTransform All
     Translate 0 0 3 AreaLightSource "diffuse" "rgb L" [1 1 1] "bool twosided" true Shape "sphere" "float radius" 1)";
 const std::string sky = R"(WorldBegin LightSource "infinite" "rgb L" [1 1 1])";
+/// Their radiance is 1.
+const std::string sun = R"(WorldBegin LightSource "distant" "point3 from" [1 2 3] "float angle" 20
+    "float scale" 0.09473060974812199)";
+const std::string wide_sun = R"(WorldBegin LightSource "distant" "point3 from" [0 0 -1] "float angle" 120
+    "float scale" 2.35619449019234)";
 /// No light occludes another as seen from the origin.
 const std::string several = R"(WorldBegin LightSource "infinite" "rgb L" [0.1 0.1 0.1]
     AreaLightSource "diffuse" "rgb L" [2 1 1] "bool twosided" true
@@ -57,17 +62,23 @@ const LightCase light_cases[] = {
     {"moving sphere", moving_sphere, {}, 0.75, {1.5, 0, 3}, 0.35},
     {"moving sphere from inside", moving_sphere, {0.8, 0, 3}, 0.25, {0, 0, 1}, pi<double>},
     {"sky", sky, {1, 2, 3}, 0, {0, 0, 1}, pi<double>},
+    {"sun", sun, {}, 0, {1, 2, 3}, 10.001 * pi<double> / 180},
+    {"wide sun", wide_sun, {1, 2, 3}, 0, {0, 0, -1}, 60.001 * pi<double> / 180},
     {"several", several, {}, 0, {0, 0, 1}, pi<double>},
     {"many", many, {}, 0, {0, 0, 1}, pi<double>},
 };
 constexpr size_t cases = 2 * std::size(light_cases);
 
 /// The density with which any of the lights gives this direction: that of the surface that the ray hits, and that of
-/// the lights behind all surfaces.
+/// the lights at infinity behind all surfaces.
 template <class Real>
 Real pdf_of_direction(const SceneView<Real>& scene, const Ray<Real>& ray) {
   Hit<Real> hit;
   Real pdf = pdf_background(scene);
+  for (uint32_t i = 0; i < scene.far_lights_count; ++i) {
+    const LightRecord<Real>& light = scene.lights[scene.far_lights[i]];
+    pdf += light.pmf * escaped_light(scene, light, ray.direction, true).pdf;
+  }
   if (BruteForceIntersector<Real>(scene).closest_hit(ray, infinity<Real>, hit)) {
     const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
     pdf += pdf_light(scene, scene.lights[scene.surfaces[si.surface].light], ray, hit, si, Vec3<Real>{});
@@ -126,6 +137,38 @@ TYPED_TEST(LightSampling, RayFindsWhatWasSampled) {
       const Real pdf = pdf_of_direction(scene.view, Ray<Real>{reference, s.direction, time});
       ASSERT_NEAR(static_cast<double>(pdf / s.pdf), 1, by_precision<Real>(5e-3, 1e-9)) << c.name;
     }
+  }
+}
+
+/// Radiance times cosine over all directions is the irradiance that the file gives, also for a disk as small as the
+/// sun; and so is the weight by which the light is chosen.
+TYPED_TEST(LightSampling, SunHasTheIrradianceOfADistantLight) {
+  using Real = TypeParam;
+  for (const double angle : {0.01, 0.533, 20.0, 120.0, 180.0}) {
+    const CompiledScene<Real> scene = compiled_scene_of<Real>(
+        "WorldBegin LightSource \"distant\" \"rgb L\" [3 3 3] \"point3 from\" [1 2 3] \"float angle\" " +
+        std::to_string(angle) + " LightSource \"infinite\" \"rgb L\" [2 2 2]");
+    const Frame<double> axes = frame_about(normalize(Vec3d{1, 2, 3}));
+    const LightRecord<Real>& light = scene.view.lights[scene.view.far_lights[0]];
+    ASSERT_EQ(light.kind, LightKind::sun);
+    // Rings of equal width, to a little beyond the edge, and twelve directions in each.
+    constexpr int rings = 20000, sectors = 12;
+    const double end = std::min(angle * 0.55, 90.0) * pi<double> / 180, width = end / rings;
+    double irradiance = 0, probability = 0;
+    for (int ring = 0; ring < rings; ++ring)
+      for (int sector = 0; sector < sectors; ++sector) {
+        const double theta = (ring + 0.5) * width, phi = 2 * pi<double> * (sector + 0.3) / sectors;
+        const Vec3d local{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+        const double solid_angle = 2 * pi<double> / sectors * std::sin(theta) * width;
+        const EscapedLight<Real> found = escaped_light(scene.view, light, convert<Real>(axes.to_world(local)), true);
+        irradiance += static_cast<double>(found.radiance.y) * std::cos(theta) * solid_angle;
+        probability += static_cast<double>(found.pdf) * solid_angle;
+      }
+    // In float, directions are rounded by 1e-3 of the smallest disk.
+    const double tolerance = by_precision<Real>(angle < 0.1 ? 5e-3 : 5e-4, 2e-4);
+    EXPECT_NEAR(irradiance, 3, 3 * tolerance) << angle;
+    EXPECT_NEAR(probability, 1, tolerance) << angle;
+    EXPECT_NEAR(static_cast<double>(light.pmf), 3 / (3 + 2 * pi<double>), 1e-6) << angle;
   }
 }
 

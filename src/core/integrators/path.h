@@ -35,13 +35,11 @@ ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, co
                                                 Record& record) {
   if (!is_zero(scene.background))
     record.radiance += path.throughput * scene.background * bsdf_mis_weight(path, pdf_background(scene));
-  for (uint32_t i = 0; i < scene.environments_count; ++i) {
-    const EnvironmentRecord<Real>& map = scene.environments[i];
-    const EnvironmentSample<Real> map_value =
-        evaluate_environment_and_pdf(scene, map, path.ray.direction, !path.is_specular);
-    if (is_zero(map_value.radiance)) continue;
-    record.radiance +=
-        path.throughput * map_value.radiance * bsdf_mis_weight(path, scene.lights[map.light].pmf * map_value.pdf);
+  for (uint32_t i = 0; i < scene.far_lights_count; ++i) {
+    const LightRecord<Real>& light = scene.lights[scene.far_lights[i]];
+    const EscapedLight<Real> found = escaped_light(scene, light, path.ray.direction, !path.is_specular);
+    if (is_zero(found.radiance)) continue;
+    record.radiance += path.throughput * found.radiance * bsdf_mis_weight(path, light.pmf * found.pdf);
   }
 }
 

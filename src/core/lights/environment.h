@@ -4,9 +4,9 @@
 // interpolation. It is sampled by a distribution that is constant over each texel: first a row, then a texel in the row
 // (Pharr, Jakob, Humphreys 2016, 14.2.4). Densities are over solid angle.
 
+#include "core/lights/kinds/light_base.h"
 #include "core/lights/sphere_mapping.h"
 #include "core/sampling/discrete.h"
-#include "core/scene_view.h"
 
 namespace ALHAZEN_CORE {
 

@@ -2,8 +2,8 @@
 
 // Delta lights whose intensity is given by an image of all directions (goniometric) or by a projected one (projection).
 
+#include "core/lights/kinds/light_base.h"
 #include "core/lights/sphere_mapping.h"
-#include "core/scene_view.h"
 
 namespace ALHAZEN_CORE {
 

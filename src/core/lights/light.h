@@ -5,7 +5,7 @@
 // the probability of the choice.
 
 #include "core/lights/environment.h"
-#include "core/lights/image_light.h"
+#include "core/lights/light_list.h"
 #include "core/lights/light_tree.h"
 #include "core/sampling/discrete.h"
 #include "core/sampling/warp.h"
@@ -13,21 +13,6 @@
 #include "core/textures/texture.h"
 
 namespace ALHAZEN_CORE {
-
-template <class Real>
-struct LightSample {
-  Vec3<Real> direction{};  ///< unit, from the reference point
-  Vec3<Real> radiance{};   ///< arriving along it if unoccluded
-  Real pdf = 0;            ///< 0 if nothing was sampled
-  bool is_delta = false;   ///< BSDF sampling cannot find the light; pdf is then the probability of the choice
-  /// Whether the shadow ray ends at a point, with its error and normal; not so for infinite and distant lights.
-  bool is_finite = false;
-  Vec3<Real> point{}, point_error{}, normal{};
-
-  using Fields =
-      FieldList<&LightSample::direction, &LightSample::radiance, &LightSample::pdf, &LightSample::is_delta,
-                &LightSample::is_finite, &LightSample::point, &LightSample::point_error, &LightSample::normal>;
-};
 
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> emitted_radiance(const Vec3<Real>& radiance, uint32_t two_sided,
@@ -139,36 +124,6 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_sphere_light(const SceneView<Rea
   return s;
 }
 
-/// Smooth falloff from 1 at cos_inner to 0 at cos_outer.
-template <class Real>
-ALHAZEN_HD Real spot_falloff(const LightRecord<Real>& light, Real cos_angle) {
-  if (cos_angle <= light.cos_outer) return 0;
-  if (cos_angle >= light.cos_inner) return 1;
-  const Real x = (cos_angle - light.cos_outer) / (light.cos_inner - light.cos_outer);
-  return x * x * (3 - 2 * x);
-}
-
-template <class Real>
-ALHAZEN_HD LightSample<Real> sample_point_light(const SceneView<Real>& scene, const LightRecord<Real>& light,
-                                                const Vec3<Real>& reference) {
-  LightSample<Real> s;
-  const Vec3<Real> to_light = light.position - reference;
-  const Real distance_squared = length_squared(to_light);
-  if (!(distance_squared > 0)) return s;
-  s.direction = to_light * (1 / std::sqrt(distance_squared));
-  const Real falloff =
-      light.kind == LightKind::spot ? spot_falloff(light, -dot(s.direction, light.direction)) : Real(1);
-  s.radiance = light.radiance * (falloff / distance_squared);
-  if (light.kind == LightKind::goniometric || light.kind == LightKind::projection)
-    s.radiance = s.radiance * light_image_factor(scene, scene.light_images[light.primitive],
-                                                 light.kind == LightKind::goniometric, -s.direction);
-  s.pdf = 1;
-  s.is_delta = true;
-  s.is_finite = true;
-  s.point = light.position;
-  return s;
-}
-
 /// Chooses one of the lights. `normal` is that of the side of the surface from which light must arrive; zero means
 /// any.
 template <class Real>
@@ -220,30 +175,12 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_chosen_light(const SceneView<Rea
                               sphere.frame, reference, is_on_light, u);
       break;
     }
-    case LightKind::point:
-    case LightKind::spot:
-    case LightKind::goniometric:
-    case LightKind::projection:
-      s = sample_point_light(scene, light, reference);
-      break;
-    case LightKind::distant:
-      s.direction = -light.direction;
-      s.radiance = light.radiance;
-      s.pdf = 1;
-      s.is_delta = true;
-      break;
-    case LightKind::constant_infinite:
-      s.direction = sample_uniform_sphere(u);
-      s.radiance = light.radiance;
-      s.pdf = pdf_uniform_sphere<Real>;
-      break;
-    case LightKind::environment: {
-      const EnvironmentSample<Real> e = sample_environment(scene, scene.environments[light.primitive], u);
-      s.direction = e.direction;
-      s.radiance = e.radiance;
-      s.pdf = e.pdf;
-      break;
-    }
+#define ALHAZEN_CASE(name, Name)                         \
+  case LightKind::name:                                  \
+    s = Name##Light::sample(scene, light, reference, u); \
+    break;
+      ALHAZEN_LIGHTS(ALHAZEN_CASE)
+#undef ALHAZEN_CASE
   }
   return s;
 }
@@ -307,12 +244,30 @@ ALHAZEN_HD Real pdf_environment_light(const SceneView<Real>& scene, const Enviro
   return scene.lights[map.light].pmf * pdf_environment(scene, map, direction);
 }
 
+/// What a ray that escapes along unit `direction` finds of one of SceneView::far_lights; the density if `wants_pdf`.
+template <class Real>
+ALHAZEN_HD EscapedLight<Real> escaped_light(const SceneView<Real>& scene, const LightRecord<Real>& light,
+                                            const Vec3<Real>& direction, bool wants_pdf) {
+  switch (light.kind) {
+#define ALHAZEN_CASE(name, Name) \
+  case LightKind::name:          \
+    return Name##Light::escaped(scene, light, direction, wants_pdf);
+    ALHAZEN_LIGHTS(ALHAZEN_CASE)
+#undef ALHAZEN_CASE
+    case LightKind::triangle:
+    case LightKind::sphere:
+    case LightKind::moving_sphere:
+      break;
+  }
+  return {};
+}
+
 /// Radiance of all infinite lights for a ray that escapes along `direction`.
 template <class Real>
 ALHAZEN_HD Vec3<Real> background_radiance(const SceneView<Real>& scene, const Vec3<Real>& direction) {
   Vec3<Real> radiance = scene.background;
-  for (uint32_t i = 0; i < scene.environments_count; ++i)
-    radiance += evaluate_environment(scene, scene.environments[i], direction);
+  for (uint32_t i = 0; i < scene.far_lights_count; ++i)
+    radiance += escaped_light(scene, scene.lights[scene.far_lights[i]], direction, false).radiance;
   return radiance;
 }
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/lights/light_kind.h"
+#include "core/lights/light_list.h"
 #include "core/lights/sphere_mapping.h"
 #include "core/math/field_list.h"
 #include "core/math/frame.h"
@@ -25,10 +25,10 @@ struct LightRecord {
   Real pmf;             ///< probability that the light is chosen, by power if there is a light tree; 0 if only BSDF
   ///< sampling finds it
   Vec3<Real> position;
-  Vec3<Real> direction;       ///< direction of propagation, unit length
-  Real cos_outer, cos_inner;  ///< spot: cosines of the cone's edge and of the start of the falloff
-  TextureRange texture;       ///< shapes: factor on the radiance
-  uint32_t emitter;           ///< triangles: index into SceneView::triangle_emitters
+  Vec3<Real> direction;   ///< direction of propagation, unit length
+  Vec2<Real> parameters;  ///< as the file of the kind says
+  TextureRange texture;   ///< shapes: factor on the radiance
+  uint32_t emitter;       ///< triangles: index into SceneView::triangle_emitters
 };
 
 /// An emissive triangle without its texture: what sampling it needs, stored together.

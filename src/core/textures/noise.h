@@ -55,24 +55,4 @@ ALHAZEN_HD ALHAZEN_COLD Real octave_noise(const uint8_t* permutation, Vec3<Real>
   return sum;
 }
 
-/// Waves whose height is scaled by wind strength, a noise of lower frequency.
-template <class Real>
-ALHAZEN_HD Real windy_waves(const uint8_t* permutation, const Vec3<Real>& p) {
-  const Real strength = octave_noise(permutation, p * Real(0.1), Real(0.5), 3, false);
-  return std::abs(strength) * octave_noise(permutation, p, Real(0.5), 6, false);
-}
-
-/// Returns whether (s, t) is inside a disc of radius 0.35. About half of the cells, which are centred at the integers,
-/// contain one, displaced within the cell by noise (PBR 3rd ed., 10.5.1).
-template <class Real>
-ALHAZEN_HD bool is_inside_dot(const uint8_t* permutation, const Vec2<Real>& st) {
-  constexpr Real radius = Real(0.35), max_shift = Real(0.5) - radius;
-  const Real s = std::floor(st.x + Real(0.5)), t = std::floor(st.y + Real(0.5));
-  const auto noise = [&](Real ds, Real dt) { return perlin_noise(permutation, Vec3<Real>{s + ds, t + dt, Real(0.5)}); };
-  if (!(noise(Real(0.5), Real(0.5)) > 0)) return false;
-  const Real ds = st.x - (s + max_shift * noise(Real(1.5), Real(2.8)));
-  const Real dt = st.y - (t + max_shift * noise(Real(4.5), Real(9.8)));
-  return ds * ds + dt * dt < radius * radius;
-}
-
 }  // namespace ALHAZEN_CORE

@@ -5,7 +5,8 @@
 #include <cstdint>
 
 #include "core/math/vec.h"
-#include "core/textures/functions.h"
+#include "core/textures/mapping_kind.h"
+#include "core/textures/texture_list.h"
 
 namespace ALHAZEN_CORE {
 
@@ -22,11 +23,9 @@ inline constexpr uint32_t max_texture_stack = 8;
 template <class Real>
 struct TextureRecord {
   TextureKind kind;
-  uint32_t mapping;  ///< index into texture_mappings, for kinds evaluated over uv or in 3D
+  uint32_t mapping;  ///< index into texture_mappings, for kinds that have a domain
   uint32_t image;    ///< image: index into images
-  uint32_t octaves;  ///< fbm, wrinkled, marble; checkerboard: 1 if solid
-  /// constant: the value. image: x = factor, y = 1 if inverted. noise: x = roughness, y = scale, z = variation.
-  /// direction_mix: the direction.
+  uint32_t number;   ///< this and `parameters`: as the file of the kind says
   Vec3<Real> parameters;
 };
 

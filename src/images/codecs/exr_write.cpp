@@ -49,12 +49,12 @@ half to_half(float value) {
   return half(std::clamp(value, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX)));
 }
 
-bool is_always_single(const std::string& channel, const ExrOptions& options) {
+bool is_always_single(const std::string& channel, const WriteOptions& options) {
   return std::any_of(options.always_single.begin(), options.always_single.end(),
                      [&](const std::string& prefix) { return channel.starts_with(prefix); });
 }
 
-std::vector<ExrPlane> make_planes(const ImageSource& source, const ExrOptions& options) {
+std::vector<ExrPlane> make_planes(const ImageSource& source, const WriteOptions& options) {
   std::vector<ExrPlane> planes;
   for (const std::string& channel : source.channels) {
     const bool single = options.pixel_type == ExrPixelType::single || is_always_single(channel, options);
@@ -64,12 +64,12 @@ std::vector<ExrPlane> make_planes(const ImageSource& source, const ExrOptions& o
   return planes;
 }
 
-Imath::Box2i data_window(const ImageSource& source, const ExrOptions& options) {
+Imath::Box2i data_window(const ImageSource& source, const WriteOptions& options) {
   return {{options.x_offset, options.y_offset},
           {options.x_offset + source.width - 1, options.y_offset + source.height - 1}};
 }
 
-Imf::Header make_header(const ImageSource& source, const std::vector<ExrPlane>& planes, const ExrOptions& options) {
+Imf::Header make_header(const ImageSource& source, const std::vector<ExrPlane>& planes, const WriteOptions& options) {
   const int full_width = options.full_width > 0 ? options.full_width : source.width;
   const int full_height = options.full_height > 0 ? options.full_height : source.height;
   Imf::Header header(Imath::Box2i({0, 0}, {full_width - 1, full_height - 1}), data_window(source, options));
@@ -131,7 +131,7 @@ auto guarded(const std::string& path, AtomicFile& file, const Step& step) {
 
 }  // namespace
 
-void write_exr(const std::string& path, const ImageSource& source, const ExrOptions& options) {
+void write_exr(const std::string& path, const ImageSource& source, const WriteOptions& options) {
   check_source(path, source);
   AtomicFile file(path);
   AtomicStream stream(file, path);

@@ -1,5 +1,6 @@
-// Reads PFM: "PF" (colour) or "Pf" (grey), width, height, scale, then floats, rows from the bottom up. A negative scale
-// scale means little-endian; its absolute value is a factor on the values.
+// Reads and writes PFM: "PF" (colour) or "Pf" (grey), width, height, scale, then floats, rows from the bottom up. A
+// negative scale means little-endian; its absolute value is a factor on the values (Debevec, "PFM Portable FloatMap
+// Image Format").
 
 #include <array>
 #include <bit>
@@ -8,6 +9,7 @@
 #include <cstring>
 #include <string>
 
+#include "files/atomic_file.h"
 #include "images/codecs/byte_reader.h"
 #include "images/codecs/decoders.h"
 
@@ -42,6 +44,11 @@ float read_float(const uint8_t* bytes, bool little_endian) {
   return std::bit_cast<float>(native);
 }
 
+void store_little_endian(float value, uint8_t* bytes) {
+  const auto bits = std::bit_cast<uint32_t>(value);
+  for (int i = 0; i < 4; ++i) bytes[i] = static_cast<uint8_t>(bits >> 8 * i);
+}
+
 }  // namespace
 
 ImageTexels decode_pfm(const std::string& path, std::span<const uint8_t> bytes) {
@@ -63,6 +70,25 @@ ImageTexels decode_pfm(const std::string& path, std::span<const uint8_t> bytes) 
       texels.floats[y * 3 * width + i] = factor * read_float(values.data() + 4 * value, scale < 0);
     }
   return texels;
+}
+
+/// Writes colour with a scale of -1. Bits of values are kept, also of those that are infinite or not a number.
+void write_pfm(const std::string& path, const ImageSource& source, const WriteOptions&) {
+  const std::array<size_t, 3> channels = rgb_channels(path, source);
+  const size_t width = static_cast<size_t>(source.width);
+  std::vector<float> row(source.channels.size() * width);
+  std::vector<uint8_t> bytes(3 * width * sizeof(float));
+  AtomicFile file(path);
+  const std::string header = "PF\n" + std::to_string(source.width) + " " + std::to_string(source.height) + "\n-1.0\n";
+  file.write(header.data(), header.size());
+  for (int y = source.height - 1; y >= 0; --y) {
+    source.fill_row(y, row);
+    for (size_t x = 0; x < width; ++x)
+      for (size_t c = 0; c < 3; ++c)
+        store_little_endian(row[channels[c] * width + x], &bytes[(3 * x + c) * sizeof(float)]);
+    file.write(bytes.data(), bytes.size());
+  }
+  file.commit();
 }
 
 }  // namespace alhazen

@@ -91,30 +91,23 @@ class PngWriter {
 uint8_t encode(double linear) { return static_cast<uint8_t>(std::floor(255 * srgb_encode(linear) + 0.5)); }
 
 /// `channels`: positions of R, G and B in `row`.
-void encode_row(std::span<const float> row, const Vec3<size_t>& channels, const PngOptions& options,
+void encode_row(std::span<const float> row, const std::array<size_t, 3>& channels, const WriteOptions& options,
                 std::vector<uint8_t>& encoded) {
   const size_t width = encoded.size() / 3;
   const double factor = std::exp2(options.exposure);
   for (size_t x = 0; x < width; ++x) {
     Vec3d colour;
-    for (int c = 0; c < 3; ++c) colour[c] = factor * static_cast<double>(row[channels[c] * width + x]);
+    for (int c = 0; c < 3; ++c)
+      colour[c] = factor * static_cast<double>(row[channels[static_cast<size_t>(c)] * width + x]);
     colour = tone_map(colour, options.tone_map);
     for (int c = 0; c < 3; ++c) encoded[3 * x + static_cast<size_t>(c)] = encode(colour[c]);
   }
 }
 
-size_t find_channel(const std::string& path, const ImageSource& source, const char* name) {
-  const auto found = std::find(source.channels.begin(), source.channels.end(), name);
-  if (found == source.channels.end()) throw RenderError("cannot write " + path + ": the image has no channel " + name);
-  return static_cast<size_t>(found - source.channels.begin());
-}
-
 }  // namespace
 
-void write_png(const std::string& path, const ImageSource& source, const PngOptions& options) {
-  if (source.width <= 0 || source.height <= 0) throw RenderError("cannot write " + path + ": the image has no pixels");
-  const Vec3<size_t> channels{find_channel(path, source, "R"), find_channel(path, source, "G"),
-                              find_channel(path, source, "B")};
+void write_png(const std::string& path, const ImageSource& source, const WriteOptions& options) {
+  const std::array<size_t, 3> channels = rgb_channels(path, source);
   AtomicFile file(path);
   PngWriter writer(path, file);
   writer.begin(source.width, source.height);

@@ -53,6 +53,12 @@ Light read_distant(Build& build, ParameterList& list) {
   if (illuminance > 0) light.radiance *= illuminance;
   const Vec3d from = list.point("from", {}), to = list.point("to", {0, 0, 1});
   light.direction = direction_of_light(build, list, from, to);
+  const double angle = list.number("angle", 0);  // which pbrt does not have
+  if (angle == 0) return light;
+  if (!(angle >= 0.01 && angle <= 180))
+    fail(list.place_of("angle"), "\"angle\" must be 0, or from 0.01 to 180 degrees");
+  light.kind = LightKind::sun;
+  light.cone_angle = angle / 2;
   return light;
 }
 

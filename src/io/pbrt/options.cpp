@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/pbrt/nearest.h"
+#include "scene/filters.h"
 
 namespace alhazen::pbrt {
 
@@ -54,13 +55,6 @@ const std::map<std::string, SamplerType> samplers{
     {"paddedsobol", SamplerType::sobol},       {"zsobol", SamplerType::sobol}, {"pmj02bn", SamplerType::sobol},
     {"stratified", SamplerType::sobol}};
 
-/// pbrt-v4's defaults of each filter.
-const std::map<std::string, Filter> filters{{"box", {FilterType::box, 0.5, 0.5}},
-                                            {"gaussian", {FilterType::gaussian, 1.5, 1.5}},
-                                            {"mitchell", {FilterType::mitchell, 2, 2}},
-                                            {"sinc", {FilterType::sinc, 4, 4}},
-                                            {"triangle", {FilterType::triangle, 2, 2}}};
-
 int32_t positive_integer(ParameterList& list, std::string_view name, int32_t fallback) {
   const int32_t value = list.integer(name, fallback);
   if (value < 1)
@@ -77,10 +71,10 @@ bool read_flag(const Lexer& lexer, const Token& token, const std::string& name) 
 }  // namespace
 
 void set_filter(Build& build, const std::string& kind, ParameterList& list) {
-  Filter filter = known_kind(filters, "pixel filter", kind, list);
+  Filter filter = known_kind(named_filters(), "pixel filter", kind, list);
   filter.x_radius = list.positive("xradius", filter.x_radius);
   filter.y_radius = list.positive("yradius", filter.y_radius);
-  if (std::max(filter.x_radius, filter.y_radius) > 64)
+  if (std::max(filter.x_radius, filter.y_radius) > max_filter_radius)
     fail(list.place(), list.directive() + ": its radii can be 64 pixels at most");
   if (filter.type == FilterType::gaussian) filter.sigma = list.positive("sigma", filter.sigma);
   if (filter.type == FilterType::mitchell) {

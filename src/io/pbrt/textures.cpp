@@ -184,6 +184,18 @@ void read_windy(const TextureRequest& request, Texture& texture) {
   read_world_mapping(request, texture);
 }
 
+/// Cellular noise, which pbrt does not have.
+void read_cellular(const TextureRequest& request, Texture& texture) {
+  texture.kind = TextureKind::cellular;
+  read_world_mapping(request, texture);
+  const double jitter = request.list.number("jitter", 1);
+  if (!(jitter >= 0 && jitter <= 1)) fail(request.list.place_of("jitter"), "\"jitter\" must be from 0 to 1");
+  const std::string value = request.list.string("value", "distance");
+  if (value != "distance" && value != "cell")
+    fail(request.list.place_of("value"), "unknown \"value\" \"" + value + "\"; use distance or cell");
+  texture.value = {jitter, value == "cell" ? 1.0 : 0.0, 0};
+}
+
 void read_ptex(const TextureRequest& request, Texture&) {
   fail(request.list.place(), "textures of kind \"ptex\" are not supported; use an \"imagemap\" over uv instead");
 }
@@ -201,6 +213,7 @@ const std::map<std::string, TextureReader> readers{{"constant", read_constant},
                                                    {"dots", read_dots},
                                                    {"directionmix", read_direction_mix},
                                                    {"windy", read_windy},
+                                                   {"cellular", read_cellular},
                                                    {"ptex", read_ptex}};
 
 std::vector<std::string> names_of(const std::map<std::string, uint32_t>& textures) {

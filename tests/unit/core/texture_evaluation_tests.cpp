@@ -284,6 +284,66 @@ TYPED_TEST(TextureEvaluation, WindyIsTheProductOfTwoNoises) {
   }
 }
 
+Texture cellular(double jitter, bool is_cell) {
+  Texture texture = of_kind(TextureKind::cellular);
+  texture.value = {jitter, is_cell ? 1.0 : 0.0, 0};
+  return texture;
+}
+
+/// Without jitter the points are the centres of the cells.
+TYPED_TEST(TextureEvaluation, CellularNoiseWithoutJitterIsALattice) {
+  const Textures<TypeParam> t({cellular(0, false), cellular(0, true)});
+  Random random(1);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d p = random.in_box(-20, 20);
+    const Vec3d from_centre{p.x - std::floor(p.x) - 0.5, p.y - std::floor(p.y) - 0.5, p.z - std::floor(p.z) - 0.5};
+    EXPECT_NEAR(t.at(0, p).x, length(from_centre), by_precision<TypeParam>(2e-5, 1e-12));
+    const Vec3d corner{std::floor(p.x) + 0.25, std::floor(p.y) + 0.75, std::floor(p.z) + 0.5};
+    EXPECT_EQ(t.at(1, p).x, t.at(1, corner).x) << "one number for the whole cell";
+  }
+}
+
+/// The closest point among those of all cells around, and the number of its cell.
+TYPED_TEST(TextureEvaluation, CellularNoiseFindsTheClosestPoint) {
+  using Real = TypeParam;
+  const Textures<Real> t({cellular(1, false), cellular(1, true)});
+  Random random(2);
+  double farthest = 0, sum = 0;
+  constexpr int points = 20000;
+  for (int n = 0; n < points; ++n) {
+    const Vec3<Real> p = convert<Real>(random.in_box(-8, 8));
+    const auto cell = [](Real x) { return static_cast<int>(std::floor(x)); };
+    double closest = 100, number = -1;
+    for (int i = -3; i <= 3; ++i)
+      for (int j = -3; j <= 3; ++j)
+        for (int k = -3; k <= 3; ++k) {
+          const int x = cell(p.x) + i, y = cell(p.y) + j, z = cell(p.z) + k;
+          const uint32_t hash = cellular_hash(x, y, z);
+          const Vec3d at = convert<double>(cellular_point(hash, Real(1))) + Vec3d{x + 0.0, y + 0.0, z + 0.0};
+          const double distance = length(at - convert<double>(p));
+          if (distance >= closest) continue;
+          closest = distance;
+          number = static_cast<double>(unit_interval<Real>(combine32(hash, 3)));
+        }
+    ASSERT_NEAR(t.at(0, convert<double>(p)).x, closest, by_precision<Real>(5e-6, 1e-12));
+    ASSERT_EQ(t.at(1, convert<double>(p)).x, number);
+    farthest = std::max(farthest, closest);
+    sum += number;
+  }
+  EXPECT_GT(farthest, 1) << "the second ring of cells is tested";
+  EXPECT_LT(farthest, std::sqrt(3.0));
+  EXPECT_NEAR(sum / points, 0.5, 0.02);
+}
+
+TYPED_TEST(TextureEvaluation, CellularNoiseRepeatsAndEndsAtInfinity) {
+  const Textures<TypeParam> t({cellular(1, false)});
+  const Vec3d p{0.25, 0.5, 0.75};
+  EXPECT_EQ(t.at(0, p).x, t.at(0, p + Vec3d{65536, 0, 0}).x);
+  EXPECT_EQ(t.at(0, p).x, t.at(0, p - Vec3d{0, 65536, 131072}).x);
+  for (const double far : {1e30, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_TRUE(std::isfinite(t.at(0, {far, 0, -far}).x)) << far;
+}
+
 TYPED_TEST(TextureEvaluation, ScaleAndMixNest) {
   const Textures<TypeParam> t({constant(0.5), constant(0.25), constant(0.75),
                                over(TextureKind::scale, {0, 1, no_index}),    // 0.125

@@ -72,7 +72,7 @@ TEST(Exr, SingleFloatsComeBackExactly) {
   const TemporaryFolder folder;
   // Over two blocks of rows, in the order in which a reader returns channels.
   const Image image = make_image(5, 131, {"R", "G", "B", "A", "albedo.R", "albedo.G", "albedo.B", "depth.Z"});
-  ExrOptions options;
+  WriteOptions options;
   options.pixel_type = ExrPixelType::single;
   write_exr(folder.file("a.exr"), source_of(image), options);
   const Image back = read_image(folder.file("a.exr"));
@@ -106,7 +106,7 @@ TEST(Exr, HalfFloatsRoundAndClampButDepthDoesNot) {
 
 TEST(Exr, HeaderHoldsMetadataAndWindows) {
   const TemporaryFolder folder;
-  ExrOptions options;
+  WriteOptions options;
   options.metadata = {{"software", "alhazen"}, {"alhazen.settings.of.a.long.name.over.31", "spp 16"}};
   options.x_offset = 10;
   options.y_offset = 20;
@@ -278,6 +278,48 @@ TEST(Png, NeedsRedGreenAndBlue) {
   EXPECT_EQ(folder.count(), 0u);
 }
 
+// PFM.
+
+TEST(Pfm, HoldsTheValuesAsTheyAreFromTheBottomUp) {
+  const TemporaryFolder folder;
+  const Image image{2, 2, {"depth.Z", "B", "G", "R"}, {{7, 7, 7, 7}, {3, -6, 9, 12}, {2, 5, 8, 11}, {1, 4, 1e30f, 10}}};
+  write_pfm(folder.file("a.pfm"), source_of(image), {.exposure = 3, .tone_map = ToneMap::filmic});
+  const Bytes expected = pfm("PF", 2, 2, "-1.0", floats({1e30f, 8, 9, 10, 11, 12, 1, 2, 3, 4, 5, -6}));
+  EXPECT_EQ(read_file(folder.file("a.pfm")), expected);
+  const Image back = read_image(folder.file("a.pfm"));
+  EXPECT_EQ(back.planes, (std::vector<std::vector<float>>{image.planes[3], image.planes[2], image.planes[1]}));
+}
+
+TEST(Pfm, KeepsWhatIsNotFinite) {
+  const TemporaryFolder folder;
+  write_pfm(folder.file("a.pfm"), source_of(grey_image({infinity, -infinity, std::numeric_limits<float>::quiet_NaN()})),
+            {});
+  const std::vector<float> back = read_image(folder.file("a.pfm")).planes[1];
+  EXPECT_EQ(back[0], infinity);
+  EXPECT_EQ(back[1], -infinity);
+  EXPECT_TRUE(std::isnan(back[2]));
+}
+
+TEST(Pfm, NeedsPixelsAndColours) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(write_pfm(folder.file("a.pfm"), source_of(make_image(1, 1, {"R", "G"})), {}), RenderError);
+  EXPECT_THROW(write_pfm(folder.file("a.pfm"), source_of(Image{0, 0, {"R", "G", "B"}, {{}, {}, {}}}), {}), RenderError);
+  EXPECT_EQ(folder.count(), 0u);
+}
+
+TEST(WriteImage, TheExtensionDecides) {
+  const TemporaryFolder folder;
+  const Image image = grey_image({0.25f, 0.5f});
+  for (const char* name : {"a.exr", "a.PNG", "a.pfm"}) {
+    EXPECT_TRUE(has_written_extension(name)) << name;
+    write_image(folder.file(name), source_of(image), {});
+    EXPECT_EQ(read_image(folder.file(name)).width, 2) << name;
+  }
+  EXPECT_FALSE(has_written_extension("a.jpg"));
+  EXPECT_THROW(write_image(folder.file("a.jpg"), source_of(image), {}), RenderError);
+  EXPECT_EQ(folder.count(), 3u);
+}
+
 // Completely or not at all.
 
 struct Interrupted {};
@@ -292,12 +334,16 @@ ImageSource interrupted_source() {
 TEST(AtomicWrite, AFailingSourceLeavesTheOldFile) {
   const TemporaryFolder folder;
   const Bytes old{1, 2, 3};
-  const std::string exr = folder.write("a.exr", old), png = folder.write("a.png", old);
+  const std::string exr = folder.write("a.exr", old), png = folder.write("a.png", old),
+                    pfm = folder.write("a.pfm", old);
   EXPECT_THROW(write_exr(exr, interrupted_source(), {}), Interrupted);
   EXPECT_THROW(write_png(png, interrupted_source(), {}), Interrupted);
+  // Rows go from the bottom up, so this source fails after nine of them.
+  EXPECT_THROW(write_pfm(pfm, interrupted_source(), {}), Interrupted);
   EXPECT_EQ(read_file(exr), old);
   EXPECT_EQ(read_file(png), old);
-  EXPECT_EQ(folder.count(), 2u);
+  EXPECT_EQ(read_file(pfm), old);
+  EXPECT_EQ(folder.count(), 3u);
 }
 
 TEST(AtomicWrite, ReplacesAndLeavesNoTemporary) {

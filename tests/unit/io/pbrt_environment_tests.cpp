@@ -31,7 +31,7 @@ class PbrtEnvironment : public ::testing::Test {
   }
 
   void write(const std::string& name, const ImageTexels& map) const {
-    ExrOptions options;
+    WriteOptions options;
     options.pixel_type = ExrPixelType::single;
     write_exr(folder_.file(name + ".exr"), source_of(image_of(map)), options);
   }

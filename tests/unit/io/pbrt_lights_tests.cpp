@@ -33,7 +33,7 @@ class PbrtLightImages : public ::testing::Test {
   }
 
   void write(const std::string& name, const ImageTexels& map) const {
-    ExrOptions options;
+    WriteOptions options;
     options.pixel_type = ExrPixelType::single;
     write_exr(folder_.file(name + ".exr"), source_of(image_of(map)), options);
   }

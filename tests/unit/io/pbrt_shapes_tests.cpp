@@ -261,6 +261,19 @@ TEST(PbrtLights, Point) {
   EXPECT_EQ(light.where.line, 2);
 }
 
+TEST(PbrtLights, DistantWithAnAngleIsASun) {
+  const Parsed p = parse_world(
+      "LightSource \"distant\" \"rgb L\" [ 1 2 3 ] \"float angle\" 0.5 LightSource \"distant\" \"float angle\" 0");
+  EXPECT_EQ(p.scene.lights[0].kind, LightKind::sun);
+  EXPECT_EQ(p.scene.lights[0].cone_angle, 0.25);
+  expect_near(p.scene.lights[0].radiance, {1, 2, 3});
+  EXPECT_EQ(p.scene.lights[1].kind, LightKind::distant);
+  for (const char* angle : {"-1", "0.001", "181"})
+    EXPECT_NE(error_of(std::string("WorldBegin LightSource \"distant\" \"float angle\" ") + angle).find("0.01 to 180"),
+              std::string::npos)
+        << angle;
+}
+
 TEST(PbrtLights, DistantTravelsFromFromToTo) {
   const Parsed p = parse_world(
       "Rotate 90 1 0 0 LightSource \"distant\" LightSource \"distant\" "

@@ -101,6 +101,20 @@ TEST(PbrtTextures, RarerKinds) {
             std::string::npos);
 }
 
+TEST(PbrtTextures, CellularNoise) {
+  const Parsed p = parse_world(
+      "Translate 1 2 3\nTexture \"d\" \"float\" \"cellular\"\n"
+      "Texture \"c\" \"spectrum\" \"cellular\" \"string value\" \"cell\" \"float jitter\" 0.5");
+  EXPECT_EQ(named(p, "d").kind, TextureKind::cellular);
+  EXPECT_EQ(named(p, "d").value, (Vec3d{1, 0, 0}));
+  EXPECT_EQ(named(p, "c").value, (Vec3d{0.5, 1, 0}));
+  expect_near(named(p, "c").texture_from_world.point({1, 2, 3}), {0, 0, 0});
+  const std::string begin = "WorldBegin Texture \"t\" \"float\" \"cellular\" ";
+  EXPECT_NE(error_of(begin + "\"float jitter\" 2").find("from 0 to 1"), std::string::npos);
+  EXPECT_NE(error_of(begin + "\"string value\" \"edge\"").find("distance or cell"), std::string::npos);
+  EXPECT_NE(error_of(begin + "\"float scale\" 2").find("scale"), std::string::npos);
+}
+
 /// (1 - s) (1 - t) v00 + (1 - s) t v01 + s (1 - t) v10 + s t v11.
 TEST(PbrtTextures, BilinearInterpolationOfFourValues) {
   Parsed p = parse_world(

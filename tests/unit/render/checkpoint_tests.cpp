@@ -22,7 +22,7 @@ template <class Real>
 class CheckpointFiles : public ::testing::Test {
  protected:
   CheckpointFiles() {
-    settings_.checkpoint = folder_.file("state");
+    settings_.asked.checkpoint = folder_.file("state");
     settings_.precision = sizeof(Real) == 4 ? Precision::single : Precision::double_;
     settings_.window = {0, 3, 0, 2};
     settings_.width = 3;
