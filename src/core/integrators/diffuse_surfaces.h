@@ -39,9 +39,11 @@ class DiffuseSurfaces {
     if (skies_ > 0) sample_sky(numbers, end);
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
-      DirectLight<Real> direct = direct_light(point_at(points, i), lights_[i]);
-      direct.radiance = paths_[i].throughput * direct.radiance;
-      direct_.set(i, direct);
+      const DirectLight<Real> direct = direct_light(point_at(points, i), lights_[i]);
+      is_lit_[i] = direct.is_lit;
+      direct_radiance_.set(i, paths_[i].throughput * direct.radiance);
+      shadow_rays_.set(i, direct.shadow.ray);
+      shadow_limits_[i] = direct.shadow.t_max;
     }
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
@@ -49,12 +51,16 @@ class DiffuseSurfaces {
       const StoredSample sample{numbers.pair(dimensions.bsdf_direction(), i), numbers.first(dimensions.roulette(), i)};
       goes_on_[i] = continue_path(sample, point_at(points, i), path);
       continued_.set(i, path);
+      next_rays_.set(i, path.ray);
     }
   }
 
   /// The light that reaches surface i, the path's throughput included. `hit` and `time` are those of the path's ray.
   ALHAZEN_INLINE DirectLight<Real> direct(uint32_t i, const Hit<Real>& hit, Real time) const {
-    DirectLight<Real> direct = direct_[i];
+    DirectLight<Real> direct;
+    direct.is_lit = is_lit_[i] != 0;
+    direct.radiance = direct_radiance_[i];
+    direct.shadow = {shadow_rays_[i], shadow_limits_[i]};
     set_departure(hit, time, direct.shadow.ray);
     return direct;
   }
@@ -62,6 +68,7 @@ class DiffuseSurfaces {
   ALHAZEN_INLINE void take_over(uint32_t i, const Hit<Real>& hit, PathState<Real>& path) const {
     const Real time = path.ray.time;
     continued_.get(i, path);
+    next_rays_.get(i, path.ray);
     set_departure(hit, time, path.ray);
     path.is_specular = false;
     path.travelled = 0;
@@ -161,6 +168,8 @@ class DiffuseSurfaces {
 
   using Light = LightSample<Real>;
   using Path = PathState<Real>;
+  /// The time of these rays, and the surface that they leave, are those of the hit.
+  using RayArrays = SoA<Ray<Real>, max_count, FieldList<&Ray<Real>::origin, &Ray<Real>::direction>>;
   uint32_t count_ = 0, triangles_ = 0, skies_ = 0;
   uint32_t indices_[max_count]{};
   SoA<Vec3<Real>, max_count> reflectance_;
@@ -168,9 +177,13 @@ class DiffuseSurfaces {
   Real light_pmf_[max_count]{};
   SoA<TriangleEmitter<Real>, max_count> emitters_;  ///< of lights that are still to be sampled
   SoA<Light, max_count> lights_;
-  SoA<DirectLight<Real>, max_count> direct_;
+  uint32_t is_lit_[max_count]{};
+  SoA<Vec3<Real>, max_count> direct_radiance_;
+  RayArrays shadow_rays_;
+  Real shadow_limits_[max_count]{};
   SoA<Path, max_count, FieldList<&Path::throughput, &Path::eta_scale, &Path::vertex>> paths_;
-  SoA<Path, max_count, FieldList<&Path::ray, &Path::throughput, &Path::bsdf_pdf>> continued_;
+  SoA<Path, max_count, FieldList<&Path::throughput, &Path::bsdf_pdf>> continued_;
+  RayArrays next_rays_;
   uint32_t goes_on_[max_count]{};
 };
 

@@ -116,8 +116,6 @@ template <class Real>
 struct ShadowRay {
   Ray<Real> ray;
   Real t_max;  ///< if not above 0, nothing can occlude
-
-  using Fields = FieldList<&ShadowRay::ray, &ShadowRay::t_max>;
 };
 
 /// Receives shadow rays with the radiance to add if they are unoccluded.
@@ -162,8 +160,6 @@ struct DirectLight {
   Vec3<Real> radiance{};
   ShadowRay<Real> shadow;
   bool is_lit = false;
-
-  using Fields = FieldList<&DirectLight::radiance, &DirectLight::shadow, &DirectLight::is_lit>;
 };
 
 /// The input by which a light is chosen for a surface.
