@@ -70,15 +70,17 @@ TEST_F(Signals, ALimitOnProcessorTimeIsNoFirstOne) {
         "kill -STOP $p; kill -XCPU $p; kill -TERM $p; kill -CONT $p",
         "kill -STOP $p; kill -XCPU $p; kill -INT $p; kill -CONT $p",
         "kill -STOP $p; kill -HUP $p; kill -TERM $p; kill -XCPU $p; kill -CONT $p"}) {
-    const CommandResult result = script("rm -f a.exr a.ck; $RENDER -o a.exr --checkpoint a.ck 2>err & p=$!\n"
-                                        "wait_for_samples; " + both + "; wait $p; echo $?");
+    const CommandResult result = script(
+        "rm -f a.exr a.ck; $RENDER -o a.exr --checkpoint a.ck 2>err & p=$!\n"
+        "wait_for_samples; " +
+        both + "; wait $p; echo $?");
     EXPECT_EQ(result.out, "130\n") << both << result.everything();
     EXPECT_TRUE(exists("a.exr")) << both;
     EXPECT_TRUE(exists("a.ck")) << both;
   }
-  const CommandResult result =
-      script("rm -f p.exr; mkfifo p.exr; $RENDER -o p.exr 2>err & p=$!\nwait_for_samples; kill -XCPU $p; kill -TERM $p; "
-             "sleep 0.4; kill -TERM $p; wait $p; echo $?");
+  const CommandResult result = script(
+      "rm -f p.exr; mkfifo p.exr; $RENDER -o p.exr 2>err & p=$!\nwait_for_samples; kill -XCPU $p; kill -TERM $p; "
+      "sleep 0.4; kill -TERM $p; wait $p; echo $?");
   EXPECT_EQ(result.out, std::to_string(128 + SIGTERM) + "\n") << "a second request still ends at once";
 }
 
