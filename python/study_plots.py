@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Draws the plots of a study into its folder, as PNG and SVG.
+"""Draws the plots of a study, as PNG and SVG.
 
-usage: python/study_plots.py FOLDER
+usage: python/study_plots.py FOLDER [INTO]
 
-FOLDER holds the study.json that `alhazen study report` wrote. Plots without measurements are omitted.
+FOLDER holds the study.json that `alhazen study report` wrote. The plots go to the folder INTO, by default the same.
+Plots without measurements are omitted.
 The program embeds this file and runs it at the end of a report.
 """
 
@@ -38,8 +39,9 @@ def short(value):
 
 
 class Study:
-    def __init__(self, folder):
+    def __init__(self, folder, into):
         self.folder = folder
+        self.into = into
         self.json = json.loads((folder / "study.json").read_text(encoding="utf-8"))
         self.tables = {table["id"]: table for table in self.json["tables"]}
 
@@ -120,7 +122,7 @@ def draw_headline(study):
     bars(axes, labels, cells, colours)
     axes.axvline(1, color="#5c6773", linewidth=1)
     axes.set_xlabel("speedup over one core, float (bars: median; whiskers: fastest and slowest repeat)")
-    save(figure, study.folder, "headline")
+    save(figure, study.into, "headline")
 
 
 def draw_forms(study):
@@ -141,7 +143,7 @@ def draw_forms(study):
     right.grid(axis="y", visible=False)
     right.margins(x=0.15)
     right.set_title("the report: cuda2, 8 threads, float")
-    save(figure, study.folder, "forms")
+    save(figure, study.into, "forms")
 
 
 def draw_scaling(study):
@@ -168,7 +170,7 @@ def draw_scaling(study):
         axes.set_ylim(bottom=0)
     np.atleast_1d(all_axes)[0].set_ylabel("speedup over one core")
     np.atleast_1d(all_axes)[-1].legend(loc="lower right")
-    save(figure, study.folder, "scaling")
+    save(figure, study.into, "scaling")
 
 
 def draw_gpu(study, table, name):
@@ -186,7 +188,7 @@ def draw_gpu(study, table, name):
     axes.grid(axis="x", visible=False)
     axes.set_ylabel("speedup over one core")
     axes.legend()
-    save(figure, study.folder, name)
+    save(figure, study.into, name)
 
 
 def read_pfm(path):
@@ -216,7 +218,7 @@ def draw_figure3(study):
         for spine in axes.spines.values():
             spine.set_visible(False)
     figure.colorbar(image, ax=[left, right], label="mean segments of a thread's paths", shrink=0.85)
-    save(figure, study.folder, "figure3")
+    save(figure, study.into, "figure3")
 
 
 def draw_balance(study):
@@ -233,7 +235,7 @@ def draw_balance(study):
     axes.grid(axis="y", visible=False)
     axes.set_xlim(1, 1 + 1.15 * max(0.02, max(values) - 1))
     axes.set_xlabel("busiest thread over mean, float (1: all threads end together)")
-    save(figure, study.folder, "balance")
+    save(figure, study.into, "balance")
 
 
 def draw_queries(study):
@@ -257,7 +259,7 @@ def draw_queries(study):
     axes.margins(x=0.12)
     axes.set_xlabel("nanoseconds per ray, one thread, shading included")
     axes.legend(loc="lower right")
-    save(figure, study.folder, "queries")
+    save(figure, study.into, "queries")
 
 
 def draw_depth(study, table, name):
@@ -289,7 +291,7 @@ def draw_depth(study, table, name):
         axes.set_xlabel("D, maximum number of segments")
         axes.set_title(title)
     left.legend(fontsize=9)
-    save(figure, study.folder, name)
+    save(figure, study.into, name)
 
 
 def draw_objects(study):
@@ -305,7 +307,7 @@ def draw_objects(study):
     axes.set_xlabel("spheres")
     axes.set_ylabel("nanoseconds per ray")
     axes.legend()
-    save(figure, study.folder, "objects")
+    save(figure, study.into, "objects")
 
 
 def draw_error(study):
@@ -325,15 +327,15 @@ def draw_error(study):
         axes.set_xlabel("seconds")
         axes.set_ylabel("RMSE")
         axes.legend()
-        save(figure, study.folder, "error")
+        save(figure, study.into, "error")
     plt.close(figure)
 
 
 def main():
-    if len(sys.argv) != 2:
+    if len(sys.argv) not in (2, 3):
         sys.exit(__doc__.strip())
     set_style()
-    study = Study(Path(sys.argv[1]))
+    study = Study(Path(sys.argv[1]), Path(sys.argv[-1]))
     plots = {"headline": draw_headline, "forms": draw_forms, "scaling": draw_scaling,
              "blocks": lambda s: draw_gpu(s, "table4", "blocks"), "chunks": lambda s: draw_gpu(s, "table5", "chunks"),
              "figure3": draw_figure3, "balance": draw_balance, "queries": draw_queries,

@@ -13,8 +13,10 @@ namespace {
 
 constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
 
-std::atomic<int64_t> interrupted_at{0};  ///< nanoseconds; 0: not yet
-static_assert(std::atomic<int64_t>::is_always_lock_free, "a signal handler takes no locks");
+std::atomic<bool> interrupted{false};
+std::atomic<int64_t> asked_at{0};  ///< nanoseconds; time of the first signal other than SIGXCPU; 0: not yet
+static_assert(std::atomic<int64_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
+              "a signal handler takes no locks");
 
 /// True if SIGINT and SIGQUIT were ignored at the start: a shell without job control has started the program in the
 /// background, and Ctrl-C is meant for the foreground.
@@ -29,20 +31,22 @@ int64_t now() {
 std::atomic<bool> hung_up{false};
 
 /// When a terminal closes, both its shell and the kernel send SIGHUP, and service managers send it together with
-/// SIGTERM, in either order; a limit on processor time sends SIGXCPU every second. Such repetitions do not mean that
-/// the user is impatient.
+/// SIGTERM, in either order. Such repetitions do not mean that the user is impatient.
 bool is_repeated_by_itself(int signal_number) {
-  if (signal_number == SIGXCPU) return true;
   const bool is_one_of_a_pair = hung_up.load() && (signal_number == SIGHUP || signal_number == SIGTERM);
-  return is_one_of_a_pair && now() - interrupted_at.load() < 1'000'000'000;
+  return is_one_of_a_pair && now() - asked_at.load() < 1'000'000'000;
 }
 
 extern "C" void handle_interrupt(int signal_number, siginfo_t* info, void*) {
   const bool is_of_terminal = info->si_code > 0;
   if (is_in_background && signal_number == SIGINT && is_of_terminal) return;
   if (signal_number == SIGHUP) hung_up = true;
+  interrupted = true;
+  // A limit on processor time sends SIGXCPU every second, and batch systems send it before SIGTERM. It is no request of
+  // the user, so one that follows is the first.
+  if (signal_number == SIGXCPU) return;
   int64_t never = 0;
-  if (interrupted_at.compare_exchange_strong(never, now())) return;
+  if (asked_at.compare_exchange_strong(never, now())) return;
   if (is_repeated_by_itself(signal_number)) return;
   std::signal(signal_number, SIG_DFL);
   std::raise(signal_number);  // takes effect as this function returns
@@ -68,6 +72,6 @@ void catch_interrupts() {
   set_pipe_wait_is_over(is_interrupted);
 }
 
-bool is_interrupted() { return interrupted_at.load(std::memory_order_relaxed) != 0; }
+bool is_interrupted() { return interrupted.load(std::memory_order_relaxed); }
 
 }  // namespace alhazen

@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include "cli/console.h"
 #include "cli/stack.h"
@@ -38,17 +39,26 @@ int parse_and_run(CLI::App& app, int argc, char** argv, int& exit_code) {
   }
 }
 
-int run_guarded(CLI::App& app, int argc, char** argv, int& exit_code) {
+/// Turns whatever `body` throws into a message and an exit code.
+template <class Body>
+int run_guarded(const Body& body) {
   try {
-    return parse_and_run(app, argc, argv, exit_code);
+    return body();
   } catch (const alhazen::InputError& error) {
     alhazen::tell("{}\n", error.what());
     return alhazen::exit_bad_input;
   } catch (const std::bad_alloc&) {
-    alhazen::tell("alhazen: out of memory: the task needs more than this machine, or a limit set on it, allows\n");
+    // A text that is ready, since formatting one takes memory.
+    alhazen::tell_text("alhazen: out of memory: the task needs more than this machine, or a limit set on it, allows\n");
     return alhazen::exit_failed;
   } catch (const alhazen::RenderError& error) {  // may have several lines
     alhazen::tell("alhazen: {}\n", error.what());
+    return alhazen::exit_failed;
+  } catch (const std::system_error& error) {
+    const bool is_limit = error.code() == std::errc::resource_unavailable_try_again;
+    alhazen::tell(
+        "alhazen: {}{}\n", alhazen::printable(error.what()),
+        is_limit ? ": the system refuses a thread or memory: raise the limits (ulimit -u, ulimit -v, ulimit -d)" : "");
     return alhazen::exit_failed;
   } catch (const std::exception& error) {
     alhazen::tell("alhazen: {}\n", alhazen::printable(error.what()));
@@ -64,8 +74,7 @@ int after_flushing(int exit_code) {
   return exit_code == alhazen::exit_done ? alhazen::exit_failed : exit_code;
 }
 
-int run_program(int argc, char** argv) {
-  alhazen::prepare_streams();
+int run_command_line(int argc, char** argv) {
   CLI::App app("A path tracer whose light transport is written once and run by many engines.", "alhazen");
   app.set_version_flag("--version", "alhazen " ALHAZEN_VERSION);
   app.require_subcommand(1);
@@ -78,11 +87,17 @@ int run_program(int argc, char** argv) {
   alhazen::register_devices(app);
   alhazen::register_info(app);
   alhazen::register_study(app, exit_code);
-  return after_flushing(run_guarded(app, argc, argv, exit_code));
+  return parse_and_run(app, argc, argv, exit_code);
+}
+
+int run_program(int argc, char** argv) {
+  alhazen::prepare_streams();
+  const int exit_code = run_guarded([&] { return run_command_line(argc, argv); });
+  return run_guarded([&] { return after_flushing(exit_code); });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return alhazen::run_on_enough_stack([&] { return run_program(argc, argv); });
+  return run_guarded([&] { return alhazen::run_on_enough_stack([&] { return run_program(argc, argv); }); });
 }

@@ -11,6 +11,7 @@
 #include "cli/progress.h"
 #include "cli/range.h"
 #include "cli/subcommands.h"
+#include "scene/limits.h"
 #include "study/report.h"
 #include "util/diagnostics.h"
 #include "util/printable.h"
@@ -92,11 +93,18 @@ int run(StudyReportOptions& o) {
   events.warning = [&](const std::string& line) { printer.tell("warning: " + line); };
   catch_interrupts();
   const study::ReportOutcome outcome = study::run_report(o.report, events);
+  if (outcome.files.empty()) {
+    printer.tell("interrupted before the first measurement: nothing is written");
+    return exit_interrupted;
+  }
   std::string files;
   for (const std::string& file : outcome.files) files += (files.empty() ? "" : ", ") + file;
   printer.say(fmt::format("wrote {}: {}", printable(o.report.output), files));
-  if (outcome.is_complete) return exit_done;
-  printer.tell("interrupted: the measurements so far are written; the same command with --resume continues");
+  if (outcome.is_complete && !is_interrupted()) return exit_done;
+  if (outcome.is_complete)
+    printer.tell("interrupted, but the measurements are complete: the same command with --resume draws missing plots");
+  else
+    printer.tell("interrupted: the measurements so far are written; the same command with --resume continues");
   return exit_interrupted;
 }
 
@@ -127,7 +135,7 @@ void register_study_report(CLI::App& study, int& exit_code) {
       ->check(within(1, 10000))
       ->type_name("N");
   command->add_option("--spp", o->samples, "S of the images for timing the CPU")
-      ->check(within(1, 1 << 24))
+      ->check(within<int64_t>(1, max_samples_per_pixel))
       ->type_name("S");
   command->add_flag("--resume", o->report.resume, "Continue the study in the folder");
   command->add_flag("--overwrite", o->report.overwrite, "Replace the study in the folder");

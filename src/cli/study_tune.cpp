@@ -69,7 +69,7 @@ void store(const TuneOptions& o, const study::TuneOutcome& outcome, const std::s
 
 int run(TuneOptions& o) {
   if (o.store && o.store_default) throw InputError("give --store or --store-default, not both");
-  if (o.store || o.store_default) study::read_tuned(study::tuned_path());  // reports a damaged file before the work
+  if (o.store || o.store_default) study::check_tuned_target(study::tuned_path());  // before the budget is spent
   Diagnostics diagnostics;
   const Scene scene = load_scene(o.scene, o.settings, diagnostics).scene;
   const RenderSettings settings = resolve_settings(o.settings, scene);

@@ -9,6 +9,7 @@
 #include <future>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 
 #include "compile/compile_scene.h"
@@ -16,6 +17,7 @@
 #include "render/checkpoint.h"
 #include "render/denoiser.h"
 #include "render/sample_kernel.h"
+#include "util/thread_limit.h"
 
 namespace alhazen {
 
@@ -30,7 +32,7 @@ class ProgressReporter {
  public:
   ProgressReporter(const ProgressFunction& listener, RenderControl& control, uint64_t total)
       : listener_(listener), control_(control), total_(total) {
-    if (listener_) thread_ = std::thread([this] { run(); });
+    if (listener_) thread_ = start_thread("the thread that reports progress", [this] { run(); });
   }
 
   ~ProgressReporter() { finish(); }
@@ -209,6 +211,13 @@ std::unique_ptr<Film<Real>> make_film(const RenderSettings& settings, bool weigh
   }
 }
 
+/// A GPU starts on a thread of its own while the scene is compiled; other backends start when the future is waited for.
+std::future<void> start_backend(Backend& backend, const RenderSettings& settings, bool is_on_gpu) try {
+  return std::async(is_on_gpu ? std::launch::async : std::launch::deferred, [&] { backend.start(settings); });
+} catch (const std::system_error& error) {
+  refuse_thread("the thread that starts the GPU", error);
+}
+
 template <class Real>
 Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, double load_seconds,
                               const RenderEvents& events, Diagnostics& diagnostics) {
@@ -219,8 +228,7 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Backend> backend = make_backend(settings.backend);
   const bool is_on_gpu = settings.runs_on_device && settings.device != host_device;
-  std::future<void> started =
-      std::async(is_on_gpu ? std::launch::async : std::launch::deferred, [&] { backend->start(settings); });
+  std::future<void> started = start_backend(*backend, settings, is_on_gpu);
   const int build_threads = is_on_gpu ? 0 : settings.threads;
   CompileOptions options{settings.width, settings.height, build_threads, backend->wanted_layouts(settings)};
   options.texture_budget = settings.texture_budget;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "render/engine_help.h"
+#include "scene/limits.h"
 #include "util/diagnostics.h"
 #include "util/parse_numbers.h"
 
@@ -177,10 +178,10 @@ std::vector<SettingEntry> image_settings() {
   constexpr SettingGroup group = SettingGroup::image;
   return {
       entry(group, "spp", "", "N", "Samples per pixel",
-            number<int64_t>("spp", &Settings::samples_per_pixel, 0, 1, 1 << 24)),
+            number<int64_t>("spp", &Settings::samples_per_pixel, 0, 1, max_samples_per_pixel)),
       of_samples([](const RenderSettings& s) { return std::to_string(s.max_segments); },
                  entry(group, "max-depth", "--maxdepth", "N", "Bounces: a path has at most N + 1 segments",
-                       number<int64_t>("max-depth", &Settings::max_depth, -1, 0, 1'000'000))),
+                       number<int64_t>("max-depth", &Settings::max_depth, -1, 0, max_bounces))),
       of_samples([](const RenderSettings& s) { return std::to_string(s.width) + "x" + std::to_string(s.height); },
                  entry(group, "size", "", "WxH", "Pixels of the whole image", size())),
       of_samples(window_bounds,

@@ -9,6 +9,7 @@
 #include "render/checkpoint.h"
 #include "render/denoiser.h"
 #include "scene/filters.h"
+#include "scene/limits.h"
 #include "util/thread_limit.h"
 
 namespace alhazen {
@@ -181,8 +182,8 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   s.sampler = asked.sampler.empty() ? scene.sampler : by_name(samplers, asked.sampler, "sampler");
   s.samples_per_pixel =
       static_cast<uint32_t>(in_range(asked.samples_per_pixel ? asked.samples_per_pixel : scene.samples_per_pixel, 1,
-                                     1 << 24, "the number of samples per pixel"));
-  const int64_t depth = in_range(asked.max_depth >= 0 ? asked.max_depth : scene.max_depth, 0, 1'000'000, "the depth");
+                                     max_samples_per_pixel, "the number of samples per pixel"));
+  const int64_t depth = in_range(asked.max_depth >= 0 ? asked.max_depth : scene.max_depth, 0, max_bounces, "the depth");
   s.max_segments = static_cast<uint32_t>(depth + 1);
   if ((s.integrator == IntegratorKind::recursive || s.integrator == IntegratorKind::branching) && depth > 1000)
     throw InputError(

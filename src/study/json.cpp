@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "files/input_file.h"
+#include "study/read_json.h"
 
 namespace alhazen::study {
 
@@ -161,6 +162,14 @@ Json to_json(const Study& study) {
   return j;
 }
 
+namespace {
+
+InputError damaged_study(const std::string& path, const nlohmann::json::exception& error) {
+  return {{path}, std::string("this study is damaged (") + error.what() + "): give another --output"};
+}
+
+}  // namespace
+
 nlohmann::json read_study_json(const std::string& given) {
   std::error_code error;
   const bool is_folder = std::filesystem::is_directory(given, error);
@@ -170,9 +179,7 @@ nlohmann::json read_study_json(const std::string& given) {
                                           "report' wrote"
                                         : "there is no such file: give the study.json that 'alhazen study report' "
                                           "wrote, or its folder");
-  const std::vector<uint8_t> bytes = InputFile(path).read_all();
-  nlohmann::json j = nlohmann::json::parse(bytes.begin(), bytes.end(), nullptr, false);
-  if (j.is_discarded()) throw InputError({path}, "this is not JSON: give the study.json of 'alhazen study report'");
+  nlohmann::json j = read_json<nlohmann::json>(path, "give the study.json of 'alhazen study report'");
   if (!j.is_object() || j.value("schema", nlohmann::json()) != schema_name)
     throw InputError({path}, std::string("this is not a study of the schema ") + schema_name +
                                  ": give the study.json that this version of 'alhazen study report' wrote");
@@ -181,24 +188,73 @@ nlohmann::json read_study_json(const std::string& given) {
 
 namespace {
 
-/// Takes only undisturbed runs; disturbed ones are repeated.
-void take_undisturbed(const nlohmann::json& j, Trial& trial) {
-  const auto& seconds = j.at("seconds").at("samples");
-  const auto &busy = j.at("busy_seconds"), &fractions = j.at("processor_shares");
-  for (size_t i = 0; i < seconds.size(); ++i) {
-    if (fractions.at(i).get<double>() < min_processor_fraction) continue;
-    trial.seconds.push_back(seconds.at(i));
-    trial.busy_seconds.push_back(busy.at(i).get<std::vector<double>>());
-    trial.processor_fractions.push_back(fractions.at(i));
+/// The size of the images belongs to the scale as much as its name: other sizes are other trials.
+bool is_same_scale(const nlohmann::json& j, const Scale& scale) {
+  return j.at("name") == scale.name && j.at("width") == scale.width && j.at("height") == scale.height &&
+         j.at("samples") == scale.samples && j.at("gpu_samples") == scale.gpu_samples;
+}
+
+void read_runs(const nlohmann::json& j, Trial& trial) {
+  trial.seconds = j.at("seconds").at("samples").get<std::vector<double>>();
+  trial.busy_seconds = j.at("busy_seconds").get<std::vector<std::vector<double>>>();
+  trial.processor_fractions = j.at("processor_shares").get<std::vector<double>>();
+  const size_t runs = trial.seconds.size();
+  if (trial.busy_seconds.size() != runs || trial.processor_fractions.size() != runs)
+    throw nlohmann::json::other_error::create(501, "the runs of a trial do not match", &j);
+  if (j.contains("disturbed_seconds")) trial.disturbed_seconds = j.at("disturbed_seconds").get<std::vector<double>>();
+  trial.build_seconds = j.at("build_seconds");
+  trial.width = j.at("width");
+  trial.height = j.at("height");
+  trial.samples_per_pixel = j.at("spp");
+  trial.samples = j.at("camera_samples");
+  trial.rays = j.at("rays");
+  trial.shadow_rays = j.at("shadow_rays");
+  trial.rmse = j.value("rmse", -1.0);
+}
+
+void read_trial(const nlohmann::json& j, Trial& trial) {
+  const std::string status = j.at("status");
+  for (const TrialStatus failure : {TrialStatus::unavailable, TrialStatus::failed}) {
+    if (status != to_string(failure)) continue;
+    trial.status = failure;
+    trial.reason = j.value("reason", "");
   }
+  // Without seconds there is no measurement, whatever the status says.
+  if (!j.contains("seconds")) return;
+  read_runs(j, trial);
+  if (status == to_string(TrialStatus::ok) && !trial.seconds.empty()) trial.status = TrialStatus::ok;
+}
+
+/// Makes a trial of an earlier run measure again what was disturbed or could not be run.
+void forget_failures(Trial& trial) {
+  if (trial.status != TrialStatus::ok) trial.status = TrialStatus::not_run;
+  trial.reason.clear();
+  trial.disturbed_seconds.clear();
+  size_t kept = 0;
+  for (size_t i = 0; i < trial.seconds.size(); ++i) {
+    if (trial.processor_fractions[i] < min_processor_fraction) continue;
+    trial.seconds[kept] = trial.seconds[i];
+    std::swap(trial.busy_seconds[kept], trial.busy_seconds[i]);
+    trial.processor_fractions[kept++] = trial.processor_fractions[i];
+  }
+  trial.seconds.resize(kept);
+  trial.busy_seconds.resize(kept);
+  trial.processor_fractions.resize(kept);
+  if (kept == 0) trial.status = TrialStatus::not_run;
 }
 
 }  // namespace
 
+std::vector<std::string> tables_of(const nlohmann::json& study, const std::string& path) try {
+  std::vector<std::string> ids;
+  for (const auto& table : study.at("tables")) ids.push_back(table.at("id"));
+  return ids;
+} catch (const nlohmann::json::exception& error) {
+  throw damaged_study(path, error);
+}
+
 void resume_from(const nlohmann::json& earlier, const std::string& path, Study& study) try {
-  const auto& scene = earlier.at("scene");
-  const auto& scale = earlier.at("scale");
-  if (scene.at("hash") != study.scene.hash || scale.at("name") != study.scale.name ||
+  if (earlier.at("scene").at("hash") != study.scene.hash || !is_same_scale(earlier.at("scale"), study.scale) ||
       earlier.at("machine").at("processor") != study.machine.processor ||
       earlier.at("machine").at("processors") != study.machine.processors ||
       earlier.at("version") != study.machine.version)
@@ -208,26 +264,23 @@ void resume_from(const nlohmann::json& earlier, const std::string& path, Study& 
   for (const auto& j : earlier.at("trials")) {
     const std::string key = j.at("key");
     for (Trial& trial : study.trials) {
-      // Without seconds there is no measurement, whatever the status says.
-      if (trial.key != key || j.at("status") != "ok" || !j.contains("seconds")) continue;
-      take_undisturbed(j, trial);
-      if (trial.seconds.empty()) continue;
-      trial.status = TrialStatus::ok;
-      trial.build_seconds = j.at("build_seconds");
-      trial.width = j.at("width");
-      trial.height = j.at("height");
-      trial.samples_per_pixel = j.at("spp");
-      trial.samples = j.at("camera_samples");
-      trial.rays = j.at("rays");
-      trial.shadow_rays = j.at("shadow_rays");
-      trial.rmse = j.value("rmse", -1.0);
+      if (trial.key != key) continue;
+      read_trial(j, trial);
+      if (trial.is_asked) forget_failures(trial);
     }
   }
   for (const auto& j : earlier.at("conditions"))
     study.conditions.push_back({j.at("seconds"), j.at("load"), j.at("megahertz")});
   study.seconds = earlier.at("seconds");
+  study.is_complete = earlier.at("complete");
+  if (const auto figure3 = earlier.find("figure3"); figure3 != earlier.end()) {
+    study.work_per_thread.width = figure3->at("width");
+    study.work_per_thread.height = figure3->at("height");
+    study.work_per_thread.samples_per_pixel = figure3->at("spp");
+    study.work_per_thread.statistic_mean = figure3->at("statistic_mean");
+  }
 } catch (const nlohmann::json::exception& error) {
-  throw InputError({path}, std::string("this study is damaged (") + error.what() + "): give another --output");
+  throw damaged_study(path, error);
 }
 
 }  // namespace alhazen::study

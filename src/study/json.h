@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "study/study.h"
 
@@ -16,8 +17,12 @@ nlohmann::ordered_json to_json(const Study& study);
 /// Reads a study.json of this schema, given as a file or its folder. Throws InputError.
 nlohmann::json read_study_json(const std::string& path);
 
-/// Copies the measurements of an earlier, unfinished run to the trials of `study`. Throws InputError if that run had
-/// another scene, scale, machine or version.
+/// The ids of its tables. `path` is for messages. Throws InputError.
+std::vector<std::string> tables_of(const nlohmann::json& study, const std::string& path);
+
+/// Copies what an earlier run measured to the trials of `study`, and of Figure 3 the numbers that its files do not
+/// hold. Trials with is_asked, which are measured now, receive only undisturbed runs; the others receive all. Throws
+/// InputError if that run had another scene, scale, machine or version.
 void resume_from(const nlohmann::json& earlier, const std::string& path, Study& study);
 
 /// A number for JSON: null if it is not finite.

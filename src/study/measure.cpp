@@ -19,10 +19,7 @@ constexpr double save_interval = 20;
 /// Maximum number of runs of a trial that are repeated because other programs used the processors.
 size_t max_disturbed(const Scale& scale) { return (static_cast<size_t>(scale.repeats) + 2) / 3; }
 
-bool is_wanted(const Trial& trial, const Scale& scale) {
-  return (trial.status == TrialStatus::not_run || trial.status == TrialStatus::ok) &&
-         trial.seconds.size() < static_cast<size_t>(scale.repeats);
-}
+bool is_wanted(const Trial& trial, const Scale& scale) { return trial.is_asked && trial.lacks_runs(scale.repeats); }
 
 /// Over R, G, B; pixels that are not finite count as black.
 double rmse_of(const Image& image, const Image& reference) {

@@ -24,8 +24,8 @@ struct MeasureEvents {
   std::function<void()> save;                      ///< called from time to time to write the measurements so far
 };
 
-/// Adds repeats to every trial that has fewer than the scale requires. Images of trials with is_compared are compared
-/// with `reference` if it is given. Returns false if stopped.
+/// Adds repeats to every trial with is_asked that has fewer than the scale requires. Images of trials with is_compared
+/// are compared with `reference` if it is given. Returns false if stopped.
 bool measure(Study& study, const Scene& scene, const Image* reference, const MeasureEvents& events);
 
 }  // namespace alhazen::study

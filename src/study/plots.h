@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "study/run_work.h"
+
 namespace alhazen::study {
 
 struct Plot {
@@ -14,9 +16,12 @@ struct Plot {
 };
 
 const std::vector<Plot>& all_plots();
+inline constexpr const char* plot_extensions[] = {".png", ".svg"};
 
 /// Draws the plots of the study.json in `folder` into it. Returns an empty string, or a line that says why there are no
-/// plots and, if known, how to get them. Old plots are removed first, so that none is from another study.
-std::string draw_plots(const std::string& folder);
+/// plots and, if known, how to get them. A plot that is there is replaced only by its complete successor. Once `go_on`
+/// returns false, drawing ends.
+std::string draw_plots(
+    const std::string& folder, const GoOn& go_on = [] { return true; });
 
 }  // namespace alhazen::study

@@ -9,10 +9,12 @@
 
 #include "compile/compile_scene.h"
 #include "files/atomic_file.h"
+#include "files/input_file.h"
 #include "pipeline/load_scene.h"
 #include "render/checkpoint.h"
 #include "render/renderer.h"
 #include "study/conclusions.h"
+#include "study/folder.h"
 #include "study/json.h"
 #include "study/plan.h"
 #include "study/write.h"
@@ -31,7 +33,7 @@ bool is_wanted(const ReportOptions& options, const std::string& part) {
   return options.only.empty() || std::find(options.only.begin(), options.only.end(), part) != options.only.end();
 }
 
-std::string json_path(const ReportOptions& options) { return (fs::path(options.output) / "study.json").string(); }
+std::string json_path(const ReportOptions& options) { return in_folder(options.output, "study.json"); }
 
 void check_options(const ReportOptions& options) {
   const std::vector<std::string> parts = report_parts();
@@ -39,15 +41,7 @@ void check_options(const ReportOptions& options) {
     if (std::find(parts.begin(), parts.end(), part) == parts.end())
       throw InputError(fmt::format("the report has no part '{}': it may be {}", part, fmt::join(parts, ", ")));
   if (options.resume && options.overwrite) throw InputError("give --resume or --overwrite, not both");
-  if (fs::exists(options.output) && !fs::is_directory(options.output))
-    throw InputError({options.output}, "this is not a folder: give --output the name of a folder");
-  const bool is_there = fs::exists(json_path(options));
-  if (is_there && !options.resume && !options.overwrite)
-    throw InputError({options.output},
-                     "there is a study in this folder: give --resume to continue it, --overwrite to replace it, "
-                     "or another --output");
-  if (!is_there && options.resume)
-    throw InputError({json_path(options)}, "there is no study here to continue: leave out --resume");
+  check_folder(options.output, options.resume, options.overwrite);
 }
 
 SceneFacts facts_of(const Scene& scene, const std::string& path) {
@@ -67,15 +61,42 @@ SceneFacts facts_of(const Scene& scene, const std::string& path) {
   return facts;
 }
 
-/// Keeps only the requested parts, and the trials that their cells show or use as baseline.
-void keep_wanted(const ReportOptions& options, Study& study) {
-  std::erase_if(study.tables, [&](const Table& table) { return !is_wanted(options, table.id); });
-  std::erase_if(study.trials, [&](const Trial& trial) {
-    for (const Table& table : study.tables)
-      for (const Cell& cell : table.cells)
-        if (cell.trial == trial.key || cell.baseline == trial.key) return false;
-    return true;
+/// Returns whether a cell shows the trial or uses it as baseline.
+bool uses(const Table& table, const Trial& trial) {
+  return std::any_of(table.cells.begin(), table.cells.end(),
+                     [&](const Cell& cell) { return cell.trial == trial.key || cell.baseline == trial.key; });
+}
+
+/// Keeps only the requested parts, those that an earlier run has measured, and their trials.
+void keep_wanted(const ReportOptions& options, const std::vector<std::string>& earlier, Study& study) {
+  std::erase_if(study.tables, [&](const Table& table) {
+    return !is_wanted(options, table.id) && std::find(earlier.begin(), earlier.end(), table.id) == earlier.end();
   });
+  for (Trial& trial : study.trials)
+    trial.is_asked = std::any_of(study.tables.begin(), study.tables.end(), [&](const Table& table) {
+      return is_wanted(options, table.id) && uses(table, trial);
+    });
+  std::erase_if(study.trials, [&](const Trial& trial) {
+    return std::none_of(study.tables.begin(), study.tables.end(),
+                        [&](const Table& table) { return uses(table, trial); });
+  });
+}
+
+/// Gives a trial that is measured again the earlier results that have no successor yet.
+void restore(const Trial& earlier, Trial& trial) {
+  if (trial.status == TrialStatus::not_run && trial.seconds.empty()) trial = earlier;
+  for (size_t i = 0; i < earlier.seconds.size() && trial.seconds.size() < earlier.seconds.size(); ++i) {
+    if (earlier.processor_fractions[i] >= min_processor_fraction) continue;
+    trial.seconds.push_back(earlier.seconds[i]);
+    trial.busy_seconds.push_back(earlier.busy_seconds[i]);
+    trial.processor_fractions.push_back(earlier.processor_fractions[i]);
+  }
+}
+
+size_t count_runs(const Study& study) {
+  size_t runs = 0;
+  for (const Trial& trial : study.trials) runs += trial.seconds.size();
+  return runs;
 }
 
 class Report {
@@ -85,21 +106,22 @@ class Report {
   ReportOutcome run() {
     check_options(options_);
     Diagnostics diagnostics;
-    scene_ = load_scene(options_.scene, {}, diagnostics).scene;
+    LoadedScene loaded = load_scene(options_.scene, {}, diagnostics);
+    refuse_inputs(options_.output, *loaded.inputs);
+    scene_ = std::move(loaded.scene);
     plan();
     for (const Diagnostics::Warning& warning : diagnostics.warnings()) events_.warning(warning.to_string());
-    std::error_code error;
-    fs::create_directories(options_.output, error);
-    if (error) throw InputError({options_.output}, "the folder cannot be made: " + error.message());
+    const bool is_new_folder = create_folder(options_.output);
     check_target(json_path(options_));
-    earlier_seconds_ = study_.seconds;
-    study_.is_complete = render_images() && measure_trials();
-    save_seconds();
-    if (const std::string warning = disturbance_warning(study_); !warning.empty()) events_.warning(warning);
-    events_.stage("writing tables, plots and the page");
-    std::vector<std::string> files = write_study(study_, options_.output, events_.warning);
-    if (has_lost_figure_) throw RenderError("the study is written, but some figures could not be: see the warnings");
-    return {study_.is_complete, std::move(files)};
+    const size_t runs_before = count_runs(study_);
+    const bool is_complete = render_images() && measure_trials();
+    if (!is_complete && count_runs(study_) == runs_before) {
+      std::error_code ignored;
+      if (is_new_folder) fs::remove(options_.output, ignored);
+      return {};
+    }
+    study_.is_complete = is_complete && (earlier_.is_complete || has_all_runs());
+    return {is_complete, write_all()};
   }
 
  private:
@@ -109,8 +131,75 @@ class Report {
     study_.scale = options_.scale;
     study_.scene = facts_of(scene_, options_.scene);
     plan_study(study_);
-    keep_wanted(options_, study_);
-    if (options_.resume) resume_from(read_study_json(json_path(options_)), json_path(options_), study_);
+    if (!options_.resume) return keep_wanted(options_, {}, study_);
+    const std::string path = json_path(options_);
+    const nlohmann::json earlier = read_study_json(path);
+    keep_wanted(options_, tables_of(earlier, path), study_);
+    earlier_ = study_;
+    for (Trial& trial : earlier_.trials) trial.is_asked = false;
+    resume_from(earlier, path, earlier_);
+    resume_from(earlier, path, study_);
+    study_.is_complete = false;
+    renders_figure3_ = is_wanted(options_, figure3) || (earlier.contains("figure3") && !read_figure3());
+  }
+
+  /// Reads the work of each thread from the files of an earlier run. Returns false if they are missing or damaged.
+  bool read_figure3() {
+    WorkPerThread& w = study_.work_per_thread;
+    try {
+      const Image bounces = read_image(file("figure3-naive.pfm"));
+      const bool is_same_size = bounces.width == w.width && bounces.height == w.height && !bounces.planes.empty();
+      if (!is_same_size || !input_problem(file("figure3-chunked.pfm")).message.empty()) return false;
+      take_bounces(bounces.planes[0]);
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  void take_bounces(const std::vector<float>& bounces) {
+    WorkPerThread& w = study_.work_per_thread;
+    const int width = static_cast<int>(w.width), height = static_cast<int>(w.height);
+    w.naive = threads_of(bounces, width, height, 1, 1);
+    w.chunked = threads_of(bounces, width, height, w.chunks_x, w.chunks_y);
+  }
+
+  /// Whether the trials that are only kept from an earlier run were measured completely.
+  bool has_all_runs() const {
+    return std::none_of(study_.trials.begin(), study_.trials.end(),
+                        [&](const Trial& trial) { return !trial.is_asked && trial.lacks_runs(study_.scale.repeats); });
+  }
+
+  std::vector<std::string> write_all() {
+    const Study study = study_to_save();
+    if (const std::string warning = disturbance_warning(study); !warning.empty()) events_.warning(warning);
+    events_.stage("writing tables, plots and the page");
+    std::vector<std::string> files =
+        write_study(study, options_.output, {events_.go_on, [&] { finish_save(); }, events_.warning});
+    if (has_lost_figure_) throw RenderError("the study is written, but some figures could not be: see the warnings");
+    return files;
+  }
+
+  /// The study with the runs of earlier ones that are not measured again yet.
+  Study study_to_save() const {
+    Study study = study_;
+    for (Trial& trial : study.trials)
+      if (const Trial* earlier = earlier_.find(trial.key)) restore(*earlier, trial);
+    study.seconds = earlier_.seconds + std::chrono::duration<double>(Clock::now() - start_).count();
+    return study;
+  }
+
+  /// Called once study.json is written: the folder then holds this study, and no longer the one that it replaces.
+  void finish_save() {
+    if (has_saved_) return;
+    has_saved_ = true;
+    if (options_.overwrite) remove_replaced_files(options_.output);
+    if (figure2_) has_lost_figure_ |= !attempt([&] { write_png(file("figure2.png"), source_of(*figure2_), {}); });
+    if (!has_new_figure3_) return;
+    const WorkPerThread& w = study_.work_per_thread;
+    for (const auto& [name, threads] : {std::pair{"figure3-naive.pfm", &w.naive}, {"figure3-chunked.pfm", &w.chunked}})
+      has_lost_figure_ |=
+          !attempt([&] { write_grey_pfm(file(name), threads->width, threads->height, threads->mean_segments); });
   }
 
   /// Renders Figures 2 and 3 and the reference of the errors, which are not timed.
@@ -119,12 +208,12 @@ class Report {
       events_.stage("Figure 2: the image");
       Work work;
       work.settings.samples_per_pixel = options_.scale.image_samples;
-      const std::optional<Outcome> outcome = render_image(work, scene_);
+      std::optional<Outcome> outcome = render_image(work, scene_);
       if (!outcome) return false;
-      has_lost_figure_ |= !attempt([&] { write_png(file("figure2.png"), source_of(*outcome->image), {}); });
+      figure2_ = std::move(outcome->image);
     }
-    if (is_wanted(options_, figure3) && !take_figure3()) return false;
-    if (!study_.table("error")) return true;
+    if (renders_figure3_ && !take_figure3()) return false;
+    if (!study_.table("error") || !is_wanted(options_, "error")) return true;
     events_.stage("the reference for errors");
     Work work;
     work.settings.integrator = "path";
@@ -151,11 +240,8 @@ class Report {
     w.height = image.height;
     w.samples_per_pixel = outcome->statistics.samples_per_pixel;
     w.statistic_mean = outcome->statistics.mean_segments();
-    w.naive = threads_of(bounces, image.width, image.height, 1, 1);
-    w.chunked = threads_of(bounces, image.width, image.height, w.chunks_x, w.chunks_y);
-    for (const auto& [name, threads] : {std::pair{"figure3-naive.pfm", &w.naive}, {"figure3-chunked.pfm", &w.chunked}})
-      has_lost_figure_ |=
-          !attempt([&] { write_grey_pfm(file(name), threads->width, threads->height, threads->mean_segments); });
+    take_bounces(bounces);
+    has_new_figure3_ = true;
     return true;
   }
 
@@ -170,8 +256,10 @@ class Report {
 
   bool measure_trials() {
     MeasureEvents events{events_.go_on, events_.progress, [&] {
-                           save_seconds();
-                           attempt([&] { write_json(study_, options_.output); });
+                           attempt([&] {
+                             write_json(study_to_save(), options_.output);
+                             finish_save();
+                           });
                          }};
     return measure(study_, scene_, reference_ ? &*reference_ : nullptr, events);
   }
@@ -189,18 +277,19 @@ class Report {
     }
   }
 
-  void save_seconds() {
-    study_.seconds = earlier_seconds_ + std::chrono::duration<double>(Clock::now() - start_).count();
-  }
-  std::string file(const char* name) const { return (fs::path(options_.output) / name).string(); }
+  std::string file(const char* name) const { return in_folder(options_.output, name); }
 
   const ReportOptions& options_;
   const ReportEvents& events_;
   Clock::time_point start_ = Clock::now();
-  double earlier_seconds_ = 0;
   Scene scene_;
   std::optional<Image> reference_;
+  std::optional<Image> figure2_;  ///< written with the study
+  Study earlier_;                 ///< what is continued; else empty
   Study study_;
+  bool renders_figure3_ = is_wanted(options_, figure3);
+  bool has_new_figure3_ = false;
+  bool has_saved_ = false;
   std::set<std::string> reported_;  ///< failures of `attempt` that were reported
   bool has_lost_figure_ = false;
 };

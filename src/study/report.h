@@ -15,8 +15,8 @@ struct ReportOptions {
   std::string scene;
   std::string output = "study";  ///< a folder
   Scale scale;
-  std::vector<std::string> only;  ///< ids of tables and figures; empty: all
-  bool resume = false;            ///< continues the study in the folder
+  std::vector<std::string> only;  ///< ids of tables and figures to measure; empty: all
+  bool resume = false;            ///< continues the study in the folder, and keeps its other parts
   bool overwrite = false;         ///< replaces it by another
   std::string command;            ///< the command line, for the page
 };
@@ -29,8 +29,8 @@ struct ReportEvents {
 };
 
 struct ReportOutcome {
-  bool is_complete = false;  ///< false if stopped; the measurements so far are written
-  std::vector<std::string> files;
+  bool is_complete = false;        ///< false if stopped; the measurements so far are written
+  std::vector<std::string> files;  ///< empty if stopped before anything was measured: then nothing is written
 };
 
 /// The ids that `only` may contain.

@@ -43,8 +43,14 @@ struct Trial {
   int64_t width = 0, height = 0;
   uint64_t samples_per_pixel = 0;
   uint64_t samples = 0, rays = 0, shadow_rays = 0;
-  double rmse = -1;  ///< of the image against the reference; negative: not compared
+  double rmse = -1;      ///< of the image against the reference; negative: not compared
+  bool is_asked = true;  ///< false: kept from an earlier run, and not measured now
 
+  /// Whether fewer than `repeats` runs were measured, unless they cannot be.
+  bool lacks_runs(int repeats) const {
+    return (status == TrialStatus::not_run || status == TrialStatus::ok) &&
+           seconds.size() < static_cast<size_t>(repeats);
+  }
   bool has_times() const { return status == TrialStatus::ok && !seconds.empty(); }
 };
 

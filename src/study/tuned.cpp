@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "files/atomic_file.h"
 #include "files/input_file.h"
 #include "render/setting_table.h"
 #include "study/machine.h"
+#include "study/read_json.h"
 #include "study/write.h"
 
 namespace alhazen::study {
@@ -125,31 +127,37 @@ std::string scene_key(const std::string& path) {
 
 std::vector<TunedEntry> read_tuned(const std::string& path) {
   if (path.empty() || input_problem(path).is_missing) return {};
-  const char* const advice = ": remove it, or tune again with 'alhazen study tune SCENE --store'";
+  const std::string advice = "remove it, or tune again with 'alhazen study tune SCENE --store'";
   try {
-    const std::vector<uint8_t> bytes = InputFile(path).read_all();
-    const Json j = Json::parse(bytes.begin(), bytes.end());
-    if (j.at("schema") != tuned_schema) throw InputError({path}, std::string("this is of another version") + advice);
+    const Json j = read_json<Json>(path, advice);
+    if (j.at("schema") != tuned_schema) throw InputError({path}, "this is of another version: " + advice);
     std::vector<TunedEntry> entries;
     for (const Json& entry : j.at("entries")) entries.push_back(entry_of(entry));
     return entries;
   } catch (const nlohmann::json::exception&) {
-    throw InputError({path}, std::string("the file of tuned engines is damaged") + advice);
+    throw InputError({path}, "the file of tuned engines is damaged: " + advice);
   }
 }
 
-void store_tuned(const std::string& path, const TunedEntry& entry) {
+void check_tuned_target(const std::string& path) {
   if (path.empty())
     throw InputError("there is no location for the file of tuned engines: name one in the variable ALHAZEN_TUNED");
+  read_tuned(path);
+  std::error_code error;
+  if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, error);
+  if (error)
+    throw InputError({path}, "the folder of the file of tuned engines cannot be created: " + error.message() +
+                                 ": name another file in the variable ALHAZEN_TUNED");
+  check_target(path);
+}
+
+void store_tuned(const std::string& path, const TunedEntry& entry) {
+  check_tuned_target(path);
   std::vector<TunedEntry> entries = read_tuned(path);
   std::erase_if(entries, [&](const TunedEntry& other) { return is_for_the_same(other, entry); });
   entries.push_back(entry);
   Json list = Json::array();
   for (const TunedEntry& each : entries) list.push_back(entry_json(each));
-  std::error_code error;
-  if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, error);
-  if (error)
-    throw RenderError(path + ": the folder of the file of tuned engines cannot be created: " + error.message());
   write_text(
       path,
       Json{{"schema", tuned_schema}, {"entries", list}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -32,6 +32,9 @@ std::string scene_key(const std::string& path);
 
 /// The entries of the file; none if there is no file. Throws InputError if it is malformed.
 std::vector<TunedEntry> read_tuned(const std::string& path);
+/// Throws InputError if the file cannot be written: there is no location for it, its folder cannot be created, it is
+/// damaged, or the user may not write it. Creates the folder.
+void check_tuned_target(const std::string& path);
 /// Adds `entry`, replacing one for the same key, and writes the file. Throws InputError, RenderError.
 void store_tuned(const std::string& path, const TunedEntry& entry);
 

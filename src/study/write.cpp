@@ -1,21 +1,15 @@
 #include "study/write.h"
 
+#include <algorithm>
 #include <bit>
 #include <filesystem>
 
 #include "files/atomic_file.h"
+#include "study/folder.h"
 #include "study/json.h"
 #include "study/plots.h"
 
 namespace alhazen::study {
-
-namespace {
-
-std::string in_folder(const std::string& folder, const std::string& name) {
-  return (std::filesystem::path(folder) / name).string();
-}
-
-}  // namespace
 
 void write_text(const std::string& path, const std::string& text) {
   AtomicFile file(path);
@@ -39,8 +33,18 @@ void write_json(const Study& study, const std::string& folder) {
              to_json(study).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-std::vector<std::string> write_study(const Study& study, const std::string& folder,
-                                     const std::function<void(const std::string&)>& warning) {
+namespace {
+
+bool has_plots(const std::string& folder) {
+  return std::any_of(all_plots().begin(), all_plots().end(), [&](const Plot& plot) {
+    std::error_code ignored;
+    return std::filesystem::exists(in_folder(folder, std::string(plot.name) + plot_extensions[0]), ignored);
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> write_study(const Study& study, const std::string& folder, const WriteEvents& events) {
   std::vector<std::string> files;
   std::string failures;
   // If one file cannot be written, the others still are.
@@ -52,13 +56,19 @@ std::vector<std::string> write_study(const Study& study, const std::string& fold
       failures += (failures.empty() ? "" : "\n") + std::string(failure.what());
     }
   };
-  attempt("study.json", [&](const std::string&) { write_json(study, folder); });
+  attempt("study.json", [&](const std::string&) {
+    write_json(study, folder);
+    events.has_saved_study();
+  });
   attempt("tables.csv", [&](const std::string& path) { write_text(path, csv_of(study)); });
   attempt("tables.md", [&](const std::string& path) { write_text(path, markdown_of(study)); });
-  const std::string problem = draw_plots(folder);
+  const std::string problem = draw_plots(folder, events.go_on);
   attempt("index.html", [&](const std::string& path) { write_text(path, html_of(study, folder)); });
-  if (!problem.empty())
-    warning(problem + (failures.empty() ? "; the tables and the page are complete without them" : ""));
+  if (!problem.empty() && failures.empty())
+    events.warning(problem + (has_plots(folder) ? "; the page shows the plots that are there"
+                                                : "; the tables and the page are complete without them"));
+  else if (!problem.empty())
+    events.warning(problem);
   if (!failures.empty()) throw RenderError(failures);
   return files;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "images/image.h"
+#include "study/run_work.h"
 #include "study/study.h"
 
 namespace alhazen::study {
@@ -18,9 +19,14 @@ void write_grey_pfm(const std::string& path, int width, int height, const std::v
 
 /// Writes study.json alone.
 void write_json(const Study& study, const std::string& folder);
+struct WriteEvents {
+  GoOn go_on;                             ///< returns false if the user has asked to end: no plots are drawn
+  std::function<void()> has_saved_study;  ///< called once study.json is written, before the other files are
+  std::function<void(const std::string&)> warning;
+};
+
 /// Writes study.json, tables.csv, tables.md, index.html, and plots if possible. Returns the names of the files.
-std::vector<std::string> write_study(const Study& study, const std::string& folder,
-                                     const std::function<void(const std::string&)>& warning);
+std::vector<std::string> write_study(const Study& study, const std::string& folder, const WriteEvents& events);
 
 std::string csv_of(const Study& study);
 std::string markdown_of(const Study& study);

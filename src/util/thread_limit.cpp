@@ -10,6 +10,8 @@
 #include <mutex>
 #include <vector>
 
+#include "util/diagnostics.h"
+
 namespace alhazen {
 
 namespace {
@@ -115,6 +117,12 @@ int threads_available(int wanted) {
   while (before < available && !known.compare_exchange_weak(before, available)) {
   }
   return available;
+}
+
+void refuse_thread(const std::string& purpose, const std::system_error& error) {
+  throw RenderError(purpose + " cannot be started: " + error.code().message() +
+                    ": raise what limits threads or memory (ulimit -u, ulimit -v, ulimit -d, the container's pids or "
+                    "memory)");
 }
 
 void limit_default_team() {

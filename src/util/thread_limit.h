@@ -4,6 +4,10 @@
 // the team size is tested in advance.
 
 #include <cstddef>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
 
 namespace alhazen {
 
@@ -28,6 +32,18 @@ class ThreadDefaults {
 /// processes, containers or memory may allow fewer than there are processors. To find out, it starts and ends that many
 /// threads, plus two for those that run beside a render. A result of at least `wanted` is cached.
 int threads_available(int wanted);
+
+/// Throws the RenderError of a thread that the system refuses: which one, why, and which limits to raise.
+[[noreturn]] void refuse_thread(const std::string& purpose, const std::system_error& error);
+
+/// Starts a thread, which messages call by its `purpose` ("the thread that reports progress"). Throws RenderError if
+/// the system refuses it.
+template <class Body>
+std::thread start_thread(const std::string& purpose, Body&& body) try {
+  return std::thread(std::forward<Body>(body));
+} catch (const std::system_error& error) {
+  refuse_thread(purpose, error);
+}
 
 /// Limits the teams that OpenMP starts without a given size, on the calling thread, to the available threads; a
 /// ThreadDefaults reverts that.

@@ -123,6 +123,12 @@ TEST_F(BadInput, MalformedPbrt) {
   expect_bad_scene("bad.pbrt", "Film \"rgb\" \"integer xresolution\" 0 WorldBegin", {"bad.pbrt:1:12", "1 to 100000"});
   expect_bad_scene("bad.pbrt", "Film \"rgb\" \"integer xresolution\" 40000 \"integer yresolution\" 25000 WorldBegin",
                    {"bad.pbrt:1:", "10^9"});
+  expect_bad_scene("bad.pbrt", "Integrator \"path\" \"integer maxdepth\" 2147483647\nWorldBegin",
+                   {"bad.pbrt:1:19", "maxdepth", "at most 1000000"});
+  expect_bad_scene("bad.pbrt", "Sampler \"sobol\" \"integer pixelsamples\" 2147483647\nWorldBegin",
+                   {"bad.pbrt:1:17", "pixelsamples"});
+  expect_bad_scene("bad.pbrt", "Sampler \"stratified\" \"integer xsamples\" 5000 \"integer ysamples\" 5000\nWorldBegin",
+                   {"bad.pbrt:1:1", "xsamples"});
   expect_bad_scene("bad.pbrt", "Include \"bad.pbrt\"\nWorldBegin", {"bad.pbrt:1:"});
   expect_bad_scene("bad.pbrt", "Include \"missing.pbrt\"\nWorldBegin", {"bad.pbrt:1:1", "missing.pbrt"});
   expect_bad_world("Shape \"sphere\" \"float radius\" 0", {"bad.pbrt:2:", "radius"});

@@ -274,6 +274,25 @@ TEST_F(Hostile, ThreadsThatTheSystemRefuses) {
     }
 }
 
+/// Also a single thread needs another that reports progress, and the command line itself needs memory.
+TEST_F(Hostile, LimitsOnMemoryAreToldInSentences) {
+  if (test::is_sanitized) GTEST_SKIP() << "the address sanitizer needs more address space than the test allows";
+  std::vector<std::string> limits{"-d 250", "-d 500", "-d 1000"};
+  for (int kilobytes = 2000; kilobytes <= 10000; kilobytes += 1000) limits.push_back("-d " + std::to_string(kilobytes));
+  for (int kilobytes = 60000; kilobytes <= 110000; kilobytes += 5000)
+    limits.push_back("-v " + std::to_string(kilobytes));
+  for (const std::string& limit : limits)
+    for (const char* arguments : {"--version", "render scene.pbrt --size 8x8 --spp 1 -t 1 -q -o a.exr"}) {
+      const CommandResult result = shell("ulimit " + limit + "; $A " + arguments);
+      SCOPED_TRACE(limit + " " + arguments + "\n" + result.everything());
+      if (result.err.find("error while loading shared libraries") != std::string::npos) continue;
+      EXPECT_LE(result.exit_code, 2);
+      EXPECT_EQ(result.err.find("terminate"), std::string::npos);
+      EXPECT_EQ(result.err.find("alhazen: Resource temporarily unavailable\n"), std::string::npos);
+      if (result.exit_code != 0) EXPECT_NE(result.err.find("limit"), std::string::npos);
+    }
+}
+
 TEST_F(Hostile, SmallStacks) {
   if (test::is_sanitized) GTEST_SKIP() << "frames of the sanitizer are larger";
   for (const char* kilobytes : {"96", "128", "512", "unlimited"})

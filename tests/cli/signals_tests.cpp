@@ -61,6 +61,29 @@ TEST_F(Signals, HangUpAfterAnotherIsNoSecondOne) {
   }
 }
 
+/// A limit on processor time sends SIGXCPU, and batch systems send it before SIGTERM: together they are one request.
+/// While the process is stopped, both signals become pending, and their handlers interrupt each other.
+TEST_F(Signals, ALimitOnProcessorTimeIsNoFirstOne) {
+  for (const std::string both :
+       {"kill -XCPU $p; sleep 0.05; kill -TERM $p", "kill -XCPU $p; kill -TERM $p", "kill -TERM $p; kill -XCPU $p",
+        "kill -XCPU $p; kill -INT $p", "kill -XCPU $p; kill -XCPU $p; kill -HUP $p",
+        "kill -STOP $p; kill -XCPU $p; kill -TERM $p; kill -CONT $p",
+        "kill -STOP $p; kill -XCPU $p; kill -INT $p; kill -CONT $p",
+        "kill -STOP $p; kill -HUP $p; kill -TERM $p; kill -XCPU $p; kill -CONT $p"}) {
+    const CommandResult result = script(
+        "rm -f a.exr a.ck; $RENDER -o a.exr --checkpoint a.ck 2>err & p=$!\n"
+        "wait_for_samples; " +
+        both + "; wait $p; echo $?");
+    EXPECT_EQ(result.out, "130\n") << both << result.everything();
+    EXPECT_TRUE(exists("a.exr")) << both;
+    EXPECT_TRUE(exists("a.ck")) << both;
+  }
+  const CommandResult result = script(
+      "rm -f p.exr; mkfifo p.exr; $RENDER -o p.exr 2>err & p=$!\nwait_for_samples; kill -XCPU $p; kill -TERM $p; "
+      "sleep 0.4; kill -TERM $p; wait $p; echo $?");
+  EXPECT_EQ(result.out, std::to_string(128 + SIGTERM) + "\n") << "a second request still ends at once";
+}
+
 TEST_F(Signals, ALimitOnTheSizeOfFilesIsASentence) {
   CommandOptions options;
   options.file_size = 1024;

@@ -32,6 +32,13 @@ class StudyCommand : public Command {
     return run(all, options);
   }
 
+  /// Uses a shell script as the Python that draws plots.
+  void use_as_python(const std::string& script) const {
+    folder_.write_text("python", "#!/bin/sh\n" + script);
+    std::filesystem::permissions(folder_.file("python"), std::filesystem::perms::owner_all);
+    set("ALHAZEN_PYTHON", folder_.file("python"));
+  }
+
   std::string text(const std::string& name) const {
     const Bytes bytes = read_file(folder_.file(name));
     return {bytes.begin(), bytes.end()};

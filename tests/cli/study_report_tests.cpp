@@ -1,7 +1,10 @@
 // The subcommands `alhazen study report` and `alhazen study compare`.
 
+#include <sys/stat.h>
+
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "cli/study_fixture.h"
 
@@ -151,12 +154,16 @@ TEST_F(StudyReport, InterruptedItKeepsWhatItHasAndGoesOn) {
   without_plots();
   const std::vector<std::string> arguments{"--output", "out", "--only", "table1,table3"};
   CommandOptions options;
-  options.signal_when = [](const std::string& err) { return err.find("round 1 of") != std::string::npos ? SIGINT : 0; };
-  const CommandResult interrupted = report(arguments, options, "150");
-  EXPECT_EQ(interrupted.exit_code, 130) << interrupted.everything();
+  options.folder = folder_.path();
+  // The first round is saved when it ends.
+  const CommandResult interrupted = run_script(
+      "$ALHAZEN study report --quick --scene scene.pbrt --size 150 --spp 4 --repeats 2 -o out --only table1,table3 "
+      "2>err & p=$!\nfor i in $(seq 1200); do test -e out/study.json && break; sleep 0.05; done\n"
+      "kill -INT $p; wait $p; echo $?",
+      options);
+  EXPECT_EQ(interrupted.out, "130\n") << interrupted.everything() << text("err");
   const nlohmann::json first = json("out/study.json");
   EXPECT_EQ(first["complete"], false);
-  EXPECT_NE(text("out/tables.md").find("not run"), std::string::npos);
   std::vector<std::string> again = arguments;
   again.emplace_back("--resume");
   const CommandResult resumed = report(again, {}, "150");
@@ -194,6 +201,180 @@ TEST_F(StudyReport, WhatCannotBeWrittenIsToldInLines) {
   EXPECT_NE(result.err.find("\ncannot write out/tables.md"), std::string::npos) << result.err;
   EXPECT_EQ(result.err.find("\\n"), std::string::npos) << result.err;
   EXPECT_EQ(result.err.find("complete without them"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("no plots: cannot write"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("SyntaxError"), std::string::npos) << result.err;
+}
+
+/// study.json alone marks a folder as a study's.
+TEST_F(StudyReport, FilesOfTheUserAreNotTouched) {
+  without_plots();
+  for (const std::string name :
+       {"glass.png", "objects.svg", "figure2.png", "figure3-naive.pfm", "index.html", "tables.csv", "tables.md"}) {
+    std::filesystem::create_directory(folder_.file("mine"));
+    folder_.write_text("mine/" + name, "mine");
+    for (const char* further : {"-q", "--overwrite"}) {
+      const CommandResult result = report({"--output", "mine", "--only", "figure2", further});
+      EXPECT_EQ(result.exit_code, 2) << result.everything();
+      EXPECT_EQ(result.err.find("mine/" + name + ": "), 0u) << result.err;
+      EXPECT_NE(result.err.find("give another --output"), std::string::npos) << result.err;
+      EXPECT_EQ(text("mine/" + name), "mine");
+    }
+    EXPECT_FALSE(exists("mine/study.json"));
+    std::filesystem::remove_all(folder_.file("mine"));
+  }
+  // Another program's file of that name.
+  std::filesystem::create_directory(folder_.file("mine"));
+  for (const char* other : {"{\"schema\": 3}", "[]", "no JSON"}) {
+    folder_.write_text("mine/study.json", other);
+    EXPECT_EQ(report({"--output", "mine", "--only", "table1", "--overwrite"}).exit_code, 2);
+    EXPECT_EQ(text("mine/study.json"), other);
+  }
+}
+
+TEST_F(StudyReport, FilesOfTheSceneAreNotTouched) {
+  without_plots();
+  ASSERT_EQ(report({"--output", "out", "--only", "table1", "-q"}).exit_code, 0);
+  for (const std::string name : {"index.html", "depth.png"}) {
+    folder_.write_text("out/" + name, "# a part of the scene\n");
+    folder_.write_text("with_part.pbrt", "Include \"out/" + name + "\"\n" + text("scene.pbrt"));
+    for (const char* further : {"--resume", "--overwrite"}) {
+      const CommandResult result =
+          report({"--output", "out", "--only", "table1", "--scene", "with_part.pbrt", further});
+      EXPECT_EQ(result.exit_code, 2) << result.everything();
+      EXPECT_NE(result.err.find("that the scene is read from"), std::string::npos) << result.err;
+      EXPECT_EQ(text("out/" + name), "# a part of the scene\n");
+    }
+  }
+}
+
+/// A pipe would wait for a reader.
+TEST_F(StudyReport, WhatIsNoFileIsNotReplaced) {
+  without_plots();
+  ASSERT_EQ(report({"--output", "out", "--only", "table1", "-q"}).exit_code, 0);
+  std::filesystem::remove(folder_.file("out/index.html"));
+  ASSERT_EQ(mkfifo(folder_.file("out/index.html").c_str(), 0600), 0);
+  const CommandResult result = report({"--output", "out", "--only", "table1", "--resume"});
+  EXPECT_EQ(result.exit_code, 2) << result.everything();
+  EXPECT_EQ(result.err.find("out/index.html: this is not a file"), 0u) << result.err;
+}
+
+TEST_F(StudyReport, FoldersThatCannotBeUsed) {
+  without_plots();
+  std::filesystem::create_symlink("loop", folder_.file("loop"));
+  for (const std::string& folder :
+       {std::string("loop"), std::string(300, 'x'), std::string(), std::string("scene.pbrt"), std::string("loop/out"),
+        std::string("scene.pbrt/out"), std::string("/dev/null")}) {
+    const CommandResult result = report({"--output", folder, "--only", "table1"});
+    EXPECT_EQ(result.exit_code, 2) << folder << result.everything();
+    EXPECT_NE(result.err.find("--output"), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("filesystem error"), std::string::npos) << result.err;
+  }
+}
+
+TEST_F(StudyReport, WithoutAFolderForTemporaryFilesThereIsAllButPlots) {
+  without_plots();
+  std::filesystem::create_symlink("loop", folder_.file("loop"));
+  for (const std::string& folder : {std::string("/nonexistent"), std::string(), std::string("/dev/null"),
+                                    folder_.file("scene.pbrt"), folder_.file("loop"), std::string(300, 'x')}) {
+    set("TMPDIR", folder);
+    const CommandResult result = report({"--output", "out", "--only", "table1", "--overwrite"});
+    unsetenv("TMPDIR");
+    EXPECT_EQ(result.exit_code, 0) << folder << result.everything();
+    EXPECT_NE(result.err.find("no plots: there is no folder for temporary files (TMPDIR)"), std::string::npos)
+        << result.err;
+    EXPECT_TRUE(exists("out/index.html"));
+    std::filesystem::remove(folder_.file("out/index.html"));
+  }
+}
+
+/// The plots of the same study are kept, those of a replaced one are not.
+TEST_F(StudyReport, APlotIsReplacedOnlyByItsSuccessor) {
+  without_plots();
+  ASSERT_EQ(report({"--output", "out", "--only", "table1", "-q"}).exit_code, 0);
+  folder_.write_text("out/glass.png", "a plot");
+  folder_.write_text("out/depth.svg", "a plot");
+  const std::vector<std::string> resume{"--output", "out", "--only", "table1", "--resume", "-q"};
+  EXPECT_EQ(report(resume).exit_code, 0);
+  EXPECT_EQ(text("out/glass.png"), "a plot");
+  // The third argument is the folder to draw into.
+  use_as_python("test $1 = -c && exit\necho new >$3/depth.svg; echo no more plots; exit 1");
+  const CommandResult failed = report(resume);
+  EXPECT_NE(failed.err.find("no more plots"), std::string::npos) << failed.err;
+  EXPECT_EQ(text("out/glass.png"), "a plot");
+  EXPECT_EQ(text("out/depth.svg"), "new\n");
+  EXPECT_EQ(report({"--output", "out", "--only", "table1", "--overwrite", "-q"}).exit_code, 0);
+  EXPECT_FALSE(exists("out/glass.png"));
+  EXPECT_EQ(text("out/depth.svg"), "new\n");
+}
+
+TEST_F(StudyReport, ResumingAPartKeepsTheOthers) {
+  without_plots();
+  ASSERT_EQ(report({"--output", "out", "--only", "table1,figure2,figure3", "-q"}).exit_code, 0);
+  const nlohmann::json before = json("out/study.json");
+  const std::string figure2 = text("out/figure2.png");
+  const CommandResult result = report({"--output", "out", "--only", "table2", "--resume", "-q"});
+  ASSERT_EQ(result.exit_code, 0) << result.everything();
+  const nlohmann::json after = json("out/study.json");
+  EXPECT_EQ(after["complete"], true);
+  ASSERT_EQ(after["tables"].size(), 2u);
+  EXPECT_EQ(after["figure3"], before["figure3"]);
+  EXPECT_EQ(text("out/figure2.png"), figure2);
+  const auto old_trials = trials_of(before), trials = trials_of(after);
+  std::set<std::string> measured;
+  for (const nlohmann::json& cell : after["tables"][1]["cells"]) {
+    measured.insert(cell["trial"].get<std::string>());
+    measured.insert(cell.value("baseline", ""));
+  }
+  size_t kept = 0;
+  for (const auto& [key, trial] : old_trials) {
+    ASSERT_TRUE(trials.contains(key)) << key;
+    if (measured.contains(key)) continue;
+    EXPECT_EQ(trials.at(key), trial);
+    ++kept;
+  }
+  EXPECT_GT(kept, 1u);
+  EXPECT_NE(text("out/tables.md").find("recursive (Algorithm 3)"), std::string::npos);
+  // Images of another size are other trials.
+  const std::string now = text("out/study.json");
+  EXPECT_EQ(report({"--output", "out", "--only", "table2", "--resume"}, {}, "17").exit_code, 2);
+  EXPECT_EQ(text("out/study.json"), now);
+}
+
+TEST_F(StudyReport, InterruptedAtOnceItReplacesNothing) {
+  without_plots();
+  CommandOptions options;
+  options.signal_when = [](const std::string& err) { return err.find("round 1 of") != std::string::npos ? SIGINT : 0; };
+  const std::vector<std::string> arguments{"--output", "out", "--only", "table1,figure2,figure3", "--overwrite"};
+  const CommandResult in_new_folder = report(arguments, options, "800");
+  EXPECT_EQ(in_new_folder.exit_code, 130) << in_new_folder.everything();
+  EXPECT_FALSE(exists("out"));
+  ASSERT_EQ(report({"--output", "out", "--only", "table2,figure2", "-q"}).exit_code, 0);
+  const std::string study = text("out/study.json"), page = text("out/index.html"), figure2 = text("out/figure2.png");
+  const CommandResult result = report(arguments, options, "800");
+  EXPECT_EQ(result.exit_code, 130) << result.everything();
+  EXPECT_NE(result.err.find("before the first measurement: nothing is written"), std::string::npos) << result.err;
+  EXPECT_EQ(text("out/study.json"), study);
+  EXPECT_EQ(text("out/index.html"), page);
+  EXPECT_EQ(text("out/figure2.png"), figure2);
+  EXPECT_FALSE(exists("out/figure3-naive.pfm"));
+}
+
+/// The program that draws ends too, and nothing temporary stays.
+TEST_F(StudyReport, InterruptedWhileDrawingItWritesThePage) {
+  use_as_python("test $1 = -c && exit\necho $$ >started; exec sleep 100");
+  CommandOptions options;
+  options.folder = folder_.path();
+  const CommandResult result = run_script(
+      "mkdir tmp; export TMPDIR=$PWD/tmp\n"
+      "$ALHAZEN study report --quick --scene scene.pbrt --size 16 --spp 4 --repeats 1 --only table1 -o out 2>err & "
+      "p=$!\n"
+      "for i in $(seq 1200); do test -s started && break; sleep 0.05; done\n"
+      "kill -INT $p; wait $p; echo $?; ls tmp; kill -0 $(cat started) 2>/dev/null && echo still there",
+      options);
+  EXPECT_EQ(result.out, "130\n") << result.everything() << text("err");
+  EXPECT_TRUE(exists("out/index.html"));
+  EXPECT_EQ(json("out/study.json")["complete"], true);
+  EXPECT_NE(text("err").find("no plots: interrupted"), std::string::npos) << text("err");
 }
 
 bool has_matplotlib() {
@@ -269,6 +450,13 @@ TEST_F(StudyReport, TwoCanBeCompared) {
   EXPECT_NE(empty.err.find("no study.json in this folder"), std::string::npos) << empty.err;
   EXPECT_EQ(run({"study", "compare", "a/study.json", "missing.json"}).exit_code, 2);
   EXPECT_EQ(run({"study", "compare", "a/study.json", "scene.pbrt"}).exit_code, 2);
+  slower["deep"] = 0;
+  std::string deep = slower.dump();
+  deep.replace(deep.find("\"deep\":0"), 8, "\"deep\":" + std::string(200'000, '[') + std::string(200'000, ']'));
+  folder_.write_text("deep.json", deep);
+  const CommandResult nested = run({"study", "compare", "a/study.json", "deep.json"});
+  EXPECT_EQ(nested.exit_code, 2) << nested.everything();
+  EXPECT_EQ(nested.err.find("deep.json: the JSON is nested deeper than 128 levels: give "), 0u) << nested.err;
 }
 
 }  // namespace

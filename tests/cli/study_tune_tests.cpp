@@ -99,6 +99,30 @@ TEST_F(StudyTune, ABrokenOrStaleFileIsOneWarning) {
   EXPECT_EQ(text("config/tuned.json"), "{");
 }
 
+TEST_F(StudyTune, ADeeplyNestedFileIsOnlyAWarning) {
+  ASSERT_EQ(run({"study", "tune", "scene.pbrt", "--budget", "2", "--store", "-q"}).exit_code, 0);
+  nlohmann::json file = json("config/tuned.json");
+  file["entries"][0]["engine"]["threads"] = "deep";
+  std::string text = file.dump();
+  text.replace(text.find("\"deep\""), 6, std::string(200'000, '[') + std::string(200'000, ']'));
+  folder_.write_text("config/tuned.json", text);
+  const CommandResult result = render({"-o", "a.png", "--spp", "4", "-q"});
+  EXPECT_EQ(result.exit_code, 0) << result.everything();
+  EXPECT_NE(result.err.find("nested deeper than 128 levels"), std::string::npos) << result.err;
+}
+
+/// Also before a budget of ten minutes is spent.
+TEST_F(StudyTune, WhatCannotBeStoredIsRefusedAtOnce) {
+  for (const std::string& path : {std::string(), folder_.file("scene.pbrt/tuned.json"), folder_.path()}) {
+    set("ALHAZEN_TUNED", path);
+    for (const char* option : {"--store", "--store-default"}) {
+      const CommandResult result = run({"study", "tune", "scene.pbrt", "--budget", "600", option});
+      EXPECT_EQ(result.exit_code, 2) << path << result.everything();
+      EXPECT_EQ(result.err.find("round"), std::string::npos) << result.err;
+    }
+  }
+}
+
 TEST_F(StudyTune, TheFileLiesWhereTheVariablesSay) {
   unsetenv("ALHAZEN_TUNED");
   set("XDG_CONFIG_HOME", folder_.file("xdg"));

@@ -3,9 +3,11 @@
 #include <charconv>
 #include <exception>
 #include <mutex>
+#include <string>
 #include <thread>
 
 #include "backends/pixel_blocks.h"
+#include "util/thread_limit.h"
 
 namespace alhazen::cuda {
 
@@ -57,15 +59,23 @@ void DeviceBackend::on_every_engine(const Action& action) {
   std::exception_ptr failure;
   std::mutex mutex;
   std::vector<std::thread> threads;
-  for (size_t i = 0; i < engines_.size(); ++i)
-    threads.emplace_back([&, i] {
-      try {
-        action(*engines_[i], static_cast<int>(i));
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failure = std::current_exception();
-      }
-    });
+  const auto keep_failure = [&] {
+    const std::lock_guard lock(mutex);
+    failure = std::current_exception();
+  };
+  threads.reserve(engines_.size());
+  try {
+    for (size_t i = 0; i < engines_.size(); ++i)
+      threads.push_back(start_thread("the thread of GPU " + std::to_string(i), [&, i] {
+        try {
+          action(*engines_[i], static_cast<int>(i));
+        } catch (...) {
+          keep_failure();
+        }
+      }));
+  } catch (...) {  // those that have started are waited for
+    keep_failure();
+  }
   for (std::thread& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);
 }

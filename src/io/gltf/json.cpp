@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "util/diagnostics.h"
+#include "util/json_depth.h"
 #include "util/numbers.h"
 #include "util/quoted.h"
 
@@ -11,7 +12,6 @@ namespace alhazen::gltf {
 
 namespace {
 
-constexpr int max_depth = 128;
 /// Limits the linear search for names.
 constexpr size_t max_names = 4096;
 
@@ -69,7 +69,7 @@ class Parser {
   }
 
   Json read_value(int depth) {
-    if (depth > max_depth) fail("the JSON is nested deeper than 128 levels");
+    if (depth > max_json_depth) fail("the JSON is nested deeper than " + std::to_string(max_json_depth) + " levels");
     skip_space();
     Json value;
     value.line = line_;

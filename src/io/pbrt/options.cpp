@@ -8,6 +8,7 @@
 
 #include "io/pbrt/nearest.h"
 #include "scene/filters.h"
+#include "scene/limits.h"
 
 namespace alhazen::pbrt {
 
@@ -91,11 +92,13 @@ void set_sampler(Build& build, const std::string& kind, ParameterList& list) {
   if (kind == "stratified") {
     const int64_t x = positive_integer(list, "xsamples", 4), y = positive_integer(list, "ysamples", 4);
     build.scene.samples_per_pixel = x * y;
-    if (build.scene.samples_per_pixel > 0x7fffffff)
-      fail(list.place(), list.directive() + ": xsamples * ysamples is over 2^31 samples per pixel");
+    if (build.scene.samples_per_pixel > max_samples_per_pixel)
+      fail(list.place(), list.directive() + ": xsamples * ysamples is over 2^24 samples per pixel; give fewer");
     list.ignore({"jitter"});
   } else {
     build.scene.samples_per_pixel = positive_integer(list, "pixelsamples", kind == "independent" ? 4 : 16);
+    if (build.scene.samples_per_pixel > max_samples_per_pixel)
+      fail(list.place_of("pixelsamples"), "\"pixelsamples\" is over 2^24 samples per pixel; give fewer");
     list.ignore({"randomization"});
   }
   build.scene.seed = static_cast<uint32_t>(list.integer("seed", static_cast<int32_t>(build.scene.seed)));
@@ -124,6 +127,9 @@ void set_integrator(Build& build, const std::string& kind, ParameterList& list) 
   build.scene.replaced_integrator = replacement.finds_more ? kind : "";
   build.scene.max_depth = list.integer("maxdepth", 5);
   if (build.scene.max_depth < 0) fail(list.place_of("maxdepth"), "\"maxdepth\" cannot be negative");
+  if (build.scene.max_depth > max_bounces)
+    fail(list.place_of("maxdepth"), "\"maxdepth\" is " + std::to_string(build.scene.max_depth) + "; give at most " +
+                                        std::to_string(max_bounces) + " bounces");
   if (list.boolean("regularize", false))
     build.warn(list.place_of("regularize"), "\"regularize\" is not supported; it is ignored");
   // None of these settings changes the expected image; light that `path` cannot find is warned of when the scene is

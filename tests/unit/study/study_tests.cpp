@@ -229,10 +229,34 @@ TEST(StudyResume, KeepsWhatWasMeasuredAndNotWhatWasDisturbed) {
   EXPECT_EQ(study.trials[1].rays, 3000u);
 }
 
+/// Parts that are not measured now, with `--only`.
+TEST(StudyResume, KeepsAllOfTheTrialsThatAreNotAskedFor) {
+  Study earlier = small_study();
+  earlier.trials[0].processor_fractions = {0.5, 1, 0.5};
+  earlier.trials[0].disturbed_seconds = {7};
+  earlier.trials[1] = {};
+  earlier.trials[1].key = "fast";
+  earlier.trials[1].status = TrialStatus::unavailable;
+  earlier.trials[1].reason = "no GPU";
+  Study study = small_study();
+  for (Trial& trial : study.trials) {
+    const std::string key = trial.key;
+    trial = {};
+    trial.key = key;
+    trial.is_asked = false;
+  }
+  const std::string before = to_json(earlier)["trials"].dump();
+  resume_from(nlohmann::json::parse(to_json(earlier).dump()), "study.json", study);
+  EXPECT_EQ(to_json(study)["trials"].dump(), before);
+}
+
 TEST(StudyResume, RefusesAnotherSceneAndWhatIsDamaged) {
   const nlohmann::json earlier = nlohmann::json::parse(to_json(small_study()).dump());
   Study other = small_study();
   other.scene.hash = "4567";
+  EXPECT_THROW(resume_from(earlier, "study.json", other), InputError);
+  other = small_study();
+  other.scale.samples += 1;
   EXPECT_THROW(resume_from(earlier, "study.json", other), InputError);
   nlohmann::json damaged = earlier;
   damaged["trials"][0]["seconds"] = "none";
