@@ -54,7 +54,8 @@ Work Plan::on_gpu(const std::string& backend, const std::string& precision) cons
 int64_t Plan::linear_size(uint64_t objects, int64_t largest) const {
   constexpr double rays_a_pixel = 2.5 * 4;
   const double pixels = static_cast<double>(scale().linear_tests) / (rays_a_pixel * static_cast<double>(objects));
-  return std::clamp(static_cast<int64_t>(std::sqrt(pixels)), int64_t{8}, largest);
+  // Infinite for a scene without objects.
+  return static_cast<int64_t>(std::clamp(std::sqrt(pixels), 8.0, std::max(8.0, static_cast<double>(largest))));
 }
 
 void add_cell(Table& table, const std::string& row, const std::string& column, const std::string& trial,
