@@ -10,10 +10,12 @@
 
 namespace ALHAZEN_CORE {
 
-/// An edge function is a difference of two products. If a triangle appears narrow to a ray, which happens close to long
-/// triangles, the edge functions are small beside the products, and rounding of the products displaces the hit: t may
-/// even get the wrong sign. If their sum is less than this part of the largest product, they are computed in double.
-inline constexpr float narrow_triangle = 1.0f / 64;
+/// An edge function is a difference of two products. Near triangles that are much longer than wide, the edge functions
+/// are small beside the products, and rounding of the products displaces the hit by up to
+///   extent of the triangle * largest product / determinant * 2^-23;
+/// t may even get the wrong sign. If the ratio of product and determinant is above `narrow_triangle` and the
+/// displacement above 2^-14 of the distance, the edge functions are computed in double.
+inline constexpr float narrow_triangle = 128, displaced_hit = 512;
 
 /// Recomputes the edge functions of a triangle that was hit, from its vertices in the sheared space of the ray. The
 /// products are exact in double. Those that are on the other side of zero, within rounding, become 0.
@@ -28,6 +30,14 @@ inline ALHAZEN_RARE void recompute_edge_functions(const float (&x)[3], const flo
     const double positive = sum < 0 ? -exact[i] : exact[i];
     e[i] = positive > 0 ? static_cast<float>(positive) : 0.0f;
   }
+}
+
+/// Returns whether rounding may displace the hit on a narrow triangle, given in the sheared space of the ray.
+template <class Real>
+ALHAZEN_RARE bool is_displaced(const Vec3<Real> (&p)[3], const Vec3<Real>& e, Real largest_product) {
+  const Vec3<Real> low = min(min(p[0], p[1]), p[2]), high = max(max(p[0], p[1]), p[2]);
+  const Real extent = max(max(high.x - low.x, high.y - low.y), high.z - low.z);
+  return displaced_hit * std::abs(e.x * p[0].z + e.y * p[1].z + e.z * p[2].z) < extent * largest_product;
 }
 
 /// Intersects the triangle p0 p1 p2: sets t and the barycentric coordinates of p1 and p2. Rays through a shared edge or
@@ -51,7 +61,7 @@ ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>
   if constexpr (sizeof(Real) == sizeof(float)) {
     const Real products =
         max(max(std::abs(p_t[1].x * p_t[2].y), std::abs(p_t[2].x * p_t[0].y)), std::abs(p_t[0].x * p_t[1].y));
-    if (ALHAZEN_UNLIKELY(std::abs(det) < narrow_triangle * products)) {
+    if (ALHAZEN_UNLIKELY(narrow_triangle * std::abs(det) < products) && is_displaced(p_t, e, products)) {
       float edges[3];
       recompute_edge_functions({p_t[0].x, p_t[1].x, p_t[2].x}, {p_t[0].y, p_t[1].y, p_t[2].y}, edges);
       e = {edges[0], edges[1], edges[2]};

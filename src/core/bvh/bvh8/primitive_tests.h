@@ -52,9 +52,9 @@ struct TriangleLanes {
     V det = e[0] + e[1] + e[2];
     if constexpr (std::is_same_v<typename V::Component, float>) {
       const V largest = max(max(magnitude(products[0]), magnitude(products[1])), magnitude(products[2]));
-      const uint32_t narrow = inside & less(magnitude(det), V::all(narrow_triangle) * largest);
+      const uint32_t narrow = inside & less(V::all(narrow_triangle) * magnitude(det), largest);
       if (ALHAZEN_UNLIKELY(narrow != 0)) {
-        recompute(narrow, a, b, c);
+        recompute(narrow, a, b, c, largest);
         det = e[0] + e[1] + e[2];
       }
     }
@@ -72,9 +72,14 @@ struct TriangleLanes {
   }
 
  private:
-  /// Recomputes the edge functions of some lanes.
+  /// Recomputes the edge functions of those lanes whose hits rounding may displace (is_displaced).
   ALHAZEN_RARE void recompute(uint32_t lanes, const ShearedLanes<V>& a, const ShearedLanes<V>& b,
-                              const ShearedLanes<V>& c) {
+                              const ShearedLanes<V>& c, const V& largest_product) {
+    const auto extent = [&](V ShearedLanes<V>::*k) { return max(max(a.*k, b.*k), c.*k) - min(min(a.*k, b.*k), c.*k); };
+    using Vertex = ShearedLanes<V>;
+    const V largest_extent = max(max(extent(&Vertex::x), extent(&Vertex::y)), extent(&Vertex::z));
+    const V distance = magnitude(e[0] * a.z + e[1] * b.z + e[2] * c.z);
+    lanes &= less(V::all(displaced_hit) * distance, largest_extent * largest_product);
     for (; lanes != 0; lanes &= lanes - 1) {
       const int lane = std::countr_zero(lanes);
       float edges[3];
