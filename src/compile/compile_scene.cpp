@@ -70,6 +70,13 @@ class SceneCompiler {
     place_shapes();
     weigh_emission_textures(out_, light_measures_);
     warn_of_dropped_triangles();
+    for (const TriangleRecord& triangle : out_.triangles) {
+      const uint32_t* v = triangle.vertex;
+      if (is_narrow(out_.positions[v[0]], out_.positions[v[1]], out_.positions[v[2]])) {
+        flat.view.has_narrow_triangles = 1;
+        break;
+      }
+    }
     build_trees_and_query(flat);
     flat.statistics.triangles = out_.triangles.size();
     flat.statistics.spheres = out_.spheres.size() + out_.moving_spheres.size();
@@ -106,6 +113,7 @@ class SceneCompiler {
     SceneView<Real> view = out_.view();
     view.camera = flat.view.camera;
     view.has_cutouts = flat.view.has_cutouts;
+    view.has_narrow_triangles = flat.view.has_narrow_triangles;
     view.lets_light_through = flat.view.lets_light_through;
     return view;
   }

@@ -77,6 +77,7 @@ struct SceneView {
   uint32_t has_cutouts = 0;              ///< 1 if a material lets rays through, be it only camera rays
   uint32_t lets_light_through = 0;       ///< 1 if a material lets shadow rays through
   uint32_t has_lobes = 0;                ///< 1 if a material chooses among lobes at random
+  uint32_t has_narrow_triangles = 0;     ///< 1 if a triangle is much longer than wide (core/shapes/triangle.h)
 };
 
 }  // namespace ALHAZEN_CORE

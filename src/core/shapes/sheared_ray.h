@@ -14,12 +14,14 @@ struct ShearedRay {
   Vec3<Real> origin;  ///< along kx, ky and kz
   Vec3<Real> shear;
   int kx, ky, kz;
-  PrimitiveId left;  ///< Ray::left if it is in the ray's space, else none
+  PrimitiveId left;                      ///< Ray::left if it is in the ray's space, else none
+  uint32_t checks_narrow_triangles = 0;  ///< SceneView::has_narrow_triangles
 };
 
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT ShearedRay<Real> shear_ray(const Ray<Real>& ray) {
+ALHAZEN_HD ALHAZEN_HOT ShearedRay<Real> shear_ray(const Ray<Real>& ray, uint32_t checks_narrow_triangles) {
   ShearedRay<Real> s;
+  s.checks_narrow_triangles = checks_narrow_triangles;
   s.kz = max_axis(abs(ray.direction));
   s.kx = s.kz == 2 ? 0 : s.kz + 1;
   s.ky = s.kx == 2 ? 0 : s.kx + 1;

@@ -10,8 +10,16 @@
 
 namespace ALHAZEN_CORE {
 
-/// An edge function is a difference of two products. Near triangles that are much longer than wide, the edge functions
-/// are small beside the products, and rounding of the products displaces the hit by up to
+/// Returns whether a triangle is much longer than wide.
+template <class Real>
+bool is_narrow(const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& p2) {
+  const Vec3<Real> a = p1 - p0, b = p2 - p0;
+  const Real longest = max(max(length_squared(a), length_squared(b)), length_squared(p2 - p1));
+  return sqr(longest) > 64 * 64 * length_squared(cross(a, b));
+}
+
+/// In scenes with such triangles: an edge function is a difference of two products. Near triangles that are much longer
+/// than wide, the edge functions are small beside the products, and rounding of the products displaces the hit by up to
 ///   extent of the triangle * largest product / determinant * 2^-23;
 /// t may even get the wrong sign. If the ratio of product and determinant is above `narrow_triangle` and the
 /// displacement above 2^-14 of the distance, the edge functions are computed in double.
@@ -61,7 +69,8 @@ ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>
   if constexpr (sizeof(Real) == sizeof(float)) {
     const Real products =
         max(max(std::abs(p_t[1].x * p_t[2].y), std::abs(p_t[2].x * p_t[0].y)), std::abs(p_t[0].x * p_t[1].y));
-    if (ALHAZEN_UNLIKELY(narrow_triangle * std::abs(det) < products) && is_displaced(p_t, e, products)) {
+    if (ALHAZEN_UNLIKELY(ray.checks_narrow_triangles != 0 && narrow_triangle * std::abs(det) < products) &&
+        is_displaced(p_t, e, products)) {
       float edges[3];
       recompute_edge_functions({p_t[0].x, p_t[1].x, p_t[2].x}, {p_t[0].y, p_t[1].y, p_t[2].y}, edges);
       e = {edges[0], edges[1], edges[2]};

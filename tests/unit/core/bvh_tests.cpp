@@ -154,8 +154,8 @@ bool is_sure(const SceneView<Real>& scene, const Ray<Real>& ray, const Hit<Real>
   const auto vertex = [&](int i) { return convert<Wide>(scene.positions[v[i]]); };
   const Ray<Wide> wide{convert<Wide>(ray.origin), convert<Wide>(ray.direction)};
   Wide t = 0, b1 = 0, b2 = 0;
-  return intersect_triangle(shear_ray(wide), vertex(0), vertex(1), vertex(2), std::numeric_limits<Wide>::max(), t, b1,
-                            b2) &&
+  return intersect_triangle(shear_ray(wide, 0), vertex(0), vertex(1), vertex(2), std::numeric_limits<Wide>::max(), t,
+                            b1, b2) &&
          std::abs(static_cast<Wide>(hit.t) - t) < Wide(1e-3) * t;
 }
 

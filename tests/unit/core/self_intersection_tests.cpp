@@ -231,7 +231,7 @@ TYPED_TEST(SelfIntersectionOf, WhatLiesInThePlaneIsNotHit) {
     const Ray<Real> ray = spawn_ray(si, leaving_direction(si.normal, random.below(2) == 0 ? 1.0 : -1.0, random));
     Real t, b1, b2;
     ++left;
-    hit += intersect_triangle(shear_ray(ray), p[0], p[1], p[2], infinity<Real>, t, b1, b2);
+    hit += intersect_triangle(shear_ray(ray, 0), p[0], p[1], p[2], infinity<Real>, t, b1, b2);
   }
   EXPECT_LT(hit, left / 1000) << "of " << left;
 }

@@ -99,7 +99,7 @@ void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
   }
   const uint32_t* v = scene.triangles[index].vertex;
   const Vec3<float>&a = scene.positions[v[0]], &b = scene.positions[v[1]], &c = scene.positions[v[2]];
-  const ShearedRay<float> sheared = shear_ray(ray);
+  const ShearedRay<float> sheared = shear_ray(ray, scene.has_narrow_triangles);
   if (sheared.left == PrimitiveId(PrimitiveKind::triangle, index)) {
     arguments->valid[0] = 0;
     return;

@@ -26,7 +26,7 @@ class BruteForceIntersector {
   template <bool any_hit>
   bool search(const Ray<Real>& ray, Hit<Real>& hit) const {
     const uint32_t in_world = scene_->objects_count > 0 ? scene_->objects[0].first_primitive : scene_->primitives_count;
-    const ShearedRay<Real> sheared = shear_ray(ray);
+    const ShearedRay<Real> sheared = shear_ray(ray, scene_->has_narrow_triangles);
     bool found = false;
     for (uint32_t i = 0; i < in_world && !(any_hit && found); ++i) {
       const PrimitiveId primitive = scene_->primitives[i];
@@ -40,7 +40,7 @@ class BruteForceIntersector {
 
   bool search_instance(uint32_t index, const Ray<Real>& ray, Hit<Real>& hit) const {
     const ObjectRecord& object = scene_->objects[scene_->instances[index].object];
-    const ShearedRay<Real> sheared = shear_ray(object_ray(*scene_, index, ray));
+    const ShearedRay<Real> sheared = shear_ray(object_ray(*scene_, index, ray), scene_->has_narrow_triangles);
     Hit<Real> within = hit;
     within.primitive = bound_within(index, hit);
     bool found = false;

@@ -15,7 +15,10 @@ template <class Real>
 class BruteForcePackets {
  public:
   explicit BruteForcePackets(const SceneView<Real>& scene)
-      : triangles_(scene.triangles_count), spheres_(scene.spheres_count), moving_(scene.moving_spheres_count) {
+      : checks_narrow_triangles_(scene.has_narrow_triangles),
+        triangles_(scene.triangles_count),
+        spheres_(scene.spheres_count),
+        moving_(scene.moving_spheres_count) {
     is_worthwhile_ = scene.instances_count == 0 && triangles_ <= max_triangles && spheres_ + moving_ <= max_spheres &&
                      triangles_ * max_spheres + (spheres_ + moving_) * max_triangles <= max_triangles * max_spheres &&
                      take_triangles(scene);
@@ -145,7 +148,7 @@ class BruteForcePackets {
     }
     for (uint32_t i = 0; i < triangles_; ++i) {
       const uint32_t* const v = triangle_[i].vertex;
-      const TriangleLanes<V> at(sheared[v[0]], sheared[v[1]], sheared[v[2]], shear[2]);
+      const TriangleLanes<V> at(sheared[v[0]], sheared[v[1]], sheared[v[2]], shear[2], checks_narrow_triangles_);
       if (at.inside == 0) continue;
       uint32_t lanes = at.inside & less(V::all(0), at.t) & less(at.t, hits.t);
       if (lanes == 0) continue;
@@ -194,6 +197,7 @@ class BruteForcePackets {
     Real radius;
   };
 
+  uint32_t checks_narrow_triangles_;  ///< SceneView::has_narrow_triangles
   uint32_t triangles_, spheres_, moving_;
   bool is_worthwhile_;
   Triangle triangle_[max_triangles];

@@ -58,13 +58,14 @@ struct TraversalSpace {
   int base = 0;
   PrimitiveId outer;  ///< hit.primitive before bound_within
 
-  ALHAZEN_HD explicit TraversalSpace(const Ray<Real>& ray) : slabs(slab_ray(ray)), sheared(shear_ray(ray)) {}
+  ALHAZEN_HD TraversalSpace(const SceneView<Real>& scene, const Ray<Real>& ray)
+      : slabs(slab_ray(ray)), sheared(shear_ray(ray, scene.has_narrow_triangles)) {}
 
   ALHAZEN_HD void enter(const SceneView<Real>& scene, const Ray<Real>& ray, uint32_t entered, int height,
                         Hit<Real>& hit) {
     const Ray<Real> inner = object_ray(scene, entered, ray);
     slabs = slab_ray(inner);
-    sheared = shear_ray(inner);
+    sheared = shear_ray(inner, scene.has_narrow_triangles);
     instance = entered;
     base = height;
     outer = hit.primitive;
@@ -74,7 +75,7 @@ struct TraversalSpace {
   ALHAZEN_HD void leave(const Ray<Real>& ray, Hit<Real>& hit) {
     if (hit.instance != instance) hit.primitive = outer;
     slabs = slab_ray(ray);
-    sheared = shear_ray(ray);
+    sheared = shear_ray(ray, sheared.checks_narrow_triangles);
     instance = no_instance;
     base = 0;
   }
@@ -86,7 +87,7 @@ template <bool any_hit, class Real, StackMaker Stacks>
 ALHAZEN_HD bool traverse_bvh2(const SceneView<Real>& scene, const Ray<Real>& ray, const Stacks& stacks,
                               Hit<Real>& hit) {
   if (scene.bvh2_nodes_count == 0) return false;
-  TraversalSpace<Real> space(ray);
+  TraversalSpace<Real> space(scene, ray);
   const SlabRay<Real>& slabs = space.slabs;
   auto stack = stacks.template make<Bvh2StackEntry<Real>, 2 * max_bvh2_depth>();
   uint32_t current = 0;

@@ -38,7 +38,8 @@ ALHAZEN_INLINE bool intersect_block(const TriangleBlock<Real>& block, const Ray<
   const int axis[3] = {ray.kx, ray.ky, ray.kz};
   const V origin[3] = {V::all(ray.origin.x), V::all(ray.origin.y), V::all(ray.origin.z)};
   const V shear[3] = {V::all(ray.shear.x), V::all(ray.shear.y), V::all(ray.shear.z)};
-  const TriangleLanes<V> hits([&](int v, int k) { return V::load(block.vertex[v][axis[k]]); }, origin, shear);
+  const TriangleLanes<V> hits([&](int v, int k) { return V::load(block.vertex[v][axis[k]]); }, origin, shear,
+                              ray.checks_narrow_triangles);
   if (hits.inside == 0) return false;
   return take_nearest(hits, hits.inside, block.index, PrimitiveKind::triangle, ray.left, hit);
 }

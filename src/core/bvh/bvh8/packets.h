@@ -46,6 +46,7 @@ class RayPacket {
 
   void traverse(const SceneView<Real>& scene) {
     if (scene.bvh8_nodes_count == 0) return;
+    checks_narrow_triangles_ = scene.has_narrow_triangles;
     height_ = 0;
     uint32_t child = 0, rays = active_;
     do {
@@ -244,7 +245,8 @@ class RayPacket {
   ALHAZEN_INLINE void intersect_primitive_of(const TriangleBlock<Real>& block, int p, uint32_t rays) {
     const V origin[3] = {V::load(origin_[axis_[0]]), V::load(origin_[axis_[1]]), V::load(origin_[axis_[2]])};
     const V shear[3] = {V::load(shear_[0]), V::load(shear_[1]), V::load(shear_[2])};
-    const TriangleLanes<V> hits([&](int v, int k) { return V::all(block.vertex[v][axis_[k]][p]); }, origin, shear);
+    const TriangleLanes<V> hits([&](int v, int k) { return V::all(block.vertex[v][axis_[k]][p]); }, origin, shear,
+                                checks_narrow_triangles_);
     if ((hits.inside & rays) == 0) return;
     take(hits, hits.inside & rays, PrimitiveId(PrimitiveKind::triangle, block.index[p]));
   }
@@ -307,6 +309,7 @@ class RayPacket {
   uint32_t near_row_[3];
   int axis_[3];  ///< kx, ky, kz
   uint32_t active_ = 0, hit_rays_ = 0;
+  uint32_t checks_narrow_triangles_ = 0;  ///< SceneView::has_narrow_triangles
   int height_ = 0;
   const Ray<Real>* rays_[width];
   PrimitiveId left_[width];  ///< Ray::left if it is a triangle

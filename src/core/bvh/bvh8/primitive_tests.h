@@ -36,30 +36,28 @@ struct TriangleLanes {
 
   /// `vertex(v, k)` returns coordinate k of vertex v, where k = 0, 1, 2 denotes the ray's axes kx, ky, kz.
   template <class Vertex>
-  ALHAZEN_INLINE TriangleLanes(const Vertex& vertex, const V (&origin)[3], const V (&shear)[3])
+  ALHAZEN_INLINE TriangleLanes(const Vertex& vertex, const V (&origin)[3], const V (&shear)[3],
+                               uint32_t checks_narrow_triangles)
       : TriangleLanes(sheared(vertex, 0, origin, shear), sheared(vertex, 1, origin, shear),
-                      sheared(vertex, 2, origin, shear), shear[2]) {}
+                      sheared(vertex, 2, origin, shear), shear[2], checks_narrow_triangles) {}
 
   ALHAZEN_INLINE TriangleLanes(const ShearedLanes<V>& a, const ShearedLanes<V>& b, const ShearedLanes<V>& c,
-                               const V& scale) {
+                               const V& scale, [[maybe_unused]] uint32_t checks_narrow_triangles) {
     const V zero = V::all(0);
-    const V products[3] = {b.x * c.y, c.x * a.y, a.x * b.y};
-    e[0] = products[0] - b.y * c.x;
-    e[1] = products[1] - c.y * a.x;
-    e[2] = products[2] - a.y * b.x;
+    e[0] = b.x * c.y - b.y * c.x;
+    e[1] = c.x * a.y - c.y * a.x;
+    e[2] = a.x * b.y - a.y * b.x;
     inside = less_equal(zero, min(min(e[0], e[1]), e[2])) | less_equal(max(max(e[0], e[1]), e[2]), zero);
     if (inside == 0) return;
-    V det = e[0] + e[1] + e[2];
     if constexpr (std::is_same_v<typename V::Component, float>) {
-      const V largest = max(max(magnitude(products[0]), magnitude(products[1])), magnitude(products[2]));
-      const uint32_t narrow = inside & less(V::all(narrow_triangle) * magnitude(det), largest);
-      if (ALHAZEN_UNLIKELY(narrow != 0)) {
-        recompute(narrow, a, b, c, largest);
-        det = e[0] + e[1] + e[2];
+      if (ALHAZEN_UNLIKELY(checks_narrow_triangles != 0)) {
+        const V largest = max(max(magnitude(b.x * c.y), magnitude(c.x * a.y)), magnitude(a.x * b.y));
+        const uint32_t narrow = inside & less(V::all(narrow_triangle) * magnitude(e[0] + e[1] + e[2]), largest);
+        if (ALHAZEN_UNLIKELY(narrow != 0)) recompute(narrow, a, b, c, largest);
       }
     }
     // If the sum is 0, t is infinite or NaN and the hit is rejected.
-    inverse = V::all(1) / det;
+    inverse = V::all(1) / (e[0] + e[1] + e[2]);
     t = (e[0] * (a.z * scale) + e[1] * (b.z * scale) + e[2] * (c.z * scale)) * inverse;
   }
 

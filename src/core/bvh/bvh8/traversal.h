@@ -127,7 +127,7 @@ class alignas(64) Bvh8Traversal {
   ALHAZEN_INLINE void start(const SceneView<Real>& scene, const Ray<Real>& ray, Real t_max) {
     ray_ = &ray;
     box_ = box_ray(ray);
-    sheared_ = scene.triangle_blocks_count > 0 ? shear_ray(ray) : ShearedRay<Real>{};
+    sheared_ = scene.triangle_blocks_count > 0 ? shear_ray(ray, scene.has_narrow_triangles) : ShearedRay<Real>{};
     hit_ = end_of_interval(t_max);
     t_max_ = box_t_max(t_max);
     height_ = 0;
@@ -188,7 +188,7 @@ class alignas(64) Bvh8Traversal {
 
   ALHAZEN_INLINE void set_ray(const Ray<Real>& ray) {
     box_ = box_ray(ray);
-    sheared_ = shear_ray(ray);
+    sheared_ = shear_ray(ray, sheared_.checks_narrow_triangles);
   }
 
   /// Transforms the ray to object space and continues at the root of the object.

@@ -97,7 +97,7 @@ ALHAZEN_HD bool traverse_cwbvh(const SceneView<float>& scene, const Ray<float>& 
                                Hit<float>& hit) {
   constexpr uint32_t to_visit = 0xff000000u, root = 0x80000000u;
   if (scene.cwbvh_nodes_count == 0) return false;
-  TraversalSpace<float> space(ray);
+  TraversalSpace<float> space(scene, ray);
   uint32_t octant = octant_of(space.slabs);
   auto stack = stacks.template make<CwbvhGroup, 2 * max_cwbvh_depth + 2>();
   bool found = false;
