@@ -18,12 +18,13 @@ bool is_narrow(const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& p2)
   return sqr(longest) > 64 * 64 * length_squared(cross(a, b));
 }
 
-/// In scenes with such triangles: an edge function is a difference of two products. Near triangles that are much longer
+/// An edge function is a difference of two products. If the ray's origin is close to a triangle that is much longer
 /// than wide, the edge functions are small beside the products, and rounding of the products displaces the hit by up to
-///   extent of the triangle * largest product / determinant * 2^-23;
-/// t may even get the wrong sign. If the ratio of product and determinant is above `narrow_triangle` and the
-/// displacement above 2^-14 of the distance, the edge functions are computed in double.
-inline constexpr float narrow_triangle = 128, displaced_hit = 512;
+///   extent of the triangle * largest product / determinant * 2^-22;
+/// t may even get the wrong sign. In scenes with such triangles, the edge functions are computed in double if that is
+/// more than 2^-13 of the distance.
+template <class Real>
+inline constexpr Real displaced_hit = 512;
 
 /// Recomputes the edge functions of a triangle that was hit, from its vertices in the sheared space of the ray. The
 /// products are exact in double. Those that are on the other side of zero, within rounding, become 0.
@@ -40,12 +41,13 @@ inline ALHAZEN_RARE void recompute_edge_functions(const float (&x)[3], const flo
   }
 }
 
-/// Returns whether rounding may displace the hit on a narrow triangle, given in the sheared space of the ray.
+/// Returns whether rounding may displace the hit on a triangle, given in the sheared space of the ray.
 template <class Real>
-ALHAZEN_RARE bool is_displaced(const Vec3<Real> (&p)[3], const Vec3<Real>& e, Real largest_product) {
+ALHAZEN_RARE bool is_displaced(const Vec3<Real> (&p)[3], const Vec3<Real>& e) {
+  const Real product = max(max(std::abs(p[1].x * p[2].y), std::abs(p[2].x * p[0].y)), std::abs(p[0].x * p[1].y));
   const Vec3<Real> low = min(min(p[0], p[1]), p[2]), high = max(max(p[0], p[1]), p[2]);
   const Real extent = max(max(high.x - low.x, high.y - low.y), high.z - low.z);
-  return displaced_hit * std::abs(e.x * p[0].z + e.y * p[1].z + e.z * p[2].z) < extent * largest_product;
+  return displaced_hit<Real> * std::abs(e.x * p[0].z + e.y * p[1].z + e.z * p[2].z) < extent * product;
 }
 
 /// Intersects the triangle p0 p1 p2: sets t and the barycentric coordinates of p1 and p2. Rays through a shared edge or
@@ -66,16 +68,12 @@ ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>
   if ((e.x < 0 || e.y < 0 || e.z < 0) && (e.x > 0 || e.y > 0 || e.z > 0)) return false;
   Real det = e.x + e.y + e.z;
 #if !defined(__CUDA_ARCH__)  // there, fused operations make the differences exact
-  if constexpr (sizeof(Real) == sizeof(float)) {
-    const Real products =
-        max(max(std::abs(p_t[1].x * p_t[2].y), std::abs(p_t[2].x * p_t[0].y)), std::abs(p_t[0].x * p_t[1].y));
-    if (ALHAZEN_UNLIKELY(ray.checks_narrow_triangles != 0 && narrow_triangle * std::abs(det) < products) &&
-        is_displaced(p_t, e, products)) {
-      float edges[3];
-      recompute_edge_functions({p_t[0].x, p_t[1].x, p_t[2].x}, {p_t[0].y, p_t[1].y, p_t[2].y}, edges);
-      e = {edges[0], edges[1], edges[2]};
-      det = e.x + e.y + e.z;
-    }
+  if (sizeof(Real) == sizeof(float) && ALHAZEN_UNLIKELY(ray.checks_narrow_triangles != 0) && is_displaced(p_t, e)) {
+    float edges[3];
+    recompute_edge_functions({float(p_t[0].x), float(p_t[1].x), float(p_t[2].x)},
+                             {float(p_t[0].y), float(p_t[1].y), float(p_t[2].y)}, edges);
+    e = {Real(edges[0]), Real(edges[1]), Real(edges[2])};
+    det = e.x + e.y + e.z;
   }
 #endif
   if (det == 0) return false;

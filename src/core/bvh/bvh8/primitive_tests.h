@@ -50,11 +50,7 @@ struct TriangleLanes {
     inside = less_equal(zero, min(min(e[0], e[1]), e[2])) | less_equal(max(max(e[0], e[1]), e[2]), zero);
     if (inside == 0) return;
     if constexpr (std::is_same_v<typename V::Component, float>) {
-      if (ALHAZEN_UNLIKELY(checks_narrow_triangles != 0)) {
-        const V largest = max(max(magnitude(b.x * c.y), magnitude(c.x * a.y)), magnitude(a.x * b.y));
-        const uint32_t narrow = inside & less(V::all(narrow_triangle) * magnitude(e[0] + e[1] + e[2]), largest);
-        if (ALHAZEN_UNLIKELY(narrow != 0)) recompute(narrow, a, b, c, largest);
-      }
+      if (ALHAZEN_UNLIKELY(checks_narrow_triangles != 0)) recompute_displaced(a, b, c);
     }
     // If the sum is 0, t is infinite or NaN and the hit is rejected.
     inverse = V::all(1) / (e[0] + e[1] + e[2]);
@@ -70,14 +66,14 @@ struct TriangleLanes {
   }
 
  private:
-  /// Recomputes the edge functions of those lanes whose hits rounding may displace (is_displaced).
-  ALHAZEN_RARE void recompute(uint32_t lanes, const ShearedLanes<V>& a, const ShearedLanes<V>& b,
-                              const ShearedLanes<V>& c, const V& largest_product) {
+  /// Recomputes the edge functions of those hits that rounding may displace (is_displaced).
+  ALHAZEN_RARE void recompute_displaced(const ShearedLanes<V>& a, const ShearedLanes<V>& b, const ShearedLanes<V>& c) {
+    const V product = max(max(magnitude(b.x * c.y), magnitude(c.x * a.y)), magnitude(a.x * b.y));
     const auto extent = [&](V ShearedLanes<V>::*k) { return max(max(a.*k, b.*k), c.*k) - min(min(a.*k, b.*k), c.*k); };
     using Vertex = ShearedLanes<V>;
     const V largest_extent = max(max(extent(&Vertex::x), extent(&Vertex::y)), extent(&Vertex::z));
     const V distance = magnitude(e[0] * a.z + e[1] * b.z + e[2] * c.z);
-    lanes &= less(V::all(displaced_hit) * distance, largest_extent * largest_product);
+    uint32_t lanes = inside & less(V::all(displaced_hit<float>) * distance, largest_extent * product);
     for (; lanes != 0; lanes &= lanes - 1) {
       const int lane = std::countr_zero(lanes);
       float edges[3];
