@@ -279,7 +279,7 @@ TEST_F(Hostile, LimitsOnMemoryAreToldInSentences) {
   if (test::is_sanitized) GTEST_SKIP() << "the address sanitizer needs more address space than the test allows";
   std::vector<std::string> limits{"-d 250", "-d 500", "-d 1000"};
   for (int kilobytes = 2000; kilobytes <= 10000; kilobytes += 1000) limits.push_back("-d " + std::to_string(kilobytes));
-  for (int kilobytes = 60000; kilobytes <= 110000; kilobytes += 5000)
+  for (int kilobytes = 20000; kilobytes <= 100000; kilobytes += 10000)
     limits.push_back("-v " + std::to_string(kilobytes));
   for (const std::string& limit : limits)
     for (const char* arguments : {"--version", "render scene.pbrt --size 8x8 --spp 1 -t 1 -q -o a.exr"}) {

@@ -236,10 +236,9 @@ TEST_F(StudyReport, FilesOfTheSceneAreNotTouched) {
   ASSERT_EQ(report({"--output", "out", "--only", "table1", "-q"}).exit_code, 0);
   for (const std::string name : {"index.html", "depth.png"}) {
     folder_.write_text("out/" + name, "# a part of the scene\n");
-    folder_.write_text("with_part.pbrt", "Include \"out/" + name + "\"\n" + text("scene.pbrt"));
+    folder_.write_text("scene.pbrt", "Include \"out/" + name + "\"\n" + cornell_box(24));
     for (const char* further : {"--resume", "--overwrite"}) {
-      const CommandResult result =
-          report({"--output", "out", "--only", "table1", "--scene", "with_part.pbrt", further});
+      const CommandResult result = report({"--output", "out", "--only", "table1", further});
       EXPECT_EQ(result.exit_code, 2) << result.everything();
       EXPECT_NE(result.err.find("that the scene is read from"), std::string::npos) << result.err;
       EXPECT_EQ(text("out/" + name), "# a part of the scene\n");
