@@ -289,7 +289,9 @@ TEST_F(Hostile, LimitsOnMemoryAreToldInSentences) {
       EXPECT_LE(result.exit_code, 2);
       EXPECT_EQ(result.err.find("terminate"), std::string::npos);
       EXPECT_EQ(result.err.find("alhazen: Resource temporarily unavailable\n"), std::string::npos);
-      if (result.exit_code != 0) EXPECT_NE(result.err.find("limit"), std::string::npos);
+      if (result.exit_code != 0) {
+        EXPECT_NE(result.err.find("limit"), std::string::npos);
+      }
     }
 }
 
