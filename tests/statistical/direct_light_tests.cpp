@@ -81,14 +81,15 @@ TYPED_TEST(DirectLight, Sun) {
   using Real = TypeParam;
   for (const double angle : {0.533, 60.0}) {
     SCOPED_TRACE(angle);
-    const std::string sun = "LightSource \"distant\" \"rgb L\" [2 2 2] \"point3 from\" [0 1 1] \"float angle\" ";
+    const std::string sun =
+        "LightSource \"distant\" \"rgb L\" [2 2 2] \"point3 from\" [0 1 1] \"point3 to\" [0 0 0] \"float angle\" ";
     const CompiledScene<Real> scene = compiled_scene_of<Real>(head + sun + std::to_string(angle));
     expect_irradiance(scene, IntegratorKind::path, 2 * std::sqrt(0.5), tolerance<Real>);
     if (angle > 1) expect_irradiance(scene, IntegratorKind::iterative, 2 * std::sqrt(0.5), tolerance<Real>);
   }
   // With a sky and a point light, whichever is chosen.
   expect_irradiance(compiled_scene_of<Real>(head + R"(
-      LightSource "distant" "rgb L" [2 2 2] "point3 from" [0 1 1] "float angle" 60
+      LightSource "distant" "rgb L" [2 2 2] "point3 from" [0 1 1] "point3 to" [0 0 0] "float angle" 60
       LightSource "point" "rgb I" [20 20 20] "point3 from" [1 3 -2]
       LightSource "infinite" "rgb L" [0.5 0.5 0.5])"),
                     IntegratorKind::path, 2 * std::sqrt(0.5) + 20 * 3 / std::pow(14, 1.5) + 0.5 * pi<double>,

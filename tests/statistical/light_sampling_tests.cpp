@@ -30,9 +30,10 @@ const std::string moving_sphere = R"(WorldBegin ActiveTransform EndTime Translat
     Translate 0 0 3 AreaLightSource "diffuse" "rgb L" [1 1 1] "bool twosided" true Shape "sphere" "float radius" 1)";
 const std::string sky = R"(WorldBegin LightSource "infinite" "rgb L" [1 1 1])";
 /// Their radiance is 1.
-const std::string sun = R"(WorldBegin LightSource "distant" "point3 from" [1 2 3] "float angle" 20
+const std::string sun = R"(WorldBegin LightSource "distant" "point3 from" [1 2 3] "point3 to" [0 0 0] "float angle" 20
     "float scale" 0.09473060974812199)";
-const std::string wide_sun = R"(WorldBegin LightSource "distant" "point3 from" [0 0 -1] "float angle" 120
+const std::string wide_sun =
+    R"(WorldBegin LightSource "distant" "point3 from" [0 0 -1] "point3 to" [0 0 0] "float angle" 120
     "float scale" 2.35619449019234)";
 /// No light occludes another as seen from the origin.
 const std::string several = R"(WorldBegin LightSource "infinite" "rgb L" [0.1 0.1 0.1]
@@ -146,7 +147,8 @@ TYPED_TEST(LightSampling, SunHasTheIrradianceOfADistantLight) {
   using Real = TypeParam;
   for (const double angle : {0.01, 0.533, 20.0, 120.0, 180.0}) {
     const CompiledScene<Real> scene = compiled_scene_of<Real>(
-        "WorldBegin LightSource \"distant\" \"rgb L\" [3 3 3] \"point3 from\" [1 2 3] \"float angle\" " +
+        "WorldBegin LightSource \"distant\" \"rgb L\" [3 3 3] \"point3 from\" [1 2 3] \"point3 to\" [0 0 0] \"float "
+        "angle\" " +
         std::to_string(angle) + " LightSource \"infinite\" \"rgb L\" [2 2 2]");
     const Frame<double> axes = frame_about(normalize(Vec3d{1, 2, 3}));
     const LightRecord<Real>& light = scene.view.lights[scene.view.far_lights[0]];
