@@ -49,6 +49,16 @@ Material "diffuse" "rgb reflectance" [ 0.9 0.9 0.9 ]
   }
 };
 
+/// Close to triangles that are a thousand times as long as wide, rounding once gave hits the wrong distance.
+TEST_F(ClosedRoom, LongRoomsAreBlackInside) {
+  for (const char* shape : {"Scale 1 1000 1\n", "Scale 1 10000 1\n", "Rotate 90 0 0 1\nScale 1 10000 1\n"})
+    for (const char* integrator : {"path", "iterative"}) {
+      SCOPED_TRACE(std::string(shape) + integrator);
+      write_room({}, shape, false);
+      EXPECT_EQ(brightest({"--integrator", integrator}), 0);
+    }
+}
+
 TEST_F(ClosedRoom, IsBlackInside) {
   std::vector<std::vector<std::string>> engines = {{}, {"--integrator", "iterative"}};
 #if defined(ALHAZEN_WITH_EMBREE)

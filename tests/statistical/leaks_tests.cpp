@@ -193,11 +193,6 @@ Mesh bumpy() {
   return mesh;
 }
 
-Mesh stretched(Mesh mesh, const Vec3d& by) {
-  for (Vec3d& p : mesh.positions) p *= by;
-  return mesh;
-}
-
 template <class Real>
 void check_everywhere(const Mesh& mesh, bool is_convex) {
   const Transform turned = Transform::rotate(33, normalize(Vec3d{1, 2, 3})),
@@ -229,9 +224,6 @@ class Leaks : public ::testing::Test {};
 TYPED_TEST_SUITE(Leaks, Reals);
 
 TYPED_TEST(Leaks, Cube) { check_everywhere<TypeParam>(cube(), true); }
-/// From one end of a wall to the other, rays graze triangles that are a hundred times as long as wide.
-TYPED_TEST(Leaks, Corridor) { check_everywhere<TypeParam>(stretched(cube(), {100, 1, 1}), true); }
-TYPED_TEST(Leaks, Needle) { check_everywhere<TypeParam>(stretched(icosphere(3), {30, 1, 1}), true); }
 TYPED_TEST(Leaks, CoarseIcosphere) { check_everywhere<TypeParam>(icosphere(2), true); }
 TYPED_TEST(Leaks, FineIcosphere) { check_everywhere<TypeParam>(icosphere(4), true); }
 TYPED_TEST(Leaks, Bumpy) { check_everywhere<TypeParam>(bumpy(), false); }
