@@ -254,7 +254,7 @@ class SceneCompiler {
     placed_triangles_ = triangles;
     if (triangles > max_primitives_of_a_kind || vertices > 0xfffffff0u || world.size() > max_primitives_of_a_kind)
       throw InputError({scene_.name}, "the scene has " + std::to_string(triangles) + " triangles with " +
-                                          std::to_string(vertices) + " vertices, more than 2^30 or 2^32: split it");
+                                          std::to_string(vertices) + " vertices, more than 2^29 or 2^32: split it");
     if (scene_.instances.size() > Bvh8Child::max_index_count)
       throw InputError({scene_.name}, "the scene has " + std::to_string(scene_.instances.size()) +
                                           " instances, more than 2^26: split it");

@@ -11,12 +11,15 @@ namespace alhazen {
 
 namespace {
 
+constexpr uint32_t max_leaf_primitives = 16;
+
 /// Returns the number of lanes in a block.
 template <class Real>
 uint32_t lanes_of(PrimitiveKind kind) {
   switch (kind) {
-#define ALHAZEN_CASE(X, kind, Record, records, Block, blocks) \
-  case PrimitiveKind::kind:                                   \
+#define ALHAZEN_CASE(X, kind, Record, records, Block, blocks)                   \
+  case PrimitiveKind::kind:                                                     \
+    static_assert(max_leaf_primitives <= Block::lanes * Bvh8Child::max_blocks); \
     return Block::lanes;
     ALHAZEN_PRIMITIVES(ALHAZEN_CASE, )
 #undef ALHAZEN_CASE
@@ -60,11 +63,10 @@ void set_lane(MovingSphereBlock<Real>& block, uint32_t lane, const SceneArrays<R
 template <class Real>
 struct BlockCost {
   std::span<const PrimitiveId> primitives;
-  static constexpr uint32_t max_primitives = 16;
   static constexpr float instance_cost = 16;
 
   float operator()(uint32_t first, uint32_t count) const {
-    if (count > max_primitives) return std::numeric_limits<float>::infinity();
+    if (count > max_leaf_primitives) return std::numeric_limits<float>::infinity();
     if (count == 1 && primitives[first].kind() == PrimitiveKind::instance) return instance_cost;
     const PrimitiveKind kind = primitives[first].kind();
     for (uint32_t i = first; i < first + count; ++i)

@@ -23,7 +23,9 @@ ALHAZEN_HD inline uint32_t bits_of(double x) {
 /// Random bits derived from a ray and its hit, for choices that use no dimension of the sampler.
 template <class Real>
 ALHAZEN_HD uint32_t hash_of_hit(const Ray<Real>& ray, const Hit<Real>& hit) {
-  uint32_t h = combine32(hit.primitive.bits ^ mix32(hit.instance), bits_of(hit.t));
+  // Independent of how many bits PrimitiveId has for a kind.
+  const uint32_t primitive = static_cast<uint32_t>(hit.primitive.kind()) << 30 ^ hit.primitive.index();
+  uint32_t h = combine32(primitive ^ mix32(hit.instance), bits_of(hit.t));
   h = combine32(h, bits_of(ray.direction.x));
   h = combine32(h, bits_of(ray.direction.y));
   h = combine32(h, bits_of(ray.direction.z));

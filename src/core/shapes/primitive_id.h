@@ -19,21 +19,23 @@ enum class PrimitiveKind : uint32_t {
 
 /// Number of kinds, not counting `instance`.
 inline constexpr uint32_t primitive_kinds = static_cast<uint32_t>(PrimitiveKind::instance);
-static_assert(primitive_kinds <= 3, "PrimitiveId and Bvh8Child have two bits for a kind");
+static_assert(primitive_kinds <= 7, "PrimitiveId and Bvh8Child have three bits for a kind");
 
-/// Packs the kind into the two high bits and the index into the array of that kind into the rest.
+/// Packs the kind into the three high bits and the index into the array of that kind into the rest.
 struct PrimitiveId {
+  static constexpr uint32_t index_bits = 29;
+
   uint32_t bits = 0xffffffffu;
 
   PrimitiveId() = default;
   ALHAZEN_HD constexpr PrimitiveId(PrimitiveKind kind, uint32_t index)
-      : bits((static_cast<uint32_t>(kind) << 30) | index) {}
-  ALHAZEN_HD constexpr PrimitiveKind kind() const { return static_cast<PrimitiveKind>(bits >> 30); }
-  ALHAZEN_HD constexpr uint32_t index() const { return bits & 0x3fffffffu; }
+      : bits((static_cast<uint32_t>(kind) << index_bits) | index) {}
+  ALHAZEN_HD constexpr PrimitiveKind kind() const { return static_cast<PrimitiveKind>(bits >> index_bits); }
+  ALHAZEN_HD constexpr uint32_t index() const { return bits & ((1u << index_bits) - 1); }
   ALHAZEN_HD constexpr bool is_none() const { return bits == 0xffffffffu; }
   friend ALHAZEN_HD constexpr bool operator==(PrimitiveId, PrimitiveId) = default;
 };
-inline constexpr uint32_t max_primitives_of_a_kind = 0x3fffffffu;
+inline constexpr uint32_t max_primitives_of_a_kind = (1u << PrimitiveId::index_bits) - 1;
 
 inline constexpr uint32_t no_instance = 0xffffffffu;
 

@@ -20,16 +20,16 @@ struct Bvh8Child {
 #undef ALHAZEN_KIND
         kinds
   };
-  static constexpr uint32_t index_bits = 26, max_blocks = 15;
+  static constexpr uint32_t index_bits = 26, kind_shift = 29, max_blocks = 7;
 
   static constexpr uint32_t pack(Kind kind, uint32_t blocks, uint32_t first) {
-    return static_cast<uint32_t>(kind) << 30 | blocks << index_bits | first;
+    return static_cast<uint32_t>(kind) << kind_shift | blocks << index_bits | first;
   }
   /// Returns the kind of leaves with such primitives.
   static constexpr Kind kind(PrimitiveKind primitive) {
     return static_cast<Kind>(static_cast<uint32_t>(primitive) + 1);
   }
-  static constexpr Kind kind(uint32_t child) { return static_cast<Kind>(child >> 30); }
+  static constexpr Kind kind(uint32_t child) { return static_cast<Kind>(child >> kind_shift); }
   static constexpr uint32_t blocks(uint32_t child) { return child >> index_bits & max_blocks; }
   static constexpr uint32_t first(uint32_t child) { return child & ((1u << index_bits) - 1); }
   /// Returns the child for an instance, which is encoded as a leaf of spheres with 0 blocks and the instance's index.
@@ -37,7 +37,7 @@ struct Bvh8Child {
   static constexpr bool is_instance(uint32_t child) { return child >> index_bits == instance(0) >> index_bits; }
   static constexpr uint32_t max_index_count = 1u << index_bits;
   /// An empty leaf, which fills the unused slots of a node.
-  static constexpr uint32_t nothing = 1u << 30;
+  static constexpr uint32_t nothing = 1u << kind_shift;
 };
 
 struct alignas(32) Bvh8Node {
