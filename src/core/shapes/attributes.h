@@ -83,16 +83,6 @@ ALHAZEN_HD MeshTangent<Real> mesh_tangent(const SceneView<Real>& scene, const Hi
   return tangent;
 }
 
-template <class Real, SphereRecordOf<Real> Record>
-ALHAZEN_HD Real uv_density_of(const SceneView<Real>& scene, const Record& record, const Hit<Real>&, Real,
-                              const Vec3<Real>& normal, uint32_t) {
-  if (record.frame == no_sphere_frame) return 0;
-  // u = phi / (2 pi), v = theta / pi, area = r^2 sin(theta) dtheta dphi.
-  const Real cosine = dot(normal, scene.sphere_frames[record.frame].z);
-  const Real sine = max(safe_sqrt(1 - cosine * cosine), Real(1e-3));
-  return Real(0.5) * inv_pi<Real> * inv_pi<Real> / (record.radius * record.radius * sine);
-}
-
 template <class Real>
 ALHAZEN_HD Real uv_density_of(const SceneView<Real>& scene, const TriangleRecord& triangle, const Hit<Real>& hit,
                               Real time, const Vec3<Real>&, uint32_t uv_set) {

@@ -1,26 +1,15 @@
 #pragma once
 
-// Computes the surface interaction at a hit: the position with a bound on its error, normals and uv.
+// Computes the surface interaction at a hit: the position with a bound on its error, normals and uv. Here are those on
+// triangles; other shapes have a header of their own.
 
 #include "core/math/field_list.h"
 #include "core/scene_view.h"
 #include "core/shapes/instance.h"
 #include "core/shapes/primitives.h"
+#include "core/shapes/surface_interaction.h"
 
 namespace ALHAZEN_CORE {
-
-template <class Real>
-struct SurfaceInteraction {
-  Vec3<Real> position;
-  Vec3<Real> position_error;  ///< bound on the error of each coordinate
-  Vec3<Real> normal;          ///< geometric, unit length, on the front of the surface
-  Vec3<Real> shading_normal;
-  Vec2<Real> uv;
-  uint32_t surface;
-  Real time;
-  PrimitiveId primitive{};  ///< the primitive that was hit, within `instance`
-  uint32_t instance = no_instance;
-};
 
 /// Prefetches the record of the primitive that was hit. For CPUs.
 template <class Real>
@@ -209,26 +198,6 @@ ALHAZEN_HD ALHAZEN_NOINLINE SurfaceInteraction<Real> triangle_interaction(const 
   si.uv = triangle_uv(scene, triangle, hit);
   si.surface = triangle.surface;
   return si;
-}
-
-/// Sets the interaction on a sphere. The hit point is projected onto the sphere along the radius, so its error depends
-/// only on centre and radius, not on the length of the ray.
-template <class Real, SphereRecordOf<Real> Record>
-ALHAZEN_HD ALHAZEN_HOT void set_interaction(const SceneView<Real>& scene, const Record& record, const Ray<Real>& ray,
-                                            const Hit<Real>& hit, SurfaceInteraction<Real>& si) {
-  const auto [centre, radius] = sphere_at(record, ray.time);
-  const Vec3<Real> outward = normalize(ray.origin - centre + ray.direction * hit.t);
-  const Vec3<Real> from_centre = outward * radius;
-  si.position = centre + from_centre;
-  si.position_error = (abs(centre) + splat(radius)) * rounding_bound<Real>(8);
-  si.normal = scene.surfaces[record.surface].flip_normal ? -outward : outward;
-  si.shading_normal = si.normal;
-  si.uv = {};
-  if (record.frame != no_sphere_frame) {
-    const SphereFrame<Real>& axes = scene.sphere_frames[record.frame];
-    si.uv = sphere_uv(Vec3<Real>{dot(outward, axes.x), dot(outward, axes.y), dot(outward, axes.z)});
-  }
-  si.surface = record.surface;
 }
 
 /// Returns the interaction on a triangle of an instance, in world space at `time`.

@@ -3,9 +3,10 @@
 // Lists the kinds of primitives in the order of PrimitiveKind. PRIMITIVE(X, kind, record, records, block, blocks) gives
 // the type of a kind's record, the array of records in SceneView, the type of its block in BVH8 leaves, and the array
 // of blocks. X is passed through. The enum, the arrays of the scene and every dispatch expand from this list. Each kind
-// implements these overloads for its record or block:
-//   intersect_record   scalar intersection test (triangle.h, sphere.h)
-//   bounds_of          bounding box (triangle.h, sphere.h)
+// implements these overloads for its record or block, all of them in a header of its own (sphere.h); those of triangles
+// are in several, which are named here:
+//   intersect_record   scalar intersection test (triangle.h)
+//   bounds_of          bounding box (triangle.h)
 //   set_interaction    position, normals and uv at a hit (interaction.h)
 //   uv_density_of      uv area per surface area (attributes.h)
 //   tangents_of        partial derivatives of the position with respect to u and v (tangents.h)

@@ -1,6 +1,7 @@
 #pragma once
 
-// Spheres: intersection that stays accurate for radii in the thousands, and sampling of the cone that they subtend.
+// Spheres: intersection that stays accurate for radii in the thousands, the surface at a hit, and sampling of the cone
+// that they subtend.
 
 #include <limits>
 
@@ -10,6 +11,7 @@
 #include "core/math/scalar.h"
 #include "core/scene_view.h"
 #include "core/shapes/sheared_ray.h"
+#include "core/shapes/surface_interaction.h"
 
 namespace ALHAZEN_CORE {
 
@@ -170,6 +172,58 @@ ALHAZEN_HD Vec2<Real> sphere_uv(const Vec3<Real>& local_normal) {
   if (phi < 0) phi += 2 * pi<Real>;
   const Real theta = std::acos(clamp(local_normal.z, Real(-1), Real(1)));
   return {phi * Real(0.5) * inv_pi<Real>, 1 - theta * inv_pi<Real>};
+}
+
+/// Sets the interaction on a sphere. The hit point is projected onto the sphere along the radius, so its error depends
+/// only on centre and radius, not on the length of the ray.
+template <class Real, SphereRecordOf<Real> Record>
+ALHAZEN_HD ALHAZEN_HOT void set_interaction(const SceneView<Real>& scene, const Record& record, const Ray<Real>& ray,
+                                            const Hit<Real>& hit, SurfaceInteraction<Real>& si) {
+  const auto [centre, radius] = sphere_at(record, ray.time);
+  const Vec3<Real> outward = normalize(ray.origin - centre + ray.direction * hit.t);
+  const Vec3<Real> from_centre = outward * radius;
+  si.position = centre + from_centre;
+  si.position_error = (abs(centre) + splat(radius)) * rounding_bound<Real>(8);
+  si.normal = scene.surfaces[record.surface].flip_normal ? -outward : outward;
+  si.shading_normal = si.normal;
+  si.uv = {};
+  if (record.frame != no_sphere_frame) {
+    const SphereFrame<Real>& axes = scene.sphere_frames[record.frame];
+    si.uv = sphere_uv(Vec3<Real>{dot(outward, axes.x), dot(outward, axes.y), dot(outward, axes.z)});
+  }
+  si.surface = record.surface;
+}
+
+template <class Real, SphereRecordOf<Real> Record>
+ALHAZEN_HD Real uv_density_of(const SceneView<Real>& scene, const Record& record, const Hit<Real>&, Real,
+                              const Vec3<Real>& normal, uint32_t) {
+  if (record.frame == no_sphere_frame) return 0;
+  // u = phi / (2 pi), v = theta / pi, area = r^2 sin(theta) dtheta dphi.
+  const Real cosine = dot(normal, scene.sphere_frames[record.frame].z);
+  const Real sine = max(safe_sqrt(1 - cosine * cosine), Real(1e-3));
+  return Real(0.5) * inv_pi<Real> * inv_pi<Real> / (record.radius * record.radius * sine);
+}
+
+/// Returns the tangents of a sphere: u goes round the polar axis from x towards y of its object space, v from the south
+/// pole to the north pole.
+template <class Real>
+ALHAZEN_HD SurfaceTangents<Real> sphere_tangents(const SphereFrame<Real>& axes, Real radius,
+                                                 const Vec3<Real>& outward) {
+  // The rotation from x to y is counterclockwise about z, or clockwise if the sphere is mirrored.
+  const Real turn = dot(cross(axes.x, axes.y), axes.z) < 0 ? -radius : radius;
+  const Vec3<Real> around = cross(axes.z, outward) * turn;
+  const Real ring = length(around);
+  if (!(ring > 0)) return {};
+  const Vec3<Real> up = cross(outward, around * (1 / ring)) * turn;
+  return {around * (2 * pi<Real>), up * pi<Real>};
+}
+
+template <class Real, SphereRecordOf<Real> Record>
+ALHAZEN_HD SurfaceTangents<Real> tangents_of(const SceneView<Real>& scene, const Record& record, const Hit<Real>&,
+                                             const SurfaceInteraction<Real>& si) {
+  if (record.frame == no_sphere_frame) return {};
+  const Vec3<Real> outward = scene.surfaces[si.surface].flip_normal ? -si.normal : si.normal;
+  return sphere_tangents(scene.sphere_frames[record.frame], record.radius, outward);
 }
 
 }  // namespace ALHAZEN_CORE

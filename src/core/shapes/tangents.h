@@ -6,12 +6,6 @@
 
 namespace ALHAZEN_CORE {
 
-/// Partial derivatives of the position with respect to u and v, at the hit.
-template <class Real>
-struct SurfaceTangents {
-  Vec3<Real> dpdu{}, dpdv{};
-};
-
 template <class Real>
 ALHAZEN_HD SurfaceTangents<Real> triangle_tangents(const SceneView<Real>& scene, const TriangleRecord& triangle) {
   const SurfaceRecord& surface = scene.surfaces[triangle.surface];
@@ -52,28 +46,6 @@ ALHAZEN_HD SurfaceTangents<Real> tangents_of(const SceneView<Real>& scene, const
   }
   if (mesh.handedness == 0) return own;
   return {mesh.direction, cross(si.shading_normal, mesh.direction) * mesh.handedness};
-}
-
-/// Returns the tangents of a sphere: u goes round the polar axis from x towards y of its object space, v from the south
-/// pole to the north pole.
-template <class Real>
-ALHAZEN_HD SurfaceTangents<Real> sphere_tangents(const SphereFrame<Real>& axes, Real radius,
-                                                 const Vec3<Real>& outward) {
-  // The rotation from x to y is counterclockwise about z, or clockwise if the sphere is mirrored.
-  const Real turn = dot(cross(axes.x, axes.y), axes.z) < 0 ? -radius : radius;
-  const Vec3<Real> around = cross(axes.z, outward) * turn;
-  const Real ring = length(around);
-  if (!(ring > 0)) return {};
-  const Vec3<Real> up = cross(outward, around * (1 / ring)) * turn;
-  return {around * (2 * pi<Real>), up * pi<Real>};
-}
-
-template <class Real, SphereRecordOf<Real> Record>
-ALHAZEN_HD SurfaceTangents<Real> tangents_of(const SceneView<Real>& scene, const Record& record, const Hit<Real>&,
-                                             const SurfaceInteraction<Real>& si) {
-  if (record.frame == no_sphere_frame) return {};
-  const Vec3<Real> outward = scene.surfaces[si.surface].flip_normal ? -si.normal : si.normal;
-  return sphere_tangents(scene.sphere_frames[record.frame], record.radius, outward);
 }
 
 /// Returns the tangents at the hit, or zero if the uvs do not define them.
