@@ -39,23 +39,11 @@ void set_lane(TriangleBlock<Real>& block, uint32_t lane, const SceneArrays<Real>
       block.vertex[v][axis][lane] = scene.positions[triangle.vertex[is_there ? v : 0]][axis];
 }
 
-template <class Block, class Record, class Real>
-void set_sphere(Block& block, uint32_t lane, const SceneArrays<Real>&, const Record& sphere, bool is_there) {
-  for (int axis = 0; axis < 3; ++axis) block.centre[axis][lane] = sphere.centre[axis];
-  block.radius[lane] = is_there ? sphere.radius : std::numeric_limits<Real>::quiet_NaN();
-}
-
-template <class Real>
-void set_lane(SphereBlock<Real>& block, uint32_t lane, const SceneArrays<Real>& scene, const SphereRecord<Real>& sphere,
+template <class Record, class Real>
+void set_lane(RecordBlock<Record>& block, uint32_t lane, const SceneArrays<Real>&, const Record& record,
               bool is_there) {
-  set_sphere(block, lane, scene, sphere, is_there);
-}
-
-template <class Real>
-void set_lane(MovingSphereBlock<Real>& block, uint32_t lane, const SceneArrays<Real>& scene,
-              const MovingSphereRecord<Real>& sphere, bool is_there) {
-  set_sphere(block, lane, scene, sphere, is_there);
-  for (int axis = 0; axis < 3; ++axis) block.motion[axis][lane] = sphere.motion[axis];
+  for (int k = 0; k < Record::numbers; ++k)
+    block.number[k][lane] = is_there ? record.number(k) : std::numeric_limits<Real>::quiet_NaN();
 }
 
 /// The cost of a leaf: its number of blocks, or infinity if the primitives are of several kinds or too many. An

@@ -10,11 +10,11 @@
 //   set_interaction    position, normals and uv at a hit (interaction.h)
 //   uv_density_of      uv area per surface area (attributes.h)
 //   tangents_of        partial derivatives of the position with respect to u and v (tangents.h)
+//   intersect_lanes    intersection test on SIMD lanes (core/bvh/bvh8/triangle_lanes.h)
 //   copy_to            copy in a CWBVH leaf; CwbvhTest is its intersection test (core/bvh/cwbvh/primitive.h)
-//   intersect_block    intersection test on SIMD lanes (core/bvh/bvh8/blocks.h, packets.h); set_lane fills a block
-//                      (compile/bvh/bvh8_builder.cpp)
 
-#define ALHAZEN_PRIMITIVES(PRIMITIVE, X)                                                  \
-  PRIMITIVE(X, triangle, TriangleRecord, triangles, TriangleBlock<Real>, triangle_blocks) \
-  PRIMITIVE(X, sphere, SphereRecord<Real>, spheres, SphereBlock<Real>, sphere_blocks)     \
-  PRIMITIVE(X, moving_sphere, MovingSphereRecord<Real>, moving_spheres, MovingSphereBlock<Real>, moving_sphere_blocks)
+#define ALHAZEN_PRIMITIVES(PRIMITIVE, X)                                                                       \
+  PRIMITIVE(X, triangle, TriangleRecord, triangles, TriangleBlock<Real>, triangle_blocks)                      \
+  PRIMITIVE(X, sphere, SphereRecord<Real>, spheres, RecordBlock<SphereRecord<Real>>, sphere_blocks)            \
+  PRIMITIVE(X, moving_sphere, MovingSphereRecord<Real>, moving_spheres, RecordBlock<MovingSphereRecord<Real>>, \
+            moving_sphere_blocks)

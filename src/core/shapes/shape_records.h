@@ -1,6 +1,9 @@
 #pragma once
 
 // The memory layout of shapes. All are in world space, except the triangles of objects, which are in object space.
+//
+// Records of all kinds but triangles give their kind, and the numbers that their intersection test reads: there are
+// `numbers`, and number(k) is the k-th.
 
 #include <cstdint>
 
@@ -18,20 +21,30 @@ struct TriangleRecord {
 
 template <class Real>
 struct SphereRecord {
+  static constexpr PrimitiveKind kind = PrimitiveKind::sphere;
+  static constexpr int numbers = 4;
+
   Vec3<Real> centre;
   Real radius;
   uint32_t surface;
   uint32_t frame;  ///< index into sphere_frames, or no_sphere_frame if no texture uses uv
+
+  ALHAZEN_HD constexpr Real number(int k) const { return k < 3 ? centre[k] : radius; }
 };
 
 /// A sphere whose centre moves linearly: centre + time * motion, with time in [0, 1] over the shutter interval.
 template <class Real>
 struct MovingSphereRecord {
+  static constexpr PrimitiveKind kind = PrimitiveKind::moving_sphere;
+  static constexpr int numbers = 7;
+
   Vec3<Real> centre;
   Real radius;
   Vec3<Real> motion;
   uint32_t surface;
   uint32_t frame;
+
+  ALHAZEN_HD constexpr Real number(int k) const { return k < 3 ? centre[k] : k == 3 ? radius : motion[k - 4]; }
 };
 
 /// The axes of a sphere's object space in world space, for its uv coordinates: z is the polar axis.

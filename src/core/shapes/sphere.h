@@ -10,6 +10,7 @@
 #include "core/math/ray.h"
 #include "core/math/scalar.h"
 #include "core/scene_view.h"
+#include "core/shapes/record_lanes.h"
 #include "core/shapes/sheared_ray.h"
 #include "core/shapes/surface_interaction.h"
 
@@ -67,6 +68,53 @@ ALHAZEN_HD ALHAZEN_INLINE bool intersect_record(const SceneView<Real>&, const Re
                                                 Hit<Real>& hit) {
   const Sphere<Real> sphere = sphere_at(record, ray.time);
   return intersect_sphere(ray, sphere.centre, sphere.radius, t_max, hit.t);
+}
+
+/// Intersects rays with spheres on SIMD lanes, by the same operations in the same order.
+template <class V>
+struct SphereLanes {
+  V t;
+  uint32_t crossed = 0;  ///< one bit per lane whose sphere may be hit; if none is set, `t` is not computed
+
+  /// `f` is the vector from the centres to the origins of the rays, `d` the unit directions.
+  ALHAZEN_INLINE SphereLanes(const V (&f)[3], const V (&d)[3], const V& radius) {
+    const V zero = V::all(0);
+    const V b = zero - (f[0] * d[0] + f[1] * d[1] + f[2] * d[2]);
+    const V closest[3] = {f[0] + d[0] * b, f[1] + d[1] * b, f[2] + d[2] * b};
+    const V discriminant =
+        radius * radius - (closest[0] * closest[0] + closest[1] * closest[1] + closest[2] * closest[2]);
+    crossed = less_equal(zero, discriminant);
+    if (crossed == 0) return;
+    const V c = f[0] * f[0] + f[1] * f[1] + f[2] * f[2] - radius * radius;
+    // If the origin is outside and the sphere behind it, both distances are negative and need not be computed.
+    crossed &= ~(less(b, zero) & less(zero, c));
+    if (crossed == 0) return;
+    const V root = square_root(discriminant);
+    const V q = where_less(b, zero, b - root, b + root);
+    const V other = c / q;
+    const V near = where_less(b, zero, q, other), far = where_less(b, zero, other, q);
+    t = where_less(zero, c, near, far);
+  }
+
+  template <class Real>
+  ALHAZEN_INLINE void fill(int, Hit<Real>& hit) const {
+    hit.b1 = hit.b2 = 0;
+  }
+};
+
+template <class V, class Real, class Read>
+ALHAZEN_INLINE SphereLanes<V> intersect_lanes(const NumbersOf<SphereRecord<Real>, Read>& sphere,
+                                              const RayLanes<V>& ray) {
+  const V f[3] = {ray.origin[0] - sphere[0], ray.origin[1] - sphere[1], ray.origin[2] - sphere[2]};
+  return {f, ray.direction, sphere[3]};
+}
+
+template <class V, class Real, class Read>
+ALHAZEN_INLINE SphereLanes<V> intersect_lanes(const NumbersOf<MovingSphereRecord<Real>, Read>& sphere,
+                                              const RayLanes<V>& ray) {
+  const auto from_centre = [&](int axis) { return ray.origin[axis] - (sphere[axis] + sphere[4 + axis] * ray.time); };
+  const V f[3] = {from_centre(0), from_centre(1), from_centre(2)};
+  return {f, ray.direction, sphere[3]};
 }
 
 /// Returns the bounding box, padded by the rounding error of centre +- radius.

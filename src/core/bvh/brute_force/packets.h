@@ -6,28 +6,18 @@
 
 #include <bit>
 
-#include "core/bvh/bvh8/primitive_tests.h"
 #include "core/bvh/bvh8/ray.h"
+#include "core/bvh/bvh8/triangle_lanes.h"
 
 namespace ALHAZEN_CORE {
 
 template <class Real>
 class BruteForcePackets {
  public:
-  explicit BruteForcePackets(const SceneView<Real>& scene)
-      : checks_narrow_triangles_(scene.has_narrow_triangles),
-        triangles_(scene.triangles_count),
-        spheres_(scene.spheres_count),
-        moving_(scene.moving_spheres_count) {
-    is_worthwhile_ = scene.instances_count == 0 && triangles_ <= max_triangles && spheres_ + moving_ <= max_spheres &&
-                     triangles_ * max_spheres + (spheres_ + moving_) * max_triangles <= max_triangles * max_spheres &&
-                     take_triangles(scene);
-    if (!is_worthwhile_) return;
-    for (uint32_t i = 0; i < spheres_; ++i) sphere_[i] = {scene.spheres[i].centre, {}, scene.spheres[i].radius};
-    for (uint32_t i = 0; i < moving_; ++i) {
-      const MovingSphereRecord<Real>& sphere = scene.moving_spheres[i];
-      sphere_[spheres_ + i] = {sphere.centre, sphere.motion, sphere.radius};
-    }
+  explicit BruteForcePackets(const SceneView<Real>& scene) : scene_(&scene) {
+    const uint32_t triangles = scene.triangles_count, others = count_of_others(scene);
+    is_worthwhile_ = scene.instances_count == 0 && triangles <= max_triangles && others <= max_others &&
+                     triangles * max_others + others * max_triangles <= max_triangles * max_others && take_triangles();
   }
 
   /// Returns whether the scene is small enough. Otherwise no other function may be called.
@@ -48,8 +38,9 @@ class BruteForcePackets {
 
  private:
   static constexpr uint32_t width = max_register_bytes / sizeof(Real);
-  /// Break-even counts, from which on a tree is as fast: measured on scenes of triangles only and of spheres only.
-  static constexpr uint32_t max_triangles = 7 * width, max_spheres = 8 * width;
+  /// Break-even counts, from which on a tree is as fast: measured on scenes of triangles only and of spheres only, for
+  /// which all other kinds count.
+  static constexpr uint32_t max_triangles = 7 * width, max_others = 8 * width;
   static constexpr uint32_t max_vertices = max_triangles;
   using V = Lanes<Real, static_cast<int>(width)>;
 
@@ -59,7 +50,7 @@ class BruteForcePackets {
     alignas(64) Real left[width];  ///< index of the triangle that the ray starts on, or -1
   };
 
-  /// The closest hits so far. `which` numbers all primitives: first triangles, then spheres, then moving spheres.
+  /// The closest hits so far. `which` numbers all primitives, kind by kind.
   struct Hits {
     V t, b1, b2, which;
     uint32_t lanes = 0;
@@ -72,10 +63,10 @@ class BruteForcePackets {
   };
 
   /// Copies the triangles and merges vertices at the same position. Returns false if there are too many vertices.
-  bool take_triangles(const SceneView<Real>& scene) {
-    for (uint32_t i = 0; i < triangles_; ++i)
+  bool take_triangles() {
+    for (uint32_t i = 0; i < scene_->triangles_count; ++i)
       for (int v = 0; v < 3; ++v) {
-        const Vec3<Real>& p = scene.positions[scene.triangles[i].vertex[v]];
+        const Vec3<Real>& p = scene_->positions[scene_->triangles[i].vertex[v]];
         uint32_t at = vertices_;  // searches backwards, since neighbouring triangles share vertices
         while (at > 0 && __builtin_memcmp(&vertex_[at - 1], &p, sizeof(p)) != 0) --at;
         if (at == 0) {
@@ -100,15 +91,20 @@ class BruteForcePackets {
         rays.direction[axis][i] = r.direction[axis];
       }
       rays.time[i] = r.time;
-      rays.left[i] = r.left.bits < triangles_ ? static_cast<Real>(r.left.bits) : Real(-1);
+      rays.left[i] = r.left.bits < scene_->triangles_count ? static_cast<Real>(r.left.bits) : Real(-1);
       rays.limit[i] = i < size && has_finite_origin(r) ? t_max(from) : Real(0);
     }
     const uint32_t wanted = (1u << (size - 1)) * 2 - 1;
     Hits hits;
     hits.t = V::load(rays.limit);
     hits.b1 = hits.b2 = hits.which = V::all(0);
-    if (triangles_ > 0) intersect_triangles<any_hit>(rays, wanted, hits);
-    if (spheres_ + moving_ > 0) intersect_spheres<any_hit>(rays, wanted, hits);
+    uint32_t first_of_kind = 0;
+#define ALHAZEN_INTERSECT(X, kind, Record, records, Block, blocks)                                   \
+  if (scene_->records##_count > 0)                                                                   \
+    intersect<any_hit>(scene_->records, scene_->records##_count, first_of_kind, rays, wanted, hits); \
+  first_of_kind += scene_->records##_count;
+    ALHAZEN_PRIMITIVES(ALHAZEN_INTERSECT, )
+#undef ALHAZEN_INTERSECT
     alignas(64) Real t[width], b1[width], b2[width], which[width];
     hits.t.store(t);
     hits.b1.store(b1);
@@ -123,7 +119,8 @@ class BruteForcePackets {
   // Primitives are tested in the order of their identifiers, so that the lowest wins a tie.
 
   template <bool any_hit>
-  ALHAZEN_INLINE void intersect_triangles(const Rays& rays, uint32_t wanted, Hits& hits) const {
+  ALHAZEN_INLINE void intersect(const TriangleRecord*, uint32_t count, uint32_t, const Rays& rays, uint32_t wanted,
+                                Hits& hits) const {
     const V d[3] = {V::load(rays.direction[0]), V::load(rays.direction[1]), V::load(rays.direction[2])};
     // Masks of the rays whose directions are longest along x and along y.
     const uint32_t x_over_y = less(magnitude(d[1]), magnitude(d[0]));
@@ -146,9 +143,9 @@ class BruteForcePackets {
       turned(V::all(vertex_[i].x), V::all(vertex_[i].y), V::all(vertex_[i].z), p);
       sheared[i] = {p, origin, shear};
     }
-    for (uint32_t i = 0; i < triangles_; ++i) {
+    for (uint32_t i = 0; i < count; ++i) {
       const uint32_t* const v = triangle_[i].vertex;
-      const TriangleLanes<V> at(sheared[v[0]], sheared[v[1]], sheared[v[2]], shear[2], checks_narrow_triangles_);
+      const TriangleLanes<V> at(sheared[v[0]], sheared[v[1]], sheared[v[2]], shear[2], scene_->has_narrow_triangles);
       if (at.inside == 0) continue;
       uint32_t lanes = at.inside & less(V::all(0), at.t) & less(at.t, hits.t);
       if (lanes == 0) continue;
@@ -160,50 +157,52 @@ class BruteForcePackets {
     }
   }
 
-  template <bool any_hit>
-  ALHAZEN_INLINE void intersect_spheres(const Rays& rays, uint32_t wanted, Hits& hits) const {
-    const V direction[3] = {V::load(rays.direction[0]), V::load(rays.direction[1]), V::load(rays.direction[2])};
-    for (uint32_t i = 0; i < spheres_ + moving_; ++i) {
+  /// Intersects the records of a kind, whose first one has number `first`.
+  template <bool any_hit, class Record>
+  ALHAZEN_INLINE void intersect(const Record* records, uint32_t count, uint32_t first, const Rays& rays,
+                                uint32_t wanted, Hits& hits) const {
+    const RayLanes<V> all{{V::load(rays.origin[0]), V::load(rays.origin[1]), V::load(rays.origin[2])},
+                          {V::load(rays.direction[0]), V::load(rays.direction[1]), V::load(rays.direction[2])},
+                          V::load(rays.time)};
+    for (uint32_t i = 0; i < count; ++i) {
       if (any_hit && (wanted & ~hits.lanes) == 0) return;
-      const Sphere& sphere = sphere_[i];
-      const auto from_centre = [&](int axis) {
-        const V centre = i < spheres_ ? V::all(sphere.centre[axis])
-                                      : V::all(sphere.centre[axis]) + V::all(sphere.motion[axis]) * V::load(rays.time);
-        return V::load(rays.origin[axis]) - centre;
-      };
-      const V f[3] = {from_centre(0), from_centre(1), from_centre(2)};
-      const SphereLanes<V> at(f, direction, V::all(sphere.radius));
+      const auto number = [&](int k) ALHAZEN_INLINE_LAMBDA { return V::all(records[i].number(k)); };
+      const auto at = intersect_lanes(numbers_of<Record>(number), all);
       if (at.crossed == 0) continue;
       const uint32_t lanes = at.crossed & less(V::all(0), at.t) & less(at.t, hits.t);
       if (lanes == 0) continue;
-      hits.take(lanes, at.t, static_cast<Real>(triangles_ + i));
+      hits.take(lanes, at.t, static_cast<Real>(first + i));
       hits.b1 = choose(lanes, V::all(0), hits.b1);
       hits.b2 = choose(lanes, V::all(0), hits.b2);
     }
   }
 
   PrimitiveId primitive(uint32_t which) const {
-    if (which < triangles_) return {PrimitiveKind::triangle, which};
-    which -= triangles_;
-    if (which < spheres_) return {PrimitiveKind::sphere, which};
-    return {PrimitiveKind::moving_sphere, which - spheres_};
+#define ALHAZEN_NUMBERED(X, kind, Record, records, Block, blocks)           \
+  if (which < scene_->records##_count) return {PrimitiveKind::kind, which}; \
+  which -= scene_->records##_count;
+    ALHAZEN_PRIMITIVES(ALHAZEN_NUMBERED, )
+#undef ALHAZEN_NUMBERED
+    return {};
+  }
+
+  static uint32_t count_of_others(const SceneView<Real>& scene) {
+    uint32_t count = 0;
+#define ALHAZEN_ADD(X, kind, Record, records, Block, blocks) count += scene.records##_count;
+    ALHAZEN_PRIMITIVES(ALHAZEN_ADD, )
+#undef ALHAZEN_ADD
+    return count - scene.triangles_count;
   }
 
   struct Triangle {
     uint32_t vertex[3];  ///< in vertex_
   };
-  struct Sphere {
-    Vec3<Real> centre, motion;
-    Real radius;
-  };
 
-  uint32_t checks_narrow_triangles_;  ///< SceneView::has_narrow_triangles
-  uint32_t triangles_, spheres_, moving_;
+  const SceneView<Real>* scene_;
   bool is_worthwhile_;
   Triangle triangle_[max_triangles];
   uint32_t vertices_ = 0;
   Vec3<Real> vertex_[max_vertices];
-  Sphere sphere_[max_spheres];
 };
 
 }  // namespace ALHAZEN_CORE

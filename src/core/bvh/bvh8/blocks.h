@@ -3,7 +3,7 @@
 // Intersects one ray with all primitives of a block at once.
 
 #include "core/bvh/bvh8/node.h"
-#include "core/bvh/bvh8/primitive_tests.h"
+#include "core/bvh/bvh8/triangle_lanes.h"
 
 namespace ALHAZEN_CORE {
 
@@ -44,34 +44,17 @@ ALHAZEN_INLINE bool intersect_block(const TriangleBlock<Real>& block, const Ray<
   return take_nearest(hits, hits.inside, block.index, PrimitiveKind::triangle, ray.left, hit);
 }
 
-template <class V, class Real>
-ALHAZEN_INLINE bool intersect_spheres(const V (&f)[3], const Real* radii, const uint32_t* index, PrimitiveKind kind,
-                                      const Ray<Real>& ray, Hit<Real>& hit) {
-  const V d[3] = {V::all(ray.direction.x), V::all(ray.direction.y), V::all(ray.direction.z)};
-  const SphereLanes<V> hits(f, d, V::load(radii));
+template <class Record, class Real>
+ALHAZEN_INLINE bool intersect_block(const RecordBlock<Record>& block, const Ray<Real>& ray, const ShearedRay<Real>&,
+                                    Hit<Real>& hit) {
+  using V = Lanes<Real, RecordBlock<Record>::lanes>;
+  const RayLanes<V> rays{{V::all(ray.origin.x), V::all(ray.origin.y), V::all(ray.origin.z)},
+                         {V::all(ray.direction.x), V::all(ray.direction.y), V::all(ray.direction.z)},
+                         V::all(ray.time)};
+  const auto number = [&](int k) ALHAZEN_INLINE_LAMBDA { return V::load(block.number[k]); };
+  const auto hits = intersect_lanes(numbers_of<Record>(number), rays);
   if (hits.crossed == 0) return false;
-  return take_nearest(hits, hits.crossed, index, kind, PrimitiveId(), hit);
-}
-
-template <class Real>
-ALHAZEN_INLINE bool intersect_block(const SphereBlock<Real>& block, const Ray<Real>& ray, const ShearedRay<Real>&,
-                                    Hit<Real>& hit) {
-  using V = Lanes<Real, SphereBlock<Real>::lanes>;
-  const V f[3] = {V::all(ray.origin.x) - V::load(block.centre[0]), V::all(ray.origin.y) - V::load(block.centre[1]),
-                  V::all(ray.origin.z) - V::load(block.centre[2])};
-  return intersect_spheres(f, block.radius, block.index, PrimitiveKind::sphere, ray, hit);
-}
-
-template <class Real>
-ALHAZEN_INLINE bool intersect_block(const MovingSphereBlock<Real>& block, const Ray<Real>& ray, const ShearedRay<Real>&,
-                                    Hit<Real>& hit) {
-  using V = Lanes<Real, MovingSphereBlock<Real>::lanes>;
-  const auto from_centre = [&](int axis) {
-    const V centre = V::load(block.centre[axis]) + V::load(block.motion[axis]) * V::all(ray.time);
-    return V::all(ray.origin[axis]) - centre;
-  };
-  const V f[3] = {from_centre(0), from_centre(1), from_centre(2)};
-  return intersect_spheres(f, block.radius, block.index, PrimitiveKind::moving_sphere, ray, hit);
+  return take_nearest(hits, hits.crossed, block.index, Record::kind, PrimitiveId(), hit);
 }
 
 template <class Block, class Real>

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "core/shapes/primitive_id.h"
+#include "core/shapes/shape_records.h"
 
 namespace ALHAZEN_CORE {
 
@@ -53,22 +53,15 @@ struct TriangleBlock {
   uint32_t index[lanes];     ///< in SceneView::triangles
 };
 
-/// Unused lanes have a radius of NaN.
-template <class Real>
-struct SphereBlock {
-  static constexpr int lanes = 8;
-  Real centre[3][lanes];
-  Real radius[lanes];
-  uint32_t index[lanes];  ///< in SceneView::spheres
-};
+template <class Record>
+struct RecordBlock;
 
-template <class Real>
-struct MovingSphereBlock {
+/// Records of one kind other than triangles. Unused lanes hold NaN.
+template <template <class> class Record, class Real>
+struct RecordBlock<Record<Real>> {
   static constexpr int lanes = 8;
-  Real centre[3][lanes];
-  Real motion[3][lanes];
-  Real radius[lanes];
-  uint32_t index[lanes];  ///< in SceneView::moving_spheres
+  Real number[Record<Real>::numbers][lanes];  ///< those that the intersection test reads
+  uint32_t index[lanes];                      ///< in the array of these records
 };
 
 }  // namespace ALHAZEN_CORE

@@ -251,26 +251,15 @@ class RayPacket {
     take(hits, hits.inside & rays, PrimitiveId(PrimitiveKind::triangle, block.index[p]));
   }
 
-  ALHAZEN_INLINE void intersect_primitive_of(const SphereBlock<Real>& block, int p, uint32_t rays) {
-    const auto from_centre = [&](int axis) { return V::load(origin_[axis]) - V::all(block.centre[axis][p]); };
-    const V f[3] = {from_centre(0), from_centre(1), from_centre(2)};
-    intersect_sphere_of(f, block.radius[p], PrimitiveId(PrimitiveKind::sphere, block.index[p]), rays);
-  }
-
-  ALHAZEN_INLINE void intersect_primitive_of(const MovingSphereBlock<Real>& block, int p, uint32_t rays) {
-    const auto from_centre = [&](int axis) {
-      const V centre = V::all(block.centre[axis][p]) + V::all(block.motion[axis][p]) * V::load(time_);
-      return V::load(origin_[axis]) - centre;
-    };
-    const V f[3] = {from_centre(0), from_centre(1), from_centre(2)};
-    intersect_sphere_of(f, block.radius[p], PrimitiveId(PrimitiveKind::moving_sphere, block.index[p]), rays);
-  }
-
-  ALHAZEN_INLINE void intersect_sphere_of(const V (&f)[3], Real radius, PrimitiveId id, uint32_t rays) {
-    const V direction[3] = {V::load(direction_[0]), V::load(direction_[1]), V::load(direction_[2])};
-    const SphereLanes<V> hits(f, direction, V::all(radius));
+  template <class Record>
+  ALHAZEN_INLINE void intersect_primitive_of(const RecordBlock<Record>& block, int p, uint32_t rays) {
+    const RayLanes<V> all{{V::load(origin_[0]), V::load(origin_[1]), V::load(origin_[2])},
+                          {V::load(direction_[0]), V::load(direction_[1]), V::load(direction_[2])},
+                          V::load(time_)};
+    const auto number = [&](int k) ALHAZEN_INLINE_LAMBDA { return V::all(block.number[k][p]); };
+    const auto hits = intersect_lanes(numbers_of<Record>(number), all);
     if ((hits.crossed & rays) == 0) return;
-    take(hits, hits.crossed & rays, id);
+    take(hits, hits.crossed & rays, PrimitiveId(Record::kind, block.index[p]));
   }
 
   /// Updates the hits of `rays` with one primitive, as take_nearest does for one ray. Comparing with `left` suffices

@@ -1,8 +1,8 @@
 #pragma once
 
-// The primitive tests of core/shapes/ on SIMD lanes. They perform the same operations in the same order, so that hits
-// are bitwise identical for every instruction set. A lane pairs a ray with a primitive: one ray with many primitives
-// (blocks.h), or many rays with one primitive (packets.h).
+// The test of core/shapes/triangle.h on SIMD lanes. It performs the same operations in the same order, so that hits are
+// bitwise identical for every instruction set. A lane pairs a ray with a triangle: one ray with many triangles
+// (blocks.h), or many rays with one triangle (packets.h).
 
 #include <bit>
 #include <type_traits>
@@ -88,38 +88,6 @@ struct TriangleLanes {
                                                 const V (&shear)[3]) {
     const V p[3] = {vertex(v, 0), vertex(v, 1), vertex(v, 2)};
     return {p, origin, shear};
-  }
-};
-
-/// Intersects rays with spheres.
-template <class V>
-struct SphereLanes {
-  V t;
-  uint32_t crossed = 0;  ///< one bit per lane whose sphere may be hit; if none is set, `t` is not computed
-
-  /// `f` is the vector from the centres to the origins of the rays, `d` the unit directions.
-  ALHAZEN_INLINE SphereLanes(const V (&f)[3], const V (&d)[3], const V& radius) {
-    const V zero = V::all(0);
-    const V b = zero - (f[0] * d[0] + f[1] * d[1] + f[2] * d[2]);
-    const V closest[3] = {f[0] + d[0] * b, f[1] + d[1] * b, f[2] + d[2] * b};
-    const V discriminant =
-        radius * radius - (closest[0] * closest[0] + closest[1] * closest[1] + closest[2] * closest[2]);
-    crossed = less_equal(zero, discriminant);
-    if (crossed == 0) return;
-    const V c = f[0] * f[0] + f[1] * f[1] + f[2] * f[2] - radius * radius;
-    // If the origin is outside and the sphere behind it, both distances are negative and need not be computed.
-    crossed &= ~(less(b, zero) & less(zero, c));
-    if (crossed == 0) return;
-    const V root = square_root(discriminant);
-    const V q = where_less(b, zero, b - root, b + root);
-    const V other = c / q;
-    const V near = where_less(b, zero, q, other), far = where_less(b, zero, other, q);
-    t = where_less(zero, c, near, far);
-  }
-
-  template <class Real>
-  ALHAZEN_INLINE void fill(int, Hit<Real>& hit) const {
-    hit.b1 = hit.b2 = 0;
   }
 };
 
