@@ -11,7 +11,8 @@
 //   uv_density_of      uv area per surface area (attributes.h)
 //   tangents_of        partial derivatives of the position with respect to u and v (tangents.h)
 //   intersect_lanes    intersection test on SIMD lanes (core/bvh/bvh8/triangle_lanes.h)
-//   copy_to            copy in a CWBVH leaf; CwbvhTest is its intersection test (core/bvh/cwbvh/primitive.h)
+// Kinds whose records fit into the copy that a leaf of the CWBVH holds, 9 numbers, may also have
+//   copy_to            the copy; CwbvhTest is its intersection test (core/bvh/cwbvh/primitive.h)
 
 #define ALHAZEN_PRIMITIVES(PRIMITIVE, X)                                                                       \
   PRIMITIVE(X, triangle, TriangleRecord, triangles, TriangleBlock<Real>, triangle_blocks)                      \

@@ -35,6 +35,15 @@ ALHAZEN_HD ALHAZEN_INLINE decltype(auto) visit_primitive(const SceneView<Real>& 
   __builtin_unreachable();
 }
 
+/// Returns the records of a kind.
+template <PrimitiveKind kind, class Real>
+ALHAZEN_HD ALHAZEN_INLINE const auto* records_of(const SceneView<Real>& scene) {
+#define ALHAZEN_RECORDS(X, listed, Record, records, Block, blocks) \
+  if constexpr (kind == PrimitiveKind::listed) return scene.records;
+  ALHAZEN_PRIMITIVES(ALHAZEN_RECORDS, )
+#undef ALHAZEN_RECORDS
+}
+
 /// Returns the index of a primitive's surface in scene.surfaces.
 template <class Real>
 ALHAZEN_HD uint32_t surface_of(const SceneView<Real>& scene, PrimitiveId primitive) {

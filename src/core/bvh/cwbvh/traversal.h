@@ -129,7 +129,7 @@ ALHAZEN_HD bool traverse_cwbvh(const SceneView<float>& scene, const Ray<float>& 
         nodes = {scene.objects[scene.instances[space.instance].object].cwbvh_root, root};
         break;
       }
-      if (!intersect_primitive(primitive, ray, space.sheared, hit)) continue;
+      if (!intersect_primitive(scene, primitive, ray, space.sheared, hit)) continue;
       hit.instance = space.instance;
       found = true;
       if (any_hit) return true;
