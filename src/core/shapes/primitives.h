@@ -44,6 +44,18 @@ ALHAZEN_HD ALHAZEN_INLINE const auto* records_of(const SceneView<Real>& scene) {
 #undef ALHAZEN_RECORDS
 }
 
+/// A record of a primitive that moves linearly while the shutter is open.
+template <class Record>
+concept MovingRecord = requires(const Record& record) {
+  record.motion;
+};
+
+/// Returns the bounding box at `time`; kinds that move have an overload.
+template <class Real, class Record>
+Bounds3<Real> bounds_at(const SceneView<Real>& scene, const Record& record, Real) {
+  return bounds_of(scene, record);
+}
+
 /// Returns the index of a primitive's surface in scene.surfaces.
 template <class Real>
 ALHAZEN_HD uint32_t surface_of(const SceneView<Real>& scene, PrimitiveId primitive) {

@@ -126,9 +126,14 @@ Bounds3<Real> bounds_of(const Sphere<Real>& sphere) {
 }
 
 template <class Real, SphereRecordOf<Real> Record>
-Bounds3<Real> bounds_of(const SceneView<Real>&, const Record& record) {
-  Bounds3<Real> box = bounds_of(sphere_at(record, Real(0)));
-  box.extend(bounds_of(sphere_at(record, Real(1))));
+Bounds3<Real> bounds_at(const SceneView<Real>&, const Record& record, Real time) {
+  return bounds_of(sphere_at(record, time));
+}
+
+template <class Real, SphereRecordOf<Real> Record>
+Bounds3<Real> bounds_of(const SceneView<Real>& scene, const Record& record) {
+  Bounds3<Real> box = bounds_at(scene, record, Real(0));
+  box.extend(bounds_at(scene, record, Real(1)));
   return box;
 }
 

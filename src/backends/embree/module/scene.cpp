@@ -6,48 +6,50 @@
 #include <string>
 
 #include "core/shapes/instance.h"
-#include "core/shapes/sphere.h"
-#include "core/shapes/triangle.h"
+#include "core/shapes/primitives.h"
 #include "util/diagnostics.h"
 
 namespace alhazen {
 
 namespace {
 
-/// Returns the sphere with that index at `time`.
-template <PrimitiveKind kind>
-Sphere<float> sphere_of(const void* view, uint32_t index, float time) {
-  const SceneView<float>& scene = *static_cast<const SceneView<float>*>(view);
-  if constexpr (kind == PrimitiveKind::sphere)
-    return sphere_at(scene.spheres[index], time);
-  else
-    return sphere_at(scene.moving_spheres[index], time);
+/// Returns the box, padded by the rounding error of Embree's arithmetic.
+Bounds3<float> padded(const Bounds3<float>& box) {
+  const Vec3<float> slack = max(abs(box.low), abs(box.high)) * 4e-7f;
+  return {box.low - slack, box.high + slack};
 }
 
-/// Computes bounds padded by the rounding error of centre and radius.
+// Kinds of primitives that Embree does not know are its user geometry: it finds the boxes that a ray enters, and our
+// own test finds the hit.
+
 template <PrimitiveKind kind>
-void sphere_bounds(const RTCBoundsFunctionArguments* arguments) {
-  const Sphere<float> s =
-      sphere_of<kind>(arguments->geometryUserPtr, arguments->primID, static_cast<float>(arguments->timeStep));
-  const Vec3<float> r = splat(s.radius) + (abs(s.centre) + splat(s.radius)) * 4e-7f;
+void bounds_of_user_geometry(const RTCBoundsFunctionArguments* arguments) {
+  const SceneView<float>& scene = *static_cast<const SceneView<float>*>(arguments->geometryUserPtr);
+  const Bounds3<float> padded_box =
+      padded(bounds_at(scene, records_of<kind>(scene)[arguments->primID], static_cast<float>(arguments->timeStep)));
   RTCBounds& box = *arguments->bounds_o;
-  box.lower_x = s.centre.x - r.x;
-  box.lower_y = s.centre.y - r.y;
-  box.lower_z = s.centre.z - r.z;
-  box.upper_x = s.centre.x + r.x;
-  box.upper_y = s.centre.y + r.y;
-  box.upper_z = s.centre.z + r.z;
+  box.lower_x = padded_box.low.x;
+  box.lower_y = padded_box.low.y;
+  box.lower_z = padded_box.low.z;
+  box.upper_x = padded_box.high.x;
+  box.upper_y = padded_box.high.y;
+  box.upper_z = padded_box.high.z;
 }
 
 template <PrimitiveKind kind>
 bool intersect(const void* view, uint32_t index, const RTCRay& query, float& t) {
+  const SceneView<float>& scene = *static_cast<const SceneView<float>*>(view);
   const Ray<float> ray{{query.org_x, query.org_y, query.org_z}, {query.dir_x, query.dir_y, query.dir_z}, query.time};
-  const Sphere<float> s = sphere_of<kind>(view, index, query.time);
-  return intersect_sphere(ray, s.centre, s.radius, query.tfar, t);
+  Hit<float> hit;
+  if (!intersect_record(scene, records_of<kind>(scene)[index], {kind, index}, ray, ShearedRay<float>{}, query.tfar,
+                        hit))
+    return false;
+  t = hit.t;
+  return true;
 }
 
 template <PrimitiveKind kind>
-void intersect_sphere_n(const RTCIntersectFunctionNArguments* arguments) {
+void intersect_user_geometry(const RTCIntersectFunctionNArguments* arguments) {
   if (arguments->valid[0] == 0) return;
   RTCRayHit& query = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);  // all queries are single rays
   float t;
@@ -59,7 +61,7 @@ void intersect_sphere_n(const RTCIntersectFunctionNArguments* arguments) {
 }
 
 template <PrimitiveKind kind>
-void occluded_sphere_n(const RTCOccludedFunctionNArguments* arguments) {
+void occluded_user_geometry(const RTCOccludedFunctionNArguments* arguments) {
   if (arguments->valid[0] == 0) return;
   RTCRay& query = *reinterpret_cast<RTCRay*>(arguments->ray);
   float t;
@@ -125,12 +127,15 @@ Vec3<float> reach_of_world(const SceneView<float>& view, uint32_t triangles) {
   const auto& camera = view.camera.world_from_camera;
   Vec3<float> reach =
       max(reach_of_triangles(view, 0, triangles), abs(Vec3<float>{camera[0][3], camera[1][3], camera[2][3]}));
-  for (uint32_t i = 0; i < view.spheres_count; ++i)
-    reach = max(reach, abs(view.spheres[i].centre) + splat(view.spheres[i].radius));
-  for (uint32_t i = 0; i < view.moving_spheres_count; ++i) {
-    const MovingSphereRecord<float>& s = view.moving_spheres[i];
-    reach = max(reach, abs(s.centre) + abs(s.motion) + splat(s.radius));
-  }
+  const auto add = [&](const auto& record) {
+    const Bounds3<float> box = bounds_of(view, record);
+    reach = max(reach, max(abs(box.low), abs(box.high)));
+  };
+#define ALHAZEN_REACH(X, kind, Record, records, Block, blocks)                                          \
+  for (uint32_t i = 0; PrimitiveKind::kind != PrimitiveKind::triangle && i < view.records##_count; ++i) \
+    add(view.records[i]);
+  ALHAZEN_PRIMITIVES(ALHAZEN_REACH, )
+#undef ALHAZEN_REACH
   return reach;
 }
 
@@ -173,6 +178,21 @@ bool count_bytes(void* bytes, ssize_t change, bool) {
 
 }  // namespace
 
+template <PrimitiveKind kind>
+void EmbreeScene::add_user_geometry(uint32_t count) {
+  if constexpr (kind != PrimitiveKind::triangle) {
+    if (count == 0) return;
+    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, count);
+    rtcSetGeometryTimeStepCount(geometry, MovingRecord<decltype(records_of<kind>(view_)[0])> ? 2 : 1);
+    rtcSetGeometryUserData(geometry, const_cast<SceneView<float>*>(&view_));
+    rtcSetGeometryBoundsFunction(geometry, bounds_of_user_geometry<kind>, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, intersect_user_geometry<kind>);
+    rtcSetGeometryOccludedFunction(geometry, occluded_user_geometry<kind>);
+    attach(tracer_.scene, geometry, kind);
+  }
+}
+
 EmbreeScene::EmbreeScene(const SceneView<float>& view, int threads) : view_(view) {
   const uint32_t in_world = view.objects_count > 0 ? view.objects[0].first_triangle : view.triangles_count;
   if (!is_in_range(view, in_world))
@@ -185,13 +205,10 @@ EmbreeScene::EmbreeScene(const SceneView<float>& view, int threads) : view_(view
   tracer_.scene = new_scene();
   if (in_world > 0) add_triangles(tracer_.scene, 0, in_world);
   if (view.instances_count > 0) add_instances();
-  constexpr PrimitiveKind still = PrimitiveKind::sphere, moving = PrimitiveKind::moving_sphere;
-  if (view.spheres_count > 0)
-    add_spheres(still, view.spheres_count, sphere_bounds<still>, intersect_sphere_n<still>, occluded_sphere_n<still>,
-                1);
-  if (view.moving_spheres_count > 0)
-    add_spheres(moving, view.moving_spheres_count, sphere_bounds<moving>, intersect_sphere_n<moving>,
-                occluded_sphere_n<moving>, 2);
+#define ALHAZEN_ADD(X, kind, Record, records, Block, blocks) \
+  add_user_geometry<PrimitiveKind::kind>(view.records##_count);
+  ALHAZEN_PRIMITIVES(ALHAZEN_ADD, )
+#undef ALHAZEN_ADD
   rtcCommitScene(tracer_.scene);
   check();
 }
@@ -242,18 +259,6 @@ void EmbreeScene::add_instances() {
     rtcAttachGeometryByID(tracer_.scene, geometry, embree_instances + i);
     rtcReleaseGeometry(geometry);
   }
-}
-
-void EmbreeScene::add_spheres(PrimitiveKind kind, uint32_t count, RTCBoundsFunction bounds,
-                              RTCIntersectFunctionN intersect, RTCOccludedFunctionN occluded, unsigned int time_steps) {
-  const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, count);
-  rtcSetGeometryTimeStepCount(geometry, time_steps);
-  rtcSetGeometryUserData(geometry, const_cast<SceneView<float>*>(&view_));
-  rtcSetGeometryBoundsFunction(geometry, bounds, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, intersect);
-  rtcSetGeometryOccludedFunction(geometry, occluded);
-  attach(tracer_.scene, geometry, kind);
 }
 
 void EmbreeScene::attach(RTCScene to, RTCGeometry geometry, PrimitiveKind kind) {

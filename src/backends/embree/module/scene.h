@@ -1,7 +1,7 @@
 #pragma once
 
-// Builds the Embree structures of a compiled scene. Embree reads triangles in place from the arena and intersects
-// spheres with our own test.
+// Builds the Embree structures of a compiled scene. Embree reads triangles in place from the arena and intersects other
+// primitives with our own test.
 
 #include <vector>
 
@@ -29,8 +29,9 @@ class EmbreeScene {
   RTCScene new_scene();
   void add_triangles(RTCScene to, uint32_t first, uint32_t count);
   void add_instances();
-  void add_spheres(PrimitiveKind kind, uint32_t count, RTCBoundsFunction bounds, RTCIntersectFunctionN intersect,
-                   RTCOccludedFunctionN occluded, unsigned int time_steps);
+  /// Adds the `count` primitives of a kind that Embree does not know; triangles it knows.
+  template <PrimitiveKind kind>
+  void add_user_geometry(uint32_t count);
   void attach(RTCScene to, RTCGeometry geometry, PrimitiveKind kind);
   void check() const;
 
