@@ -13,6 +13,7 @@
 #include "backends/optix/module/library.h"
 #include "backends/optix/module/params.h"
 #include "core/scene_view.h"
+#include "core/shapes/primitives.h"
 
 namespace alhazen::optix {
 
@@ -34,6 +35,11 @@ struct SceneTraits {
   bool has_kind(PrimitiveKind kind) const { return has[static_cast<unsigned>(kind)]; }
   bool moves() const { return has_kind(PrimitiveKind::moving_sphere); }
   bool has_spheres() const { return has_kind(PrimitiveKind::sphere) || moves(); }
+  bool has_custom() const {
+    for (unsigned kind = 0; kind < primitive_kinds; ++kind)
+      if (has[kind] && !is_built_in(static_cast<PrimitiveKind>(kind))) return true;
+    return false;
+  }
   int kinds() const {
     int count = 0;
     for (const bool has_this : has) count += has_this;
@@ -50,8 +56,13 @@ class Acceleration {
   Acceleration(const OptixFunctionTable& functions, Executor& executor)
       : functions_(functions),
         executor_(executor),
-        structures_{Bytes(executor), Bytes(executor), Bytes(executor)},
-        top_(executor) {}
+        structures_{
+#define ALHAZEN_STRUCTURE(X, kind, Record, records, Block, blocks) Bytes(executor),
+            ALHAZEN_PRIMITIVES(ALHAZEN_STRUCTURE, )
+#undef ALHAZEN_STRUCTURE
+        },
+        top_(executor) {
+  }
 
   /// `host` and `device` are views of the same scene in host and device memory. Throws std::runtime_error if meshes
   /// move.
@@ -89,8 +100,10 @@ class Acceleration {
         return build_triangles(device, 0, triangles_in_world(host), structures_[0]);
       case PrimitiveKind::sphere:
         return build_spheres(device);
-      default:
+      case PrimitiveKind::moving_sphere:
         return build_moving_spheres(host, device);
+      default:
+        return build_custom(kind, host);
     }
   }
 
@@ -173,6 +186,30 @@ class Acceleration {
     spheres.flags = &without_any_hit;
     spheres.numSbtRecords = 1;
     return input;
+  }
+
+  /// Boxes of the primitives of a kind that is not built in.
+  OptixTraversableHandle build_custom(PrimitiveKind kind, const SceneView<float>& host) {
+    std::vector<OptixAabb> boxes;
+    const auto add = [&](const auto& record) {
+      const Bounds3<float> box = bounds_of(host, record);
+      boxes.push_back({box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z});
+    };
+#define ALHAZEN_BOXES(X, listed, Record, records, Block, blocks) \
+  for (uint32_t i = 0; kind == PrimitiveKind::listed && i < host.records##_count; ++i) add(host.records[i]);
+    ALHAZEN_PRIMITIVES(ALHAZEN_BOXES, )
+#undef ALHAZEN_BOXES
+    cuda::Buffer<Executor, OptixAabb> memory(executor_);
+    memory.reserve(boxes.size());
+    executor_.upload(memory.data(), boxes.data(), boxes.size() * sizeof(OptixAabb));
+    const CUdeviceptr buffer = address(memory.data());
+    OptixBuildInput input{};
+    input.type = OPTIX_BUILD_INPUT_TYPE_CUSTOM_PRIMITIVES;
+    input.customPrimitiveArray.aabbBuffers = &buffer;
+    input.customPrimitiveArray.numPrimitives = static_cast<unsigned>(boxes.size());
+    input.customPrimitiveArray.flags = &without_any_hit;
+    input.customPrimitiveArray.numSbtRecords = 1;
+    return build_structure(input, 1, structures_[static_cast<unsigned>(kind)]);
   }
 
   void build_instances(const std::vector<OptixInstance>& instances) {

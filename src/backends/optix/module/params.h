@@ -31,6 +31,12 @@ struct OptixParams {
   uint32_t sbt_offset;  ///< for optixTrace: 0 if instances have offsets of their own, else the only kind of primitive
 };
 
+/// Returns whether OptiX knows a kind of primitives. For the others, it finds the boxes that a ray enters, and our own
+/// test finds the hit.
+constexpr bool is_built_in(PrimitiveKind kind) {
+  return kind == PrimitiveKind::triangle || kind == PrimitiveKind::sphere || kind == PrimitiveKind::moving_sphere;
+}
+
 /// Number of payload words of a closest-hit query: t, b1, b2, PrimitiveId, instance.
 inline constexpr unsigned closest_words = 5;
 /// OptiX instances with lower ids are the kinds of primitives in the world. From this id on, they are the instances of
@@ -48,6 +54,11 @@ inline constexpr unsigned hit_records = primitive_kinds;  ///< by PrimitiveKind
 inline constexpr const char* params_name = "params";
 inline constexpr const char* raygen_names[raygen_records] = {"__raygen__path", "__raygen__iterative"};
 inline constexpr const char* miss_occlusion_name = "__miss__occlusion";
+inline constexpr const char* intersection_names[hit_records] = {  // of kinds that are not built in
+#define ALHAZEN_NAME(X, kind, Record, records, Block, blocks) "__intersection__" #kind,
+    ALHAZEN_PRIMITIVES(ALHAZEN_NAME, )
+#undef ALHAZEN_NAME
+};
 inline constexpr const char* closest_hit_names[hit_records] = {
 #define ALHAZEN_NAME(X, kind, Record, records, Block, blocks) "__closesthit__" #kind,
     ALHAZEN_PRIMITIVES(ALHAZEN_NAME, )

@@ -113,6 +113,8 @@ class Pipeline {
       pipeline_options_.usesPrimitiveTypeFlags |= static_cast<unsigned>(OPTIX_PRIMITIVE_TYPE_FLAGS_TRIANGLE);
     if (traits.has_spheres())
       pipeline_options_.usesPrimitiveTypeFlags |= static_cast<unsigned>(OPTIX_PRIMITIVE_TYPE_FLAGS_SPHERE);
+    if (traits.has_custom())
+      pipeline_options_.usesPrimitiveTypeFlags |= static_cast<unsigned>(OPTIX_PRIMITIVE_TYPE_FLAGS_CUSTOM);
   }
 
   void make_modules(const DeviceCode& code, const SceneTraits& traits) {
@@ -159,6 +161,10 @@ class Pipeline {
         group.hitgroup.moduleCH = module_;
         group.hitgroup.entryFunctionNameCH = closest_hit_names[kind];
         group.hitgroup.moduleIS = sphere_modules_[kind];
+        if (!is_built_in(static_cast<PrimitiveKind>(kind))) {
+          group.hitgroup.moduleIS = module_;
+          group.hitgroup.entryFunctionNameIS = intersection_names[kind];
+        }
       }
       add_group(group);
     }

@@ -19,7 +19,7 @@ __device__ inline const OptixParams& launch_params() { return *reinterpret_cast<
 ///
 /// Hits on spheres are verified with our own, robust test: the built-in one computes in float from the centre of the
 /// sphere, and on a ground sphere of radius 1000 it may hit the surface that the ray starts on. The triangle that the
-/// ray starts on is skipped (`Ray::left`).
+/// ray starts on is skipped (`Ray::left`). Hits on kinds that are not built in are those of our own test already.
 class OptixIntersector {
  public:
   template <class Stacks>
@@ -32,7 +32,7 @@ class OptixIntersector {
     for (int attempt = 0; attempt < max_attempts && t_min < hit.t; ++attempt) {
       Hit<float> candidate;
       if (!trace(ray, t_min, hit.t, OPTIX_RAY_FLAG_DISABLE_ANYHIT, candidate)) break;
-      if (candidate.primitive.kind() == PrimitiveKind::triangle) {
+      if (!is_sphere(candidate.primitive)) {
         if (is_left(ray, candidate)) {
           t_min = next_towards(candidate.t, 1.0f);
           continue;
@@ -55,8 +55,8 @@ class OptixIntersector {
     if (!is_anything_between(ray, t_max, flags | OPTIX_RAY_FLAG_DISABLE_CLOSESTHIT)) return false;
     Hit<float> candidate, own = end_of_interval(t_max);
     if (!trace(ray, 0, t_max, flags, candidate)) return false;
-    const bool is_triangle = candidate.primitive.kind() == PrimitiveKind::triangle;
-    if (is_triangle ? !is_left(ray, candidate) : intersects_sphere(ray, candidate.primitive, own)) return true;
+    if (is_sphere(candidate.primitive) ? intersects_sphere(ray, candidate.primitive, own) : !is_left(ray, candidate))
+      return true;
     return closest_hit(ray, t_max, own);
   }
 
@@ -65,7 +65,12 @@ class OptixIntersector {
 
   /// Returns whether the hit is on the triangle that the ray starts on, which cannot be hit.
   __device__ static bool is_left(const Ray<float>& ray, const Hit<float>& candidate) {
-    return candidate.primitive == ray.left && candidate.instance == ray.left_instance;
+    return candidate.primitive.kind() == PrimitiveKind::triangle && candidate.primitive == ray.left &&
+           candidate.instance == ray.left_instance;
+  }
+
+  __device__ static bool is_sphere(PrimitiveId id) {
+    return id.kind() == PrimitiveKind::sphere || id.kind() == PrimitiveKind::moving_sphere;
   }
 
   __device__ static float3 vector(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
@@ -144,8 +149,7 @@ extern "C" __global__ void __miss__occlusion() {
   optixSetPayload_0(0);
 }
 
-extern "C" __global__ void __closesthit__triangle() {
-  optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
+__device__ void report_triangle() {
   const float2 weights = optixGetTriangleBarycentrics();
   const SceneView<float>& scene = launch_params().launch.scene;
   uint32_t instance = no_instance, triangle = optixGetPrimitiveIndex();
@@ -156,14 +160,30 @@ extern "C" __global__ void __closesthit__triangle() {
   report({PrimitiveKind::triangle, triangle}, instance, weights.x, weights.y);
 }
 
-extern "C" __global__ void __closesthit__sphere() {
-  optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
-  report({PrimitiveKind::sphere, optixGetPrimitiveIndex()}, no_instance, 0, 0);
+template <PrimitiveKind kind>
+__device__ void intersect_custom() {
+  if constexpr (!is_built_in(kind)) {
+    const SceneView<float>& scene = launch_params().launch.scene;
+    const uint32_t index = optixGetPrimitiveIndex();
+    const float3 origin = optixGetWorldRayOrigin(), direction = optixGetWorldRayDirection();
+    const Ray<float> ray{{origin.x, origin.y, origin.z}, {direction.x, direction.y, direction.z}, optixGetRayTime()};
+    Hit<float> hit;
+    if (intersect_record(scene, records_of<kind>(scene)[index], {kind, index}, ray, ShearedRay<float>{},
+                         optixGetRayTmax(), hit))
+      optixReportIntersection(hit.t, 0);
+  }
 }
 
-extern "C" __global__ void __closesthit__moving_sphere() {
-  optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);
-  report({PrimitiveKind::moving_sphere, optixGetPrimitiveIndex()}, no_instance, 0, 0);
-}
+#define ALHAZEN_HIT_PROGRAMS(X, kind, Record, records, Block, blocks)                              \
+  extern "C" __global__ void __intersection__##kind() { intersect_custom<PrimitiveKind::kind>(); } \
+  extern "C" __global__ void __closesthit__##kind() {                                              \
+    optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_0);                                                 \
+    if constexpr (PrimitiveKind::kind == PrimitiveKind::triangle)                                  \
+      report_triangle();                                                                           \
+    else                                                                                           \
+      report({PrimitiveKind::kind, optixGetPrimitiveIndex()}, no_instance, 0, 0);                  \
+  }
+ALHAZEN_PRIMITIVES(ALHAZEN_HIT_PROGRAMS, )
+#undef ALHAZEN_HIT_PROGRAMS
 
 }  // namespace alhazen::optix
