@@ -46,7 +46,7 @@ class Denoiser {
     OptixDenoiserLayer layer{};
     layer.input = upload(radiance_, image.radiance, width, height);
     output_.reserve(image.radiance.size());
-    layer.output = image(output_, width, height);
+    layer.output = image_of(output_, width, height);
     const OptixDenoiserParams params{};  // without a given intensity, OptiX determines the exposure
     ask(functions_.optixDenoiserInvoke(denoiser_, executor_.stream(), &params, address(state_.data()),
                                        sizes.stateSizeInBytes, &guides, &layer, 1, 0, 0, address(scratch_.data()),
@@ -65,10 +65,10 @@ class Denoiser {
   OptixImage2D upload(Floats& memory, const std::vector<float>& values, unsigned width, unsigned height) {
     memory.reserve(values.size());
     executor_.upload(memory.data(), values.data(), values.size() * sizeof(float));
-    return image(memory, width, height);
+    return image_of(memory, width, height);
   }
 
-  static OptixImage2D image(const Floats& memory, unsigned width, unsigned height) {
+  static OptixImage2D image_of(const Floats& memory, unsigned width, unsigned height) {
     constexpr unsigned pixel = 3 * sizeof(float);
     return {address(memory.data()), width, height, width * pixel, pixel, OPTIX_PIXEL_FORMAT_FLOAT3};
   }
