@@ -14,6 +14,7 @@ namespace {
 
 constexpr uint32_t points_per_material = 32, max_materials = 64, max_lights = 16, rays_per_light = 256;
 constexpr uint32_t directions_per_point = 8;
+constexpr int max_tries = 8;
 /// Minimum fraction of the incident light that a material scatters into sharp lobes, above what varnish or glass
 /// reflects, and minimum fraction that must then be lost.
 constexpr double min_sharp = 0.15, min_lost = 0.005;
@@ -81,11 +82,13 @@ class LostLightSearch {
   /// Visits each primitive once, with the object that contains it, or `no_object`.
   template <class Visit>
   void for_each_primitive(const Visit& visit) const {
-    const uint32_t in_world = view_.objects_count > 0 ? view_.objects[0].first_triangle : view_.triangles_count;
-    for (uint32_t i = 0; i < in_world; ++i) visit(PrimitiveId(PrimitiveKind::triangle, i), no_object);
-    for (uint32_t i = 0; i < view_.spheres_count; ++i) visit(PrimitiveId(PrimitiveKind::sphere, i), no_object);
-    for (uint32_t i = 0; i < view_.moving_spheres_count; ++i)
-      visit(PrimitiveId(PrimitiveKind::moving_sphere, i), no_object);
+    const auto visit_kind = [&](PrimitiveKind kind, uint32_t count) {
+      if (kind == PrimitiveKind::triangle && view_.objects_count > 0) count = view_.objects[0].first_triangle;
+      for (uint32_t i = 0; i < count; ++i) visit(PrimitiveId(kind, i), no_object);
+    };
+#define ALHAZEN_VISIT(X, kind, Record, records, Block, blocks) visit_kind(PrimitiveKind::kind, view_.records##_count);
+    ALHAZEN_PRIMITIVES(ALHAZEN_VISIT, )
+#undef ALHAZEN_VISIT
     for (uint32_t k = 0; k < view_.objects_count; ++k)
       for (uint32_t i = 0; i < view_.objects[k].triangle_count; ++i)
         visit(PrimitiveId(PrimitiveKind::triangle, view_.objects[k].first_triangle + i), k);
@@ -125,23 +128,28 @@ class LostLightSearch {
 
   Real random() { return unit_interval<Real>(mix32(++random_count_)); }
 
-  /// The candidate as the hit of a ray.
-  SurfaceInteraction<Real> point_on(const Candidate& candidate, Hit<Real>& hit) {
-    hit = {Real(0), Real(0), Real(0), candidate.primitive, candidate.instance};
+  /// The candidate as the hit of a ray at the start of the shutter interval. Shapes other than triangles are hit from
+  /// the middle of their box; there is no hit if a few rays in random directions miss, as they may miss shapes with
+  /// holes.
+  std::optional<SurfaceInteraction<Real>> point_on(const Candidate& candidate, Hit<Real>& hit) {
+    const PrimitiveId primitive = candidate.primitive;
+    hit = {Real(0), Real(0), Real(0), primitive, candidate.instance};
     Ray<Real> ray{};
-    const Vec2<Real> u{random(), random()};
-    if (candidate.primitive.kind() == PrimitiveKind::triangle) {
-      const Vec2<Real> b = sample_triangle(u);
+    if (primitive.kind() == PrimitiveKind::triangle) {
+      const Vec2<Real> b = sample_triangle(Vec2<Real>{random(), random()});
       hit.b1 = b.y;
       hit.b2 = 1 - b.x - b.y;
-    } else {
-      const bool moves = candidate.primitive.kind() == PrimitiveKind::moving_sphere;
-      const uint32_t i = candidate.primitive.index();
-      ray.direction = sample_uniform_sphere(u);
-      hit.t = moves ? view_.moving_spheres[i].radius : view_.spheres[i].radius;
-      ray.origin = moves ? view_.moving_spheres[i].centre : view_.spheres[i].centre;
+      return surface_interaction(view_, ray, hit);
     }
-    return surface_interaction(view_, ray, hit);
+    ray.origin =
+        visit_primitive(view_, primitive, [&](const auto& r) { return bounds_at(view_, r, ray.time); }).centre();
+    for (int i = 0; i < max_tries; ++i) {
+      ray.direction = sample_uniform_sphere(Vec2<Real>{random(), random()});
+      hit.t = infinity<Real>;
+      if (intersect_primitive(view_, primitive, ray, ShearedRay<Real>{}, hit))
+        return surface_interaction(view_, ray, hit);
+    }
+    return {};
   }
 
   bool is_cut_out(const Hit<Real>& hit, const SurfaceInteraction<Real>& si) const {
@@ -169,8 +177,9 @@ class LostLightSearch {
   /// Tests light on a point of a surface that is known to be smooth, which may be small and far away.
   void light_candidate(const LightRecord<Real>& light, const Candidate& candidate) {
     Hit<Real> hit;
-    const SurfaceInteraction<Real> si = point_on(candidate, hit);
-    if (is_cut_out(hit, si)) return;
+    const std::optional<SurfaceInteraction<Real>> found = point_on(candidate, hit);
+    if (!found || is_cut_out(hit, *found)) return;
+    const SurfaceInteraction<Real>& si = *found;
     const LightSample<Real> s = sample_chosen_light(view_, light, si.position, false, Real(0), Vec2<Real>{});
     if (!(s.pdf > 0) || is_zero(s.radiance)) return;
     if (!(visibility_of(view_, intersector_, shadow_ray(si, s)) > 0)) return;
