@@ -33,11 +33,10 @@ std::vector<Box> world_boxes(const Scene& scene) {
   std::vector<Box> meshes;
   for (const Mesh& mesh : scene.meshes) meshes.push_back(box_of(mesh));
   const auto box_of_shape = [&](const Shape& shape) {
-    const Vec3d r = splat(shape.radius);
-    const Box sphere{-r, r};
     const bool is_mesh = shape.type == ShapeType::mesh;
     if (is_mesh && shape.mesh >= meshes.size()) return Box{};
-    return transformed(is_mesh ? meshes[shape.mesh] : sphere, shape.world_from_object.start);
+    const Box box = is_mesh ? meshes[shape.mesh] : Box{-shape.reach(), shape.reach()};
+    return transformed(box, shape.world_from_object.start);
   };
   std::vector<Box> boxes;
   for (const Shape& shape : scene.groups.at(0).shapes) boxes.push_back(box_of_shape(shape));

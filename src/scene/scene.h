@@ -187,6 +187,9 @@ struct Shape {
   /// in object space, and that of a sphere points outward.
   bool reverse_orientation = false;
   SourceLocation where;
+
+  /// Half the size of a box about the origin of object space that holds the shape, if it is not a mesh.
+  Vec3d reach() const { return splat(radius); }
 };
 
 /// A group of shapes. Group 0 of a scene is the world itself; others are placed by instances.
