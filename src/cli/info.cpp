@@ -45,27 +45,28 @@ void show(const InfoOptions& options) {
   CompileOptions as_on_cpus{.layouts = {BvhLayout::bvh8}};
   as_on_cpus.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
   const SceneStatistics sizes = compile_scene<float>(std::move(scene), as_on_cpus, diagnostics).statistics;
-  const nlohmann::ordered_json j{{"scene", options.scene},
-                                 {"width", settings.window.width()},
-                                 {"height", settings.window.height()},
-                                 {"spp", settings.samples_per_pixel},
-                                 {"max_depth", settings.max_segments - 1},
-                                 {"integrator", to_string(settings.integrator)},
-                                 {"sampler", to_string(settings.sampler)},
-                                 {"filter", filter},
-                                 {"triangles", sizes.triangles},
-                                 {"spheres", sizes.spheres},
-                                 {"lights", sizes.lights},
-                                 {"meshes", meshes},
-                                 {"instances", instances},
-                                 {"materials", materials},
-                                 {"textures", textures},
-                                 {"images", images},
-                                 {"nodes", sizes.nodes},
-                                 {"scene_bytes", sizes.bytes},
-                                 {"tree_bytes", sizes.tree_bytes},
-                                 {"build_seconds", sizes.build_seconds},
-                                 {"peak_rss_bytes", peak_rss_bytes()}};
+  nlohmann::ordered_json j{{"scene", options.scene},
+                           {"width", settings.window.width()},
+                           {"height", settings.window.height()},
+                           {"spp", settings.samples_per_pixel},
+                           {"max_depth", settings.max_segments - 1},
+                           {"integrator", to_string(settings.integrator)},
+                           {"sampler", to_string(settings.sampler)},
+                           {"filter", filter},
+                           {"triangles", sizes.triangles},
+                           {"spheres", sizes.spheres}};
+  for (const auto& [name, count] : sizes.others) j[name] = count;
+  j.update(nlohmann::ordered_json{{"lights", sizes.lights},
+                                  {"meshes", meshes},
+                                  {"instances", instances},
+                                  {"materials", materials},
+                                  {"textures", textures},
+                                  {"images", images},
+                                  {"nodes", sizes.nodes},
+                                  {"scene_bytes", sizes.bytes},
+                                  {"tree_bytes", sizes.tree_bytes},
+                                  {"build_seconds", sizes.build_seconds},
+                                  {"peak_rss_bytes", peak_rss_bytes()}});
   if (options.json) {
     print_out("{}\n", j.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
   } else {

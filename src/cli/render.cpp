@@ -78,9 +78,12 @@ std::string engine_of(const RenderSettings& r) {
 void print_start(const RenderStatistics& s) {
   const RenderSettings& r = s.settings;
   const std::string strategy = strategy_name(r);
-  tell("{}: {} triangles, {} spheres, {} lights; read in {:.2f} s, BVH of {} nodes in {:.2f} s\n", printable(s.scene),
-       s.scene_sizes.triangles, s.scene_sizes.spheres, s.scene_sizes.lights, s.load_seconds, s.scene_sizes.nodes,
-       s.build_seconds);
+  std::string others;
+  for (const auto& [name, count] : s.scene_sizes.others)
+    if (count > 0) others += fmt::format(", {} {}", count, name);
+  tell("{}: {} triangles, {} spheres{}, {} lights; read in {:.2f} s, BVH of {} nodes in {:.2f} s\n", printable(s.scene),
+       s.scene_sizes.triangles, s.scene_sizes.spheres, others, s.scene_sizes.lights, s.load_seconds,
+       s.scene_sizes.nodes, s.build_seconds);
   tell("{} x {} pixels, {} samples each, {} in {}, depth {}; {}{}{} on {}\n", r.window.width(), r.window.height(),
        r.samples_per_pixel, to_string(r.integrator), to_string(r.precision), r.max_segments - 1, r.backend,
        strategy.empty() ? "" : " ", strategy, engine_of(r));

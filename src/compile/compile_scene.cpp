@@ -78,8 +78,7 @@ class SceneCompiler {
       }
     }
     build_trees_and_query(flat);
-    flat.statistics.triangles = out_.triangles.size();
-    flat.statistics.spheres = out_.spheres.size() + out_.moving_spheres.size();
+    count_primitives(flat.statistics);
     flat.statistics.lights = out_.lights.size();
     flat.statistics.instances = out_.instances.size();
     out_.move_into(flat);
@@ -106,6 +105,21 @@ class SceneCompiler {
     flat.statistics.tree_bytes -= out_.bvh2_nodes.size() * sizeof(out_.bvh2_nodes[0]);
     flat.statistics.nodes = out_.bvh8_nodes.size();
     std::vector<Bvh2Node<Real>>().swap(out_.bvh2_nodes);
+  }
+
+  void count_primitives(SceneStatistics& statistics) const {
+    const auto count = [&](PrimitiveKind kind, const char* name, uint64_t number) {
+      if (kind == PrimitiveKind::triangle)
+        statistics.triangles = number;
+      else if (kind == PrimitiveKind::sphere || kind == PrimitiveKind::moving_sphere)
+        statistics.spheres += number;
+      else
+        statistics.others.push_back({name, number});
+    };
+#define ALHAZEN_COUNT(X, kind, Record, records, Block, blocks) \
+  count(PrimitiveKind::kind, #records, out_.records.size());
+    ALHAZEN_PRIMITIVES(ALHAZEN_COUNT, )
+#undef ALHAZEN_COUNT
   }
 
   /// The settings of `flat` over the arrays as they are.

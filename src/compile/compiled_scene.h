@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
+#include <vector>
 
 #include "core/scene_view.h"
 
@@ -14,12 +15,19 @@ struct FreeArena {
   void operator()(std::byte* memory) const { std::free(memory); }
 };
 
-/// Sizes and times of a compiled scene, for reports.
+/// The number of primitives of a kind, and what reports call them.
+struct PrimitiveCount {
+  const char* name;
+  uint64_t count;
+};
+
+/// Sizes and times of a compiled scene, for reports. Moving spheres count as spheres.
 struct SceneStatistics {
   uint64_t triangles = 0, spheres = 0, nodes = 0, lights = 0, instances = 0;
-  uint64_t bytes = 0;        ///< of the arena
-  uint64_t tree_bytes = 0;   ///< of the acceleration structures: nodes, and their copies of primitives
-  double build_seconds = 0;  ///< of the BVH alone
+  std::vector<PrimitiveCount> others;  ///< kinds other than triangles and spheres, also those of which there are none
+  uint64_t bytes = 0;                  ///< of the arena
+  uint64_t tree_bytes = 0;             ///< of the acceleration structures: nodes, and their copies of primitives
+  double build_seconds = 0;            ///< of the BVH alone
 };
 
 /// Owns the memory of `view`. Every pointer of the view is in [arena, arena + statistics.bytes), so copying those bytes

@@ -49,6 +49,7 @@ std::string RenderStatistics::to_json() const {
   j["max_depth"] = settings.max_segments - 1;
   j["triangles"] = scene_sizes.triangles;
   j["spheres"] = scene_sizes.spheres;
+  for (const auto& [name, count] : scene_sizes.others) j[name] = count;
   j["lights"] = scene_sizes.lights;
   j["nodes"] = scene_sizes.nodes;
   j["scene_bytes"] = scene_sizes.bytes;
