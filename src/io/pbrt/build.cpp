@@ -81,7 +81,7 @@ Scene Build::finish() {
     any_shape = any_shape || !group.shapes.empty();
     for (const Shape& shape : group.shapes) any_emission = any_emission || shape.emission;
   }
-  tessellate_spheres_of_skewed_instances(*this);
+  tessellate_for_instances(*this);
   const SourceLocation where{scene.name, 0, 0};
   if (!any_shape && scene.lights.empty())
     diagnostics.warn(where, "the scene has no shapes and no lights; the image will be black");

@@ -186,13 +186,11 @@ void add_shape(Build& build, const std::string& kind, ParameterList& list) {
   build.shapes().push_back(std::move(shape));
 }
 
-void tessellate_spheres_of_skewed_instances(Build& build) {
-  for (const Instance& instance : build.scene.instances) {
-    if (is_similarity(instance.world_from_group)) continue;
+void tessellate_for_instances(Build& build) {
+  for (const Instance& instance : build.scene.instances)
     for (Shape& shape : build.scene.groups[instance.group].shapes)
-      if (shape.type == ShapeType::sphere)
+      if (shape.type == ShapeType::sphere && !is_similarity(instance.world_from_group))
         become_mesh(shape, sphere_mesh(build, {}, shape.radius, {-shape.radius, shape.radius, 360}));
-  }
 }
 
 }  // namespace alhazen::pbrt

@@ -10,8 +10,8 @@ namespace alhazen::pbrt {
 
 void add_shape(Build& build, const std::string& kind, ParameterList& list);
 
-/// Spheres stay spheres only under rotation, translation and uniform scale. Spheres in groups with other instance
-/// transforms become meshes.
-void tessellate_spheres_of_skewed_instances(Build& build);
+/// Makes meshes of the exact shapes of groups that are not exact any more where an instance places them: spheres stay
+/// spheres only under rotation, translation and uniform scale.
+void tessellate_for_instances(Build& build);
 
 }  // namespace alhazen::pbrt
