@@ -194,7 +194,8 @@ class SceneCompiler {
     return is_object;
   }
 
-  /// Returns whether an object contains this shape of its group: lights and spheres are copied to the world instead.
+  /// Returns whether an object contains this shape of its group: lights, spheres and cylinders are copied to the world
+  /// instead.
   static bool is_in_object(const Shape& shape) { return shape.type == ShapeType::mesh && !emits(shape); }
 
   const Mesh& mesh_of(const Shape& shape) const {
@@ -279,7 +280,7 @@ class SceneCompiler {
     out_.uvs.reserve(uvs);
   }
 
-  /// Checks memory for the copies of spheres and lights of objects.
+  /// Checks memory for the copies of spheres, cylinders and lights of objects.
   void check_placements() {
     placed_shapes_ = scene_.groups.at(0).shapes.size();
     for (const Instance& instance : scene_.instances)
@@ -295,6 +296,7 @@ class SceneCompiler {
 
   void place(const Placement& p) {
     if (p.shape->type == ShapeType::sphere) return place_sphere(p);
+    if (p.shape->type == ShapeType::cylinder) return place_cylinder(p);
     Mesh& mesh = scene_.meshes[p.shape->mesh];
     place_mesh(p, mesh);
     if (--uses_[p.shape->mesh] == 0) mesh = Mesh{};
@@ -419,6 +421,58 @@ class SceneCompiler {
     const Real squared = sqr(static_cast<Real>(radius));
     if (squared > 0 && std::isfinite(1 / squared)) return false;
     diagnostics_.warn(shape.where, "a sphere is too small for this precision and is left out: scale the scene up");
+    return true;
+  }
+
+  void place_cylinder(const Placement& p) {
+    const Shape& shape = *p.shape;
+    if (!(shape.radius > 0 && shape.z_min < shape.z_max && shape.phi_max > 0))
+      throw InputError(shape.where, "a cylinder must have a radius, a height and an angle above 0");
+    if (emits(shape)) diagnostics_.warn(shape.where, "a cylinder that is no mesh does not emit");
+    if (p.world_from_object.is_moving())
+      diagnostics_.warn(shape.where, "a cylinder moves; it is rendered at rest, where it is at the start");
+    CylinderRecord<Real> record = cylinder_record(shape, p.world_from_object.start);
+    if (!is_resolved(record)) {
+      diagnostics_.warn(shape.where, "a cylinder is too small or too thin for this precision and is left out");
+      return;
+    }
+    record.surface = add_surface(shape, no_light, no_offset, no_offset, p.reverse_orientation);
+    out_.cylinders.push_back(record);
+  }
+
+  static CylinderRecord<Real> cylinder_record(const Shape& shape, const Transform& transform) {
+    const bool is_whole = shape.phi_max >= 360;
+    const double half = is_whole ? pi<double> : shape.phi_max / 2 * (pi<double> / 180);
+    const Vec3d x{is_whole ? -1 : std::cos(half), is_whole ? 0 : std::sin(half), 0};
+    CylinderRecord<Real> record{};
+    record.cosine = static_cast<Real>(x.x);
+    record.sine = static_cast<Real>(x.y);
+    record.phi_max = static_cast<Real>(2 * half);
+    const Vec3d centre = transform.point({0, 0, (shape.z_min + shape.z_max) / 2});
+    const Vec3d axes[3] = {transform.direction(x * shape.radius),
+                           transform.direction(Vec3d{-x.y, x.x, 0} * shape.radius),
+                           transform.direction({0, 0, (shape.z_max - shape.z_min) / 2})};
+    if (!(max_component(abs(centre) + abs(axes[0]) + abs(axes[1]) + abs(axes[2])) <= max_coordinate))
+      throw too_large(shape, "the cylinder is too large or too far away");
+    record.centre = convert<Real>(centre);
+    long double columns[3][4]{}, rows[3][4];
+    for (int i = 0; i < 3; ++i) {
+      record.world_from_object[i] = convert<Real>(axes[i]);
+      for (int j = 0; j < 3; ++j) columns[j][i] = static_cast<long double>(record.world_from_object[i][j]);
+    }
+    invert(columns, rows);  // the rounded one: error_of_point counts no rounding of it
+    for (int i = 0; i < 3; ++i)
+      record.object_from_world[i] = convert<Real>(Vec3<long double>{rows[i][0], rows[i][1], rows[i][2]});
+    return record;
+  }
+
+  /// Returns whether lengths in both spaces can be squared in this precision.
+  static bool is_resolved(const CylinderRecord<Real>& cylinder) {
+    for (const auto& vectors : {cylinder.world_from_object, cylinder.object_from_world})
+      for (int i = 0; i < 3; ++i)
+        if (const Real squared = length_squared(vectors[i]);
+            !(squared > 0 && std::isfinite(1 / squared) && std::isfinite(squared)))
+          return false;
     return true;
   }
 

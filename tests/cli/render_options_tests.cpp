@@ -161,6 +161,7 @@ TEST_F(RenderOptions, StatisticsAreOneObjectWithEveryKey) {
                           "max_depth",
                           "triangles",
                           "spheres",
+                          "cylinders",
                           "nodes",
                           "scene_bytes",
                           "load_seconds",

@@ -76,6 +76,39 @@ void expect_nothing_to_be_seen(const Scene& scene) {
 
 TEST(Furnace, NothingCanBeSeen) { expect_nothing_to_be_seen(scene_of(furnace)); }
 
+/// White clay and mirrors, inside and outside, sheared and in part.
+TEST(Furnace, NothingCanBeSeenOfCylinders) {
+  expect_nothing_to_be_seen(scene_of(R"(LookAt 0 0 6  0 0 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 48 "integer yresolution" 48
+PixelFilter "box"
+Integrator "path" "integer maxdepth" 200
+WorldBegin
+LightSource "infinite" "rgb L" [ 1 1 1 ]
+Material "diffuse" "rgb reflectance" [ 1 1 1 ]
+AttributeBegin
+  Translate -0.8 0.7 0
+  Rotate 50 1 0.5 0
+  Shape "cylinder" "float radius" 0.7
+AttributeEnd
+AttributeBegin
+  ConcatTransform [ 0.8 0 0 0  0.3 -0.6 0 0  0.1 0.2 0.7 0  0.8 -0.7 0 1 ]
+  Shape "cylinder" "float phimax" 250
+AttributeEnd
+Material "conductor" "rgb reflectance" [ 1 1 1 ] "float roughness" 0
+AttributeBegin
+  Translate 0.8 0.7 0
+  Rotate -60 1 0.5 0
+  Shape "cylinder" "float radius" 0.5
+AttributeEnd
+AttributeBegin
+  Translate -0.8 -0.7 0
+  Scale -1 0.5 1
+  Shape "cylinder" "float radius" 0.7 "float phimax" 200
+AttributeEnd
+)"));
+}
+
 /// A map that is 1 everywhere equals the constant sky.
 TEST(Furnace, NothingCanBeSeenUnderAMap) {
   for (const int width : {8, 16}) {

@@ -71,7 +71,7 @@ TEST_P(CudaOnHostScene, GivesTheSerialBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Parity, CudaOnHostScene,
-                         ::testing::Values("environments", "lights", "materials", "instances", "meshes"));
+                         ::testing::Values("environments", "lights", "materials", "instances", "meshes", "cylinders"));
 
 TEST(CudaOnHostSizes, OnePixel) {
   Settings serial = serial_settings("float");

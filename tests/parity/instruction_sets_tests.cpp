@@ -41,7 +41,7 @@ void expect_same_bits(const std::string& name) {
 }
 
 constexpr const char* every_scene[] = {"cornell",   "spheres",   "environments", "lights",
-                                       "materials", "instances", "meshes"};
+                                       "materials", "instances", "meshes",       "cylinders"};
 
 TEST(InstructionSets, GiveTheSameBitsInFloat) {
   for (const char* name : every_scene) expect_same_bits<float>(name);

@@ -24,7 +24,9 @@ struct Calls {
   std::vector<OptixAccelBuildOptions> builds;
   std::vector<OptixInstance> instances;
   std::vector<Vec3<float>> first_centres, last_centres;  ///< of the moving spheres
+  std::vector<OptixAabb> boxes;                          ///< of custom primitives
   std::vector<std::string> groups;                       ///< names of the programs
+  std::vector<std::string> intersections;                ///< names of the intersection programs of our own
   std::vector<bool> sphere_modules_move;
   OptixPipelineCompileOptions pipeline{};
   std::vector<unsigned> payload_words;
@@ -61,6 +63,9 @@ void look_at(const OptixBuildInput& input) {
         ASSERT_LT(v, t.numVertices);
         calls.corners.push_back(element<Vec3<float>>(t.vertexBuffers[0], t.vertexStrideInBytes, v));
       }
+  } else if (input.type == OPTIX_BUILD_INPUT_TYPE_CUSTOM_PRIMITIVES) {
+    const auto* first = pointer<const OptixAabb>(input.customPrimitiveArray.aabbBuffers[0]);
+    calls.boxes.assign(first, first + input.customPrimitiveArray.numPrimitives);
   } else if (input.type == OPTIX_BUILD_INPUT_TYPE_INSTANCES) {
     const auto* first = pointer<const OptixInstance>(input.instanceArray.instances);
     calls.instances.assign(first, first + input.instanceArray.numInstances);
@@ -114,6 +119,8 @@ std::string name_of(const OptixProgramGroupDesc& group) {
 OptixResult create_group(OptixDeviceContext, const OptixProgramGroupDesc* group, unsigned,
                          const OptixProgramGroupOptions*, char*, size_t*, OptixProgramGroup* made) {
   calls.groups.push_back(name_of(*group));
+  if (group->kind == OPTIX_PROGRAM_GROUP_KIND_HITGROUP && group->hitgroup.entryFunctionNameIS)
+    calls.intersections.emplace_back(group->hitgroup.entryFunctionNameIS);
   ++calls.made;
   *made = reinterpret_cast<OptixProgramGroup>(calls.groups.size());
   return OPTIX_SUCCESS;
@@ -166,15 +173,16 @@ OptixResult launch(OptixPipeline, CUstream, CUdeviceptr params, size_t size, con
   EXPECT_EQ(size, sizeof(OptixParams));
   EXPECT_EQ(depth, 1u);
   EXPECT_EQ(table->missRecordCount, 2u);
-  EXPECT_EQ(table->hitgroupRecordCount, 3u);
+  EXPECT_EQ(table->hitgroupRecordCount, primitive_kinds);
   EXPECT_EQ(program_at(table->missRecordBase, table->missRecordStrideInBytes, 0), "");
   EXPECT_EQ(program_at(table->missRecordBase, table->missRecordStrideInBytes, 1), "__miss__occlusion");
   const std::string raygen = program_at(table->raygenRecord, 0, 0);
   const OptixParams& p = *pointer<const OptixParams>(params);
   const bool mixed = SceneTraits(p.launch.scene).has_instances();
   EXPECT_EQ(p.traversable, mixed || !calls.inputs.empty() ? calls.inputs.size() : 0);
-  const std::string names[] = {"__closesthit__triangle", "__closesthit__sphere", "__closesthit__moving_sphere"};
-  for (unsigned kind = 0; kind < 3; ++kind)
+  const std::string names[] = {"__closesthit__triangle", "__closesthit__sphere", "__closesthit__moving_sphere",
+                               "__closesthit__cylinder"};
+  for (unsigned kind = 0; kind < primitive_kinds; ++kind)
     EXPECT_EQ(program_at(table->hitgroupRecordBase, table->hitgroupRecordStrideInBytes, kind),
               SceneTraits(p.launch.scene).has[kind] ? names[kind] : "");
   if (raygen == "__raygen__path") run<IntegratorKind::path>(p, width, height);
@@ -301,7 +309,7 @@ Settings settings_of(const std::string& integrator) {
 }
 
 TEST(OptixMock, LaunchesGiveTheSerialBits) {
-  for (const std::string scene : {"cornell", "spheres", "instances"})
+  for (const std::string scene : {"cornell", "spheres", "instances", "cylinders"})
     for (const std::string integrator : {"path", "iterative"}) {
       const OptixFunctionTable table = mock_driver();
       const Settings settings = settings_of(integrator);
@@ -332,6 +340,20 @@ TEST(OptixMock, EveryKindHasAStructureAndARecord) {
   ASSERT_FALSE(calls.first_centres.empty());
   for (size_t i = 0; i < calls.first_centres.size(); ++i)
     EXPECT_GT(length_squared(calls.last_centres[i] - calls.first_centres[i]), 0);
+}
+
+TEST(OptixMock, KindsThatItDoesNotKnowAreBoxesWithAProgram) {
+  const OptixFunctionTable table = mock_driver();
+  render(table, parity_scene("cylinders"), settings_of("path"));
+  ASSERT_EQ(calls.inputs.size(), 3u) << "triangles, cylinders and the instances of both";
+  EXPECT_EQ(calls.inputs[1].type, OPTIX_BUILD_INPUT_TYPE_CUSTOM_PRIMITIVES);
+  EXPECT_EQ(calls.boxes.size(), 6u);
+  for (const OptixAabb& box : calls.boxes)
+    EXPECT_TRUE(box.minX < box.maxX && box.minY < box.maxY && box.minZ < box.maxZ);
+  EXPECT_EQ(calls.intersections, (std::vector<std::string>{"__intersection__cylinder"}));
+  EXPECT_EQ(calls.instances.at(1).sbtOffset, static_cast<unsigned>(PrimitiveKind::cylinder));
+  EXPECT_TRUE(calls.pipeline.usesPrimitiveTypeFlags & static_cast<unsigned>(OPTIX_PRIMITIVE_TYPE_FLAGS_CUSTOM));
+  EXPECT_FALSE(calls.pipeline.usesMotionBlur);
 }
 
 TEST(OptixMock, ObjectsHaveAStructureAndInstancesOfIt) {

@@ -161,6 +161,41 @@ AttributeBegin Material "conductor" "float roughness" 0.2 Translate 0 1.2 0.3 )"
                   tent + "AttributeEnd\n");
 }
 
+/// Cylinders, whole and in part: textured, mirrored, sheared, of glass, of rough metal, bumped, with holes, inside out,
+/// in instances, and one that is a lamp, which is a mesh.
+inline Scene read_cylinders() {
+  return scene_of(R"(LookAt 0 -6 3  0 0 0.6  0 0 1
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 20 "integer yresolution" 17
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.1 0.2 0.3 ]
+LightSource "point" "point3 from" [ 2 -3 5 ] "rgb I" [ 20 20 20 ]
+AttributeBegin AreaLightSource "diffuse" "rgb L" [ 8 7 5 ] Translate 0 0 3 Rotate 90 0 1 0
+Shape "cylinder" "float radius" 0.2 AttributeEnd
+Texture "checks" "spectrum" "checkerboard" "rgb tex1" [ 0.8 0.2 0.2 ] "rgb tex2" [ 0.2 0.8 0.2 ]
+  "float uscale" 8 "float vscale" 4
+Texture "holes" "float" "checkerboard" "float tex1" 0.3 "float tex2" 1 "float uscale" 6 "float vscale" 6
+Texture "waves" "float" "wrinkled"
+Shape "trianglemesh" "point3 P" [ -9 -9 0  9 -9 0  9 9 0  -9 9 0 ] "integer indices" [ 0 1 2 0 2 3 ]
+AttributeBegin Material "diffuse" "texture reflectance" "checks" Translate -1.8 0 0
+Shape "cylinder" "float radius" 0.6 "float zmin" 0 "float zmax" 1.2 AttributeEnd
+AttributeBegin Material "dielectric" "float eta" 1.5 
+ConcatTransform [ 1 0 0 0  0 1 0 0  0.4 0.2 1 0  -0.4 -0.8 0.7 1 ]
+Shape "cylinder" "float radius" 0.5 "float zmin" -0.6 "float zmax" 0.6 AttributeEnd
+AttributeBegin Material "conductor" "float uroughness" 0.1 "float vroughness" 0.4 "texture displacement" "waves"
+Translate 0.8 0.6 0.8 Rotate 30 1 1 0 Scale -0.7 1.1 0.8
+Shape "cylinder" "float phimax" 230 "float zmin" -0.8 "float zmax" 1 AttributeEnd
+AttributeBegin Material "diffuse" "rgb reflectance" [ 0.7 0.6 0.2 ] Translate 1.6 -0.9 0.5 Rotate 80 0 1 0.3
+Shape "cylinder" "float radius" 0.4 "texture alpha" "holes" AttributeEnd
+ObjectBegin "ring"
+  Material "conductor" "rgb reflectance" [ 0.9 0.8 0.7 ] "float roughness" 0
+  Shape "cylinder" "float radius" 0.5 "float zmin" 0 "float zmax" 0.2
+ObjectEnd
+AttributeBegin Translate -0.5 1.2 1.4 Rotate 60 1 0 0 ObjectInstance "ring" AttributeEnd
+AttributeBegin ReverseOrientation Translate 0.5 -1.8 0 Scale -1 1 2 ObjectInstance "ring" AttributeEnd
+)");
+}
+
 inline const Scene& parity_scene(const std::string& name) {
   if (name == "cornell") {
     static const Scene cornell = scene_of(cornell_box(parity_height));
@@ -181,6 +216,10 @@ inline const Scene& parity_scene(const std::string& name) {
   if (name == "instances") {
     static const Scene instances = read_instances();
     return instances;
+  }
+  if (name == "cylinders") {
+    static const Scene cylinders = read_cylinders();
+    return cylinders;
   }
   if (name == "meshes") {
     static const Scene meshes = read_meshes();

@@ -38,6 +38,16 @@ class PrimitiveScene {
     scene_.groups[0].shapes.push_back(shape);
   }
 
+  /// `world` places the cylinder of radius 1 about the z axis, with z from -1 to 1 and azimuths up to `phi_max`
+  /// degrees.
+  void add_cylinder(const Transform& world, double phi_max = 360) {
+    Shape shape;
+    shape.type = ShapeType::cylinder;
+    shape.phi_max = phi_max;
+    shape.world_from_object = {world, world};
+    scene_.groups[0].shapes.push_back(shape);
+  }
+
   template <class Real>
   CompiledScene<Real> flat(int threads = 1) const {
     Scene copy = scene_;
@@ -53,9 +63,22 @@ class PrimitiveScene {
   Scene scene_;
 };
 
-/// Triangles, spheres and moving spheres of many sizes about the origin.
+/// A rotation, and a scale by factors of 1/3 to 3 along the axes; one in two is mirrored.
+inline Transform random_stretch(Random& random) {
+  const auto factor = [&] { return random.magnitude_between(1.0 / 3, 3) * (random.below(2) == 0 ? 1 : -1); };
+  const double x = factor(), y = factor();
+  return Transform::rotate(random.between(0, 360), random.on_sphere()) * Transform::scale({x, y, factor()});
+}
+
+/// The cylinder of radius 1 and height 2, scaled to about `size` along three directions that are not perpendicular.
+inline Transform random_cylinder(const Vec3d& centre, double size, Random& random) {
+  const Transform stretch = Transform::scale(splat(size)) * random_stretch(random);
+  return Transform::translate(centre) * stretch * random_stretch(random);
+}
+
+/// Triangles, spheres, moving spheres and cylinders of many sizes about the origin.
 inline PrimitiveScene mixed_primitives(uint64_t seed, int of_each_kind) {
-  Random random(seed);
+  Random random(seed), random_of_cylinders(seed + 1);
   PrimitiveScene scene;
   for (int i = 0; i < of_each_kind; ++i) {
     const Vec3d p = random.in_box(-10, 10);
@@ -63,6 +86,10 @@ inline PrimitiveScene mixed_primitives(uint64_t seed, int of_each_kind) {
     scene.add_triangle(p, p + random.on_sphere() * size, p + random.on_sphere() * size);
     scene.add_sphere(random.in_box(-10, 10), random.magnitude_between(0.01, 1));
     scene.add_sphere(random.in_box(-10, 10), random.magnitude_between(0.01, 1), random.in_box(-2, 2));
+    const Vec3d centre = random_of_cylinders.in_box(-10, 10);
+    const double radius = random_of_cylinders.magnitude_between(0.01, 1);
+    scene.add_cylinder(random_cylinder(centre, radius, random_of_cylinders),
+                       i % 2 == 0 ? 360 : random_of_cylinders.between(1, 360));
   }
   return scene;
 }

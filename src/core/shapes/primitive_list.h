@@ -18,4 +18,5 @@
   PRIMITIVE(X, triangle, TriangleRecord, triangles, TriangleBlock<Real>, triangle_blocks)                      \
   PRIMITIVE(X, sphere, SphereRecord<Real>, spheres, RecordBlock<SphereRecord<Real>>, sphere_blocks)            \
   PRIMITIVE(X, moving_sphere, MovingSphereRecord<Real>, moving_spheres, RecordBlock<MovingSphereRecord<Real>>, \
-            moving_sphere_blocks)
+            moving_sphere_blocks)                                                                              \
+  PRIMITIVE(X, cylinder, CylinderRecord<Real>, cylinders, RecordBlock<CylinderRecord<Real>>, cylinder_blocks)

@@ -6,6 +6,7 @@
 
 #include "core/bvh/ray_intersector.h"
 #include "core/scene_view.h"
+#include "core/shapes/cylinder.h"
 #include "core/shapes/sphere.h"
 #include "core/shapes/triangle.h"
 

@@ -47,6 +47,25 @@ struct MovingSphereRecord {
   ALHAZEN_HD constexpr Real number(int k) const { return k < 3 ? centre[k] : k == 3 ? radius : motion[k - 4]; }
 };
 
+/// Part of a cylinder. In its object space, which has its origin at `centre`, it consists of the points with x^2 + y^2
+/// = 1, |z| <= 1 and |phi| <= phi_max / 2, where phi is the azimuth about z from x.
+template <class Real>
+struct CylinderRecord {
+  static constexpr PrimitiveKind kind = PrimitiveKind::cylinder;
+  static constexpr int numbers = 14;
+
+  Vec3<Real> centre;
+  Vec3<Real> object_from_world[3];  ///< rows
+  Real cosine, sine;                ///< of phi_max / 2
+  Real phi_max;                     ///< in radians
+  Vec3<Real> world_from_object[3];  ///< columns
+  uint32_t surface;
+
+  ALHAZEN_HD constexpr Real number(int k) const {
+    return k < 3 ? centre[k] : k < 12 ? object_from_world[k / 3 - 1][k % 3] : k == 12 ? cosine : sine;
+  }
+};
+
 /// The axes of a sphere's object space in world space, for its uv coordinates: z is the polar axis.
 template <class Real>
 struct SphereFrame {
@@ -85,13 +104,13 @@ inline constexpr uint32_t no_light = 0xffffffffu;
 inline constexpr uint32_t no_offset = 0xffffffffu;
 inline constexpr uint32_t no_sphere_frame = 0xffffffffu;
 
-/// The properties of a mesh or a sphere. Each emissive triangle has its own surface.
+/// The properties of a shape. Each emissive triangle has its own surface.
 struct SurfaceRecord {
   uint32_t material;
   uint32_t light;          ///< index into lights, or no_light
   uint32_t normal_offset;  ///< added to the vertex index modulo 2^32; no_offset if there are no shading normals
   uint32_t uv_offset;      ///< the same for uvs
-  uint32_t flip_normal;    ///< 1: reverses the normal (a sphere's then points inward)
+  uint32_t flip_normal;    ///< 1: reverses the normal (a sphere's or cylinder's then points inward)
   uint32_t attributes;     ///< index into vertex_attributes, or no_offset
 };
 
@@ -114,7 +133,7 @@ struct VertexTangent {
 };
 
 /// The hit of a ray on a primitive. b1 and b2 are the barycentric coordinates of vertices 1 and 2; they are 0 for
-/// spheres.
+/// other shapes.
 template <class Real>
 struct Hit {
   Real t;  ///< distance along the ray's unit direction

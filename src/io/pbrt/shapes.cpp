@@ -85,11 +85,35 @@ void read_sphere(Build& build, ParameterList& list, Shape& shape) {
     become_mesh(shape, sphere_mesh(build, list, shape.radius, extent));
 }
 
+/// Returns whether a cylinder is exact where `world_from_object` places it: it is at rest, and its thickness is not
+/// lost in the rounding of coordinates along it.
+bool stays_cylinder(const Shape& shape, const MovingTransform& world_from_object) {
+  constexpr double max_magnification = 1e4;  // of rounding, on the way to a cylinder of radius 1 and height 2, and back
+  const Matrix4& there = world_from_object.start.matrix();
+  const Matrix4 back = world_from_object.start.inverse().matrix();
+  if (world_from_object.is_moving() || there[3] != std::array<double, 4>{0, 0, 0, 1}) return false;
+  const std::array<double, 3> size{shape.radius, shape.radius, (shape.z_max - shape.z_min) / 2};
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j) {
+      double magnified = 0;
+      for (size_t k = 0; k < 3; ++k) magnified += std::abs(back[i][k] / size[i] * there[k][j] * size[j]);
+      if (!(magnified <= max_magnification)) return false;
+    }
+  return true;
+}
+
+uint32_t cylinder_mesh(Build& build, const ParameterList& list, const Shape& shape) {
+  return shared_mesh(build, list, "cylinder", {shape.radius, shape.z_min, shape.z_max, shape.phi_max},
+                     tessellated_cylinder);
+}
+
 void read_cylinder(Build& build, ParameterList& list, Shape& shape) {
-  const double radius = list.positive("radius", 1);
+  shape.radius = list.positive("radius", 1);
   const Extent extent = read_extent(list, -1, 1);
-  become_mesh(shape, shared_mesh(build, list, "cylinder", {radius, extent.z_min, extent.z_max, extent.phi_max},
-                                 tessellated_cylinder));
+  shape.z_min = extent.z_min, shape.z_max = extent.z_max, shape.phi_max = extent.phi_max;
+  shape.type = ShapeType::cylinder;
+  if (build.state.area_light || !stays_cylinder(shape, shape.world_from_object))
+    become_mesh(shape, cylinder_mesh(build, list, shape));
 }
 
 void read_disk(Build& build, ParameterList& list, Shape& shape) {
@@ -188,9 +212,14 @@ void add_shape(Build& build, const std::string& kind, ParameterList& list) {
 
 void tessellate_for_instances(Build& build) {
   for (const Instance& instance : build.scene.instances)
-    for (Shape& shape : build.scene.groups[instance.group].shapes)
-      if (shape.type == ShapeType::sphere && !is_similarity(instance.world_from_group))
+    for (Shape& shape : build.scene.groups[instance.group].shapes) {
+      const MovingTransform &outer = instance.world_from_group, &inner = shape.world_from_object;
+      if (shape.type == ShapeType::sphere && !is_similarity(outer))
         become_mesh(shape, sphere_mesh(build, {}, shape.radius, {-shape.radius, shape.radius, 360}));
+      else if (shape.type == ShapeType::cylinder &&
+               !stays_cylinder(shape, {outer.start * inner.start, outer.end * inner.end}))
+        become_mesh(shape, cylinder_mesh(build, {}, shape));
+    }
 }
 
 }  // namespace alhazen::pbrt

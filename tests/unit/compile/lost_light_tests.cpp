@@ -55,6 +55,8 @@ TYPED_TEST(LostLightOf, CausticsOfLightsWithoutSize) {
       {"a small glass far away",
        "WorldBegin\nLightSource \"point\" \"point3 from\" [0 400 0]\n" + glass +
            "AttributeBegin Translate 3 1.5 2 Shape \"sphere\" \"float radius\" 0.01 AttributeEnd\n" + floor_of},
+      {"a glass tube", "WorldBegin\n" + point + glass +
+                           "AttributeBegin Translate 0 1.5 0 Shape \"cylinder\" AttributeEnd\n" + floor_of},
       {"pane", "WorldBegin\n" + point +
                    "Material \"thindielectric\"\nAttributeBegin Rotate 90 1 0 0 Shape \"disk\" AttributeEnd\n" +
                    "Translate 0 -1 0 " + floor_of},

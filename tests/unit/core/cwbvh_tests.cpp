@@ -10,8 +10,9 @@
 namespace alhazen::test {
 namespace {
 
-Bounds3<float> box_of(const CwbvhPrimitive& p) {
+Bounds3<float> box_of(const SceneView<float>& scene, const CwbvhPrimitive& p) {
   Bounds3<float> box;
+  if (p.id.kind() == PrimitiveKind::cylinder) return bounds_of(scene, scene.cylinders[p.id.index()]);
   if (p.id.kind() == PrimitiveKind::triangle) {
     box.extend(p.a);
     box.extend(p.b);
@@ -53,7 +54,7 @@ class Walk {
         for (uint32_t i = 0; i < count; ++i) {
           const uint32_t place = node.first_primitive + next_primitive + i;
           ++seen_.at(place);
-          box.extend(box_of(scene_.cwbvh_primitives[place]));
+          box.extend(box_of(scene_, scene_.cwbvh_primitives[place]));
         }
         next_primitive += count;
       }

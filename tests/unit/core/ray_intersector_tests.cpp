@@ -68,21 +68,23 @@ class RayIntersectors : public ::testing::Test {
     return is_hit;
   }
 
-  /// A triangle across the z axis at z = 5, and a sphere about x = 10 that begins there.
-  static CompiledScene<RealOf> triangle_and_sphere() {
+  /// A triangle across the z axis at z = 5, and a sphere about x = 10 and a cylinder about x = 20 that begin there.
+  static CompiledScene<RealOf> one_of_each() {
     PrimitiveScene scene;
     scene.add_triangle({-1, -1, 5}, {1, -1, 5}, {0, 1, 5});
     scene.add_sphere({10, 0, 6}, 1);
+    scene.add_cylinder(Transform::translate({20, 0, 6}) * Transform::rotate(90, {1, 0, 0}));
     return scene.flat<RealOf>();
   }
+  static constexpr RealOf middles[] = {0, 10, 20};
 };
 TYPED_TEST_SUITE(RayIntersectors, Intersectors);
 
 TYPED_TEST(RayIntersectors, IntervalIsOpen) {
   using Real = typename TypeParam::Real;
-  const CompiledScene<Real> scene = this->triangle_and_sphere();
+  const CompiledScene<Real> scene = this->one_of_each();
   const TypeParam over(scene.view);
-  for (const Real x : {Real(0), Real(10)}) {
+  for (const Real x : this->middles) {
     const Ray<Real> ray = this->ray_along_z(x);
     Hit<Real> hit;
     ASSERT_TRUE(this->hits(over, ray, infinity<Real>, &hit)) << x;
@@ -152,9 +154,9 @@ TYPED_TEST(RayIntersectors, TiesGoToTheLowestPrimitive) {
 
 TYPED_TEST(RayIntersectors, RaysThatAreNotFiniteHitNothing) {
   using Real = typename TypeParam::Real;
-  const CompiledScene<Real> scene = this->triangle_and_sphere();
+  const CompiledScene<Real> scene = this->one_of_each();
   const TypeParam over(scene.view);
-  for (const Real x : {Real(0), Real(10)})
+  for (const Real x : this->middles)
     for (const Real odd : {infinity<Real>, -infinity<Real>, std::numeric_limits<Real>::quiet_NaN()})
       for (int place = 0; place < 6; ++place) {
         Ray<Real> ray = this->ray_along_z(x);
@@ -165,9 +167,9 @@ TYPED_TEST(RayIntersectors, RaysThatAreNotFiniteHitNothing) {
 
 TYPED_TEST(RayIntersectors, DirectionsMayHaveZerosOfEitherSign) {
   using Real = typename TypeParam::Real;
-  const CompiledScene<Real> scene = this->triangle_and_sphere();
+  const CompiledScene<Real> scene = this->one_of_each();
   const TypeParam over(scene.view);
-  for (const Real x : {Real(0), Real(10)})
+  for (const Real x : this->middles)
     for (int signs = 0; signs < 4; ++signs) {
       Ray<Real> ray = this->ray_along_z(x);
       ray.direction.x = signs & 1 ? -Real(0) : Real(0);

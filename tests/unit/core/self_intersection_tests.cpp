@@ -8,6 +8,7 @@
 #include "core/bvh/brute_force/intersector.h"
 #include "core/integrators/stages.h"
 #include "support/effort.h"
+#include "support/primitive_scenes.h"
 #include "support/random.h"
 #include "support/reals.h"
 
@@ -150,6 +151,67 @@ TYPED_TEST(SelfIntersectionOf, SpheresFromInside) {
     }
   }
   EXPECT_EQ(hit_again, 0u) << "of " << left;
+}
+
+/// Calls check(view, si, n) for hits of cylinders by rays from all around, where `view` holds nothing but that
+/// cylinder: skewed, mirrored and far from the origin, whole or in part, as long and thin as 1 to 9.
+template <class Real, class Check>
+void at_points_of_cylinders(uint64_t seed, bool only_resolved, const Check& check) {
+  Random random(seed);
+  size_t left = 0;
+  while (left < effort(1'000'000)) {
+    PrimitiveScene primitives;
+    for (int i = 0; i < 4096; ++i) {
+      const Vec3d centre = random.on_sphere() * random.magnitude_between(1e-3, 1e5);
+      const double size = random.magnitude_between(1e-3, 1e4);
+      if (only_resolved && size < 20 * min_resolved_size<Real>(centre)) continue;
+      primitives.add_cylinder(random_cylinder(centre, size, random), i % 2 == 0 ? 360 : random.between(1, 360));
+    }
+    const CompiledScene<Real> scene = primitives.flat<Real>();
+    for (uint32_t i = 0; i < scene.view.cylinders_count; ++i) {
+      const PrimitiveId id(PrimitiveKind::cylinder, i);
+      SceneView<Real> view = scene.view;
+      view.primitives = &id;
+      view.primitives_count = 1;
+      const Bounds3<Real> box = bounds_of(view, view.cylinders[i]);
+      const double size = static_cast<double>(length(box.diagonal()));
+      for (int n = 0; n < 16; ++n) {
+        const Vec3d target = convert<double>(box.centre()) + random.on_sphere() * (random.uniform<double>() * size / 2);
+        const auto si = meet<Real>(view, target, size * random.magnitude_between(0.1, 100), random);
+        if (!si) continue;
+        ++left;
+        check(view, *si, random);
+      }
+    }
+  }
+}
+
+TYPED_TEST(SelfIntersectionOf, CylindersFromOutside) {
+  using Real = TypeParam;
+  size_t hit_again = 0;
+  at_points_of_cylinders<Real>(5, false,
+                               [&](const SceneView<Real>& view, const SurfaceInteraction<Real>& si, Random& random) {
+                                 const Ray<Real> ray = spawn_ray(si, leaving_direction(si.normal, 1, random));
+                                 hit_again += BruteForceIntersector<Real>(view).occluded(ray, infinity<Real>);
+                               });
+  EXPECT_EQ(hit_again, 0u);
+}
+
+/// An inward ray hits the far side, or leaves through an end or a gap. In object space, the chord from a point with the
+/// normal n in the direction d has the length 2 |n d| / |d|^2 in two dimensions.
+TYPED_TEST(SelfIntersectionOf, CylindersFromInside) {
+  using Real = TypeParam;
+  size_t hit_again = 0;
+  at_points_of_cylinders<Real>(
+      6, true, [&](const SceneView<Real>& view, const SurfaceInteraction<Real>& si, Random& random) {
+        const CylinderRecord<Real>& cylinder = view.cylinders[si.primitive.index()];
+        const Ray<Real> ray = spawn_ray(si, leaving_direction(si.normal, -1, random));
+        const Vec3d n = convert<double>(object_from_world(cylinder, si.position - cylinder.centre));
+        const Vec3d d = convert<double>(object_from_world(cylinder, ray.direction));
+        const double chord = 2 * std::abs(n.x * d.x + n.y * d.y) / (d.x * d.x + d.y * d.y);
+        hit_again += BruteForceIntersector<Real>(view).occluded(ray, static_cast<Real>(chord / 2));
+      });
+  EXPECT_EQ(hit_again, 0u);
 }
 
 /// A sampled point of a light is visible if nothing is in between: the light does not occlude itself.

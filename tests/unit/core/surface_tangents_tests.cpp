@@ -31,6 +31,7 @@ constexpr NamedText shapes[] = {
     {"triangle without uv", R"(Shape "trianglemesh" "point3 P" [-1 -1 0  1 -1 0  1 1 0.5])"},
     {"disk", R"(Shape "disk" "float innerradius" 0.2)"},
     {"cylinder", R"(Shape "cylinder")"},
+    {"part of a cylinder", R"(Shape "cylinder" "float radius" 0.9 "float zmin" -0.5 "float phimax" 200)"},
     {"bilinear patch", R"(Shape "bilinearmesh" "point3 P" [-1 -1 0  1 -1 0.2  -1 1 0.5  1 1 -0.3])"},
     {"curve", R"(Shape "curve" "string type" "cylinder" "point3 P" [-1 -1 0  -0.3 1 0  0.3 -1 0  1 1 0.2]
       "float width" 0.5)"},

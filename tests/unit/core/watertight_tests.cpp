@@ -1,4 +1,5 @@
-// No ray passes between the triangles of a closed mesh: not at edges, not at vertices, not far from the origin.
+// No ray passes between the triangles of a closed mesh: not at edges, not at vertices, not far from the origin. Nor
+// does one pass through the side of a cylinder, not where u begins and ends.
 
 #include <gtest/gtest.h>
 
@@ -76,6 +77,35 @@ TYPED_TEST(WatertightOf, Icosphere) { check_watertight<TypeParam>(0, 1, {}, 1); 
 TYPED_TEST(WatertightOf, IcosphereFarAway) { check_watertight<TypeParam>(0, 100, far_away, 2); }
 TYPED_TEST(WatertightOf, Jittered) { check_watertight<TypeParam>(0.02, 1, {}, 3); }
 TYPED_TEST(WatertightOf, JitteredFarAway) { check_watertight<TypeParam>(0.02, 100, far_away, 4); }
+
+/// Rays from the inner half of a cylinder and from outside, half of them towards points where u begins and ends.
+template <class Tree>
+void check_cylinder(const Transform& world, uint64_t seed) {
+  using Real = typename Tree::Real;
+  Random random(seed);
+  PrimitiveScene primitives;
+  primitives.add_cylinder(world);
+  const CompiledScene<Real> scene = primitives.flat<Real>();
+  const typename Tree::Intersector bvh(scene.view);
+  size_t misses = 0;
+  for (size_t i = 0; i < effort(100'000); ++i) {
+    const double phi = random.below(2) ? 0 : random.between(0, 2 * pi<double>), z = random.between(-0.9, 0.9);
+    const Vec3d within = random.on_sphere() * 0.5;
+    const Vec3<Real> target = convert<Real>(world.point({std::cos(phi), std::sin(phi), z}));
+    const Vec3<Real> inside = convert<Real>(world.point(within));
+    const Vec3<Real> outside = target + (target - inside) * static_cast<Real>(random.magnitude_between(0.1, 30));
+    Hit<Real> hit;
+    misses += !bvh.closest_hit({inside, normalize(target - inside)}, infinity<Real>, hit);
+    misses += !bvh.closest_hit({outside, normalize(target - outside)}, infinity<Real>, hit);
+  }
+  EXPECT_EQ(misses, 0u);
+}
+
+TYPED_TEST(WatertightOf, Cylinder) { check_cylinder<TypeParam>({}, 5); }
+TYPED_TEST(WatertightOf, SkewedCylinderFarAway) {
+  Random random(6);
+  check_cylinder<TypeParam>(random_cylinder(far_away, 100, random), 6);
+}
 
 // From the exact centre of a mesh about the origin the direction to a vertex is exact: edge functions become 0.
 TYPED_TEST(WatertightOf, ExactlyThroughVertices) {

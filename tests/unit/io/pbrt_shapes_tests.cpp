@@ -82,7 +82,35 @@ TEST(PbrtShapes, DiskHasExactlyTheAreaOfTheCircleAndFacesUp) {
 }
 
 TEST(PbrtShapes, Cylinder) {
-  const Parsed p = parse_world("Shape \"cylinder\" \"float radius\" 2 \"float zmin\" 1 \"float zmax\" 4");
+  const Parsed p = parse_world(
+      "Rotate 30 1 1 0 Scale 2 -1 0.5 Shape \"cylinder\" \"float radius\" 2 \"float zmin\" 4 \"float zmax\" 1 "
+      "\"float phimax\" 200 Shape \"cylinder\"");
+  const Shape& shape = shapes(p).at(0);
+  EXPECT_EQ(shape.type, ShapeType::cylinder);
+  EXPECT_EQ(shape.radius, 2);
+  EXPECT_EQ(shape.z_min, 1);
+  EXPECT_EQ(shape.z_max, 4);
+  EXPECT_EQ(shape.phi_max, 200);
+  EXPECT_EQ(shapes(p).at(1).z_min, -1);
+  EXPECT_EQ(shapes(p).at(1).z_max, 1);
+  EXPECT_EQ(shapes(p).at(1).phi_max, 360);
+  EXPECT_TRUE(p.scene.meshes.empty());
+}
+
+TEST(PbrtShapes, CylindersThatEmitOrMoveOrAreExtremelyThinBecomeMeshes) {
+  const std::string move = "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All ";
+  for (const std::string& text :
+       {"AreaLightSource \"diffuse\" Shape \"cylinder\"", move + "Shape \"cylinder\"",
+        std::string("Rotate 30 1 1 0 Shape \"cylinder\" \"float radius\" 1e-5"),
+        "ObjectBegin \"o\" Shape \"cylinder\" ObjectEnd ObjectInstance \"o\" " + move + "ObjectInstance \"o\""})
+    EXPECT_EQ(parse_world(text).scene.groups.back().shapes.at(0).type, ShapeType::mesh) << text;
+  const Parsed along_an_axis = parse_world("Shape \"cylinder\" \"float radius\" 1e-5");
+  EXPECT_EQ(shapes(along_an_axis).at(0).type, ShapeType::cylinder) << "no rounding is magnified";
+}
+
+TEST(PbrtShapes, CylinderAsAMesh) {
+  const Parsed p = parse_world(
+      "AreaLightSource \"diffuse\" Shape \"cylinder\" \"float radius\" 2 \"float zmin\" 1 \"float zmax\" 4");
   const Mesh& mesh = mesh_of(p);
   EXPECT_NEAR(area_of(mesh), 2 * pi * 2 * 3, 0.02);
   for (size_t i = 0; i < mesh.triangle_count(); ++i)
