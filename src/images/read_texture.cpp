@@ -4,6 +4,7 @@
 #include <array>
 #include <new>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -91,9 +92,12 @@ ImageTexels decode_format(const std::string& path, ImageFormat format, std::span
       return decode_webp(path, bytes);
     case ImageFormat::qoi:
       return decode_qoi(path, bytes);
-    default:
+    case ImageFormat::pfm:
       return decode_pfm(path, bytes);
+    case ImageFormat::exr:
+      break;
   }
+  throw std::logic_error("EXR files are read by read_exr");
 }
 
 }  // namespace

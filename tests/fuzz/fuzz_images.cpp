@@ -1,5 +1,5 @@
-// Reads any bytes as a file of one of the formats without a target of their own (JPEG, TGA, BMP, PFM), selected by the
-// last byte: gives as many texels as declared, or an InputError.
+// Reads any bytes as a file of one of the formats without a target of their own (JPEG, TGA, BMP, PFM, QOI), selected by
+// the last byte: reads colours and alpha; gives as many texels as declared, or an InputError.
 
 #include "fuzz/sound_texels.h"
 #include "images/codecs/decoders.h"
@@ -7,9 +7,21 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace alhazen;
   if (size == 0) return 0;
-  constexpr auto decoders = std::to_array({decode_jpeg, decode_tga, decode_bmp, decode_pfm});
+  struct Decoders {
+    ImageTexels (*colours)(const std::string&, std::span<const uint8_t>);
+    std::optional<ImageTexels> (*alpha)(const std::string&, std::span<const uint8_t>);
+  };
+  constexpr auto formats = std::to_array<Decoders>({{decode_jpeg, nullptr},
+                                                    {decode_tga, decode_tga_alpha},
+                                                    {decode_bmp, decode_bmp_alpha},
+                                                    {decode_pfm, nullptr},
+                                                    {decode_qoi, decode_qoi_alpha}});
+  const Decoders& decode = formats[data[size - 1] % formats.size()];
+  const std::span<const uint8_t> bytes(data, size - 1);
   try {
-    fuzzing::require_sound(decoders[data[size - 1] % decoders.size()]("fuzz", {data, size - 1}));
+    fuzzing::require_sound(decode.colours("fuzz", bytes));
+    if (decode.alpha == nullptr) return 0;
+    if (const auto alpha = decode.alpha("fuzz", bytes)) fuzzing::require_sound(*alpha);
   } catch (const InputError&) {
   }
   return 0;
