@@ -10,6 +10,7 @@
 #include <fstream>
 #include <optional>
 
+#include "core/math/field_list.h"
 #include "core/sampling/hash.h"
 #include "files/atomic_file.h"
 #include "render/sample_kernel.h"
@@ -101,22 +102,19 @@ uint64_t join_settings(const RenderSettings& s, uint64_t scene) {
   return h.value();
 }
 
-/// All records have no padding except those below.
-template <class Record>
-void add_records(Hasher& h, const Record* records, uint32_t count) {
-  h.add_bytes(records, count * sizeof(Record));
+template <class Record, auto... members>
+void add_members(Hasher& h, const Record& record, FieldList<members...>) {
+  (h.add_bytes(&(record.*members), sizeof(record.*members)), ...);
 }
 
-template <class Real>
-void add_records(Hasher& h, const LightRecord<Real>* lights, uint32_t count) {
-  h.add(uint64_t{count});
-  for (const LightRecord<Real>* light = lights; light != lights + count; ++light) {
-    h.add(uint64_t{static_cast<uint32_t>(light->kind)});
-    h.add(uint64_t{light->primitive});
-    h.add(uint64_t{light->two_sided});
-    for (const uint32_t value : {light->trail, light->texture.first, light->texture.count}) h.add(uint64_t{value});
-    for (const Vec3<Real>& v : {light->radiance, light->position, light->direction}) h.add_bytes(&v, sizeof(v));
-    for (const Real value : {light->pmf, light->parameters.x, light->parameters.y}) h.add(static_cast<double>(value));
+/// Records that may have padding, whose bytes are undefined, list their members; others have none.
+template <class Record>
+void add_records(Hasher& h, const Record* records, uint32_t count) {
+  if constexpr (HasFields<Record>) {
+    h.add(uint64_t{count});
+    for (uint32_t i = 0; i < count; ++i) add_members(h, records[i], typename Record::Fields{});
+  } else {
+    h.add_bytes(records, count * sizeof(Record));
   }
 }
 

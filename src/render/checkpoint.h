@@ -11,7 +11,7 @@
 
 namespace alhazen {
 
-/// A hash over everything that determines the image.
+/// A hash over the compiled scene, its BVHs too. CheckpointFile adds the settings that determine samples.
 template <class Real>
 uint64_t scene_fingerprint(const CompiledScene<Real>& scene);
 

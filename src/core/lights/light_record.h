@@ -23,12 +23,16 @@ struct LightRecord {
   uint32_t two_sided;   ///< shapes: 1 if both sides emit
   uint32_t trail;       ///< position in the light tree: bit i selects the child at depth i
   Real pmf;             ///< probability that the light is chosen, by power if there is a light tree; 0 if only BSDF
-  ///< sampling finds it
+                        ///< sampling finds it
   Vec3<Real> position;
   Vec3<Real> direction;   ///< direction of propagation, unit length
   Vec2<Real> parameters;  ///< as the file of the kind says
   TextureRange texture;   ///< shapes: factor on the radiance
   uint32_t emitter;       ///< triangles: index into SceneView::triangle_emitters
+
+  using Fields = FieldList<&LightRecord::kind, &LightRecord::primitive, &LightRecord::radiance, &LightRecord::two_sided,
+                           &LightRecord::trail, &LightRecord::pmf, &LightRecord::position, &LightRecord::direction,
+                           &LightRecord::parameters, &LightRecord::texture, &LightRecord::emitter>;
 };
 
 /// An emissive triangle without its texture: what sampling it needs, stored together.
