@@ -16,7 +16,7 @@
 #include "core/cameras/camera_kind.h"
 #include "core/integrators/integrator_kind.h"
 #include "core/lights/light_list.h"
-#include "core/materials/material_record.h"
+#include "core/materials/material_list.h"
 #include "core/math/frame.h"
 #include "core/math/vec.h"
 #include "core/sampling/any_sampler.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 // The BSDF at a point: a closure of any kind in its shading frame. Each operation dispatches by a switch that expands
-// from the lists of core/materials/material_record.h. Directions are in world space and point away from the surface.
+// from the lists of core/materials/material_list.h. Directions are in world space and point away from the surface.
 
 #include <type_traits>
 
