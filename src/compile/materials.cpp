@@ -10,6 +10,7 @@
 
 #include "compile/tables/stored_tables.h"
 #include "compile/textures.h"
+#include "core/materials/lobes/microfacet.h"
 #include "scene/mixes.h"
 
 namespace alhazen {
@@ -315,7 +316,7 @@ class MaterialBuilder {
     if (roughness.count == 0) return min_layered_alpha<double>;
     const Optional value = constant_of(roughness);
     if (!value) return std::nullopt;
-    return std::max(material.remap_roughness ? std::sqrt(*value) : *value, min_layered_alpha<double>);
+    return layered_alpha(alpha_of_roughness(*value, material.remap_roughness));
   }
 
   /// Returns the index, clamped to the limits beyond which an interface reflects almost everything. It is rounded to

@@ -3,6 +3,7 @@
 // Evaluates the textures of a material at one point of a surface.
 
 #include "core/materials/lobes/albedo_grid.h"
+#include "core/materials/lobes/microfacet.h"
 #include "core/textures/texture.h"
 
 namespace ALHAZEN_CORE {
@@ -25,10 +26,9 @@ struct TextureEvaluator {
     return range.count == 0 ? fallback : clamp(value(range).x, Real(0), Real(1));
   }
 
-  /// Returns the alpha of a roughness texture, 0 if it is absent. If `remap`, alpha = sqrt(roughness).
+  /// Returns the alpha of a roughness texture, 0 if it is absent.
   ALHAZEN_HD ALHAZEN_HOT Real alpha(TextureRange range, uint32_t remap) const {
-    const Real roughness = scalar_or(range, Real(0));
-    return remap != 0 ? std::sqrt(roughness) : roughness;
+    return alpha_of_roughness(scalar_or(range, Real(0)), remap);
   }
   /// Returns the alphas of a layer, which is never perfectly smooth. If `v` is absent, both are those of `u`.
   ALHAZEN_HD Vec2<Real> layered_alphas(TextureRange u, TextureRange v, uint32_t remap) const {

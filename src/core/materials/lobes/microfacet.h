@@ -5,12 +5,19 @@
 // scalar, or for anisotropic surfaces a pair: alpha along x (the tangent) and along y.
 
 #include <concepts>
+#include <cstdint>
 
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 #include "core/sampling/warp.h"
 
 namespace ALHAZEN_CORE {
+
+/// Returns the alpha of a roughness from 0 to 1, as in pbrt-v4: alpha = sqrt(roughness) if `remap`, else the roughness.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Real alpha_of_roughness(Real roughness, uint32_t remap) {
+  return remap != 0 ? std::sqrt(roughness) : roughness;
+}
 
 /// Below this alpha a surface is treated as smooth.
 template <class Real>
