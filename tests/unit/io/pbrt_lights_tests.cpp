@@ -1,4 +1,4 @@
-// Lights with images: reading, orientation, emission by direction, brightness, and errors.
+// Lights of pbrt scenes; those with images: reading, orientation, emission by direction, brightness, and errors.
 
 #include <cmath>
 #include <limits>
@@ -10,6 +10,62 @@
 
 namespace alhazen::test {
 namespace {
+
+TEST(PbrtLights, Point) {
+  const Parsed p = parse_world(
+      "Translate 1 0 0 LightSource \"point\" \"point3 from\" [ 0 2 0 ] \"rgb I\" [ 1 2 3 ] "
+      "\"float scale\" 2 \"float power\" 10");
+  const Light& light = p.scene.lights.at(0);
+  EXPECT_EQ(light.kind, LightKind::point);
+  expect_near(light.position, {1, 2, 0});
+  expect_near(light.radiance, Vec3d{2, 4, 6} * (10 / (4 * pi<double>)));
+  EXPECT_EQ(light.where.line, 2);
+}
+
+TEST(PbrtLights, DistantWithAnAngleIsASun) {
+  const Parsed p = parse_world(
+      "LightSource \"distant\" \"rgb L\" [ 1 2 3 ] \"float angle\" 0.5 LightSource \"distant\" \"float angle\" 0");
+  EXPECT_EQ(p.scene.lights[0].kind, LightKind::sun);
+  EXPECT_EQ(p.scene.lights[0].cone_angle, 0.25);
+  expect_near(p.scene.lights[0].radiance, {1, 2, 3});
+  EXPECT_EQ(p.scene.lights[1].kind, LightKind::distant);
+  for (const char* angle : {"-1", "0.001", "181"})
+    EXPECT_NE(error_of(std::string("WorldBegin LightSource \"distant\" \"float angle\" ") + angle).find("0.01 to 180"),
+              std::string::npos)
+        << angle;
+}
+
+TEST(PbrtLights, DistantTravelsFromFromToTo) {
+  const Parsed p = parse_world(
+      "Rotate 90 1 0 0 LightSource \"distant\" LightSource \"distant\" "
+      "\"point3 from\" [ 0 5 0 ] \"point3 to\" [ 0 1 0 ] \"float illuminance\" 3");
+  expect_near(p.scene.lights[0].direction, {0, -1, 0});
+  expect_near(p.scene.lights[0].radiance, {1, 1, 1});
+  expect_near(p.scene.lights[1].direction, {0, 0, -1});
+  expect_near(p.scene.lights[1].radiance, {3, 3, 3});
+}
+
+TEST(PbrtLights, Spot) {
+  const Parsed p = parse_world(
+      "LightSource \"spot\" \"point3 from\" [ 0 0 5 ] \"point3 to\" [ 0 0 1 ] "
+      "\"float coneangle\" 40 \"float conedeltaangle\" 10 \"float power\" 1");
+  const Light& light = p.scene.lights.at(0);
+  EXPECT_EQ(light.kind, LightKind::spot);
+  expect_near(light.direction, {0, 0, -1});
+  EXPECT_EQ(light.cone_angle, 40);
+  EXPECT_EQ(light.falloff_start, 30);
+  const double start = std::cos(pi<double> / 6), end = std::cos(40 * pi<double> / 180);
+  expect_near(light.radiance, splat(1 / (2 * pi<double> * (1 - (start + end) / 2))), 1e-12);
+}
+
+TEST(PbrtLights, Infinite) {
+  const Parsed p = parse_world(
+      "LightSource \"infinite\" \"rgb L\" [ 1 2 3 ] \"float scale\" 2\n"
+      "LightSource \"infinite\" \"float illuminance\" 10");
+  EXPECT_EQ(p.scene.lights[0].kind, LightKind::constant_infinite);
+  expect_near(p.scene.lights[0].radiance, {2, 4, 6});
+  expect_near(p.scene.lights[1].radiance, splat(10 / pi<double>));
+}
 
 class PbrtLightImages : public ::testing::Test {
  protected:
