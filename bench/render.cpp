@@ -8,7 +8,7 @@
 #include "core/bvh/ray_intersector.h"
 #include "io/pbrt/pbrt.h"
 #include "render/backend.h"
-#include "render/kernels/instances.h"
+#include "render/kernels/kernel_templates.h"
 
 namespace alhazen {
 namespace {

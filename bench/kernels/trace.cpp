@@ -2,7 +2,7 @@
 
 #include "core/bvh/bvh8/intersector.h"
 #include "kernels/query.h"
-#include "render/kernels/instances.h"
+#include "render/kernels/kernel_templates.h"
 #if defined(ALHAZEN_WITH_EMBREE)
 #include "backends/embree/module/intersector.h"
 #endif

@@ -1,7 +1,7 @@
 // The sample kernels of the fuzz targets: only those of the default integrator and sampler, which execute most of the
 // core. Each of the others would take as long to compile.
 
-#include "render/kernels/instances.h"
+#include "render/kernels/kernel_templates.h"
 
 namespace ALHAZEN_CORE {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "io/gltf/punctual.h"
+#include "io/gltf/cameras_and_lights.h"
 #include "util/numbers.h"
 #include "util/quoted.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "io/gltf/punctual.h"
+#include "io/gltf/cameras_and_lights.h"
 
 namespace alhazen::gltf {
 

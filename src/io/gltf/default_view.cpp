@@ -7,7 +7,7 @@
 
 #include "core/lights/sphere_mapping.h"
 #include "core/math/bounds.h"
-#include "io/gltf/punctual.h"
+#include "io/gltf/cameras_and_lights.h"
 
 namespace alhazen::gltf {
 

@@ -9,11 +9,11 @@
 
 #include "images/codecs/image_bytes.h"
 #include "io/gltf/accessors.h"
+#include "io/gltf/cameras_and_lights.h"
 #include "io/gltf/materials.h"
 #include "io/gltf/meshes.h"
 #include "io/gltf/nodes.h"
 #include "io/gltf/pointers.h"
-#include "io/gltf/punctual.h"
 #include "io/gltf/validate.h"
 
 namespace alhazen {

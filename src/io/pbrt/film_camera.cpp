@@ -7,8 +7,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "io/pbrt/nearest.h"
 #include "io/pbrt/options.h"
+#include "io/pbrt/suggestions.h"
 #include "util/quoted.h"
 
 namespace alhazen::pbrt {

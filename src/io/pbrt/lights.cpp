@@ -10,7 +10,7 @@
 #include "images/read_texture.h"
 #include "io/environment.h"
 #include "io/pbrt/colours.h"
-#include "io/pbrt/nearest.h"
+#include "io/pbrt/suggestions.h"
 
 namespace alhazen::pbrt {
 

@@ -8,7 +8,7 @@
 
 #include "images/read_texture.h"
 #include "io/pbrt/colours.h"
-#include "io/pbrt/nearest.h"
+#include "io/pbrt/suggestions.h"
 #include "io/pbrt/textures.h"
 #include "scene/mixes.h"
 

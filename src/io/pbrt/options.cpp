@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "io/pbrt/nearest.h"
+#include "io/pbrt/suggestions.h"
 #include "scene/filters.h"
 #include "scene/limits.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "io/pbrt/nearest.h"
+#include "io/pbrt/suggestions.h"
 
 namespace alhazen::pbrt {
 

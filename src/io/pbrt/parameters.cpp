@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "io/pbrt/nearest.h"
+#include "io/pbrt/suggestions.h"
 
 namespace alhazen::pbrt {
 

@@ -8,10 +8,10 @@
 #include "colour/rgb_space.h"
 #include "io/pbrt/lights.h"
 #include "io/pbrt/materials.h"
-#include "io/pbrt/nearest.h"
 #include "io/pbrt/options.h"
 #include "io/pbrt/parameter_parser.h"
 #include "io/pbrt/shapes.h"
+#include "io/pbrt/suggestions.h"
 #include "io/pbrt/textures.h"
 #include "io/pbrt/transforms.h"
 

@@ -14,7 +14,7 @@
 #include "io/pbrt/curves.h"
 #include "io/pbrt/materials.h"
 #include "io/pbrt/meshes.h"
-#include "io/pbrt/nearest.h"
+#include "io/pbrt/suggestions.h"
 #include "io/pbrt/textures.h"
 
 namespace alhazen::pbrt {

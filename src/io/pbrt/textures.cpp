@@ -7,7 +7,7 @@
 
 #include "core/textures/texture.h"
 #include "io/pbrt/image_texture.h"
-#include "io/pbrt/nearest.h"
+#include "io/pbrt/suggestions.h"
 
 namespace alhazen::pbrt {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "io/pbrt/nearest.h"
+#include "io/pbrt/suggestions.h"
 
 namespace alhazen::pbrt {
 

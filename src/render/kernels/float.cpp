@@ -1,6 +1,6 @@
 // Compiled once per instruction set, in its namespace.
 
-#include "render/kernels/instances.h"
+#include "render/kernels/kernel_templates.h"
 
 namespace ALHAZEN_CORE {
 

@@ -2,7 +2,7 @@
 // scan, and single-ray traversal of a binary BVH. Compiled once per instruction set, like those in render/kernels.
 
 #include "core/bvh/brute_force/intersector.h"
-#include "render/kernels/instances.h"
+#include "render/kernels/kernel_templates.h"
 
 namespace ALHAZEN_CORE {
 

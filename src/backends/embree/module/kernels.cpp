@@ -2,7 +2,7 @@
 // render/kernels.
 
 #include "backends/embree/module/intersector.h"
-#include "render/kernels/instances.h"
+#include "render/kernels/kernel_templates.h"
 
 namespace ALHAZEN_CORE {
 
