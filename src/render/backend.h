@@ -31,7 +31,7 @@ struct RenderPass {
   const ExternalTracer* tracer = nullptr;  ///< what the kernel traces rays by, where that is not the scene's own BVH
 };
 
-inline constexpr uint32_t usual_samples_per_pass = 64;
+inline constexpr uint32_t default_samples_per_pass = 64;
 
 /// What a backend is on any machine; nothing is loaded or started to know it.
 struct BackendTraits {
@@ -73,7 +73,7 @@ class Backend {
   virtual void prepare(const CompiledScene<float>&) {}
   virtual void prepare(const CompiledScene<double>&) {}
   /// Passes are no larger than this.
-  virtual uint32_t max_samples_per_pass() const { return usual_samples_per_pass; }
+  virtual uint32_t max_samples_per_pass() const { return default_samples_per_pass; }
   virtual void render_pass(const RenderPass<float>& pass) = 0;
   virtual void render_pass(const RenderPass<double>& pass) = 0;
 

@@ -5,7 +5,7 @@
 
 namespace alhazen::cuda {
 
-std::unique_ptr<Engine> make_host_engine(const RowShare&) {
+std::unique_ptr<Engine> make_host_engine(const DeviceRows&) {
   throw InputError("the fuzz targets are built without the kernels of GPUs");
 }
 

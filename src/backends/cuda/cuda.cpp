@@ -57,8 +57,8 @@ class CudaBackend final : public DeviceBackend {
     }
   }
 
-  std::unique_ptr<Engine> make_engine(int device, const RowShare& share, Precision precision) override {
-    return device == host_device ? make_host_engine(share) : make_gpu_engine(device, share, precision);
+  std::unique_ptr<Engine> make_engine(int device, const DeviceRows& rows, Precision precision) override {
+    return device == host_device ? make_host_engine(rows) : make_gpu_engine(device, rows, precision);
   }
 };
 

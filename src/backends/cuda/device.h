@@ -12,7 +12,7 @@
 
 namespace alhazen::cuda {
 
-/// Renders the rows of every pass that are assigned to one device (RowShare).
+/// Renders the rows of every pass that are assigned to one device (DeviceRows).
 class Engine {
  public:
   virtual ~Engine() = default;
@@ -23,7 +23,7 @@ class Engine {
 };
 
 /// Returns an engine with the CPU-emulated kernels.
-std::unique_ptr<Engine> make_host_engine(const RowShare& share);
+std::unique_ptr<Engine> make_host_engine(const DeviceRows& rows);
 
 struct DeviceInfo {
   std::string name;
@@ -42,6 +42,6 @@ const DeviceList& list_devices();
 
 /// Returns an engine that renders passes in `precision` on GPU `device`, and initializes the GPU. Throws InputError if
 /// the module `cuda` cannot be loaded.
-std::unique_ptr<Engine> make_gpu_engine(int device, const RowShare& share, Precision precision);
+std::unique_ptr<Engine> make_gpu_engine(int device, const DeviceRows& rows, Precision precision);
 
 }  // namespace alhazen::cuda

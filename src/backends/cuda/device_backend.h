@@ -22,7 +22,7 @@ class DeviceBackend : public Backend {
   /// Sets what only this backend supports. By default, block sizes and numbers of chunks are refused.
   virtual void configure_blocks(const Settings& asked, RenderSettings&) const { refuse_blocks(asked); }
   /// Returns an engine for one of the devices of status(), or for the host.
-  virtual std::unique_ptr<Engine> make_engine(int device, const RowShare& share, Precision precision) = 0;
+  virtual std::unique_ptr<Engine> make_engine(int device, const DeviceRows& rows, Precision precision) = 0;
 
  private:
   /// Returns the number of the device called `text`. Throws InputError.

@@ -42,9 +42,9 @@ struct CwbvhTracing {
 template <KernelExecutor Executor, RayTracing Tracing, class Real>
 class DeviceRender {
  public:
-  DeviceRender(Executor& executor, const RowShare& share)
+  DeviceRender(Executor& executor, const DeviceRows& device_rows)
       : executor_(executor),
-        share_(share),
+        device_rows_(device_rows),
         arena_(executor),
         film_(executor),
         totals_(executor),
@@ -63,7 +63,7 @@ class DeviceRender {
     upload(pass);
     executor_.clear(totals_.data(), sizeof(Totals));
     Launch<Real> launch = launch_of(pass);
-    const uint32_t rows = share_.rows_of(static_cast<uint32_t>(pass.film.window().height()));
+    const uint32_t rows = device_rows_.rows_of(static_cast<uint32_t>(pass.film.window().height()));
     SlicePlan plan(launch.width, rows, pass.first_sample, pass.sample_count, items_, max_items(pass));
     while (!plan.is_done() && !pass.control.is_stopped()) {
       launch.slice = plan.next();
@@ -147,13 +147,13 @@ class DeviceRender {
     const FilmView<Real> host = pass.film.view();
     const size_t width = static_cast<size_t>(pass.film.window().width());
     const uint32_t height = static_cast<uint32_t>(pass.film.window().height());
-    const uint32_t rows = share_.rows_of(height);
+    const uint32_t rows = device_rows_.rows_of(height);
     const auto copy = [&](auto* to, const auto* from) {
       if (!to) return;
-      if (share_.devices == 1) return executor_.download(to, from, width * height * sizeof(*to));
-      for (uint32_t row = 0; row < rows; row += RowShare::band) {
-        const size_t first = share_.window_row(row) * width;
-        executor_.download(to + first, from + first, std::min(RowShare::band, rows - row) * width * sizeof(*to));
+      if (device_rows_.devices == 1) return executor_.download(to, from, width * height * sizeof(*to));
+      for (uint32_t row = 0; row < rows; row += DeviceRows::band) {
+        const size_t first = device_rows_.window_row(row) * width;
+        executor_.download(to + first, from + first, std::min(DeviceRows::band, rows - row) * width * sizeof(*to));
       }
     };
 #define ALHAZEN_PLANE(type, name) copy(host.name, film_view_.name);
@@ -186,7 +186,7 @@ class DeviceRender {
             static_cast<uint32_t>(window.x0),
             static_cast<uint32_t>(window.y0),
             static_cast<uint32_t>(window.width()),
-            share_,
+            device_rows_,
             {},
             pass.settings.sampler,
             pass.settings.seed,
@@ -227,7 +227,7 @@ class DeviceRender {
     } else {
       run_persistent<kind>(launch, grid);
     }
-    executor_.launch(FoldKernel<Real>{launch, grid, sums_.data()}, {grid.width * grid.rows}, {usual_block});
+    executor_.launch(FoldKernel<Real>{launch, grid, sums_.data()}, {grid.width * grid.rows}, {default_block_threads});
     return true;
   }
 
@@ -248,14 +248,14 @@ class DeviceRender {
   void run_persistent(const Launch<Real>& launch, const ItemGrid& grid) {
     using Kernel = PersistentKernel<Tracing, kind, Real>;
     executor_.clear(counter_.data(), sizeof(uint32_t));
-    const uint32_t threads = std::min(executor_.template resident_threads<Kernel>(usual_block), grid.count());
-    executor_.launch(Kernel{launch, grid, counter_.data(), sums_.data()}, {threads}, {usual_block});
+    const uint32_t threads = std::min(executor_.template resident_threads<Kernel>(default_block_threads), grid.count());
+    executor_.launch(Kernel{launch, grid, counter_.data(), sums_.data()}, {threads}, {default_block_threads});
   }
 
   template <IntegratorKind kind>
   bool run_wavefront(const RenderControl& control, const Launch<Real>& launch, const ItemGrid& grid) {
     WavefrontStage<kind, Real> stage{launch, grid, make_slots<kind>(grid.count()), sums_.data(), 0};
-    const Extent threads{stage.slots.count}, block{usual_block};
+    const Extent threads{stage.slots.count}, block{default_block_threads};
     const Extent padded_threads{stage.slots.count + material_queues * warp_lanes};
     executor_.launch(StartKernel<kind, Real>{stage}, threads, block);
     for (;;) {
@@ -304,7 +304,7 @@ class DeviceRender {
   static constexpr int rounds_between_looks = 8;
 
   Executor& executor_;
-  RowShare share_;
+  DeviceRows device_rows_;
   const CompiledScene<Real>* scene_ = nullptr;
   const Film<Real>* host_film_ = nullptr;
   FilmView<Real> film_view_;

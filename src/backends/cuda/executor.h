@@ -49,7 +49,7 @@ concept LaunchesResidentKernel = LaunchesKernel<Executor, Kernel> && requires(Ex
 };
 
 /// Threads per block, unless the user asks for another number.
-inline constexpr uint32_t usual_block = 128;
+inline constexpr uint32_t default_block_threads = 128;
 
 /// Owns memory of an executor for elements of one type.
 template <KernelExecutor Executor, class T>

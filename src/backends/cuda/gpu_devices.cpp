@@ -14,10 +14,10 @@ const DeviceList& list_devices() {
   return list;
 }
 
-std::unique_ptr<Engine> make_gpu_engine(int device, const RowShare& share, Precision precision) {
+std::unique_ptr<Engine> make_gpu_engine(int device, const DeviceRows& rows, Precision precision) {
   const Module& module = load_module<CudaModule>();
   if (!module.functions) throw InputError(module.problem);
-  return functions_of<CudaModule>(module).make_engine(device, share, precision);
+  return functions_of<CudaModule>(module).make_engine(device, rows, precision);
 }
 
 }  // namespace alhazen::cuda

@@ -10,7 +10,7 @@ namespace {
 
 class HostEngine final : public Engine {
  public:
-  explicit HostEngine(const RowShare& share) : single_(executor_, share), double_(executor_, share) {}
+  explicit HostEngine(const DeviceRows& rows) : single_(executor_, rows), double_(executor_, rows) {}
 
   void render_pass(const RenderPass<float>& pass, ThreadStatistics& statistics) override {
     single_.render_pass(pass, statistics);
@@ -27,6 +27,6 @@ class HostEngine final : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_host_engine(const RowShare& share) { return std::make_unique<HostEngine>(share); }
+std::unique_ptr<Engine> make_host_engine(const DeviceRows& rows) { return std::make_unique<HostEngine>(rows); }
 
 }  // namespace alhazen::cuda

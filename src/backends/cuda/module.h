@@ -12,7 +12,7 @@ struct CudaModule {
       "install the CUDA toolkit (nvcc), configure again and build the target alhazen_cuda";
 
   DeviceList (*query_devices)();
-  std::unique_ptr<Engine> (*make_engine)(int device, const RowShare& share, Precision precision);
+  std::unique_ptr<Engine> (*make_engine)(int device, const DeviceRows& rows, Precision precision);
 };
 
 }  // namespace alhazen::cuda

@@ -26,8 +26,8 @@ class SlicePlan {
     const uint32_t left = end_ - first_ - sample_;
     const uint64_t blocks = row_ == 0 ? std::max<uint64_t>(1, items / (row_items * rows_)) : 1;
     slice.count = static_cast<uint32_t>(std::min<uint64_t>(left, blocks * samples_per_block));
-    const uint64_t bands = std::max<uint64_t>(1, items / (row_items * RowShare::band));
-    slice.rows = static_cast<uint32_t>(std::min<uint64_t>(slice.rows, bands * RowShare::band));
+    const uint64_t bands = std::max<uint64_t>(1, items / (row_items * DeviceRows::band));
+    slice.rows = static_cast<uint32_t>(std::min<uint64_t>(slice.rows, bands * DeviceRows::band));
     if (slice.rows < rows_) slice.count = std::min(slice.count, samples_per_block);
     return slice;
   }

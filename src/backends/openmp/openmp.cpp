@@ -17,7 +17,7 @@ constexpr int tile_size = 16;
 /// Takes the blocks of one pixel with all threads of a team, then adds them to the film in order.
 template <class Real>
 void reduce_pixel(const RenderPass<Real>& pass, int x, int y) {
-  BlockSum<Real> blocks[usual_samples_per_pass / samples_per_block];
+  BlockSum<Real> blocks[default_samples_per_pass / samples_per_block];
   const int first = static_cast<int>(first_block(pass, x, y)), count = static_cast<int>(block_count(pass));
 #pragma omp parallel num_threads(pass.settings.threads)
   {

@@ -15,7 +15,7 @@ struct OptixModule {
   /// Returns why the OptiX library of the driver cannot be used, or an empty string if it can.
   std::string (*problem)();
   /// Returns an engine that renders in float on GPU `device`.
-  std::unique_ptr<cuda::Engine> (*make_engine)(int device, const cuda::RowShare& share);
+  std::unique_ptr<cuda::Engine> (*make_engine)(int device, const cuda::DeviceRows& rows);
   std::vector<float> (*denoise)(const NoisyImage& image, int device);
 };
 

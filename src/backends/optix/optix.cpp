@@ -43,8 +43,8 @@ class OptixBackend final : public cuda::DeviceBackend {
   }
 
  protected:
-  std::unique_ptr<cuda::Engine> make_engine(int device, const cuda::RowShare& share, Precision) override {
-    return functions().make_engine(device, share);
+  std::unique_ptr<cuda::Engine> make_engine(int device, const cuda::DeviceRows& rows, Precision) override {
+    return functions().make_engine(device, rows);
   }
 };
 

@@ -37,7 +37,7 @@ concept RayTracing = requires {
 
 /// Selects the rows of a window that one device renders. Bands of rows are assigned to the devices in turn, and each
 /// device numbers its rows consecutively.
-struct RowShare {
+struct DeviceRows {
   static constexpr uint32_t band = 8;  ///< rows
   uint32_t device = 0, devices = 1;
 
@@ -72,7 +72,7 @@ struct Launch {
   Totals* totals;
   uint32_t x0, y0;  ///< corner of the film's window in the image
   uint32_t width;   ///< of the window
-  RowShare share;
+  DeviceRows device_rows;
   Slice slice;
   SamplerType sampler;
   uint32_t seed;
@@ -80,10 +80,10 @@ struct Launch {
 
   /// Returns the index in the film of column `x` of row `row` of the slice.
   ALHAZEN_HD size_t film_index(uint32_t x, uint32_t row) const {
-    return static_cast<size_t>(share.window_row(slice.row + row)) * width + x;
+    return static_cast<size_t>(device_rows.window_row(slice.row + row)) * width + x;
   }
   ALHAZEN_HD uint32_t image_x(uint32_t x) const { return x0 + x; }
-  ALHAZEN_HD uint32_t image_y(uint32_t row) const { return y0 + share.window_row(slice.row + row); }
+  ALHAZEN_HD uint32_t image_y(uint32_t row) const { return y0 + device_rows.window_row(slice.row + row); }
   /// Returns whether the film already contains block `block` of the slice at that pixel. It can if an earlier render
   /// was stopped within this pass.
   ALHAZEN_HD bool holds_block(size_t film_pixel, uint32_t block) const {

@@ -19,10 +19,10 @@ __global__ void run_kernel(const __grid_constant__ Kernel kernel) {
   kernel(DeviceThread(traversal_stacks));
 }
 
-/// The same for kernels that are only launched in blocks of `usual_block` threads. The compiler limits the registers
-/// per thread so that `resident_blocks` blocks fit on a multiprocessor at the same time.
+/// The same for kernels that are only launched in blocks of `default_block_threads` threads. The compiler limits the
+/// registers per thread so that `resident_blocks` blocks fit on a multiprocessor at the same time.
 template <DeviceKernel Kernel>
-__global__ void __launch_bounds__(usual_block, Kernel::resident_blocks)
+__global__ void __launch_bounds__(default_block_threads, Kernel::resident_blocks)
     run_resident_kernel(const __grid_constant__ Kernel kernel) {
   extern __shared__ uint4 traversal_stacks[];
   kernel(DeviceThread(traversal_stacks));
@@ -96,7 +96,7 @@ class CudaExecutor {
   template <DeviceKernel Kernel>
   void launch(const Kernel& kernel, Extent threads, Extent block) {
     const uint32_t block_threads = block.width * block.height;
-    if (block_threads > usual_block) check_block<Kernel>(block);
+    if (block_threads > default_block_threads) check_block<Kernel>(block);
     const dim3 grid((threads.width + block.width - 1) / block.width,
                     (threads.height + block.height - 1) / block.height);
     kernel_function<Kernel>()<<<grid, dim3(block.width, block.height), stack_bytes(block_threads), stream_>>>(kernel);

@@ -11,7 +11,7 @@ namespace alhazen::cuda {
 template <RayTracing Tracing, class Real>
 class CudaRender final : public GpuRender<Real> {
  public:
-  CudaRender(int device, const RowShare& share) : executor_(device), render_(executor_, share) {}
+  CudaRender(int device, const DeviceRows& rows) : executor_(device), render_(executor_, rows) {}
 
   void render_pass(const RenderPass<Real>& pass, ThreadStatistics& statistics) override {
     executor_.use_device();

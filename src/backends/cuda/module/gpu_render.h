@@ -16,10 +16,10 @@ class GpuRender {
 };
 
 template <class Real>
-std::unique_ptr<GpuRender<Real>> make_gpu_render(int device, const RowShare& share);
+std::unique_ptr<GpuRender<Real>> make_gpu_render(int device, const DeviceRows& rows);
 template <>
-std::unique_ptr<GpuRender<float>> make_gpu_render(int device, const RowShare& share);
+std::unique_ptr<GpuRender<float>> make_gpu_render(int device, const DeviceRows& rows);
 template <>
-std::unique_ptr<GpuRender<double>> make_gpu_render(int device, const RowShare& share);
+std::unique_ptr<GpuRender<double>> make_gpu_render(int device, const DeviceRows& rows);
 
 }  // namespace alhazen::cuda

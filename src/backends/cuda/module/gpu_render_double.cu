@@ -3,8 +3,8 @@
 namespace alhazen::cuda {
 
 template <>
-std::unique_ptr<GpuRender<double>> make_gpu_render(int device, const RowShare& share) {
-  return std::make_unique<CudaRender<Bvh2Tracing, double>>(device, share);
+std::unique_ptr<GpuRender<double>> make_gpu_render(int device, const DeviceRows& rows) {
+  return std::make_unique<CudaRender<Bvh2Tracing, double>>(device, rows);
 }
 
 }  // namespace alhazen::cuda

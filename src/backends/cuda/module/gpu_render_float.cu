@@ -3,8 +3,8 @@
 namespace alhazen::cuda {
 
 template <>
-std::unique_ptr<GpuRender<float>> make_gpu_render(int device, const RowShare& share) {
-  return std::make_unique<CudaRender<CwbvhTracing, float>>(device, share);
+std::unique_ptr<GpuRender<float>> make_gpu_render(int device, const DeviceRows& rows) {
+  return std::make_unique<CudaRender<CwbvhTracing, float>>(device, rows);
 }
 
 }  // namespace alhazen::cuda

@@ -29,11 +29,11 @@ DeviceList query_devices() {
 /// Renders on a GPU in the precision that is passed to the constructor.
 class GpuEngine final : public Engine {
  public:
-  GpuEngine(int device, const RowShare& share, Precision precision) {
+  GpuEngine(int device, const DeviceRows& rows, Precision precision) {
     if (precision == Precision::single)
-      single_ = make_gpu_render<float>(device, share);
+      single_ = make_gpu_render<float>(device, rows);
     else
-      double_ = make_gpu_render<double>(device, share);
+      double_ = make_gpu_render<double>(device, rows);
   }
 
   void render_pass(const RenderPass<float>& pass, ThreadStatistics& statistics) override {
@@ -48,8 +48,8 @@ class GpuEngine final : public Engine {
   std::unique_ptr<GpuRender<double>> double_;
 };
 
-std::unique_ptr<Engine> make_engine(int device, const RowShare& share, Precision precision) {
-  return std::make_unique<GpuEngine>(device, share, precision);
+std::unique_ptr<Engine> make_engine(int device, const DeviceRows& rows, Precision precision) {
+  return std::make_unique<GpuEngine>(device, rows, precision);
 }
 
 const CudaModule table{query_devices, make_engine};

@@ -8,7 +8,7 @@
 namespace alhazen::optix {
 
 /// Returns an engine that renders with OptiX on GPU `device`, in float.
-std::unique_ptr<cuda::Engine> make_optix_engine(int device, const cuda::RowShare& share);
+std::unique_ptr<cuda::Engine> make_optix_engine(int device, const cuda::DeviceRows& rows);
 
 std::vector<float> denoise(const NoisyImage& image, int device);
 

@@ -10,8 +10,8 @@ namespace {
 
 class OptixEngine final : public cuda::Engine {
  public:
-  OptixEngine(int device, const cuda::RowShare& share)
-      : executor_(optix_library().functions, device_code(), device), render_(executor_, share) {}
+  OptixEngine(int device, const cuda::DeviceRows& rows)
+      : executor_(optix_library().functions, device_code(), device), render_(executor_, rows) {}
 
   void prepare(const CompiledScene<float>& scene) override {
     executor_.use_device();
@@ -33,8 +33,8 @@ class OptixEngine final : public cuda::Engine {
 
 }  // namespace
 
-std::unique_ptr<cuda::Engine> make_optix_engine(int device, const cuda::RowShare& share) {
-  return std::make_unique<OptixEngine>(device, share);
+std::unique_ptr<cuda::Engine> make_optix_engine(int device, const cuda::DeviceRows& rows) {
+  return std::make_unique<OptixEngine>(device, rows);
 }
 
 std::vector<float> denoise(const NoisyImage& image, int device) {
