@@ -134,13 +134,13 @@ void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>&
 }
 
 template <class Real>
-bool has_only_lights_without_size(const SceneArrays<Real>& out) {
+bool has_only_delta_lights(const SceneArrays<Real>& out) {
   return std::all_of(out.lights.begin(), out.lights.end(),
                      [](const LightRecord<Real>& light) { return !light_traits(light.kind).has_size; });
 }
 
-template bool has_only_lights_without_size(const SceneArrays<float>&);
-template bool has_only_lights_without_size(const SceneArrays<double>&);
+template bool has_only_delta_lights(const SceneArrays<float>&);
+template bool has_only_delta_lights(const SceneArrays<double>&);
 
 template <class Real>
 void assign_light_probabilities(const std::vector<double>& measures, LightSampling sampling, SceneArrays<Real>& out,

@@ -1,6 +1,6 @@
 #pragma once
 
-// The part of scene compilation that gives each light its probability.
+// The part of scene compilation that makes the records of lights and gives each its probability.
 
 #include <vector>
 
@@ -30,6 +30,6 @@ inline constexpr size_t max_lights_without_tree = 2;
 
 /// Returns whether all lights are delta lights, which only shadow rays find.
 template <class Real>
-bool has_only_lights_without_size(const SceneArrays<Real>& out);
+bool has_only_delta_lights(const SceneArrays<Real>& out);
 
 }  // namespace alhazen

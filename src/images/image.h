@@ -68,7 +68,7 @@ struct WriteOptions {
 ///   pfm  channels R, G, B as they are, in single precision
 #define ALHAZEN_WRITTEN_FORMATS(FORMAT) FORMAT(exr) FORMAT(png) FORMAT(pfm)
 
-/// Each writes the image completely or not at all: to a temporary file beside the target, which is then renamed to it.
+/// Each writes the image completely or not at all, through an AtomicFile (files/atomic_file.h).
 /// Throws RenderError with path and cause if that fails; existing files then remain unchanged.
 #define ALHAZEN_DECLARE_WRITER(name) \
   void write_##name(const std::string& path, const ImageSource& source, const WriteOptions& options);
@@ -81,7 +81,7 @@ void write_image(const std::string& path, const ImageSource& source, const Write
 /// Returns whether images can be written to a file of this name.
 bool has_written_extension(const std::string& path);
 
-/// The extensions for messages: ".exr or .png".
+/// The extensions for messages: ".exr, .png or .pfm".
 std::string written_extensions();
 
 /// The positions of R, G and B among the channels, for formats that hold these alone. Throws RenderError that names

@@ -1,6 +1,7 @@
 #pragma once
 
-// The single entry point for scene files: it selects the reader by the name's extension.
+// The single entry point for scene files: it selects the reader by the name's extension, and recognises
+// .glb files of any name by their first bytes.
 
 #include <string>
 

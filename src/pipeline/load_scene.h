@@ -20,8 +20,8 @@ struct LoadedScene {
 };
 
 /// Reads a scene with what `settings` says about it: camera, variant, time of the animation, environment map, coats,
-/// and whether it is confined to its folder. Throws InputError, also if the checkpoint that `settings` names is one of
-/// the files that were read.
+/// pixel filter, and whether it is confined to its folder. Throws InputError, also if the checkpoint that `settings`
+/// names is one of the files that were read.
 LoadedScene load_scene(const std::string& path, const Settings& settings, Diagnostics& diagnostics);
 
 }  // namespace alhazen

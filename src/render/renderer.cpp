@@ -318,7 +318,7 @@ Rendering render_scene(Scene&& scene, const RenderSettings& settings, double loa
   if (settings.integrator != IntegratorKind::path)
     for (const Light& light : scene.lights)
       if (!light_traits(light.kind).has_size)
-        diagnostics.warn(light.where, "rays cannot hit lights without area: the integrator '" +
+        diagnostics.warn(light.where, "rays cannot hit delta lights: the integrator '" +
                                           to_string(settings.integrator) + "' does not show them; 'path' does");
   Rendering rendering =
       settings.precision == Precision::single

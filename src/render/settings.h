@@ -65,8 +65,8 @@ struct RenderSettings {
   uint64_t texture_budget = 0;  ///< bytes; 0: no limit
 };
 
-/// Replaces what settings replace in a scene: how much light its coats lose. Throws InputError that names the setting
-/// and its valid values.
+/// Replaces what settings replace in a scene: how much light its coats lose, and the pixel filter. Throws InputError
+/// that names the setting and its valid values.
 void apply_settings(const Settings& asked, Scene& scene);
 
 /// Merges `asked` with `scene`. Throws InputError as above.

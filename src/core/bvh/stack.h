@@ -1,7 +1,7 @@
 #pragma once
 
 // The traversal stack. On a CPU it is a local array; on a GPU its first entries are in shared memory
-// (backends/cuda/device_thread.cuh).
+// (backends/cuda/module/device_thread.cuh).
 
 #include <concepts>
 #include <cstdint>

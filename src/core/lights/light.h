@@ -1,8 +1,9 @@
 #pragma once
 
 // Lights: choosing one by power or by the light tree, sampling a direction towards it, and the density of that sample
-// for a ray that hit a light by BSDF sampling. All densities are over solid angle at the reference point and include
-// the probability of the choice.
+// for a ray that hit a light by BSDF sampling. All densities are over solid angle at the reference point. Those of
+// `sample_light` and of the functions pdf_... include the probability that the light is chosen; those of
+// `sample_chosen_light`, the sample_... functions that it calls and `escaped_light` exclude it.
 
 #include "core/lights/environment.h"
 #include "core/lights/light_list.h"

@@ -18,7 +18,7 @@
 namespace ALHAZEN_CORE {
 
 /// Lists every kind of light that is not a shape once, as KIND(name, Name). The enumeration, sampling, compilation, the
-/// light tree's bounds and the search for lost light expand from it.
+/// light tree's bounds and the search for missed caustics expand from it.
 #define ALHAZEN_LIGHTS(KIND)                \
   KIND(point, Point)                        \
   KIND(spot, Spot)                          \

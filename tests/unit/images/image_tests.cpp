@@ -1,4 +1,4 @@
-// Writing of images: EXR and PNG files, tone mapping, and atomic replacement of existing files.
+// Writing of images: EXR, PNG and PFM files, tone mapping, and atomic replacement of existing files.
 
 #include "images/image.h"
 

@@ -1,7 +1,6 @@
 #pragma once
 
-// Ray queries that test every primitive (Algorithm 5 of the report). They are the reference for the results and the
-// speed of the BVHs.
+// Ray queries that test every primitive. They are the reference for the results and the speed of the BVHs.
 
 #include "core/bvh/bvh2/traversal.h"
 

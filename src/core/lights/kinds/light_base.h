@@ -1,6 +1,7 @@
 #pragma once
 
-// What every kind of light has that is not an emissive shape, with defaults.
+// LightBase, from which the kinds of lights that are not emissive shapes derive, with defaults for what a kind may
+// lack; and what sampling any light (LightSample) and rays that escape (EscapedLight) return.
 
 #include <cstdint>
 
