@@ -1,4 +1,4 @@
-// The CPU-emulated CUDA kernels: all schedules give the bits of the serial backend, for any size of image and block,
+// The CPU-emulated CUDA kernels: all strategies give the bits of the serial backend, for any size of image and block,
 // any number of chunks and any depth.
 
 #include "backends/cuda/device_render.h"
@@ -9,7 +9,7 @@
 namespace alhazen::test {
 namespace {
 
-const std::vector<std::string> schedules{"pixel", "chunk", "persistent", "wavefront"};
+const std::vector<std::string> strategies{"pixel", "chunk", "persistent", "wavefront"};
 
 Settings host_settings(const Settings& serial, const std::string& strategy) {
   Settings settings = serial;
@@ -30,7 +30,7 @@ Settings serial_settings(const std::string& precision) {
 
 void expect_serial_bits(const Scene& scene, const Settings& serial) {
   const Outcome expected = render_bits(scene, serial);
-  for (const std::string& strategy : schedules) {
+  for (const std::string& strategy : strategies) {
     SCOPED_TRACE(strategy);
     const Outcome outcome = render_bits(scene, host_settings(serial, strategy));
     EXPECT_TRUE(same_bits(expected, outcome));
@@ -132,7 +132,7 @@ TEST(CudaOnHostQueues, ThatStayEmpty) {
 /// The tree that GPUs traverse in float. If two surfaces are hit at the same distance, it may return the other one.
 TEST(CudaOnHostWideBvh, GivesAllButTheSameBits) {
   for (const std::string name : {"cornell", "spheres"})
-    for (const std::string& strategy : schedules) {
+    for (const std::string& strategy : strategies) {
       const Settings serial = serial_settings("float");
       Scene scene = parity_scene(name);
       const RenderSettings settings = resolve_settings(host_settings(serial, strategy), scene);

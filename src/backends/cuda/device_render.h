@@ -1,7 +1,7 @@
 #pragma once
 
 // Renders a pass on one device. The scene is uploaded once and the film stays on the device; slices of the pass are
-// launched by one of four schedules, and the film is downloaded at the end. A GPU and the host in its place run the
+// launched by one of four strategies, and the film is downloaded at the end. A GPU and the host in its place run the
 // same code.
 
 #include <chrono>
@@ -21,7 +21,7 @@ namespace alhazen::cuda {
 
 /// Traces rays with the binary BVH.
 struct Bvh2Tracing {
-  static constexpr bool by_launch_of_pixels = false;  ///< whether launching pixels is the only schedule
+  static constexpr bool by_launch_of_pixels = false;  ///< whether launching pixels is the only strategy
 
   template <class Real, StackMaker Stacks>
   ALHAZEN_HD static Bvh2Intersector<Real, Stacks> intersector(const SceneView<Real>& scene, const Stacks& stacks) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs kernels as loops on the CPU. The kernels, queues and schedules are those of a GPU, but tests and debuggers can
+// Runs kernels as loops on the CPU. The kernels, queues and strategies are those of a GPU, but tests and debuggers can
 // inspect them. Threads run one after another, the last first, so that kernels that depend on their order are found.
 
 #include <unistd.h>

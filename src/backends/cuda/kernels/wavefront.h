@@ -1,6 +1,6 @@
 #pragma once
 
-// The wavefront schedule: one kernel per stage, with queues between them (Laine, Karras, Aila 2013, "Megakernels
+// The strategy `wavefront`: one kernel per stage, with queues between them (Laine, Karras, Aila 2013, "Megakernels
 // Considered Harmful"). A slot holds the state of one path. It takes one item after another, and the samples of an item
 // in order. Queues hold indices of slots without gaps. The stages of a round are: generate, reset, intersect, shade
 // (sorted by kind of material), shadow.
