@@ -9,11 +9,12 @@ endif()
 set(ALHAZEN_FLAGS_avx2 -march=x86-64-v3)
 set(ALHAZEN_FLAGS_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
 
-# Loops that shade many paths side by side have ways that meet in many places; by default GCC gives up at five.
+# GCC vectorises a loop only after it has turned its branches into selections. Where many branches join, a value has one
+# candidate per branch; by default GCC gives up above four. Loops that shade many paths at once have more.
 set(ALHAZEN_LOOP_OPTIONS)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(ALHAZEN_LOOP_OPTIONS "SHELL:--param max-tree-if-conversion-phi-args=16")
-  # A copy by wide registers waits until the narrow ones that its source was just written by have reached the cache.
+  # A load by a wide register waits until the narrower stores that have just written its source have reached the cache.
   include(CheckCXXCompilerFlag)
   check_cxx_compiler_flag("-mmove-max=128 -mstore-max=128" ALHAZEN_HAS_MOVE_MAX)
   if(ALHAZEN_HAS_MOVE_MAX)
@@ -27,7 +28,7 @@ function(alhazen_compile_for target set)
   target_link_libraries(${target} PRIVATE alhazen_options)
 endfunction()
 
-# The files given, once an instruction set, added to `target`; `ARGN` are what they need to be linked to besides.
+# The files given, once per instruction set, added to `target`; `ARGN` are what they need to be linked to besides.
 function(alhazen_add_kernels target name sources)
   foreach(set IN LISTS ALHAZEN_INSTRUCTION_SETS)
     add_library(${name}_${set} OBJECT ${sources})

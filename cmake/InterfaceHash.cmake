@@ -1,5 +1,5 @@
 # cmake -DHEADERS=FILE -DBUILT_BY=TEXT -DOUTPUT=FILE -P InterfaceHash.cmake: a header with the hash of what
-# program and modules must have in common: the headers that HEADERS lists, one a line, and how they are compiled.
+# program and modules must have in common: the headers that HEADERS lists, one per line, and how they are compiled.
 
 file(STRINGS ${HEADERS} headers)
 set(text "${BUILT_BY}")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From a clean clone to a picture: installs what is missing, builds the program without its modules (GPUs, Embree) and renders
-# scenes/spheres.pbrt to spheres.png and spheres.exr in the root of the repository. Argument: the samples a pixel (default: 64).
+# scenes/spheres.pbrt to spheres.png and spheres.exr in the root of the repository. Argument: the samples per pixel (default: 64).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
