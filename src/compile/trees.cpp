@@ -57,7 +57,7 @@ class TreeBuilder {
     return boxes;
   }
 
-  /// Boxes about the corners of the objects' own, wider by what rounding of the ways there and back can lose.
+  /// Boxes about the corners of the objects' own, wider by what rounding of the transform there and back can lose.
   void add_instance_boxes(std::vector<Bounds3<Real>>& boxes) const {
     std::vector<Bounds3<Real>> object_boxes(out_.objects.size());
 #pragma omp parallel for schedule(dynamic)

@@ -30,7 +30,7 @@ struct AlbedoGrid {
 
 /// The record, `first` left at 0.
 AlbedoGridRecord record_of(const AlbedoGrid& grid);
-/// Computed once a grid.
+/// Computed once per grid.
 Table values_of(const AlbedoGrid& grid);
 
 }  // namespace alhazen

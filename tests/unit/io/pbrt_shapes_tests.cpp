@@ -100,7 +100,7 @@ TEST(PbrtShapes, Cylinder) {
 TEST(PbrtShapes, CylindersThatEmitOrMoveOrAreExtremelyThinBecomeMeshes) {
   const std::string move = "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All ";
   for (const std::string& text :
-       {"AreaLightSource \"diffuse\" Shape \"cylinder\"", move + "Shape \"cylinder\"",
+       {std::string("AreaLightSource \"diffuse\" Shape \"cylinder\""), move + "Shape \"cylinder\"",
         std::string("Rotate 30 1 1 0 Shape \"cylinder\" \"float radius\" 1e-5"),
         "ObjectBegin \"o\" Shape \"cylinder\" ObjectEnd ObjectInstance \"o\" " + move + "ObjectInstance \"o\""})
     EXPECT_EQ(parse_world(text).scene.groups.back().shapes.at(0).type, ShapeType::mesh) << text;
