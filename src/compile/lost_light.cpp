@@ -13,7 +13,7 @@ namespace alhazen {
 namespace {
 
 constexpr uint32_t points_per_material = 32, max_materials = 64, max_lights = 16, rays_per_light = 256;
-constexpr uint32_t directions_per_point = 8;
+constexpr uint32_t directions_per_point = 8, max_receivers = 512;
 constexpr int max_tries = 8;
 /// Minimum fraction of the incident light that a material scatters into sharp lobes, above what varnish or glass
 /// reflects, and minimum fraction that must then be lost.
@@ -44,8 +44,10 @@ class LostLightSearch {
     for (uint32_t i = 0; i < view_.lights_count; ++i)
       if (is_without_size(view_.lights[i].kind)) lights.push_back(i);
     if (lights.empty()) return {};
-    collect_candidates();
+    candidates_ = collect(points_per_material, max_materials, may_be_sharp);
     if (candidates_.empty()) return {};
+    receivers_ = collect(points_per_material, max_receivers / points_per_material,
+                         [](MaterialKind kind) { return !may_be_sharp(kind); });
     std::optional<LostLight> lost;
     for (uint32_t i = 0; i < lights.size() && i < max_lights; ++i) {
       std::optional<LostLight> of_this = lost_of(view_.lights[lights[i]]);
@@ -94,17 +96,19 @@ class LostLightSearch {
         visit(PrimitiveId(PrimitiveKind::triangle, view_.objects[k].first_triangle + i), k);
   }
 
-  /// Selects some primitives of each material that may be smooth, evenly among all that have it. A primitive of an
-  /// object counts once per instance, and each point on it is on a different instance.
-  void collect_candidates() {
+  /// Selects some primitives of each of some materials whose kind is wanted, evenly among all that have the material. A
+  /// primitive of an object counts once per instance, and each point on it is on a different instance.
+  template <class IsWanted>
+  std::vector<Candidate> collect(uint32_t points, uint32_t max_count, const IsWanted& is_wanted) {
+    std::vector<Candidate> found;
     std::vector<uint64_t> counts(view_.materials_count), seen(view_.materials_count);
     std::vector<bool> wanted(view_.materials_count);
     uint32_t materials = 0;
-    for (uint32_t s = 0; s < view_.surfaces_count && materials < max_materials; ++s) {
+    for (uint32_t s = 0; s < view_.surfaces_count && materials < max_count; ++s) {
       const uint32_t m = view_.surfaces[s].material;
-      if (!wanted[m] && may_be_sharp(view_.materials[m].kind)) wanted[m] = true, ++materials;
+      if (!wanted[m] && is_wanted(view_.materials[m].kind)) wanted[m] = true, ++materials;
     }
-    if (materials == 0) return;
+    if (materials == 0) return found;
     const Uses uses = uses_of_objects();
     const auto material_of = [&](PrimitiveId id) { return view_.surfaces[surface_of(view_, id)].material; };
     const auto uses_of = [&](uint32_t object) { return object == no_object ? 1 : uses.count(object); };
@@ -113,11 +117,12 @@ class LostLightSearch {
       const uint32_t m = material_of(id);
       if (!wanted[m]) return;
       // Equally many points on each of few primitives, or one point each on some of many.
-      const uint64_t before = seen[m] * points_per_material / counts[m];
-      const uint64_t after = (seen[m] += uses_of(object)) * points_per_material / counts[m];
+      const uint64_t before = seen[m] * points / counts[m];
+      const uint64_t after = (seen[m] += uses_of(object)) * points / counts[m];
       for (uint64_t i = before; i < after; ++i)
-        candidates_.push_back({id, object == no_object ? no_instance : any_instance(uses, object)});
+        found.push_back({id, object == no_object ? no_instance : any_instance(uses, object)});
     });
+    return found;
   }
 
   uint32_t any_instance(const Uses& uses, uint32_t object) {
@@ -171,7 +176,69 @@ class LostLightSearch {
       for (uint32_t i = 0; i < rays_per_light; ++i) send_ray(light);
     for (const Tally& tally : tallies_)
       if (tally.lost > min_lost * tally.incident && tally.sharp > min_sharp * tally.incident) return tally.where;
+    return lost_straight(light);
+  }
+
+  /// Returns whether light that shines straight through glass is lost. Few of the rays through a large pane may reach a
+  /// small surface behind it, so points of that surface are looked at.
+  std::optional<LostLight> lost_straight(const LightRecord<Real>& light) {
+    uint32_t lost = 0;
+    LostLight where;
+    for (const Candidate& receiver : receivers_)
+      if (const std::optional<uint32_t> glass = glass_before(light, receiver)) {
+        where.surface = *glass;
+        ++lost;
+      }
+    if (lost > min_lost * static_cast<double>(receivers_.size())) return where;
     return {};
+  }
+
+  /// Returns the surface of the glass next to a point that would be lit, and not be black, if only glass were not in
+  /// the way.
+  std::optional<uint32_t> glass_before(const LightRecord<Real>& light, const Candidate& receiver) {
+    Hit<Real> hit;
+    const std::optional<SurfaceInteraction<Real>> si = point_on(receiver, hit);
+    if (!si || is_cut_out(hit, *si)) return {};
+    const LightSample<Real> s = sample_chosen_light(view_, light, si->position, false, Real(0), Vec2<Real>{});
+    if (!(s.pdf > 0) || is_zero(s.radiance)) return {};
+    const ShadowRay<Real> shadow = shadow_ray(*si, s);
+    if (visibility_of(view_, intersector_, shadow) > 0) return {};
+    hit.t = s.is_finite ? length(s.point - si->position) : Real(1);
+    const ShadingPoint<Real> point =
+        shading_point(view_, Ray<Real>{si->position + s.direction * hit.t, -s.direction, Real(0)}, hit);
+    const BsdfSample<Real> scattered = sample_bsdf(point.bsdf, point.wo, random(), Vec2<Real>{random(), random()});
+    if (!(scattered.pdf > 0) || is_zero(scattered.weight)) return {};
+    return first_glass(shadow);
+  }
+
+  /// Returns the first of the surfaces that a shadow ray meets if all of them transmit light sharply, else nothing.
+  std::optional<uint32_t> first_glass(const ShadowRay<Real>& shadow) {
+    std::optional<uint32_t> first;
+    Ray<Real> ray = shadow.ray;
+    Real left = shadow.t_max;
+    for (uint32_t segments = 3; segments <= max_segments_; ++segments) {
+      Hit<Real> hit;
+      Real travelled = 0;
+      if (!closest_stop(view_, intersector_, RayKind::scattered, ray, hit, travelled)) return first;
+      left -= travelled + hit.t;
+      if (!(left > 0)) return first;
+      const ShadingPoint<Real> point = shading_point(view_, ray, hit);
+      if (!transmits_sharply(point)) return {};
+      if (!first) first = point.si.surface;
+      ray = spawn_ray(point.si, ray.direction);
+    }
+    return {};
+  }
+
+  bool transmits_sharply(const ShadingPoint<Real>& point) {
+    double transmitted = 0;
+    for (uint32_t i = 0; i < directions_per_point; ++i) {
+      const Real u_lobe = (static_cast<Real>(i) + Real(0.5)) / directions_per_point;
+      const BsdfSample<Real> s = sample_bsdf(point.bsdf, point.wo, u_lobe, Vec2<Real>{random(), random()});
+      if (is_sharp(s) && dot(s.direction, point.si.normal) * dot(point.wo, point.si.normal) < 0)
+        transmitted += static_cast<double>(max_component(s.weight)) / directions_per_point;
+    }
+    return transmitted > min_sharp;
   }
 
   /// Tests light on a point of a surface that is known to be smooth, which may be small and far away.
@@ -254,8 +321,9 @@ class LostLightSearch {
   const SceneView<Real>& view_;
   Bvh2Intersector<Real> intersector_;
   uint32_t max_segments_;
-  std::vector<Candidate> candidates_;
-  std::vector<Tally> tallies_;  ///< by material
+  std::vector<Candidate> candidates_;  ///< points of surfaces that may be smooth
+  std::vector<Candidate> receivers_;   ///< points of others
+  std::vector<Tally> tallies_;         ///< by material
   uint32_t random_count_ = 0;
 };
 

@@ -25,8 +25,8 @@ template <class Real>
 bool may_lose_light(const SceneView<Real>& view);
 
 /// Follows light from the delta lights to points of smooth surfaces, and on from there for as long as paths of
-/// `max_segments` allow. Materials that scatter almost all light diffusely, such as varnish, are ignored. `view` needs
-/// the binary tree.
+/// `max_segments` allow, and from points of other surfaces straight through glass to the lights. Materials that scatter
+/// almost all light diffusely, such as varnish, are ignored. `view` needs the binary tree.
 template <class Real>
 std::optional<LostLight> find_lost_light(const SceneView<Real>& view, uint32_t max_segments);
 

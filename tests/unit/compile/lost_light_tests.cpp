@@ -16,6 +16,7 @@ namespace {
 const std::string floor_of =
     "Material \"diffuse\" \"rgb reflectance\" [.8 .8 .8]\n"
     "Shape \"bilinearmesh\" \"point3 P\" [-5 0 -5  5 0 -5  -5 0 5  5 0 5]\n";
+const std::string panel = "Shape \"bilinearmesh\" \"point3 P\" [-1 0 -1  1 0 -1  -1 0 1  1 0 1]\n";
 const std::string glass = "Material \"dielectric\"\n";
 const std::string ball = "AttributeBegin Translate 0 1.5 0 Shape \"sphere\" AttributeEnd\n";
 const std::string point = "LightSource \"point\" \"point3 from\" [0 4 0]\n";
@@ -60,6 +61,12 @@ TYPED_TEST(LostLightOf, CausticsOfLightsWithoutSize) {
       {"pane", "WorldBegin\n" + point +
                    "Material \"thindielectric\"\nAttributeBegin Rotate 90 1 0 0 Shape \"disk\" AttributeEnd\n" +
                    "Translate 0 -1 0 " + floor_of},
+      {"small floor behind a large pane",
+       "WorldBegin\n" + sun + "AttributeBegin Material \"diffuse\" Scale .5 .5 .5 " + panel +
+           "AttributeEnd Material \"thindielectric\" Translate 0 1 0 Scale 9 9 9 " + panel},
+      {"small floor behind a thick pane", "WorldBegin\n" + sun + "AttributeBegin Material \"diffuse\" Scale .5 .5 .5 " +
+                                              panel + "AttributeEnd\n" + glass + "Translate 0 1 0 Scale 9 9 9 " +
+                                              panel + "Translate 0 0.1 0 " + panel},
       {"bulb", "WorldBegin\n" + point + glass +
                    "AttributeBegin Translate 0 4 0 Shape \"sphere\" \"float radius\" 0.1 AttributeEnd\n" + floor_of},
       {"moving glass", "WorldBegin\n" + point + glass +
