@@ -222,10 +222,15 @@ std::vector<SettingEntry> image_settings() {
   };
 }
 
+/// Backends that have the same kind give the same bits.
+std::string kind_of_bits(const RenderSettings& s) {
+  return s.backend == "serial" || s.backend == "openmp" ? "serial" : s.backend;
+}
+
 std::vector<SettingEntry> engine_settings() {
   constexpr SettingGroup group = SettingGroup::engine;
   return {
-      entry(group, "backend", "", "NAME", backend_help(), name(&Settings::backend)),
+      of_samples(kind_of_bits, entry(group, "backend", "", "NAME", backend_help(), name(&Settings::backend))),
       entry(group, "strategy", "", "NAME", strategy_help(), name(&Settings::strategy)),
       entry(group, "schedule", "", "KIND[,CHUNK]", "openmp, embree: static, dynamic or guided, and a chunk: dynamic,4",
             name(&Settings::schedule)),

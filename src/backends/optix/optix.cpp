@@ -42,6 +42,8 @@ class OptixBackend final : public cuda::DeviceBackend {
     return {true, "OptiX 9.0, in float", cuda::describe_devices(), path};
   }
 
+  BvhLayouts wanted_layouts(const RenderSettings&) const override { return {}; }
+
  protected:
   std::unique_ptr<cuda::Engine> make_engine(int device, const cuda::DeviceRows& rows, Precision) override {
     return functions().make_engine(device, rows);

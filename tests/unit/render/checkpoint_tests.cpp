@@ -136,6 +136,20 @@ TYPED_TEST(CheckpointFiles, OfAnotherVersionIsRefusedAsThat) {
   EXPECT_NE(this->refusal_of(older).find("another version"), std::string::npos);
 }
 
+TYPED_TEST(CheckpointFiles, OfABackendWithOtherBitsIsRefused) {
+  RenderSettings settings = this->settings_;
+  settings.backend = "serial";
+  Film<TypeParam> film = this->make_film();
+  this->fill(film);
+  CheckpointFile(settings, scene).template save<TypeParam>(film, 8);
+  settings.backend = "openmp";
+  EXPECT_EQ(this->refusal(settings), "");
+  for (const char* const other : {"embree", "cuda", "optix"}) {
+    settings.backend = other;
+    EXPECT_NE(this->refusal(settings).find("of another scene or of other settings"), std::string::npos) << other;
+  }
+}
+
 TYPED_TEST(CheckpointFiles, OfAnotherRenderIsRefusedAsThat) {
   EXPECT_NE(this->refusal(this->settings_, scene + 1).find("another scene"), std::string::npos);
   const auto refusal_with = [&](const auto& change) {
