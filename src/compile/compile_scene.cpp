@@ -484,10 +484,13 @@ class SceneCompiler {
     return {open, at(scene_.camera.shutter_close) - open};
   }
 
-  uint32_t sphere_frame(const Shape& shape, const Transform& world_from_object) {
+  bool needs_uv(const Shape& shape) const {
     const bool has_emission_texture = shape.emission && shape.emission->texture != no_index;
-    if (!has_emission_texture && (shape.material == no_index || !materials_.needs_uv[shape.material]))
-      return no_sphere_frame;
+    return has_emission_texture || (shape.material != no_index && materials_.needs_uv[shape.material]);
+  }
+
+  uint32_t sphere_frame(const Shape& shape, const Transform& world_from_object) {
+    if (!needs_uv(shape)) return no_sphere_frame;
     const auto axis = [&](const Vec3d& a) { return convert<Real>(normalize(world_from_object.direction(a))); };
     out_.sphere_frames.push_back({axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})});
     return static_cast<uint32_t>(out_.sphere_frames.size() - 1);
@@ -574,9 +577,11 @@ class SceneCompiler {
   void add_triangles(const Shape& shape, const Mesh& mesh, uint32_t base, uint32_t normal_offset, uint32_t uv_offset,
                      bool flip, uint32_t attributes) {
     const uint32_t shared = emits(shape) ? 0 : add_surface(shape, no_light, normal_offset, uv_offset, flip, attributes);
+    const bool has_default_uv = uv_offset == no_offset && needs_uv(shape);  // by the order of the vertices
     size_t without_area = 0;
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       TriangleRecord triangle{{base + mesh.indices[i], base + mesh.indices[i + 1], base + mesh.indices[i + 2]}, shared};
+      if (!has_default_uv) turn_if_narrow(triangle);
       const Vec3<Real> p0 = out_.positions[triangle.vertex[0]];
       const Real twice_area =
           length(cross(out_.positions[triangle.vertex[1]] - p0, out_.positions[triangle.vertex[2]] - p0));
@@ -594,6 +599,16 @@ class SceneCompiler {
     }
     if (without_area > 0 && without_area_ == 0) without_area_place_ = shape.where;
     without_area_ += without_area;
+  }
+
+  /// Makes the longest edge of a narrow triangle the one opposite to vertex 0. The normal and the area are computed
+  /// from the other two, whose product loses nothing if one of them is short.
+  void turn_if_narrow(TriangleRecord& triangle) const {
+    uint32_t(&v)[3] = triangle.vertex;
+    const Vec3<Real> p[3] = {out_.positions[v[0]], out_.positions[v[1]], out_.positions[v[2]]};
+    if (!is_narrow(p[0], p[1], p[2])) return;
+    const Real opposite[3] = {length_squared(p[2] - p[1]), length_squared(p[0] - p[2]), length_squared(p[1] - p[0])};
+    std::rotate(v, v + (std::max_element(opposite, opposite + 3) - opposite), v + 3);
   }
 
   void warn_of_dropped_triangles() {

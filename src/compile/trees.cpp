@@ -60,11 +60,12 @@ class TreeBuilder {
   /// Boxes about the corners of the objects' own, wider by what rounding of the transform there and back can lose.
   void add_instance_boxes(std::vector<Bounds3<Real>>& boxes) const {
     std::vector<Bounds3<Real>> object_boxes(out_.objects.size());
+    const SceneView<Real> objects = out_.view();
 #pragma omp parallel for schedule(dynamic)
     for (size_t o = 0; o < object_boxes.size(); ++o) {
       const ObjectRecord& object = out_.objects[o];
       for (uint32_t i = object.first_triangle; i < object.first_triangle + object.triangle_count; ++i)
-        for (const uint32_t v : out_.triangles[i].vertex) object_boxes[o].extend(out_.positions[v]);
+        object_boxes[o].extend(bounds_of(objects, out_.triangles[i]));
     }
     SceneView<Real> view;
     view.instances = out_.instances.data();

@@ -179,8 +179,9 @@ void check(const ClosedMesh& closed) {
   for (size_t left = all; left > 0 && !::testing::Test::HasFailure(); left -= std::min(left, at_once))
     count(scene.view, LeavingRays<Real>(closed, scene.view, std::min(left, at_once), random), tallies);
   for (const auto& [engine, tally] : tallies) {
-    // Embree's own rounding is visible so close to edges, in some 30 of a million rays.
-    const size_t bearable = engine == "Embree" ? 2 + all / 20'000 : 0;
+    // Embree's own rounding is visible so close to edges, in some 30 of a million rays, and in one of a thousand where
+    // triangles are much longer than wide.
+    const size_t bearable = engine == "Embree" ? 2 + all / (scene.view.has_narrow_triangles ? 400 : 20'000) : 0;
     EXPECT_LE(tally.got_out, bearable) << engine << ": rays get out";
     EXPECT_LE(tally.hit_again, bearable) << engine << ": rays hit what they leave";
   }
@@ -190,6 +191,11 @@ Mesh bumpy() {
   Random random(3);
   Mesh mesh = icosphere(4);
   jitter_radii(mesh, 0.02, random);
+  return mesh;
+}
+
+Mesh stretched(Mesh mesh, const Vec3d& by) {
+  for (Vec3d& p : mesh.positions) p = {p.x * by.x, p.y * by.y, p.z * by.z};
   return mesh;
 }
 
@@ -227,6 +233,16 @@ TYPED_TEST(Leaks, Cube) { check_everywhere<TypeParam>(cube(), true); }
 TYPED_TEST(Leaks, CoarseIcosphere) { check_everywhere<TypeParam>(icosphere(2), true); }
 TYPED_TEST(Leaks, FineIcosphere) { check_everywhere<TypeParam>(icosphere(4), true); }
 TYPED_TEST(Leaks, Bumpy) { check_everywhere<TypeParam>(bumpy(), false); }
+// Rounding of the vertices bends long walls; in float the bend is large enough for rays that leave to hit again.
+TYPED_TEST(Leaks, Corridor) {
+  check_everywhere<TypeParam>(stretched(cube(), {1000, 1, 1}), std::is_same_v<TypeParam, double>);
+}
+TYPED_TEST(Leaks, Hall) {
+  check_everywhere<TypeParam>(stretched(cube(), {1000, 100, 1}), std::is_same_v<TypeParam, double>);
+}
+TYPED_TEST(Leaks, Needle) {
+  check_everywhere<TypeParam>(stretched(icosphere(2), {300, 1, 1}), std::is_same_v<TypeParam, double>);
+}
 
 }  // namespace
 }  // namespace alhazen::test

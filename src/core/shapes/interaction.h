@@ -99,6 +99,13 @@ ALHAZEN_HD ALHAZEN_HOT TriangleCorners<Real> triangle_corners(const SceneView<Re
   return corners;
 }
 
+/// Returns the error that the rounding of the distance to the triangle adds to its points, in all directions. Without
+/// it, a ray would start exactly in the plane of an axis-aligned triangle and hit other triangles in this plane.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> extent_error(const Vec3<Real> (&p)[3]) {
+  return splat(max_component(abs(p[1] - p[0]) + abs(p[2] - p[0])) * rounding_bound<Real>(1));
+}
+
 /// Minimum distance of ray origins from the edges of the triangle that the ray starts on, in units of the bound on the
 /// error of the point. Where two triangles of a closed mesh join at an angle, the offset along the normal of one
 /// (offset_origin) and rounding must not move the origin through the other. This distance prevents it, unless the angle
@@ -121,30 +128,49 @@ ALHAZEN_HD ALHAZEN_HOT bool is_near_edge(const Vec3<Real> (&p)[3], Real b1, Real
 }
 
 /// Returns the offset within the plane that moves the point away from edges that are too close. The clearance is at
-/// most a third of the height of the triangle.
+/// most a third of the height of the triangle. In a sharp corner the offsets from both edges cancel each other; there
+/// the point moves into the triangle along the edges until it is clear of them for the rounding error at the corner,
+/// which is that of the coordinates alone.
 template <class Real>
 ALHAZEN_HD ALHAZEN_RARE Vec3<Real> away_from_edges(const Vec3<Real> (&p)[3], Real b1, Real b2,
                                                    const Vec3<Real>& error) {
   const Real clearance = edge_clearance<Real> * max_component(error);
-  const Vec3<Real> e0 = p[2] - p[1], e1 = p[0] - p[2], e2 = p[1] - p[0];
-  const Vec3<Real> winding = cross(e1, e2);  // of the edges that is_near_edge uses: for needles, others may give 0
+  const Vec3<Real> edge[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]};
+  const Vec3<Real> winding = cross(edge[1], edge[2]);  // as is_near_edge has it: for needles, other edges may give 0
   const Real twice_area = length(winding);
   if (!(twice_area > 0)) return {};
-  // Returns how much the distance from an edge is too small, divided by the length of the edge.
-  const auto lack = [&](const Vec3<Real>& edge, Real b) {
-    const Real inverse_length = 1 / length(edge);
-    const Real height = twice_area * inverse_length;
-    return max(min(clearance, height * Real(1.0 / 3)) - b * height, Real(0)) * inverse_length;
-  };
-  const Vec3<Real> along = e0 * lack(e0, 1 - b1 - b2) + e1 * lack(e1, b1) + e2 * lack(e2, b2);
-  return cross(winding, along) * (1 / twice_area);
-}
+  const Real b[3] = {1 - b1 - b2, b1, b2};
+  Real length_of[3], height[3], lack[3];
+  for (int i = 0; i < 3; ++i) {
+    length_of[i] = length(edge[i]);
+    height[i] = twice_area * (1 / length_of[i]);
+    lack[i] = max(min(clearance, height[i] * Real(1.0 / 3)) - b[i] * height[i], Real(0));
+  }
+  const auto push = [&](int i) { return edge[i] * (lack[i] * (1 / length_of[i])); };
+  const Vec3<Real> along = push(0) + push(1) + push(2);
+  const Vec3<Real> offset = cross(winding, along) * (1 / twice_area);
 
-/// Returns the error that the rounding of the distance to the triangle adds to its points, in all directions. Without
-/// it, a ray would start exactly in the plane of an axis-aligned triangle and hit other triangles in this plane.
-template <class Real>
-ALHAZEN_HD ALHAZEN_HOT Vec3<Real> extent_error(const Vec3<Real> (&p)[3]) {
-  return splat(max_component(abs(p[1] - p[0]) + abs(p[2] - p[0])) * rounding_bound<Real>(1));
+  const Vec3<Real> coordinates = max(error - extent_error(p), Vec3<Real>{});
+  const Real distance_to_corners =
+      2 * (b[1] * b[2] * length_of[0] + b[2] * b[0] * length_of[1] + b[0] * b[1] * length_of[2]);  // on average
+  Real lowest[3], cleared[3], sum = 0, above = 0;
+  bool is_clear = true;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3<Real> direction = edge[i] * (1 / length_of[i]);
+    const Vec3<Real> normal = cross(winding, direction) * (1 / twice_area);
+    const Real local = dot(abs(normal), coordinates) + distance_to_corners * rounding_bound<Real>(1);
+    lowest[i] = min(edge_clearance<Real> * local / height[i], Real(1.0 / 3));
+    cleared[i] = b[i] + dot(direction, along) / height[i];
+    is_clear &= cleared[i] >= lowest[i];
+    cleared[i] = max(cleared[i] - lowest[i], Real(0));
+    sum += lowest[i];
+    above += cleared[i];
+  }
+  if (is_clear) return offset;
+  const Real scale = above > 0 ? (1 - sum) / above : Real(0);
+  Vec3<Real> moved = edge[2] * (lowest[1] + cleared[1] * scale - b1);
+  moved -= edge[1] * (lowest[2] + cleared[2] * scale - b2);
+  return moved;
 }
 
 /// Returns the position and normals at barycentric coordinates b1 and b2, without clearance from the edges.

@@ -2,6 +2,8 @@
 
 // Watertight intersection of triangles (Woop, Benthin, Wald 2013, JCGT 2(1)), and sampling of their area.
 
+#include <limits>
+
 #include "core/math/bounds.h"
 #include "core/math/ray.h"
 #include "core/math/scalar.h"
@@ -20,24 +22,45 @@ bool is_narrow(const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& p2)
 
 /// An edge function is a difference of two products. If the ray's origin is close to a triangle that is much longer
 /// than wide, the edge functions are small beside the products, and rounding of the products displaces the hit by up to
-///   extent of the triangle * largest product / determinant * 2^-22;
-/// t may even get the wrong sign. In scenes with such triangles, the edge functions are computed in double if that is
-/// more than 2^-13 of the distance.
+///   extent of the triangle * largest product / determinant * 2^-22 (2^-51 in double);
+/// t may even get the wrong sign. In scenes with such triangles, the edge functions are computed again, from exact
+/// products, if that is more than 2^-13 of the distance.
 template <class Real>
-inline constexpr Real displaced_hit = 512;
+inline constexpr Real displaced_hit = Real(0x1p-13) / (2 * std::numeric_limits<Real>::epsilon());
 
-/// Recomputes the edge functions of a triangle that was hit, from its vertices in the sheared space of the ray. The
-/// products are exact in double. Those that are on the other side of zero, within rounding, become 0.
-inline ALHAZEN_RARE void recompute_edge_functions(const float (&x)[3], const float (&y)[3], float (&e)[3]) {
-  double exact[3], sum = 0;
+/// Returns a * b - c * d, with the products as sums of two numbers (Dekker 1971, with the splitting of Veltkamp).
+template <class Real>
+Real exact_difference_of_products(Real a, Real b, Real c, Real d) {
+  struct Product {
+    Real rounded, error;
+    Product(Real x, Real y) : rounded(x * y) {
+      constexpr Real split = Real(uint64_t{1} << (std::numeric_limits<Real>::digits + 1) / 2) + 1;
+      const Real sx = split * x, sy = split * y, x1 = sx - (sx - x), y1 = sy - (sy - y), x2 = x - x1, y2 = y - y1;
+      error = x2 * y2 - (((rounded - x1 * y1) - x2 * y1) - x1 * y2);
+    }
+  };
+  const Product ab(a, b), cd(c, d);
+  return (ab.rounded - cd.rounded) + (ab.error - cd.error);
+}
+
+/// Products of floats are exact in double.
+inline double exact_difference_of_products(float a, float b, float c, float d) {
+  return double{a} * double{b} - double{c} * double{d};
+}
+
+/// Recomputes the edge functions of a triangle that was hit, from its vertices in the sheared space of the ray. Those
+/// that are on the other side of zero, within rounding, become 0.
+template <class Real>
+ALHAZEN_RARE void recompute_edge_functions(const Real (&x)[3], const Real (&y)[3], Real (&e)[3]) {
+  decltype(exact_difference_of_products(x[0], y[0], y[0], x[0])) exact[3], sum = 0;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
-    exact[i] = double{x[j]} * double{y[k]} - double{y[j]} * double{x[k]};
+    exact[i] = exact_difference_of_products(x[j], y[k], y[j], x[k]);
     sum += exact[i];
   }
   for (int i = 0; i < 3; ++i) {
-    const double positive = sum < 0 ? -exact[i] : exact[i];
-    e[i] = positive > 0 ? static_cast<float>(positive) : 0.0f;
+    const auto positive = sum < 0 ? -exact[i] : exact[i];
+    e[i] = positive > 0 ? static_cast<Real>(positive) : Real(0);
   }
 }
 
@@ -68,11 +91,10 @@ ALHAZEN_HD bool intersect_triangle(const ShearedRay<Real>& ray, const Vec3<Real>
   if ((e.x < 0 || e.y < 0 || e.z < 0) && (e.x > 0 || e.y > 0 || e.z > 0)) return false;
   Real det = e.x + e.y + e.z;
 #if !defined(__CUDA_ARCH__)  // there, fused operations make the differences exact
-  if (sizeof(Real) == sizeof(float) && ALHAZEN_UNLIKELY(ray.checks_narrow_triangles != 0) && is_displaced(p_t, e)) {
-    float edges[3];
-    recompute_edge_functions({float(p_t[0].x), float(p_t[1].x), float(p_t[2].x)},
-                             {float(p_t[0].y), float(p_t[1].y), float(p_t[2].y)}, edges);
-    e = {Real(edges[0]), Real(edges[1]), Real(edges[2])};
+  if (ALHAZEN_UNLIKELY(ray.checks_narrow_triangles != 0) && is_displaced(p_t, e)) {
+    Real edges[3];
+    recompute_edge_functions({p_t[0].x, p_t[1].x, p_t[2].x}, {p_t[0].y, p_t[1].y, p_t[2].y}, edges);
+    e = {edges[0], edges[1], edges[2]};
     det = e.x + e.y + e.z;
   }
 #endif
@@ -97,11 +119,15 @@ ALHAZEN_HD ALHAZEN_INLINE bool intersect_record(const SceneView<Real>& scene, co
                             hit.b1, hit.b2);
 }
 
+/// Returns the bounding box, padded by the rounding errors of the vertices in the sheared space of a ray that starts or
+/// ends near the triangle. They grow with its largest extent, also along the other axes; without the padding a hit of
+/// intersect_triangle may be outside the box.
 template <class Real>
 Bounds3<Real> bounds_of(const SceneView<Real>& scene, const TriangleRecord& triangle) {
   Bounds3<Real> box;
   for (const uint32_t v : triangle.vertex) box.extend(scene.positions[v]);
-  return box;
+  const Real padding = max_component(box.high - box.low) * rounding_bound<Real>(10);
+  return {box.low - splat(padding), box.high + splat(padding)};
 }
 
 /// Samples a point uniformly over the area of a triangle, with pdf 1 / area, and returns the barycentric coordinates of

@@ -5,7 +5,6 @@
 // (blocks.h), or many rays with one triangle (packets.h).
 
 #include <bit>
-#include <type_traits>
 
 #include "core/bvh/bvh2/traversal.h"
 #include "core/shapes/triangle.h"
@@ -42,16 +41,14 @@ struct TriangleLanes {
                       sheared(vertex, 2, origin, shear), shear[2], checks_narrow_triangles) {}
 
   ALHAZEN_INLINE TriangleLanes(const ShearedLanes<V>& a, const ShearedLanes<V>& b, const ShearedLanes<V>& c,
-                               const V& scale, [[maybe_unused]] uint32_t checks_narrow_triangles) {
+                               const V& scale, uint32_t checks_narrow_triangles) {
     const V zero = V::all(0);
     e[0] = b.x * c.y - b.y * c.x;
     e[1] = c.x * a.y - c.y * a.x;
     e[2] = a.x * b.y - a.y * b.x;
     inside = less_equal(zero, min(min(e[0], e[1]), e[2])) | less_equal(max(max(e[0], e[1]), e[2]), zero);
     if (inside == 0) return;
-    if constexpr (std::is_same_v<typename V::Component, float>) {
-      if (ALHAZEN_UNLIKELY(checks_narrow_triangles != 0)) recompute_displaced(a, b, c);
-    }
+    if (ALHAZEN_UNLIKELY(checks_narrow_triangles != 0)) recompute_displaced(a, b, c);
     // If the sum is 0, t is infinite or NaN and the hit is rejected.
     inverse = V::all(1) / (e[0] + e[1] + e[2]);
     t = (e[0] * (a.z * scale) + e[1] * (b.z * scale) + e[2] * (c.z * scale)) * inverse;
@@ -71,14 +68,15 @@ struct TriangleLanes {
     const V product = max(max(magnitude(b.x * c.y), magnitude(c.x * a.y)), magnitude(a.x * b.y));
     const auto extent = [&](V ShearedLanes<V>::*k) { return max(max(a.*k, b.*k), c.*k) - min(min(a.*k, b.*k), c.*k); };
     using Vertex = ShearedLanes<V>;
+    using Real = typename V::Component;
     const V largest_extent = max(max(extent(&Vertex::x), extent(&Vertex::y)), extent(&Vertex::z));
     const V distance = magnitude(e[0] * a.z + e[1] * b.z + e[2] * c.z);
-    uint32_t lanes = inside & less(V::all(displaced_hit<float>) * distance, largest_extent * product);
+    uint32_t lanes = inside & less(V::all(displaced_hit<Real>) * distance, largest_extent * product);
     for (; lanes != 0; lanes &= lanes - 1) {
       const int lane = std::countr_zero(lanes);
-      float edges[3];
-      recompute_edge_functions({a.x.lane(lane), b.x.lane(lane), c.x.lane(lane)},
-                               {a.y.lane(lane), b.y.lane(lane), c.y.lane(lane)}, edges);
+      Real edges[3];
+      recompute_edge_functions<Real>({a.x.lane(lane), b.x.lane(lane), c.x.lane(lane)},
+                                     {a.y.lane(lane), b.y.lane(lane), c.y.lane(lane)}, edges);
       for (int k = 0; k < 3; ++k) e[k] = choose(uint32_t{1} << lane, V::all(edges[k]), e[k]);
     }
   }
