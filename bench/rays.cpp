@@ -8,17 +8,7 @@
 
 namespace alhazen {
 
-namespace baseline {
-TraceQueries select_trace(Call call, bool is_double);
-}
-#if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
-namespace avx2 {
-TraceQueries select_trace(Call call, bool is_double);
-}
-namespace avx512 {
-TraceQueries select_trace(Call call, bool is_double);
-}
-#endif
+ALHAZEN_DECLARE_KERNEL(TraceQueries select_trace(Call call, bool is_double))
 
 namespace {
 

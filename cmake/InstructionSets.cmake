@@ -1,10 +1,40 @@
 # The instruction sets that sample kernels are compiled for, each in a namespace of its name (core/math/platform.h).
 
-set(ALHAZEN_INSTRUCTION_SETS baseline)
-if(ALHAZEN_BASELINE_ONLY)
-  add_compile_definitions(ALHAZEN_BASELINE_ONLY)
-elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  list(APPEND ALHAZEN_INSTRUCTION_SETS avx2 avx512)
+# ALHAZEN_KERNEL_SETS is their list. No file but the kernels depends on it (render/sample_kernel.h).
+
+set(ALHAZEN_KERNEL_SETS ${ALHAZEN_INSTRUCTION_SETS})
+if(ALHAZEN_BASELINE_ONLY OR NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  set(ALHAZEN_KERNEL_SETS baseline)
+elseif(ALHAZEN_INSTRUCTION_SETS STREQUAL "native")
+  # Asks the processor as the program does.
+  if(NOT ALHAZEN_NATIVE_SET)
+    set(source ${PROJECT_BINARY_DIR}/native_set.cpp)
+    file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [[
+#include <cstdio>
+int main() {
+  __builtin_cpu_init();
+  std::puts(__builtin_cpu_supports("x86-64-v4") ? "avx512" : __builtin_cpu_supports("x86-64-v3") ? "avx2" : "baseline");
+}
+]])
+    try_run(exit_code is_compiled ${PROJECT_BINARY_DIR}/native_set ${source} RUN_OUTPUT_VARIABLE native)
+    if(NOT is_compiled OR NOT exit_code EQUAL 0)
+      message(FATAL_ERROR "ALHAZEN_INSTRUCTION_SETS=native: the program that asks the processor does not run")
+    endif()
+    string(STRIP "${native}" native)
+    set(ALHAZEN_NATIVE_SET ${native} CACHE INTERNAL "The best instruction set of this machine")
+    message(STATUS "Sample kernels are compiled for ${native} alone, the best instruction set of this machine")
+  endif()
+  set(ALHAZEN_KERNEL_SETS ${ALHAZEN_NATIVE_SET})
+elseif(ALHAZEN_INSTRUCTION_SETS STREQUAL "all")
+  set(ALHAZEN_KERNEL_SETS baseline avx2 avx512)
+endif()
+foreach(set IN LISTS ALHAZEN_KERNEL_SETS)
+  if(NOT set MATCHES "^(baseline|avx2|avx512)$")
+    message(FATAL_ERROR "ALHAZEN_INSTRUCTION_SETS: '${set}' is none of all, native, baseline, avx2 and avx512")
+  endif()
+endforeach()
+if(NOT ALHAZEN_KERNEL_SETS)
+  message(FATAL_ERROR "ALHAZEN_INSTRUCTION_SETS is empty: it may be all, native, or some of baseline, avx2 and avx512")
 endif()
 set(ALHAZEN_FLAGS_avx2 -march=x86-64-v3)
 set(ALHAZEN_FLAGS_avx512 -march=x86-64-v4 -mprefer-vector-width=512)
@@ -30,7 +60,7 @@ endfunction()
 
 # The files given, once per instruction set, added to `target`; `ARGN` are what they need to be linked to besides.
 function(alhazen_add_kernels target name sources)
-  foreach(set IN LISTS ALHAZEN_INSTRUCTION_SETS)
+  foreach(set IN LISTS ALHAZEN_KERNEL_SETS)
     add_library(${name}_${set} OBJECT ${sources})
     target_include_directories(${name}_${set} PRIVATE ${PROJECT_SOURCE_DIR}/src)
     alhazen_compile_for(${name}_${set} ${set})

@@ -1,31 +1,49 @@
 #include "render/sample_kernel.h"
 
+#include "util/diagnostics.h"
+
 namespace alhazen {
 
-#define ALHAZEN_DECLARE_KERNELS(set)                                     \
-  namespace set {                                                        \
-  RawKernel select_float_kernel(uint32_t integrator, uint32_t sampler);  \
-  RawKernel select_double_kernel(uint32_t integrator, uint32_t sampler); \
-  }
-ALHAZEN_DECLARE_KERNELS(baseline)
-#if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
-ALHAZEN_DECLARE_KERNELS(avx2)
-ALHAZEN_DECLARE_KERNELS(avx512)
-#endif
+ALHAZEN_DECLARE_KERNEL(RawKernel select_float_kernel(uint32_t integrator, uint32_t sampler))
+ALHAZEN_DECLARE_KERNEL(RawKernel select_double_kernel(uint32_t integrator, uint32_t sampler))
 
 namespace {
 
-std::vector<InstructionSet> find_instruction_sets() {
-  std::vector<InstructionSet> sets{InstructionSet::baseline};
-#if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
+std::vector<InstructionSet> find_built_sets() {
+  std::vector<InstructionSet> sets;
+  for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512})
+    if (ALHAZEN_KERNEL_OF(set, select_float_kernel)) sets.push_back(set);
+  return sets;
+}
+
+bool processor_has(InstructionSet set) {
+#if defined(__x86_64__)
   __builtin_cpu_init();
-  if (__builtin_cpu_supports("x86-64-v3")) sets.push_back(InstructionSet::avx2);
-  if (__builtin_cpu_supports("x86-64-v4")) sets.push_back(InstructionSet::avx512);
+  if (set == InstructionSet::avx2) return __builtin_cpu_supports("x86-64-v3");
+  if (set == InstructionSet::avx512) return __builtin_cpu_supports("x86-64-v4");
 #endif
+  return set == InstructionSet::baseline;
+}
+
+std::vector<InstructionSet> find_instruction_sets() {
+  std::vector<InstructionSet> sets;
+  std::string names;
+  for (const InstructionSet set : built_instruction_sets()) {
+    if (processor_has(set)) sets.push_back(set);
+    names += (names.empty() ? "" : ", ") + to_string(set);
+  }
+  if (sets.empty())
+    throw RenderError("this program can take samples with " + names +
+                      " alone, which this processor lacks: build it here, or with -DALHAZEN_INSTRUCTION_SETS=all");
   return sets;
 }
 
 }  // namespace
+
+const std::vector<InstructionSet>& built_instruction_sets() {
+  static const std::vector<InstructionSet> sets = find_built_sets();
+  return sets;
+}
 
 const std::vector<InstructionSet>& instruction_sets() {
   static const std::vector<InstructionSet> sets = find_instruction_sets();

@@ -17,17 +17,29 @@ namespace alhazen {
 
 enum class InstructionSet : uint32_t { baseline, avx2, avx512 };
 
-/// The instruction sets that both the processor and this binary support, the best last.
+/// The instruction sets that this binary has kernels for, the best last.
+const std::vector<InstructionSet>& built_instruction_sets();
+/// Those that the processor supports as well. Throws RenderError if there are none.
 const std::vector<InstructionSet>& instruction_sets();
 std::string to_string(InstructionSet set);
 
+/// Declares a function in the namespace of every instruction set. The symbols are weak: the address of a function is
+/// null where the build leaves its set out (ALHAZEN_INSTRUCTION_SETS of CMake), and no file is compiled again when the
+/// build gets another set.
+#define ALHAZEN_DECLARE_KERNEL(declaration) \
+  namespace baseline {                      \
+  [[gnu::weak]] declaration;                \
+  }                                         \
+  namespace avx2 {                          \
+  [[gnu::weak]] declaration;                \
+  }                                         \
+  namespace avx512 {                        \
+  [[gnu::weak]] declaration;                \
+  }
+
 /// The function `name` in the namespace of an instruction set, for dispatch.
-#if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
 #define ALHAZEN_KERNEL_OF(set, name) \
   ((set) == InstructionSet::avx512 ? avx512::name : (set) == InstructionSet::avx2 ? avx2::name : baseline::name)
-#else
-#define ALHAZEN_KERNEL_OF(set, name) ((void)(set), baseline::name)
-#endif
 
 /// Takes blocks of samples. A kernel is compiled in the namespace of its instruction set, where these types have other
 /// names, so it takes their addresses.

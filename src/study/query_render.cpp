@@ -8,15 +8,7 @@
 
 namespace alhazen {
 
-#define ALHAZEN_DECLARE_STUDY_KERNEL(set)                          \
-  namespace set {                                                  \
-  RawKernel select_study_kernel(bool brute_force, bool in_double); \
-  }
-ALHAZEN_DECLARE_STUDY_KERNEL(baseline)
-#if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
-ALHAZEN_DECLARE_STUDY_KERNEL(avx2)
-ALHAZEN_DECLARE_STUDY_KERNEL(avx512)
-#endif
+ALHAZEN_DECLARE_KERNEL(RawKernel select_study_kernel(bool brute_force, bool in_double))
 
 namespace study {
 

@@ -8,16 +8,7 @@
 
 namespace alhazen {
 
-#define ALHAZEN_DECLARE_ANSWERS(set)                                                      \
-  namespace set {                                                                         \
-  test::AnswerQueries select_answers(test::QueryMode mode, bool any_hit, bool is_double); \
-  }
-ALHAZEN_DECLARE_ANSWERS(baseline)
-#if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
-ALHAZEN_DECLARE_ANSWERS(avx2)
-ALHAZEN_DECLARE_ANSWERS(avx512)
-#endif
-#undef ALHAZEN_DECLARE_ANSWERS
+ALHAZEN_DECLARE_KERNEL(test::AnswerQueries select_answers(test::QueryMode mode, bool any_hit, bool is_double))
 
 namespace test {
 

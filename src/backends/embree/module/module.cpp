@@ -6,15 +6,7 @@
 
 namespace alhazen {
 
-#define ALHAZEN_DECLARE_KERNEL(set)                                      \
-  namespace set {                                                        \
-  RawKernel select_embree_kernel(uint32_t integrator, uint32_t sampler); \
-  }
-ALHAZEN_DECLARE_KERNEL(baseline)
-#if defined(__x86_64__) && !defined(ALHAZEN_BASELINE_ONLY)
-ALHAZEN_DECLARE_KERNEL(avx2)
-ALHAZEN_DECLARE_KERNEL(avx512)
-#endif
+ALHAZEN_DECLARE_KERNEL(RawKernel select_embree_kernel(uint32_t integrator, uint32_t sampler))
 
 namespace {
 
