@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "cli/command.h"
 #include "cli/console.h"
 #include "cli/subcommands.h"
 #include "files/atomic_file.h"
@@ -78,23 +79,22 @@ void run_compare(const CompareOptions& options) {
 
 }  // namespace
 
-CLI::App* register_compare(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("compare", "Measure the difference of two images");
+void register_compare(Command& program) {
+  Command command = program.add_subcommand("compare", "Measure the difference of two images");
   const auto options = std::make_shared<CompareOptions>();
-  command->add_option("A", options->a, "the image in question: EXR, PNG, JPEG, TGA, BMP, QOI, HDR, PFM or WebP")
-      ->required()
-      ->type_name("");
-  command->add_option("B", options->b, "the reference, of the same size")->required()->type_name("");
-  command->add_flag("--json", options->json, "print one JSON object");
-  command->add_option("--diff", options->diff, "write an image of the differences (FLIP), " + written_extensions())
-      ->type_name("FILE");
+  command.add_option("A", options->a, "the image in question: EXR, PNG, JPEG, TGA, BMP, QOI, HDR, PFM or WebP")
+      .required()
+      .value_name("");
+  command.add_option("B", options->b, "the reference, of the same size").required().value_name("");
+  command.add_flag("--json", options->json, "print one JSON object");
+  command.add_option("--diff", options->diff, "write an image of the differences (FLIP), " + written_extensions())
+      .value_name("FILE");
   command
-      ->add_option("--reduce", options->reduce,
-                   "compare means of N x N pixels: less noise, and FLIP as for smaller images")
-      ->check(CLI::Range(1, 4096))
-      ->type_name("N");
-  command->callback([options] { run_compare(*options); });
-  return command;
+      .add_option("--reduce", options->reduce,
+                  "compare means of N x N pixels: less noise, and FLIP as for smaller images")
+      .within(1, 4096)
+      .value_name("N");
+  command.on_run([options] { run_compare(*options); });
 }
 
 }  // namespace alhazen

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/command.h"
 #include "cli/console.h"
 #include "cli/subcommands.h"
 #include "render/backend.h"
+#include "render/sample_kernel.h"
 #include "util/printable.h"
 
 namespace alhazen {
@@ -24,6 +27,9 @@ void print_table() {
       print_out("{:<8} {:<14} {}\n", "", "strategies", fmt::join(traits.strategies, ", "));
     if (!status.module.empty()) print_out("{:<8} {:<14} {}\n", "", "module", printable(status.module));
   }
+  std::vector<std::string> sets;
+  for (const InstructionSet set : built_instruction_sets()) sets.push_back(to_string(set));
+  print_out("{:<8} {:<14} {}\n", "kernels", "built for", fmt::join(sets, ", "));
 }
 
 void print_json() {
@@ -43,12 +49,11 @@ void print_json() {
 
 }  // namespace
 
-CLI::App* register_devices(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("devices", "List the backends and their devices");
+void register_devices(Command& program) {
+  Command command = program.add_subcommand("devices", "List the backends and their devices");
   auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "One JSON array instead of the table");
-  command->callback([json] { *json ? print_json() : print_table(); });
-  return command;
+  command.add_flag("--json", *json, "One JSON array instead of the table");
+  command.on_run([json] { *json ? print_json() : print_table(); });
 }
 
 }  // namespace alhazen

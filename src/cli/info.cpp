@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/command.h"
 #include "cli/console.h"
 #include "cli/listing.h"
 #include "cli/subcommands.h"
@@ -78,15 +79,14 @@ void show(const InfoOptions& options) {
 
 }  // namespace
 
-CLI::App* register_info(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("info", "Read a scene and describe its contents");
+void register_info(Command& program) {
+  Command command = program.add_subcommand("info", "Read a scene and describe its contents");
   auto options = std::make_shared<InfoOptions>();
-  command->add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)")->required()->type_name("");
-  command->add_flag("--json", options->json, "One JSON object instead of the list");
-  command->add_flag("--list", options->list, "Cameras, variants, animations and lights of a glTF file instead");
-  command->add_flag("--confine", options->confine, "Read nothing outside the folder of the scene");
-  command->callback([options] { show(*options); });
-  return command;
+  command.add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)").required().value_name("");
+  command.add_flag("--json", options->json, "One JSON object instead of the list");
+  command.add_flag("--list", options->list, "Cameras, variants, animations and lights of a glTF file instead");
+  command.add_flag("--confine", options->confine, "Read nothing outside the folder of the scene");
+  command.on_run([options] { show(*options); });
 }
 
 }  // namespace alhazen

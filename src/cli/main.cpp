@@ -7,6 +7,7 @@
 #include <string>
 #include <system_error>
 
+#include "cli/command.h"
 #include "cli/console.h"
 #include "cli/stack.h"
 #include "cli/subcommands.h"
@@ -14,30 +15,6 @@
 #include "util/printable.h"
 
 namespace {
-
-/// The name of a subcommand, also of `study`, that was given but does not exist; else empty.
-std::string unknown_subcommand(const CLI::App& app, int argc, char** argv) {
-  const auto is_name = [&](int i) { return argc > i && argv[i][0] != '-'; };
-  if (!is_name(1)) return {};
-  const auto found = app.get_subcommands();
-  if (found.empty()) return argv[1];
-  const bool has_none_below = found[0]->get_name() == "study" && found[0]->get_subcommands().empty();
-  return has_none_below && is_name(2) ? std::string("study ") + argv[2] : std::string();
-}
-
-int parse_and_run(CLI::App& app, int argc, char** argv, int& exit_code) {
-  try {
-    app.parse(argc, argv);
-    return exit_code;
-  } catch (const CLI::Success& asked) {  // --help, --version
-    return app.exit(asked);
-  } catch (const CLI::ParseError& error) {
-    const std::string unknown = unknown_subcommand(app, argc, argv);
-    alhazen::tell("alhazen: {}\nRun 'alhazen --help' or 'alhazen SUBCOMMAND --help' for the options.\n",
-                  alhazen::printable(unknown.empty() ? error.what() : "there is no subcommand '" + unknown + "'"));
-    return alhazen::exit_bad_input;
-  }
-}
 
 /// Turns whatever `body` throws into a message and an exit code.
 template <class Body>
@@ -74,25 +51,29 @@ int after_flushing(int exit_code) {
   return exit_code == alhazen::exit_done ? alhazen::exit_failed : exit_code;
 }
 
-int run_command_line(int argc, char** argv) {
-  CLI::App app("A path tracer whose light transport is written once and run by many engines.", "alhazen");
-  app.set_version_flag("--version", "alhazen " ALHAZEN_VERSION);
-  app.require_subcommand(1);
-  app.footer(
+int run_subcommand(int argc, char** argv) {
+  alhazen::ProgramText text;
+  text.name = "alhazen";
+  text.description = "A path tracer whose light transport is written once and run by many engines.";
+  text.version = "alhazen " ALHAZEN_VERSION;
+  text.footer =
       "Exit codes: 0 done, 1 failed while rendering or writing, 2 bad usage or bad input, 130 interrupted by Ctrl-C, "
-      "SIGTERM, SIGHUP or SIGXCPU (the image so far is written).");
+      "SIGTERM, SIGHUP or SIGXCPU (the image so far is written).";
   int exit_code = alhazen::exit_done;
-  alhazen::register_render(app, exit_code);
-  alhazen::register_compare(app);
-  alhazen::register_devices(app);
-  alhazen::register_info(app);
-  alhazen::register_study(app, exit_code);
-  return parse_and_run(app, argc, argv, exit_code);
+  const auto add_subcommands = [&](alhazen::Command& program) {
+    alhazen::register_render(program, exit_code);
+    alhazen::register_compare(program);
+    alhazen::register_devices(program);
+    alhazen::register_info(program);
+    alhazen::register_study(program, exit_code);
+  };
+  const int parsed = alhazen::run_command_line(text, add_subcommands, argc, argv);
+  return parsed == alhazen::exit_done ? exit_code : parsed;
 }
 
 int run_program(int argc, char** argv) {
   alhazen::prepare_streams();
-  const int exit_code = run_guarded([&] { return run_command_line(argc, argv); });
+  const int exit_code = run_guarded([&] { return run_subcommand(argc, argv); });
   return run_guarded([&] { return after_flushing(exit_code); });
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/command.h"
 #include "cli/console.h"
 #include "cli/interrupt.h"
 #include "cli/listing.h"
@@ -166,46 +167,44 @@ int run(RenderOptions& options) {
   return finish(options, rendering, fits_exposure);
 }
 
-void add_output_options(CLI::App& command, RenderOptions& o, const char* group) {
+void add_output_options(Command& command, RenderOptions& o, const char* group) {
   command
       .add_option(
           "-o,--output,--outfile", o.output.paths,
           "Image to write, " + written_extensions() + "; may be given more than once. Default: as the scene says")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("FILE")
-      ->group(group);
-  command.add_option("--exr-type", o.exr_type, "half or float")->type_name("NAME")->group(group);
-  command.add_option("--exposure", o.exposure, "PNG: brightness; a stop doubles it")->type_name("STOPS")->group(group);
-  command.add_option("--tone-map", o.tone_map, "PNG: none, reinhard or filmic")->type_name("NAME")->group(group);
+      .repeatable()
+      .value_name("FILE")
+      .group(group);
+  command.add_option("--exr-type", o.exr_type, "half or float").value_name("NAME").group(group);
+  command.add_option("--exposure", o.exposure, "PNG: brightness; a stop doubles it").value_name("STOPS").group(group);
+  command.add_option("--tone-map", o.tone_map, "PNG: none, reinhard or filmic").value_name("NAME").group(group);
 }
 
-void add_running_options(CLI::App& command, RenderOptions& o, const char* group) {
+void add_running_options(Command& command, RenderOptions& o, const char* group) {
   command.add_option("--progress", o.progress, "auto (a bar on a terminal), plain, json or none")
-      ->type_name("NAME")
-      ->group(group);
-  command.add_flag("-q,--quiet", o.quiet, "Say nothing but warnings and errors")->group(group);
-  command.add_flag("-v,--verbose", o.verbose, "Say what is rendered and how")->group(group);
-  command.add_flag("--stats{text}", o.stats, "Print what it cost to stdout; --stats=json as one object")->group(group);
+      .value_name("NAME")
+      .group(group);
+  command.add_flag("-q,--quiet", o.quiet, "Say nothing but warnings and errors").group(group);
+  command.add_flag("-v,--verbose", o.verbose, "Say what is rendered and how").group(group);
+  command.add_flag("--stats{text}", o.stats, "Print what it cost to stdout; --stats=json as one object").group(group);
 }
 
 }  // namespace
 
-CLI::App* register_render(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("render", "Render a scene to images");
+void register_render(Command& program, int& exit_code) {
+  Command command = program.add_subcommand("render", "Render a scene to images");
   auto options = std::make_shared<RenderOptions>();
-  command->add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)")->required()->type_name("");
+  command.add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)").required().value_name("");
   Settings& settings = options->settings;
-  add_output_options(*command, *options, "Output");
-  add_setting_options(*command, settings, SettingGroup::output, "Output");
-  add_setting_options(*command, settings, SettingGroup::image, "Image");
-  command->add_flag("--list", options->list, "Print cameras, variants, animations and lights, and render nothing")
-      ->group("Image");
-  add_setting_options(*command, settings, SettingGroup::engine, "Engine");
-  add_running_options(*command, *options, "While it runs");
-  add_setting_options(*command, settings, SettingGroup::running, "While it runs");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
-  return command;
+  add_output_options(command, *options, "Output");
+  add_setting_options(command, settings, SettingGroup::output, "Output");
+  add_setting_options(command, settings, SettingGroup::image, "Image");
+  command.add_flag("--list", options->list, "Print cameras, variants, animations and lights, and render nothing")
+      .group("Image");
+  add_setting_options(command, settings, SettingGroup::engine, "Engine");
+  add_running_options(command, *options, "While it runs");
+  add_setting_options(command, settings, SettingGroup::running, "While it runs");
+  command.on_run([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace alhazen

@@ -4,36 +4,27 @@ namespace alhazen {
 
 namespace {
 
-CLI::Option* add(CLI::App& command, Settings& settings, const SettingEntry& entry) {
+CommandOption add(Command& command, Settings& settings, const SettingEntry& entry) {
   std::string flags = "--" + std::string(entry.name);
   if (*entry.other_flags != '\0') flags += "," + std::string(entry.other_flags);
   if (*entry.value_name == '\0')
-    return command.add_flag_function(
-        flags, [&](int64_t) { entry.set(settings, ""); }, entry.help);
-  CLI::Option* option = nullptr;
-  if (entry.is_list) {
-    const auto set_all = [&](const std::vector<std::string>& texts) {
-      for (const std::string& text : texts) entry.set(settings, text);
-    };
-    option = command.add_option_function<std::vector<std::string>>(flags, set_all, entry.help)
-                 ->expected(1)
-                 ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  } else {
-    option = command.add_option_function<std::string>(
-        flags, [&](const std::string& text) { entry.set(settings, text); }, entry.help);
-  }
-  return option->type_name(entry.value_name);
+    return command.add_flag(
+        flags, [&] { entry.set(settings, ""); }, entry.help);
+  const auto set = [&](const std::string& text) { entry.set(settings, text); };
+  CommandOption option = entry.is_list ? command.add_repeatable_option(flags, set, entry.help)
+                                       : command.add_option(flags, set, entry.help);
+  return option.value_name(entry.value_name);
 }
 
 }  // namespace
 
-CLI::Option* add_setting_option(CLI::App& command, Settings& settings, std::string_view name) {
-  return add(command, settings, setting_entry(name));
+void add_setting_option(Command& command, Settings& settings, std::string_view name) {
+  add(command, settings, setting_entry(name));
 }
 
-void add_setting_options(CLI::App& command, Settings& settings, SettingGroup group, const std::string& heading) {
+void add_setting_options(Command& command, Settings& settings, SettingGroup group, const std::string& heading) {
   for (const SettingEntry& entry : setting_table())
-    if (entry.group == group) add(command, settings, entry)->group(heading);
+    if (entry.group == group) add(command, settings, entry).group(heading);
 }
 
 }  // namespace alhazen

@@ -2,17 +2,18 @@
 
 // The settings of a render (render/setting_table.h) as options of the command line.
 
-#include <CLI/CLI.hpp>
+#include <string>
 #include <string_view>
 
+#include "cli/command.h"
 #include "render/setting_table.h"
 
 namespace alhazen {
 
 /// `settings` must outlive the parsing. A bad value throws InputError from there.
-CLI::Option* add_setting_option(CLI::App& command, Settings& settings, std::string_view name);
+void add_setting_option(Command& command, Settings& settings, std::string_view name);
 
 /// All settings of a group, under that heading of the help.
-void add_setting_options(CLI::App& command, Settings& settings, SettingGroup group, const std::string& heading);
+void add_setting_options(Command& command, Settings& settings, SettingGroup group, const std::string& heading);
 
 }  // namespace alhazen

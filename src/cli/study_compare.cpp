@@ -4,8 +4,8 @@
 
 #include <memory>
 
+#include "cli/command.h"
 #include "cli/console.h"
-#include "cli/range.h"
 #include "cli/subcommands.h"
 #include "study/cell_text.h"
 #include "study/compare.h"
@@ -64,16 +64,16 @@ void run(const StudyCompareOptions& o) {
 
 }  // namespace
 
-void register_study_compare(CLI::App& study) {
-  CLI::App* command = study.add_subcommand("compare", "Report differences of two studies beyond noise");
+void register_study_compare(Command& study) {
+  Command command = study.add_subcommand("compare", "Report differences of two studies beyond noise");
   auto o = std::make_shared<StudyCompareOptions>();
-  command->add_option("A", o->a, "a study.json, or the folder that holds it")->required()->type_name("");
-  command->add_option("B", o->b, "a later one")->required()->type_name("");
-  command->add_option("--threshold", o->threshold, "Ignore smaller changes (5)")
-      ->check(within(0.0, 1000.0))
-      ->type_name("PERCENT");
-  command->add_flag("--json", o->json, "One JSON object instead of the list");
-  command->callback([o] { run(*o); });
+  command.add_option("A", o->a, "a study.json, or the folder that holds it").required().value_name("");
+  command.add_option("B", o->b, "a later one").required().value_name("");
+  command.add_option("--threshold", o->threshold, "Ignore smaller changes (5)")
+      .within(0.0, 1000.0)
+      .value_name("PERCENT");
+  command.add_flag("--json", o->json, "One JSON object instead of the list");
+  command.on_run([o] { run(*o); });
 }
 
 }  // namespace alhazen

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/command.h"
 #include "cli/console.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
-#include "cli/range.h"
 #include "cli/subcommands.h"
 #include "scene/limits.h"
 #include "study/report.h"
@@ -110,37 +110,30 @@ int run(StudyReportOptions& o) {
 
 }  // namespace
 
-void register_study_report(CLI::App& study, int& exit_code) {
-  CLI::App* command = study.add_subcommand("report", "Run the report's experiments and more; write tables and a page");
+void register_study_report(Command& study, int& exit_code) {
+  Command command = study.add_subcommand("report", "Run the report's experiments and more; write tables and a page");
   auto o = std::make_shared<StudyReportOptions>();
-  command->add_option("-o,--output", o->report.output, "Folder to write to (study)")->type_name("DIR");
-  command->add_option("--scene", o->report.scene, "A scene other than the report's")->type_name("FILE");
-  command->add_flag("--quick", o->quick, "Takes about 3 minutes on 2 cores; without it about 15");
-  command->add_flag("--full", o->full, "S = 1,000 and the scene's own size, as in the report: hours");
-  command->add_option("--repeats", o->repeats, "Runs of each cell")->check(within(1, 1000))->type_name("N");
-  command
-      ->add_option(
-          "--only", o->report.only,
-          "Only these parts, separated by commas: " +
-              [] {
-                std::string parts;
-                for (const std::string& part : study::report_parts()) parts += (parts.empty() ? "" : ", ") + part;
-                return parts;
-              }())
-      ->delimiter(',')
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("PARTS");
-  command->add_option("--size", o->size, "Edge of the square images for timing the CPU, pixels")
-      ->check(within(1, 10000))
-      ->type_name("N");
-  command->add_option("--spp", o->samples, "S of the images for timing the CPU")
-      ->check(within<int64_t>(1, max_samples_per_pixel))
-      ->type_name("S");
-  command->add_flag("--resume", o->report.resume, "Continue the study in the folder");
-  command->add_flag("--overwrite", o->report.overwrite, "Replace the study in the folder");
-  command->add_flag("-q,--quiet", o->quiet, "Print only warnings and errors");
-  command->callback([o, &exit_code] { exit_code = run(*o); });
+  command.add_option("-o,--output", o->report.output, "Folder to write to (study)").value_name("DIR");
+  command.add_option("--scene", o->report.scene, "A scene other than the report's").value_name("FILE");
+  command.add_flag("--quick", o->quick, "Takes about 3 minutes on 2 cores; without it about 15");
+  command.add_flag("--full", o->full, "S = 1,000 and the scene's own size, as in the report: hours");
+  command.add_option("--repeats", o->repeats, "Runs of each cell").within(1, 1000).value_name("N");
+  std::string parts;
+  for (const std::string& part : study::report_parts()) parts += (parts.empty() ? "" : ", ") + part;
+  command.add_option("--only", o->report.only, "Only these parts, separated by commas: " + parts)
+      .separated_by(',')
+      .repeatable()
+      .value_name("PARTS");
+  command.add_option("--size", o->size, "Edge of the square images for timing the CPU, pixels")
+      .within(1, 10000)
+      .value_name("N");
+  command.add_option("--spp", o->samples, "S of the images for timing the CPU")
+      .within<int64_t>(1, max_samples_per_pixel)
+      .value_name("S");
+  command.add_flag("--resume", o->report.resume, "Continue the study in the folder");
+  command.add_flag("--overwrite", o->report.overwrite, "Replace the study in the folder");
+  command.add_flag("-q,--quiet", o->quiet, "Print only warnings and errors");
+  command.on_run([o, &exit_code] { exit_code = run(*o); });
 }
 
 }  // namespace alhazen

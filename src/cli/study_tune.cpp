@@ -4,10 +4,10 @@
 
 #include <memory>
 
+#include "cli/command.h"
 #include "cli/console.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
-#include "cli/range.h"
 #include "cli/setting_options.h"
 #include "cli/subcommands.h"
 #include "pipeline/load_scene.h"
@@ -96,16 +96,16 @@ int run(TuneOptions& o) {
 
 }  // namespace
 
-void register_study_tune(CLI::App& study, int& exit_code) {
-  CLI::App* command = study.add_subcommand("tune", "Find the fastest engine for a scene on this machine");
+void register_study_tune(Command& study, int& exit_code) {
+  Command command = study.add_subcommand("tune", "Find the fastest engine for a scene on this machine");
   auto o = std::make_shared<TuneOptions>();
-  command->add_option("SCENE", o->scene, "Scene (.pbrt) or mesh (.ply), also as .gz")->required()->type_name("");
-  command->add_option("--budget", o->budget, "Time to spend (60)")->check(within(1.0, 1e6))->type_name("SECONDS");
-  command->add_flag("--store", o->store, "Store the result, for --backend auto and this scene");
-  command->add_flag("--store-default", o->store_default, "Store it for every scene that has no entry of its own");
-  for (const char* name : {"precision", "integrator", "max-depth"}) add_setting_option(*command, o->settings, name);
-  command->add_flag("-q,--quiet", o->quiet, "Print only the result, warnings and errors");
-  command->callback([o, &exit_code] { exit_code = run(*o); });
+  command.add_option("SCENE", o->scene, "Scene (.pbrt) or mesh (.ply), also as .gz").required().value_name("");
+  command.add_option("--budget", o->budget, "Time to spend (60)").within(1.0, 1e6).value_name("SECONDS");
+  command.add_flag("--store", o->store, "Store the result, for --backend auto and this scene");
+  command.add_flag("--store-default", o->store_default, "Store it for every scene that has no entry of its own");
+  for (const char* name : {"precision", "integrator", "max-depth"}) add_setting_option(command, o->settings, name);
+  command.add_flag("-q,--quiet", o->quiet, "Print only the result, warnings and errors");
+  command.on_run([o, &exit_code] { exit_code = run(*o); });
 }
 
 }  // namespace alhazen

@@ -2,9 +2,9 @@
 
 // The subcommands. Each adds its options to the program and runs if it is selected.
 
-#include <CLI/CLI.hpp>
-
 namespace alhazen {
+
+class Command;
 
 /// Exit codes of the program.
 inline constexpr int exit_done = 0;
@@ -13,14 +13,14 @@ inline constexpr int exit_bad_input = 2;
 inline constexpr int exit_interrupted = 130;
 
 /// `exit_code` receives the program's exit code if it is not that of success.
-CLI::App* register_render(CLI::App& app, int& exit_code);
-CLI::App* register_compare(CLI::App& app);
-CLI::App* register_devices(CLI::App& app);
-CLI::App* register_info(CLI::App& app);
+void register_render(Command& program, int& exit_code);
+void register_compare(Command& program);
+void register_devices(Command& program);
+void register_info(Command& program);
 /// `study` and its subcommands.
-CLI::App* register_study(CLI::App& app, int& exit_code);
-void register_study_report(CLI::App& study, int& exit_code);
-void register_study_tune(CLI::App& study, int& exit_code);
-void register_study_compare(CLI::App& study);
+void register_study(Command& program, int& exit_code);
+void register_study_report(Command& study, int& exit_code);
+void register_study_tune(Command& study, int& exit_code);
+void register_study_compare(Command& study);
 
 }  // namespace alhazen

@@ -1,0 +1,91 @@
+#pragma once
+
+// Subcommands and their options. Only command.cpp includes the parser, whose header takes a compiler longer than all
+// that is done with it here.
+
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace alhazen {
+
+/// An option of a subcommand. What it is asked to be, it returns itself for.
+class CommandOption {
+ public:
+  explicit CommandOption(CLI::Option& option) : option_(&option) {}
+
+  CommandOption& required();
+  /// What the help calls the value; empty: nothing.
+  CommandOption& value_name(const std::string& name);
+  /// The heading of the help under which it is listed.
+  CommandOption& group(const std::string& heading);
+  /// May be given more than once, with one value each.
+  CommandOption& repeatable();
+  /// One value may hold several, with this character between them.
+  CommandOption& separated_by(char separator);
+  /// Inclusive limits, which appear in the error but not in the help. NaN is outside.
+  CommandOption& within(double low, double high);
+  template <std::integral Number>
+  CommandOption& within(Number low, Number high) {
+    return within_integers(low, high);
+  }
+
+ private:
+  CommandOption& within_integers(int64_t low, int64_t high);
+
+  CLI::Option* option_;
+};
+
+/// A subcommand while its options are described. Values must outlive the parsing.
+class Command {
+ public:
+  explicit Command(CLI::App& app) : app_(&app) {}
+
+  Command add_subcommand(const std::string& name, const std::string& help);
+  /// One of its subcommands must be given.
+  void require_subcommand();
+  /// What is done if it is the one that was given, when all its options have been read.
+  void on_run(std::function<void()> run);
+
+  /// `names` are those of an option ("-o,--output"), or one word in capitals for an argument without a name.
+  CommandOption add_option(const std::string& names, std::string& value, const std::string& help);
+  CommandOption add_option(const std::string& names, int& value, const std::string& help);
+  CommandOption add_option(const std::string& names, int64_t& value, const std::string& help);
+  CommandOption add_option(const std::string& names, double& value, const std::string& help);
+  CommandOption add_option(const std::string& names, std::optional<double>& value, const std::string& help);
+  CommandOption add_option(const std::string& names, std::vector<std::string>& values, const std::string& help);
+  /// Hands the values over as texts while the command line is parsed; what `set` throws ends the parsing.
+  CommandOption add_option(const std::string& names, const std::function<void(const std::string&)>& set,
+                           const std::string& help);
+  CommandOption add_repeatable_option(const std::string& names, const std::function<void(const std::string&)>& set,
+                                      const std::string& help);
+
+  CommandOption add_flag(const std::string& names, bool& value, const std::string& help);
+  /// A flag that may have a value; "--stats{text}" is "text" without one.
+  CommandOption add_flag(const std::string& names, std::string& value, const std::string& help);
+  CommandOption add_flag(const std::string& names, const std::function<void()>& set, const std::string& help);
+
+ private:
+  CLI::App* app_;
+};
+
+/// What the help and --version of the program say of it.
+struct ProgramText {
+  std::string name, description, version, footer;
+};
+
+/// Parses the command line and runs the subcommand that it names; `add_subcommands` describes them. Returns 0 if it ran
+/// or help was asked for, and exit_bad_input, with a message, where the command line is wrong. Throws what the
+/// subcommand throws.
+int run_command_line(const ProgramText& text, const std::function<void(Command&)>& add_subcommands, int argc,
+                     char** argv);
+
+}  // namespace alhazen
