@@ -15,7 +15,8 @@ if [[ ${1:-} == --program ]]; then
 fi
 options=()
 if [[ ! -f build/release/build.ninja ]]; then
-  options=("-DALHAZEN_PROGRAM_ONLY=$program_only" "-DALHAZEN_INSTRUCTION_SETS=$instruction_sets")
+  options=("-DALHAZEN_PROGRAM_ONLY=$program_only" "-DALHAZEN_INSTRUCTION_SETS=$instruction_sets"
+    -DALHAZEN_UNITY=ON)
   if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
 elif [[ $program_only == OFF ]] && grep -q '^ALHAZEN_PROGRAM_ONLY:BOOL=ON' build/release/CMakeCache.txt; then
   options=(-DALHAZEN_PROGRAM_ONLY=OFF -DALHAZEN_INSTRUCTION_SETS=all)

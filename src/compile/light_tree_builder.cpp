@@ -142,14 +142,14 @@ int bucket_of(const Item& item, int axis, const Bounds3<double>& centres) {
   return std::clamp(static_cast<int>(place * buckets), 0, buckets - 1);
 }
 
-struct Split {
+struct LightSplit {
   int axis = -1;   ///< negative: none
   int bucket = 0;  ///< last bucket of the first child
   double cost = infinity<double>;
 };
 
 /// Finds the cheapest plane between buckets along `axis`.
-void find_split(const Item* items, size_t count, int axis, const Bounds3<double>& centres, Split& best) {
+void find_split(const Item* items, size_t count, int axis, const Bounds3<double>& centres, LightSplit& best) {
   const Vec3d size = centres.diagonal();
   if (!(size[axis] > 0)) return;
   std::array<LightBounds, buckets> bounds;
@@ -171,9 +171,9 @@ void find_split(const Item* items, size_t count, int axis, const Bounds3<double>
 }
 
 /// Builds the tree in place. The 2 n - 2 descendants of a group of n lights are contiguous, so threads can build them.
-class TreeBuilder {
+class LightTreeBuilder {
  public:
-  TreeBuilder(std::vector<Item>& items, std::vector<LightTreeNode>& nodes, std::vector<uint32_t>& trails)
+  LightTreeBuilder(std::vector<Item>& items, std::vector<LightTreeNode>& nodes, std::vector<uint32_t>& trails)
       : items_(items), nodes_(nodes), trails_(trails) {}
 
   LightBounds build(size_t first, size_t count, uint32_t node, uint32_t descendants, uint32_t depth, uint32_t trail) {
@@ -217,7 +217,7 @@ class TreeBuilder {
   static size_t partition(Item* items, size_t count, uint32_t depth) {
     Bounds3<double> centres;
     for (size_t i = 0; i < count; ++i) centres.extend(items[i].centre);
-    Split split;
+    LightSplit split;
     if (count > 2)
       for (int axis = 0; axis < 3; ++axis) find_split(items, count, axis, centres, split);
     if (split.axis >= 0) {
@@ -250,7 +250,7 @@ void build_light_tree(const std::vector<double>& weights, SceneArrays<Real>& out
   // The root, one unused node, and the pairs of children.
   std::vector<LightTreeNode> nodes(2 * items.size());
   std::vector<uint32_t> trails(out.lights.size());
-  TreeBuilder builder(items, nodes, trails);
+  LightTreeBuilder builder(items, nodes, trails);
 #pragma omp parallel if (items.size() > 8192)
 #pragma omp single
   builder.build(0, items.size(), 0, 2, 0, 0);

@@ -120,7 +120,7 @@ Codec checkpoint() {
           }};
 }
 
-Codec layers() {
+Codec layer_list() {
   return {[](const Settings& s) {
             std::string text;
             for (const std::string& layer : s.aovs) text += (text.empty() ? "" : ",") + layer;
@@ -167,7 +167,7 @@ std::vector<SettingEntry> output_settings() {
           layer_flags,
           entry(group, "aov", "", "NAMES",
                 "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance",
-                layers(), true)),
+                layer_list(), true)),
       entry(group, "denoise", "", "NAME",
             "none, or optix: runs on a GPU, with any backend; adds the layers albedo and normal",
             name(&Settings::denoiser)),

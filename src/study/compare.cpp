@@ -12,19 +12,19 @@ namespace alhazen::study {
 
 namespace {
 
-using Json = nlohmann::json;
+using StudyJson = nlohmann::json;
 
 struct Measured {
   std::string table, row, column, status, reason;
-  Json cell;
+  StudyJson cell;
   bool by_ray = false;
 };
 
 /// Cells by table, row and column.
-std::map<std::string, Measured> cells_of(const Json& study) {
+std::map<std::string, Measured> cells_of(const StudyJson& study) {
   std::map<std::string, Measured> cells;
-  for (const Json& table : study.at("tables"))
-    for (const Json& cell : table.at("cells")) {
+  for (const StudyJson& table : study.at("tables"))
+    for (const StudyJson& cell : table.at("cells")) {
       Measured m{table.at("id"),
                  cell.at("row"),
                  cell.at("column"),
@@ -39,7 +39,7 @@ std::map<std::string, Measured> cells_of(const Json& study) {
   return cells;
 }
 
-void note_differences(const Json& a, const Json& b, StudyComparison& comparison) {
+void note_differences(const StudyJson& a, const StudyJson& b, StudyComparison& comparison) {
   const std::pair<const char*, const char*> facts[] = {{"/version", "version"},
                                                        {"/machine/processor", "processor"},
                                                        {"/machine/processors", "number of processors"},
@@ -48,8 +48,8 @@ void note_differences(const Json& a, const Json& b, StudyComparison& comparison)
                                                        {"/scene/hash", "scene"},
                                                        {"/scale/name", "level"}};
   for (const auto& [pointer, name] : facts) {
-    const Json& in_a = a.at(Json::json_pointer(pointer));
-    const Json& in_b = b.at(Json::json_pointer(pointer));
+    const StudyJson& in_a = a.at(StudyJson::json_pointer(pointer));
+    const StudyJson& in_b = b.at(StudyJson::json_pointer(pointer));
     if (in_a != in_b) comparison.differences.push_back(fmt::format("{}: {} and {}", name, in_a.dump(), in_b.dump()));
   }
 }
@@ -62,7 +62,7 @@ double unit_of(const Measured& m) {
 
 bool is_beyond_noise(const Measured& a, const Measured& b, double threshold) {
   const double unit_a = unit_of(a), unit_b = unit_of(b);
-  const Json &in_a = a.cell.at("seconds"), &in_b = b.cell.at("seconds");
+  const StudyJson &in_a = a.cell.at("seconds"), &in_b = b.cell.at("seconds");
   const double min_a = in_a.at("min").get<double>() * unit_a, max_a = in_a.at("max").get<double>() * unit_a;
   const double min_b = in_b.at("min").get<double>() * unit_b, max_b = in_b.at("max").get<double>() * unit_b;
   const double ratio = in_b.at("median").get<double>() * unit_b / (in_a.at("median").get<double>() * unit_a);
@@ -76,7 +76,7 @@ double probability_by_chance(const Measured& a, const Measured& b) {
   return 2 * std::exp(std::lgamma(n + 1) + std::lgamma(m + 1) - std::lgamma(n + m + 1));
 }
 
-void compare_cells(const Json& a, const Json& b, double threshold, StudyComparison& comparison) {
+void compare_cells(const StudyJson& a, const StudyJson& b, double threshold, StudyComparison& comparison) {
   const std::map<std::string, Measured> in_a = cells_of(a), in_b = cells_of(b);
   double probabilities = 0;
   for (const auto& [key, cell_a] : in_a) {
@@ -108,7 +108,7 @@ void compare_cells(const Json& a, const Json& b, double threshold, StudyComparis
 
 }  // namespace
 
-StudyComparison compare_studies(const Json& a, const Json& b, double threshold, const std::string& path_a,
+StudyComparison compare_studies(const StudyJson& a, const StudyJson& b, double threshold, const std::string& path_a,
                                 const std::string& path_b) try {
   StudyComparison comparison;
   note_differences(a, b, comparison);
@@ -117,7 +117,7 @@ StudyComparison compare_studies(const Json& a, const Json& b, double threshold, 
     return std::abs(std::log(x.ratio())) > std::abs(std::log(y.ratio()));
   });
   return comparison;
-} catch (const Json::exception& error) {
+} catch (const StudyJson::exception& error) {
   throw InputError(fmt::format("{} or {} is damaged: {}", path_a, path_b, error.what()));
 }
 

@@ -179,9 +179,9 @@ std::string section(const std::string& id, const std::string& title, const std::
 
 std::string figures(const Study& study, const std::string& folder) {
   std::string html;
-  const std::string figure2 = embedded_image(fs::path(folder) / "figure2.png", "image/png",
+  const std::string picture = embedded_image(fs::path(folder) / "figure2.png", "image/png",
                                              fmt::format("{}, S = {}", study.scene.name, study.scale.image_samples));
-  if (!figure2.empty()) html += section("figure2", "Figure 2: the image", figure2);
+  if (!picture.empty()) html += section("figure2", "Figure 2: the image", picture);
   if (study.work_per_thread.is_there())
     html +=
         section("figure3", "Figure 3: mean number of bounces of every thread",

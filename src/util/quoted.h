@@ -20,5 +20,8 @@ inline std::string quoted(std::string_view text) {
     while (size > longest - 3 && is_within_character()) --size;
   return "'" + printable(text.substr(0, size)) + (size < text.size() ? "...'" : "'");
 }
+// Found before the templates std::quoted, which <filesystem> brings.
+inline std::string quoted(const std::string& text) { return quoted(std::string_view(text)); }
+inline std::string quoted(std::string& text) { return quoted(std::string_view(text)); }
 
 }  // namespace alhazen

@@ -58,7 +58,7 @@ void read_info_header(ByteReader& in, size_t header_size, BmpHeader& header) {
   if (!has_masks && header.bits == 32) header.masks = {0xff0000, 0x00ff00, 0x0000ff, 0xff000000};
 }
 
-BmpHeader read_header(ByteReader& in) {
+BmpHeader read_bmp_header(ByteReader& in) {
   BmpHeader header;
   in.skip(10);
   header.texels_at = in.u32();
@@ -119,7 +119,7 @@ size_t row_from_top(const BmpHeader& header, size_t y) {
 
 ImageTexels decode_bmp(const std::string& path, std::span<const uint8_t> bytes) {
   ByteReader in(path, bytes);
-  const BmpHeader header = read_header(in);
+  const BmpHeader header = read_bmp_header(in);
   check_size(path, header.width, header.height);
   std::span<const uint8_t> palette;
   if (header.bits <= 8) {
@@ -142,7 +142,7 @@ ImageTexels decode_bmp(const std::string& path, std::span<const uint8_t> bytes) 
 
 std::optional<ImageTexels> decode_bmp_alpha(const std::string& path, std::span<const uint8_t> bytes) {
   ByteReader in(path, bytes);
-  const BmpHeader header = read_header(in);
+  const BmpHeader header = read_bmp_header(in);
   if ((header.bits != 16 && header.bits != 32) || header.masks[3] == 0) return std::nullopt;
   check_size(path, header.width, header.height);
   in.seek(header.texels_at);

@@ -24,7 +24,7 @@ struct QoiHeader {
   bool has_alpha = false, linear = false;
 };
 
-QoiHeader read_header(ByteReader& in) {
+QoiHeader read_qoi_header(ByteReader& in) {
   in.skip(4);  // the signature
   QoiHeader header;
   header.width = big_endian_32(in);
@@ -95,7 +95,7 @@ ImageTexels empty_texels(const std::string& path, const QoiHeader& header, size_
 
 ImageTexels decode_qoi(const std::string& path, std::span<const uint8_t> bytes) {
   ByteReader in(path, bytes);
-  const QoiHeader header = read_header(in);
+  const QoiHeader header = read_qoi_header(in);
   ImageTexels texels = empty_texels(path, header, bytes.size(), 3);
   texels.srgb = !header.linear;
   decode_pixels(in, texels.bytes.size() / 3, [&](size_t i, const Pixel& pixel) {
@@ -106,7 +106,7 @@ ImageTexels decode_qoi(const std::string& path, std::span<const uint8_t> bytes) 
 
 std::optional<ImageTexels> decode_qoi_alpha(const std::string& path, std::span<const uint8_t> bytes) {
   ByteReader in(path, bytes);
-  const QoiHeader header = read_header(in);
+  const QoiHeader header = read_qoi_header(in);
   if (!header.has_alpha) return std::nullopt;
   ImageTexels texels = empty_texels(path, header, bytes.size(), 1);
   decode_pixels(in, texels.bytes.size(), [&](size_t i, const Pixel& pixel) { texels.bytes[i] = pixel[3]; });

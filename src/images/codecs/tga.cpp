@@ -27,7 +27,7 @@ struct TgaHeader {
   }
 };
 
-TgaHeader read_header(ByteReader& in) {
+TgaHeader read_tga_header(ByteReader& in) {
   TgaHeader header;
   const size_t id_length = in.u8();
   header.has_palette = in.u8() == 1;
@@ -130,7 +130,7 @@ void read_image(const std::string& path, const TgaHeader& header, ByteReader& in
 
 ImageTexels decode_tga(const std::string& path, std::span<const uint8_t> bytes) {
   ByteReader in(path, bytes);
-  const TgaHeader header = read_header(in);
+  const TgaHeader header = read_tga_header(in);
   ImageTexels texels{header.width, header.height, {}, {}, true, path};
   read_image(path, header, in, bytes.size(), texels, [&](size_t texel, const uint8_t* colour) {
     uint8_t* rgb = &texels.bytes[3 * texel];
@@ -144,7 +144,7 @@ ImageTexels decode_tga(const std::string& path, std::span<const uint8_t> bytes) 
 
 std::optional<ImageTexels> decode_tga_alpha(const std::string& path, std::span<const uint8_t> bytes) {
   ByteReader in(path, bytes);
-  const TgaHeader header = read_header(in);
+  const TgaHeader header = read_tga_header(in);
   if (!header.may_have_alpha()) return std::nullopt;
   ImageTexels texels{header.width, header.height, {}, {}, false, path, 1};
   uint8_t any = 0;

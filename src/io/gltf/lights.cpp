@@ -8,7 +8,7 @@ namespace alhazen::gltf {
 
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
+constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
 void set_cone(const Document& document, const Json& description, Light& light) {
   const Json& defaults = empty_object();
@@ -19,8 +19,8 @@ void set_cone(const Document& document, const Json& description, Light& light) {
   if (!(outer > 0 && outer <= std::numbers::pi / 2 + 1e-6))
     document.fail(cone, "\"outerConeAngle\" must be above 0 and at most pi / 2");
   if (!(inner >= 0 && inner <= outer)) document.fail(cone, "\"innerConeAngle\" must be from 0 to \"outerConeAngle\"");
-  light.cone_angle = std::min(outer * degrees, 90.0);
-  light.falloff_start = std::min(inner * degrees, light.cone_angle);
+  light.cone_angle = std::min(outer * degrees_per_radian, 90.0);
+  light.falloff_start = std::min(inner * degrees_per_radian, light.cone_angle);
 }
 
 Light read_light(const Document& document, const Json& description, const Matrix4& world) {

@@ -13,14 +13,15 @@ namespace alhazen::gltf {
 
 namespace {
 
-struct Layout {
+struct CompressedLayout {
   uint64_t count = 0, stride = 0;
   std::string mode, filter;
 };
 
-Layout read_layout(const Document& document, const Json& compression, size_t source_bytes) {
-  Layout layout{document.required_whole(compression, "count"), document.required_whole(compression, "byteStride"),
-                document.string(compression, "mode"), document.string(compression, "filter", "NONE")};
+CompressedLayout read_layout(const Document& document, const Json& compression, size_t source_bytes) {
+  CompressedLayout layout{document.required_whole(compression, "count"),
+                          document.required_whole(compression, "byteStride"), document.string(compression, "mode"),
+                          document.string(compression, "filter", "NONE")};
   const auto bad = [&](const std::string& message) { document.fail(compression, message); };
   const bool is_attributes = layout.mode == "ATTRIBUTES";
   if (!is_attributes && layout.mode != "TRIANGLES" && layout.mode != "INDICES")
@@ -37,7 +38,7 @@ Layout read_layout(const Document& document, const Json& compression, size_t sou
   return layout;
 }
 
-void apply_filter(const Document& document, const Json& compression, const Layout& layout,
+void apply_filter(const Document& document, const Json& compression, const CompressedLayout& layout,
                   std::vector<uint8_t>& bytes) {
   const size_t count = static_cast<size_t>(layout.count), stride = static_cast<size_t>(layout.stride);
   const auto require = [&](bool fits) {
@@ -64,7 +65,7 @@ void apply_filter(const Document& document, const Json& compression, const Layou
 
 std::vector<uint8_t> decode_meshopt(const Document& document, const Json& compression,
                                     std::span<const uint8_t> source) {
-  const Layout layout = read_layout(document, compression, source.size());
+  const CompressedLayout layout = read_layout(document, compression, source.size());
   const size_t count = static_cast<size_t>(layout.count), stride = static_cast<size_t>(layout.stride);
   std::vector<uint8_t> bytes(count * stride);
   if (count == 0) return bytes;

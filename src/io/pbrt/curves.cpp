@@ -10,7 +10,7 @@ namespace alhazen::pbrt {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Segment = std::array<Vec3d, 4>;
 
 Vec3d bezier(const Segment& p, double t) {

@@ -16,7 +16,7 @@ namespace alhazen::pbrt {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// `scale` times the colour `name`, which is white by default.
 Vec3d emitted_colour(const Build& build, ParameterList& list, std::string_view name) {
@@ -241,7 +241,7 @@ void read_emission_image(Build& build, ParameterList& list, const std::string& n
 }
 
 using LightReader = Light (*)(Build&, ParameterList&);
-const std::map<std::string, LightReader> readers{
+const std::map<std::string, LightReader> light_readers{
     {"point", read_point},       {"distant", read_distant},         {"spot", read_spot},
     {"infinite", read_infinite}, {"goniometric", read_goniometric}, {"projection", read_projection}};
 
@@ -249,10 +249,10 @@ const std::map<std::string, LightReader> readers{
 
 void add_light(Build& build, const std::string& kind, ParameterList& list) {
   list.inherit(build.state.defaults.light);
-  const auto reader = readers.find(kind);
-  if (reader == readers.end()) {
+  const auto reader = light_readers.find(kind);
+  if (reader == light_readers.end()) {
     std::vector<std::string> kinds;
-    for (const auto& [known, function] : readers) kinds.push_back(known);
+    for (const auto& [known, function] : light_readers) kinds.push_back(known);
     fail(list.place(), "unknown light \"" + kind + "\"" + suggestion(kind, kinds));
   }
   if (build.open_object != 0)

@@ -14,14 +14,14 @@ constexpr std::array<std::string_view, 14> type_names{"bool",   "float",   "inte
                                                       "point3", "vector3", "normal",    "string",  "texture",
                                                       "rgb",    "xyz",     "blackbody", "spectrum"};
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 /// Returns the single value of a parameter, or throws.
 template <class Values>
 typename Values::value_type single(const Parameter& parameter) {
   const auto& values = std::get<Values>(parameter.values);
   if (values.size() != 1)
-    fail(parameter.place, quoted(parameter.name) + " takes one value, got " + std::to_string(values.size()));
+    fail(parameter.place, in_quotes(parameter.name) + " takes one value, got " + std::to_string(values.size()));
   return values.front();
 }
 
@@ -38,7 +38,7 @@ void ParameterList::add(Parameter parameter) {
   if (own_.size() == limit) fail(parameter.place, directive_ + " has over 1000 parameters");
   for (const Parameter& other : own_)
     if (other.name == parameter.name)
-      fail(parameter.place, quoted(parameter.name) + " is given twice for " + directive_ + " (first in line " +
+      fail(parameter.place, in_quotes(parameter.name) + " is given twice for " + directive_ + " (first in line " +
                                 std::to_string(other.place.line) + "); remove one");
   own_.push_back(std::move(parameter));
 }
@@ -68,7 +68,7 @@ const Parameter* ParameterList::find(std::string_view name, std::initializer_lis
     if (type != types.begin()) expected += type + 1 == types.end() ? " or " : ", ";
     expected += name_of(*type);
   }
-  fail(parameter->place, quoted(name) + " of " + directive_ + ": expected " + expected + ", got " +
+  fail(parameter->place, in_quotes(name) + " of " + directive_ + ": expected " + expected + ", got " +
                              std::string(name_of(parameter->type)));
 }
 
@@ -84,7 +84,7 @@ double ParameterList::number(std::string_view name, double fallback) {
 
 double ParameterList::positive(std::string_view name, double fallback) {
   const double value = number(name, fallback);
-  if (!(value > 0)) fail(place_of(name), quoted(name) + " of " + directive_ + " must be over 0");
+  if (!(value > 0)) fail(place_of(name), in_quotes(name) + " of " + directive_ + " must be over 0");
   return value;
 }
 
@@ -128,7 +128,7 @@ void ParameterList::reject_unknown() const {
   for (const Parameter& parameter : own_)
     if (!asked_.contains(parameter.name))
       fail(parameter.place,
-           "unknown parameter " + quoted(parameter.name) + " of " + directive_ + suggestion(parameter.name, asked_));
+           "unknown parameter " + in_quotes(parameter.name) + " of " + directive_ + suggestion(parameter.name, asked_));
 }
 
 }  // namespace alhazen::pbrt

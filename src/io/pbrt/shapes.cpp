@@ -21,7 +21,7 @@ namespace alhazen::pbrt {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The part of a quadric within phimax, zmin and zmax.
 struct Extent {
@@ -130,14 +130,14 @@ void read_as_mesh(Build& build, ParameterList& list, Shape& shape) {
 }
 
 using ShapeReader = void (*)(Build&, ParameterList&, Shape&);
-const std::map<std::string, ShapeReader> readers{{"sphere", read_sphere},
-                                                 {"cylinder", read_cylinder},
-                                                 {"disk", read_disk},
-                                                 {"trianglemesh", read_as_mesh<read_triangle_mesh>},
-                                                 {"bilinearmesh", read_as_mesh<read_bilinear_mesh>},
-                                                 {"plymesh", read_as_mesh<read_ply_mesh>},
-                                                 {"loopsubdiv", read_as_mesh<read_loop_subdivision>},
-                                                 {"curve", read_as_mesh<read_curve>}};
+const std::map<std::string, ShapeReader> shape_readers{{"sphere", read_sphere},
+                                                       {"cylinder", read_cylinder},
+                                                       {"disk", read_disk},
+                                                       {"trianglemesh", read_as_mesh<read_triangle_mesh>},
+                                                       {"bilinearmesh", read_as_mesh<read_bilinear_mesh>},
+                                                       {"plymesh", read_as_mesh<read_ply_mesh>},
+                                                       {"loopsubdiv", read_as_mesh<read_loop_subdivision>},
+                                                       {"curve", read_as_mesh<read_curve>}};
 
 /// Area in world space when the shutter opens.
 double world_area(const Build& build, const Shape& shape) {
@@ -189,10 +189,10 @@ uint32_t read_alpha(Build& build, ParameterList& list, bool& visible) {
 
 void add_shape(Build& build, const std::string& kind, ParameterList& list) {
   list.inherit(build.state.defaults.shape);
-  const auto reader = readers.find(kind);
-  if (reader == readers.end()) {
+  const auto reader = shape_readers.find(kind);
+  if (reader == shape_readers.end()) {
     std::vector<std::string> kinds;
-    for (const auto& [known, function] : readers) kinds.push_back(known);
+    for (const auto& [known, function] : shape_readers) kinds.push_back(known);
     fail(list.place(), "unknown shape \"" + kind + "\"" + upgrade_or_suggestion(kind, kinds));
   }
   Shape shape;

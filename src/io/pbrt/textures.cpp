@@ -201,20 +201,20 @@ void read_ptex(const TextureRequest& request, Texture&) {
 }
 
 using TextureReader = void (*)(const TextureRequest&, Texture&);
-const std::map<std::string, TextureReader> readers{{"constant", read_constant},
-                                                   {"scale", read_scale},
-                                                   {"mix", read_mix},
-                                                   {"imagemap", read_image},
-                                                   {"checkerboard", read_checkerboard},
-                                                   {"fbm", read_fbm},
-                                                   {"wrinkled", read_wrinkled},
-                                                   {"marble", read_marble},
-                                                   {"bilerp", read_bilerp},
-                                                   {"dots", read_dots},
-                                                   {"directionmix", read_direction_mix},
-                                                   {"windy", read_windy},
-                                                   {"cellular", read_cellular},
-                                                   {"ptex", read_ptex}};
+const std::map<std::string, TextureReader> texture_readers{{"constant", read_constant},
+                                                           {"scale", read_scale},
+                                                           {"mix", read_mix},
+                                                           {"imagemap", read_image},
+                                                           {"checkerboard", read_checkerboard},
+                                                           {"fbm", read_fbm},
+                                                           {"wrinkled", read_wrinkled},
+                                                           {"marble", read_marble},
+                                                           {"bilerp", read_bilerp},
+                                                           {"dots", read_dots},
+                                                           {"directionmix", read_direction_mix},
+                                                           {"windy", read_windy},
+                                                           {"cellular", read_cellular},
+                                                           {"ptex", read_ptex}};
 
 std::vector<std::string> names_of(const std::map<std::string, uint32_t>& textures) {
   std::vector<std::string> names;
@@ -273,10 +273,10 @@ void add_texture(Build& build, const std::string& name, const std::string& value
   auto& textures = is_float ? build.float_textures : build.spectrum_textures;
   if (textures.contains(name))
     fail(list.place(), "the " + value_type + " texture \"" + name + "\" is defined twice; rename one");
-  const auto reader = readers.find(kind);
-  if (reader == readers.end()) {
+  const auto reader = texture_readers.find(kind);
+  if (reader == texture_readers.end()) {
     std::vector<std::string> kinds;
-    for (const auto& [known, function] : readers) kinds.push_back(known);
+    for (const auto& [known, function] : texture_readers) kinds.push_back(known);
     fail(list.place(), "unknown texture \"" + kind + "\"" + suggestion(kind, kinds));
   }
   Texture texture;
