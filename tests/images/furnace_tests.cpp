@@ -55,7 +55,8 @@ Moments moments_of(const Outcome& outcome) {
   return m;
 }
 
-void expect_nothing_to_be_seen(const Scene& scene) {
+/// `lost` is what the mirrors of a path may absorb: 1e-4 at every reflection, as in pbrt.
+void expect_nothing_to_be_seen(const Scene& scene, double lost = 2e-3) {
   for (const char* precision : {"float", "double"})
     for (const char* integrator : {"path", "iterative", "recursive"}) {
       SCOPED_TRACE(std::string(precision) + " " + integrator);
@@ -69,14 +70,14 @@ void expect_nothing_to_be_seen(const Scene& scene) {
       EXPECT_NEAR(m.mean, 1, 2e-3);
       if (std::string(integrator) == "path") continue;
       // BSDF sampling has no noise here: every path ends in the sky.
-      EXPECT_GT(m.smallest, 1 - 2e-3);
+      EXPECT_GT(m.smallest, 1 - lost);
       EXPECT_LT(m.largest, 1 + 1e-4);
     }
 }
 
 TEST(Furnace, NothingCanBeSeen) { expect_nothing_to_be_seen(scene_of(furnace)); }
 
-/// White clay and mirrors, inside and outside, sheared and in part.
+/// White clay and mirrors, inside and outside, sheared and in part. Some paths are reflected 30 times within a mirror.
 TEST(Furnace, NothingCanBeSeenOfCylinders) {
   expect_nothing_to_be_seen(scene_of(R"(LookAt 0 0 6  0 0 0  0 1 0
 Camera "perspective" "float fov" 40
@@ -106,7 +107,8 @@ AttributeBegin
   Scale -1 0.5 1
   Shape "cylinder" "float radius" 0.7 "float phimax" 200
 AttributeEnd
-)"));
+)"),
+                            5e-3);
 }
 
 /// A map that is 1 everywhere equals the constant sky.
