@@ -355,7 +355,9 @@ void warn_of_lost_light(const LostLight& lost, const Scene& scene, const SourceL
       "by mirrors";
   if (!scene.replaced_integrator.empty())
     message += ", as the \"" + scene.replaced_integrator + "\" that the file asks for would";
-  message += "; a small emissive shape in its place is found";
+  message += light_traits(light->kind).is_at_infinity
+                 ? "; one that has a size is found (in pbrt files \"float angle\" 0.53)"
+                 : "; a small emissive shape in its place is found";
   if (lost.others > 0)
     message += std::string(" (as for ") + (lost.others_may_be_more ? "at least " : "") + std::to_string(lost.others) +
                (lost.others == 1 ? " other)" : " others)");
