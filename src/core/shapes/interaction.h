@@ -113,6 +113,10 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> extent_error(const Vec3<Real> (&p)[3]) {
 template <class Real>
 inline constexpr Real edge_clearance = 16;
 
+/// How far a point in a sharp corner moves at most, in units of its clearance.
+template <class Real>
+inline constexpr Real max_corner_offset = 1000;
+
 /// Returns whether the point with barycentric coordinates b1 and b2 may be closer to an edge than edge_clearance, where
 /// `error` bounds the error of the point. Avoids square roots and divisions, since it runs for every hit.
 template <class Real>
@@ -153,13 +157,16 @@ ALHAZEN_HD ALHAZEN_RARE Vec3<Real> away_from_edges(const Vec3<Real> (&p)[3], Rea
   const Vec3<Real> coordinates = max(error - extent_error(p), Vec3<Real>{});
   const Real distance_to_corners =
       2 * (b[1] * b[2] * length_of[0] + b[2] * b[0] * length_of[1] + b[0] * b[1] * length_of[2]);  // on average
+  // Needles may be narrower than the clearance.
+  const Real longest = max(max(length_of[0], length_of[1]), length_of[2]);
+  const Real max_lowest = min(max_corner_offset<Real> * clearance / longest, Real(1.0 / 3));
   Real lowest[3], cleared[3], sum = 0, above = 0;
   bool is_clear = true;
   for (int i = 0; i < 3; ++i) {
     const Vec3<Real> direction = edge[i] * (1 / length_of[i]);
     const Vec3<Real> normal = cross(winding, direction) * (1 / twice_area);
     const Real local = dot(abs(normal), coordinates) + distance_to_corners * rounding_bound<Real>(1);
-    lowest[i] = min(edge_clearance<Real> * local / height[i], Real(1.0 / 3));
+    lowest[i] = min(edge_clearance<Real> * local / height[i], max_lowest);
     cleared[i] = b[i] + dot(direction, along) / height[i];
     is_clear &= cleared[i] >= lowest[i];
     cleared[i] = max(cleared[i] - lowest[i], Real(0));
