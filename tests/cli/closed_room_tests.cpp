@@ -51,17 +51,22 @@ Material "diffuse" "rgb reflectance" [ 0.9 0.9 0.9 ]
   }
 };
 
-/// Close to triangles that are a thousand times as long as wide, rounding once gave hits the wrong distance: up to all
-/// pixels were lit. A few rays in a million still pass an edge.
-TEST_F(ClosedRoom, LongRoomsAreAlmostBlackInside) {
-  for (const char* shape : {"Scale 1 1000 1\n", "Scale 1 10000 1\n", "Rotate 90 0 0 1\nScale 1 10000 1\n"})
+/// Close to triangles that are much longer than wide, rounding once gave hits the wrong distance: up to all pixels were
+/// lit. Where they are ten thousand times as long as wide, a few rays in ten million still pass an edge.
+TEST_F(ClosedRoom, LongRoomsAreBlackInside) {
+  for (const std::string shape : {"Scale 1 1000 1\n", "Rotate 33 1 2 3\nScale 1000 100 1\n", "Scale 1 10000 1\n",
+                                  "Rotate 90 0 0 1\nScale 1 10000 1\n"})
     for (const char* integrator : {"path", "iterative"}) {
-      SCOPED_TRACE(std::string(shape) + integrator);
+      SCOPED_TRACE(shape + integrator);
       write_room({}, shape, false);
-      // At most one of 64 samples of a pixel, from a sky of 10,000.
-      EXPECT_LE(brightest({"--integrator", integrator}), 10000.0f / 64 * 1.5f);
+      const float lightest = brightest({"--integrator", integrator});
+      if (shape.find("10000") == std::string::npos) {
+        EXPECT_EQ(lightest, 0);
+        continue;
+      }
+      EXPECT_LE(lightest, 10000.0f / 64 * 1.5f);  // one of 64 samples of a pixel, from a sky of 10,000
       const Image room = image("room.exr");
-      EXPECT_LE(std::count_if(room.planes[0].begin(), room.planes[0].end(), [](float value) { return value > 0; }), 4);
+      EXPECT_LE(std::count_if(room.planes[0].begin(), room.planes[0].end(), [](float value) { return value > 0; }), 2);
     }
 }
 
