@@ -1,33 +1,42 @@
 # The instruction sets that sample kernels are compiled for, each in a namespace of its name (core/math/platform.h).
 
-# ALHAZEN_KERNEL_SETS is their list. No file but the kernels depends on it (render/sample_kernel.h).
+# ALHAZEN_KERNEL_SETS is their list. Only the kernels and what knows the modules' interface depend on it
+# (render/sample_kernel.h, cmake/InterfaceHash.cmake).
 
-set(ALHAZEN_KERNEL_SETS ${ALHAZEN_INSTRUCTION_SETS})
-if(ALHAZEN_BASELINE_ONLY OR NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  set(ALHAZEN_KERNEL_SETS baseline)
-elseif(ALHAZEN_INSTRUCTION_SETS STREQUAL "native")
-  # Asks the processor as the program does.
-  if(NOT ALHAZEN_NATIVE_SET)
-    set(source ${PROJECT_BINARY_DIR}/native_set.cpp)
-    file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [[
+# Asks the processor as the program does.
+function(alhazen_find_native_set)
+  if(ALHAZEN_NATIVE_SET)
+    return()
+  endif()
+  set(source ${PROJECT_BINARY_DIR}/native_set.cpp)
+  file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [[
 #include <cstdio>
 int main() {
   __builtin_cpu_init();
   std::puts(__builtin_cpu_supports("x86-64-v4") ? "avx512" : __builtin_cpu_supports("x86-64-v3") ? "avx2" : "baseline");
 }
 ]])
-    try_run(exit_code is_compiled ${PROJECT_BINARY_DIR}/native_set ${source} RUN_OUTPUT_VARIABLE native)
-    if(NOT is_compiled OR NOT exit_code EQUAL 0)
-      message(FATAL_ERROR "ALHAZEN_INSTRUCTION_SETS=native: the program that asks the processor does not run")
-    endif()
-    string(STRIP "${native}" native)
-    set(ALHAZEN_NATIVE_SET ${native} CACHE INTERNAL "The best instruction set of this machine")
-    message(STATUS "Sample kernels are compiled for ${native} alone, the best instruction set of this machine")
+  try_run(exit_code is_compiled ${PROJECT_BINARY_DIR}/native_set ${source} RUN_OUTPUT_VARIABLE native)
+  if(NOT is_compiled OR NOT exit_code EQUAL 0)
+    message(FATAL_ERROR "ALHAZEN_INSTRUCTION_SETS=native: the program that asks the processor does not run")
   endif()
-  set(ALHAZEN_KERNEL_SETS ${ALHAZEN_NATIVE_SET})
-elseif(ALHAZEN_INSTRUCTION_SETS STREQUAL "all")
+  string(STRIP "${native}" native)
+  set(ALHAZEN_NATIVE_SET ${native} CACHE INTERNAL "The best instruction set of this machine")
+  message(STATUS "The best instruction set of this machine is ${native}")
+endfunction()
+
+set(ALHAZEN_KERNEL_SETS ${ALHAZEN_INSTRUCTION_SETS})
+if(ALHAZEN_BASELINE_ONLY OR NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  set(ALHAZEN_KERNEL_SETS baseline)
+endif()
+if("native" IN_LIST ALHAZEN_KERNEL_SETS)
+  alhazen_find_native_set()
+  list(TRANSFORM ALHAZEN_KERNEL_SETS REPLACE "^native$" "${ALHAZEN_NATIVE_SET}")
+endif()
+if("all" IN_LIST ALHAZEN_KERNEL_SETS)
   set(ALHAZEN_KERNEL_SETS baseline avx2 avx512)
 endif()
+list(REMOVE_DUPLICATES ALHAZEN_KERNEL_SETS)
 foreach(set IN LISTS ALHAZEN_KERNEL_SETS)
   if(NOT set MATCHES "^(baseline|avx2|avx512)$")
     message(FATAL_ERROR "ALHAZEN_INSTRUCTION_SETS: '${set}' is none of all, native, baseline, avx2 and avx512")

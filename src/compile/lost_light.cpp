@@ -44,10 +44,9 @@ class LostLightSearch {
     for (uint32_t i = 0; i < view_.lights_count; ++i)
       if (is_without_size(view_.lights[i].kind)) lights.push_back(i);
     if (lights.empty()) return {};
-    candidates_ = collect(points_per_material, max_materials, may_be_sharp);
+    candidates_ = collect(points_per_material * max_materials, max_materials, may_be_sharp);
     if (candidates_.empty()) return {};
-    receivers_ = collect(points_per_material, max_receivers / points_per_material,
-                         [](MaterialKind kind) { return !may_be_sharp(kind); });
+    receivers_ = collect(max_receivers, max_receivers, [](MaterialKind kind) { return !may_be_sharp(kind); });
     std::optional<LostLight> lost;
     for (uint32_t i = 0; i < lights.size() && i < max_lights; ++i) {
       std::optional<LostLight> of_this = lost_of(view_.lights[lights[i]]);
@@ -99,7 +98,7 @@ class LostLightSearch {
   /// Selects some primitives of each of some materials whose kind is wanted, evenly among all that have the material. A
   /// primitive of an object counts once per instance, and each point on it is on a different instance.
   template <class IsWanted>
-  std::vector<Candidate> collect(uint32_t points, uint32_t max_count, const IsWanted& is_wanted) {
+  std::vector<Candidate> collect(uint32_t max_points, uint32_t max_count, const IsWanted& is_wanted) {
     std::vector<Candidate> found;
     std::vector<uint64_t> counts(view_.materials_count), seen(view_.materials_count);
     std::vector<bool> wanted(view_.materials_count);
@@ -109,6 +108,7 @@ class LostLightSearch {
       if (!wanted[m] && is_wanted(view_.materials[m].kind)) wanted[m] = true, ++materials;
     }
     if (materials == 0) return found;
+    const uint32_t points = std::min(points_per_material, max_points / materials);
     const Uses uses = uses_of_objects();
     const auto material_of = [&](PrimitiveId id) { return view_.surfaces[surface_of(view_, id)].material; };
     const auto uses_of = [&](uint32_t object) { return object == no_object ? 1 : uses.count(object); };
@@ -211,12 +211,13 @@ class LostLightSearch {
     return first_glass(shadow);
   }
 
-  /// Returns the first of the surfaces that a shadow ray meets if all of them transmit light sharply, else nothing.
+  /// Returns the first of the surfaces that a shadow ray meets if all of them transmit light sharply, else nothing. The
+  /// path has the segment from the camera before, and one more than there are surfaces.
   std::optional<uint32_t> first_glass(const ShadowRay<Real>& shadow) {
     std::optional<uint32_t> first;
     Ray<Real> ray = shadow.ray;
     Real left = shadow.t_max;
-    for (uint32_t segments = 3; segments <= max_segments_; ++segments) {
+    for (uint32_t segments = 2; segments <= max_segments_; ++segments) {
       Hit<Real> hit;
       Real travelled = 0;
       if (!closest_stop(view_, intersector_, RayKind::scattered, ray, hit, travelled)) return first;

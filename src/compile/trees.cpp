@@ -98,7 +98,7 @@ class TreeBuilder {
     if (has_instances) add_instance_boxes(boxes);
     Bvh2<Real> tree;
     if (!layouts.empty()) {
-      Bvh2Options options = layouts.has(BvhLayout::bvh8) ? Bvh2Options::for_collapse(options_.threads) : Bvh2Options{};
+      Bvh2Options options;
       options.threads = options_.threads;
       if (has_instances) options.max_leaf = 1;  // an instance is to be alone in its leaf
       tree = build_bvh2<Real>(boxes, options);

@@ -224,7 +224,8 @@ std::vector<SettingEntry> image_settings() {
 
 /// Backends that have the same kind give the same bits.
 std::string kind_of_bits(const RenderSettings& s) {
-  return s.backend == "serial" || s.backend == "openmp" ? "serial" : s.backend;
+  if (s.backend == "serial" || s.backend == "openmp") return "serial";
+  return s.backend == "cuda" && s.device == host_device ? "cuda on the host" : s.backend;
 }
 
 std::vector<SettingEntry> engine_settings() {

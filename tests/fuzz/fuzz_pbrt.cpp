@@ -26,7 +26,7 @@ void require_sound(const alhazen::Scene& scene) {
   for (const alhazen::ShapeGroup& group : scene.groups) {
     for (const alhazen::Shape& shape : group.shapes) {
       require(shape.material < scene.materials.size());
-      require(shape.type == alhazen::ShapeType::sphere ? shape.radius > 0 : shape.mesh < scene.meshes.size());
+      require(shape.type == alhazen::ShapeType::mesh ? shape.mesh < scene.meshes.size() : shape.radius > 0);
     }
   }
   for (const alhazen::Texture& texture : scene.textures)

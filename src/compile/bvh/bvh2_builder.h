@@ -17,13 +17,12 @@ struct Bvh2 {
   std::vector<uint32_t> order;
 };
 
+/// One set for all layouts that are made from the tree: the order of the primitives, by which ties are broken and
+/// random numbers of hits are chosen, does not depend on the layout.
 struct Bvh2Options {
-  uint32_t max_leaf = 8;        ///< primitives
-  double traversal_cost = 1.2;  ///< SAH cost of visiting a node's two children, in units of a primitive test
-  int threads = 0;              ///< 0: OpenMP's default
-
-  /// Returns options that split down to single primitives, for a collapse that chooses the leaves.
-  static Bvh2Options for_collapse(int threads) { return {4, 1, threads}; }
+  uint32_t max_leaf = 4;      ///< primitives
+  double traversal_cost = 1;  ///< SAH cost of visiting a node's two children, in units of a primitive test
+  int threads = 0;            ///< 0: OpenMP's default
 };
 
 /// `boxes` must be finite and not empty.

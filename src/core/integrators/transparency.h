@@ -23,7 +23,7 @@ ALHAZEN_HD inline uint32_t bits_of(double x) {
 /// Random bits derived from a ray and its hit, for choices that use no dimension of the sampler.
 template <class Real>
 ALHAZEN_HD uint32_t hash_of_hit(const Ray<Real>& ray, const Hit<Real>& hit) {
-  // Independent of how many bits PrimitiveId has for a kind.
+  // Kinds from the fifth on are not told apart here.
   const uint32_t primitive = static_cast<uint32_t>(hit.primitive.kind()) << 30 ^ hit.primitive.index();
   uint32_t h = combine32(primitive ^ mix32(hit.instance), bits_of(hit.t));
   h = combine32(h, bits_of(ray.direction.x));

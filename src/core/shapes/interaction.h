@@ -157,27 +157,25 @@ ALHAZEN_HD ALHAZEN_RARE Vec3<Real> away_from_edges(const Vec3<Real> (&p)[3], Rea
   const Vec3<Real> coordinates = max(error - extent_error(p), Vec3<Real>{});
   const Real distance_to_corners =
       2 * (b[1] * b[2] * length_of[0] + b[2] * b[0] * length_of[1] + b[0] * b[1] * length_of[2]);  // on average
-  // Needles may be narrower than the clearance.
+  // Needles may be narrower than the clearance. Two corners may have to be left.
   const Real longest = max(max(length_of[0], length_of[1]), length_of[2]);
-  const Real max_lowest = min(max_corner_offset<Real> * clearance / longest, Real(1.0 / 3));
-  Real lowest[3], cleared[3], sum = 0, above = 0;
+  const Real max_lowest = min(max_corner_offset<Real> * clearance / (2 * longest), Real(1.0 / 3));
+  Real lowest[3], above_lowest[3], sum = 0, above = 0;
   bool is_clear = true;
   for (int i = 0; i < 3; ++i) {
     const Vec3<Real> direction = edge[i] * (1 / length_of[i]);
     const Vec3<Real> normal = cross(winding, direction) * (1 / twice_area);
     const Real local = dot(abs(normal), coordinates) + distance_to_corners * rounding_bound<Real>(1);
     lowest[i] = min(edge_clearance<Real> * local / height[i], max_lowest);
-    cleared[i] = b[i] + dot(direction, along) / height[i];
-    is_clear &= cleared[i] >= lowest[i];
-    cleared[i] = max(cleared[i] - lowest[i], Real(0));
+    is_clear &= b[i] + dot(direction, along) / height[i] >= lowest[i];
+    above_lowest[i] = max(b[i] - lowest[i], Real(0));
     sum += lowest[i];
-    above += cleared[i];
+    above += above_lowest[i];
   }
   if (is_clear) return offset;
   const Real scale = above > 0 ? (1 - sum) / above : Real(0);
-  Vec3<Real> moved = edge[2] * (lowest[1] + cleared[1] * scale - b1);
-  moved -= edge[1] * (lowest[2] + cleared[2] * scale - b2);
-  return moved;
+  const auto change = [&](int i) { return lowest[i] + above_lowest[i] * scale - b[i]; };
+  return edge[2] * change(1) - edge[1] * change(2);
 }
 
 /// Returns the position and normals at barycentric coordinates b1 and b2, without clearance from the edges.

@@ -64,6 +64,10 @@ struct CylinderRecord {
   ALHAZEN_HD constexpr Real number(int k) const {
     return k < 3 ? centre[k] : k < 12 ? object_from_world[k / 3 - 1][k % 3] : k == 12 ? cosine : sine;
   }
+
+  using Fields = FieldList<&CylinderRecord::centre, &CylinderRecord::object_from_world, &CylinderRecord::cosine,
+                           &CylinderRecord::sine, &CylinderRecord::phi_max, &CylinderRecord::world_from_object,
+                           &CylinderRecord::surface>;
 };
 
 /// The axes of a sphere's object space in world space, for its uv coordinates: z is the polar axis.
@@ -92,6 +96,9 @@ struct InstanceRecord {
   uint32_t object;
   uint32_t flip_normal;  ///< 1: swaps the front and back of every surface
   uint32_t motion;       ///< index into instance_motions, or no_motion
+
+  using Fields = FieldList<&InstanceRecord::world_from_object, &InstanceRecord::object_from_world,
+                           &InstanceRecord::object, &InstanceRecord::flip_normal, &InstanceRecord::motion>;
 };
 
 /// The change of world_from_object per unit of time: points of the object move along straight lines.

@@ -185,6 +185,9 @@ uint32_t read_alpha(Build& build, ParameterList& list, bool& visible) {
   return constant && *constant >= 1 ? no_index : alpha;
 }
 
+/// Instances copy cylinders. Where these were more, they become meshes, which instances share.
+constexpr uint64_t max_cylinder_copies = 1u << 17;
+
 }  // namespace
 
 void add_shape(Build& build, const std::string& kind, ParameterList& list) {
@@ -211,13 +214,19 @@ void add_shape(Build& build, const std::string& kind, ParameterList& list) {
 }
 
 void tessellate_for_instances(Build& build) {
+  const auto is_cylinder = [](const Shape& shape) { return shape.type == ShapeType::cylinder; };
+  uint64_t copies = 0;
+  for (const Instance& instance : build.scene.instances) {
+    const std::vector<Shape>& shapes = build.scene.groups[instance.group].shapes;
+    copies += static_cast<uint64_t>(std::count_if(shapes.begin(), shapes.end(), is_cylinder));
+  }
   for (const Instance& instance : build.scene.instances)
     for (Shape& shape : build.scene.groups[instance.group].shapes) {
       const MovingTransform &outer = instance.world_from_group, &inner = shape.world_from_object;
       if (shape.type == ShapeType::sphere && !is_similarity(outer))
         become_mesh(shape, sphere_mesh(build, {}, shape.radius, {-shape.radius, shape.radius, 360}));
-      else if (shape.type == ShapeType::cylinder &&
-               !stays_cylinder(shape, {outer.start * inner.start, outer.end * inner.end}))
+      else if (is_cylinder(shape) && (copies > max_cylinder_copies ||
+                                      !stays_cylinder(shape, {outer.start * inner.start, outer.end * inner.end})))
         become_mesh(shape, cylinder_mesh(build, {}, shape));
     }
 }

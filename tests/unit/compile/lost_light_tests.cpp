@@ -186,6 +186,10 @@ TYPED_TEST(LostLightOf, NothingIsSaidWhereNothingIsLost) {
     SCOPED_TRACE(c.name);
     for (const Diagnostics::Warning& warning : warnings_of<TypeParam>(c.text)) ADD_FAILURE() << warning.to_string();
   }
+  const std::string pane = "AttributeBegin Material \"diffuse\" Scale .1 .1 .1 " + panel +
+                           "AttributeEnd Material \"thindielectric\" Translate 0 1 0 Scale 9 9 9 " + panel;
+  EXPECT_TRUE(warnings_of<TypeParam>("WorldBegin\n" + point + pane, 2).empty());
+  EXPECT_EQ(warnings_of<TypeParam>("WorldBegin\n" + point + pane, 3).size(), 1u);
   // Paths that are too short for any light through glass, and integrators without the check.
   EXPECT_TRUE(warnings_of<TypeParam>("WorldBegin\n" + point + glass + ball + floor_of, 2).empty());
   EXPECT_TRUE(warnings_of<TypeParam>("WorldBegin\n" + point + glass + ball + floor_of, 0).empty());

@@ -266,7 +266,34 @@ TYPED_TEST(SelfIntersectionOf, NeedlesHaveFinitePoints) {
   for (const Real b1 : {Real(0), Real(0.3), Real(1)}) {
     const SurfaceInteraction<Real> si = point_of_triangle(corners, b1, Real(0.5) * (1 - b1));
     EXPECT_TRUE(is_finite(si.position)) << b1;
-    EXPECT_LT(length(si.position - p[1] * b1), Real(0.01) * length(p[1])) << b1;
+    EXPECT_LT(length(si.position - p[1] * b1),
+              max_corner_offset<Real> * edge_clearance<Real> * max_component(si.position_error))
+        << b1;
+  }
+}
+
+/// Triangles that are narrower than the rounding error of their points: a push away from the short edge leaves them.
+TYPED_TEST(SelfIntersectionOf, PointsOfSliversStayWhereTheyAre) {
+  using Real = TypeParam;
+  const auto move = [](const Vec3<Real>(&p)[3], Real b1, Real b2) {
+    const TriangleCorners<Real> corners{{p[0], p[1], p[2]}, {}, 0, 0};
+    const Vec3<Real> plain = point_in_plane(corners, b1, b2).position;
+    const SurfaceInteraction<Real> si = point_of_triangle(corners, b1, b2);
+    return length(si.position - plain) / (edge_clearance<Real> * max_component(si.position_error));
+  };
+  const Vec3<Real> sliver[3] = {{Real(4.36803818), Real(4.2008853), Real(4.72660685)},
+                                {Real(257.499176), Real(-13.219574), Real(573.358521)},
+                                {Real(256.192566), Real(-13.1296883), Real(570.423218)}};
+  EXPECT_LT(move(sliver, Real(0.292719007), Real(0.424934626)), 2 * max_corner_offset<Real>);
+  Random random(5);
+  for (int i = 0; i < 100'000; ++i) {
+    Vec3<Real> p[3];
+    for (Vec3<Real>& corner : p) corner = convert<Real>(random.on_sphere() * random.magnitude_between(1, 1000));
+    const auto shift = static_cast<Real>(random.magnitude_between(1e-9, 1));
+    p[2] = p[0] + (p[1] - p[0]) * static_cast<Real>(random.uniform<double>()) + (p[2] - p[0]) * shift;
+    if (!(length(cross(p[1] - p[0], p[2] - p[0])) > 0)) continue;
+    const Vec2<Real> b = sample_triangle(Vec2<Real>{random.uniform<Real>(), random.uniform<Real>()});
+    ASSERT_LT(move(p, b.x, b.y), 2 * max_corner_offset<Real>) << i;
   }
 }
 

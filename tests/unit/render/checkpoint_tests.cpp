@@ -148,6 +148,12 @@ TYPED_TEST(CheckpointFiles, OfABackendWithOtherBitsIsRefused) {
     settings.backend = other;
     EXPECT_NE(this->refusal(settings).find("of another scene or of other settings"), std::string::npos) << other;
   }
+  settings.backend = "cuda";
+  settings.device = host_device;
+  CheckpointFile(settings, scene).template save<TypeParam>(film, 8);
+  EXPECT_EQ(this->refusal(settings), "");
+  settings.device = 0;
+  EXPECT_NE(this->refusal(settings), "");
 }
 
 TYPED_TEST(CheckpointFiles, OfAnotherRenderIsRefusedAsThat) {
