@@ -231,12 +231,15 @@ class LostLightSearch {
     return {};
   }
 
+  /// Looks from straight above the surface: light that is refracted leaves a pane as it came, but straight within the
+  /// glass it might be reflected totally.
   bool transmits_sharply(const ShadingPoint<Real>& point) {
+    const Vec3<Real> above = face_forward(point.si.normal, point.wo);
     double transmitted = 0;
     for (uint32_t i = 0; i < directions_per_point; ++i) {
       const Real u_lobe = (static_cast<Real>(i) + Real(0.5)) / directions_per_point;
-      const BsdfSample<Real> s = sample_bsdf(point.bsdf, point.wo, u_lobe, Vec2<Real>{random(), random()});
-      if (is_sharp(s) && dot(s.direction, point.si.normal) * dot(point.wo, point.si.normal) < 0)
+      const BsdfSample<Real> s = sample_bsdf(point.bsdf, above, u_lobe, Vec2<Real>{random(), random()});
+      if (is_sharp(s) && dot(s.direction, above) < 0)
         transmitted += static_cast<double>(max_component(s.weight)) / directions_per_point;
     }
     return transmitted > min_sharp;

@@ -52,7 +52,7 @@ Material "diffuse" "rgb reflectance" [ 0.9 0.9 0.9 ]
 };
 
 /// Close to triangles that are much longer than wide, rounding once gave hits the wrong distance: up to all pixels were
-/// lit. Where they are ten thousand times as long as wide, a few rays in ten million still pass an edge.
+/// lit. Where they are more than a thousand times as long as wide, a few rays in ten million still pass an edge.
 TEST_F(ClosedRoom, LongRoomsAreBlackInside) {
   for (const std::string shape : {"Scale 1 1000 1\n", "Rotate 33 1 2 3\nScale 1000 100 1\n", "Scale 1 10000 1\n",
                                   "Rotate 90 0 0 1\nScale 1 10000 1\n"})

@@ -67,6 +67,11 @@ TYPED_TEST(LostLightOf, CausticsOfLightsWithoutSize) {
       {"small floor behind a thick pane", "WorldBegin\n" + sun + "AttributeBegin Material \"diffuse\" Scale .5 .5 .5 " +
                                               panel + "AttributeEnd\n" + glass + "Translate 0 1 0 Scale 9 9 9 " +
                                               panel + "Translate 0 0.1 0 " + panel},
+      {"floor under a thick pane that light meets at 63 degrees",
+       "WorldBegin\nLightSource \"point\" \"point3 from\" [-4 3 0]\nAttributeBegin Material \"diffuse\" Translate 2 0 "
+       "0 "
+       "Scale .2 .2 .2 " +
+           panel + "AttributeEnd\n" + glass + "Translate 0 1 0 Scale 9 9 9 " + panel + "Translate 0 0.01 0 " + panel},
       {"bulb", "WorldBegin\n" + point + glass +
                    "AttributeBegin Translate 0 4 0 Shape \"sphere\" \"float radius\" 0.1 AttributeEnd\n" + floor_of},
       {"moving glass", "WorldBegin\n" + point + glass +
