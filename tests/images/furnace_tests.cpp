@@ -11,15 +11,18 @@ namespace alhazen::test {
 
 namespace {
 
-/// A mirror, rough and smooth glass, and white clay, seen by a camera in the sky.
-const std::string furnace = R"(LookAt 0 0 6  0 0 0  0 1 0
+/// A camera in the sky.
+const std::string sky = R"(LookAt 0 0 6  0 0 0  0 1 0
 Camera "perspective" "float fov" 40
 Film "rgb" "integer xresolution" 48 "integer yresolution" 48
 PixelFilter "box"
 Integrator "path" "integer maxdepth" 200
 WorldBegin
 LightSource "infinite" "rgb L" [ 1 1 1 ]
-AttributeBegin
+)";
+
+/// A mirror, rough and smooth glass, and white clay.
+const std::string furnace = sky + R"(AttributeBegin
   Material "conductor" "rgb reflectance" [ 1 1 1 ] "float roughness" 0
   Translate -0.8 0.7 0
   Shape "sphere" "float radius" 0.7
@@ -79,14 +82,7 @@ TEST(Furnace, NothingCanBeSeen) { expect_nothing_to_be_seen(scene_of(furnace)); 
 
 /// White clay and mirrors, inside and outside, sheared and in part. Some paths are reflected 30 times within a mirror.
 TEST(Furnace, NothingCanBeSeenOfCylinders) {
-  expect_nothing_to_be_seen(scene_of(R"(LookAt 0 0 6  0 0 0  0 1 0
-Camera "perspective" "float fov" 40
-Film "rgb" "integer xresolution" 48 "integer yresolution" 48
-PixelFilter "box"
-Integrator "path" "integer maxdepth" 200
-WorldBegin
-LightSource "infinite" "rgb L" [ 1 1 1 ]
-Material "diffuse" "rgb reflectance" [ 1 1 1 ]
+  expect_nothing_to_be_seen(scene_of(sky + R"(Material "diffuse" "rgb reflectance" [ 1 1 1 ]
 AttributeBegin
   Translate -0.8 0.7 0
   Rotate 50 1 0.5 0
