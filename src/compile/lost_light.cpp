@@ -203,9 +203,7 @@ class LostLightSearch {
     if (!(s.pdf > 0) || is_zero(s.radiance)) return {};
     const ShadowRay<Real> shadow = shadow_ray(*si, s);
     if (visibility_of(view_, intersector_, shadow) > 0) return {};
-    hit.t = s.is_finite ? length(s.point - si->position) : Real(1);
-    const ShadingPoint<Real> point =
-        shading_point(view_, Ray<Real>{si->position + s.direction * hit.t, -s.direction, Real(0)}, hit);
+    const ShadingPoint<Real> point = shading_point(view_, ray_from_light(s, *si, hit), hit);
     const BsdfSample<Real> scattered = sample_bsdf(point.bsdf, point.wo, random(), Vec2<Real>{random(), random()});
     if (!(scattered.pdf > 0) || is_zero(scattered.weight)) return {};
     return first_glass(shadow);
@@ -245,6 +243,12 @@ class LostLightSearch {
     return transmitted > min_sharp;
   }
 
+  /// Returns the shadow ray in reverse, and sets the distance of its hit.
+  static Ray<Real> ray_from_light(const LightSample<Real>& s, const SurfaceInteraction<Real>& si, Hit<Real>& hit) {
+    hit.t = s.is_finite ? length(s.point - si.position) : Real(1);
+    return {si.position + s.direction * hit.t, -s.direction, Real(0)};
+  }
+
   /// Tests light on a point of a surface that is known to be smooth, which may be small and far away.
   void light_candidate(const LightRecord<Real>& light, const Candidate& candidate) {
     Hit<Real> hit;
@@ -254,9 +258,7 @@ class LostLightSearch {
     const LightSample<Real> s = sample_chosen_light(view_, light, si.position, false, Real(0), Vec2<Real>{});
     if (!(s.pdf > 0) || is_zero(s.radiance)) return;
     if (!(visibility_of(view_, intersector_, shadow_ray(si, s)) > 0)) return;
-    // The shadow ray in reverse.
-    hit.t = s.is_finite ? length(s.point - si.position) : Real(1);
-    follow({si.position + s.direction * hit.t, -s.direction, Real(0)}, hit);
+    follow(ray_from_light(s, si, hit), hit);
   }
 
   Vec3<Real> direction_from(const LightRecord<Real>& light, const Vec2<Real>& u) const {
