@@ -48,8 +48,10 @@ inline double exact_difference_of_products(float a, float b, float c, float d) {
   return double{a} * double{b} - double{c} * double{d};
 }
 
-/// Recomputes the edge functions of a triangle that was hit, from its vertices in the sheared space of the ray. Those
-/// that are on the other side of zero, within rounding, become 0.
+/// Recomputes the edge functions of a triangle that was hit, from its vertices in the sheared space of the ray. If the
+/// ray passes the triangle within rounding, they become the barycentric coordinates of the point of the edge that is
+/// nearest to the ray. It would not do to set the negative one to 0: in a long triangle seen at a grazing angle, the
+/// hit would move far along the edge, and t could get the wrong sign.
 template <class Real>
 ALHAZEN_RARE void recompute_edge_functions(const Real (&x)[3], const Real (&y)[3], Real (&e)[3]) {
   decltype(exact_difference_of_products(x[0], y[0], y[0], x[0])) exact[3], sum = 0;
@@ -58,9 +60,16 @@ ALHAZEN_RARE void recompute_edge_functions(const Real (&x)[3], const Real (&y)[3
     exact[i] = exact_difference_of_products(x[j], y[k], y[j], x[k]);
     sum += exact[i];
   }
+  for (int i = 0; i < 3; ++i) e[i] = static_cast<Real>(sum < 0 ? -exact[i] : exact[i]);
   for (int i = 0; i < 3; ++i) {
-    const auto positive = sum < 0 ? -exact[i] : exact[i];
-    e[i] = positive > 0 ? static_cast<Real>(positive) : Real(0);
+    if (!(e[i] < 0)) continue;
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const Real dx = x[k] - x[j], dy = y[k] - y[j];
+    const Real along = -(x[j] * dx + y[j] * dy) / (sqr(dx) + sqr(dy));
+    e[i] = 0;
+    e[k] = min(max(along, Real(0)), Real(1));
+    e[j] = 1 - e[k];
+    return;
   }
 }
 

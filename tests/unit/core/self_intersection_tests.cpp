@@ -325,5 +325,29 @@ TYPED_TEST(SelfIntersectionOf, WhatLiesInThePlaneIsNotHit) {
   EXPECT_LT(hit, left / 1000) << "of " << left;
 }
 
+/// A long wall, turned, so that its vertices are rounded: rays from one of its triangles pass over the other.
+TYPED_TEST(SelfIntersectionOf, TheOtherHalfOfALongWallIsNotHit) {
+  using Real = TypeParam;
+  Random random(22);
+  size_t hit = 0;
+  const size_t rays = effort(1'000'000);
+  const double length = std::is_same_v<Real, float> ? 1e3 : 1e9;
+  const Transform turned = Transform::rotate(33, normalize(Vec3d{1, 2, 3}));
+  const auto corner = [&](double x, double y) { return convert<Real>(turned.point({x, y * length, -1})); };
+  const Vec3<Real> p[4] = {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
+  const TriangleCorners<Real> half{{p[0], p[1], p[2]}, {}, 0, 0};
+  for (size_t i = 0; i < rays; ++i) {
+    const double b1 = random.magnitude_between(1e-6, 0.1), b2 = (1 - b1) * random.uniform<double>();
+    const SurfaceInteraction<Real> si = point_of_triangle(half, static_cast<Real>(b1), static_cast<Real>(b2));
+    const Vec3d normal = convert<double>(si.normal), w = random.on_sphere();
+    const Vec3d along = normalize(w - normal * dot(w, normal));
+    const Vec3d direction = along + normal * random.magnitude_between(1e-2, 1);
+    const Ray<Real> ray = spawn_ray(si, normalize(convert<Real>(direction)));
+    Real t, c1, c2;
+    hit += intersect_triangle(shear_ray(ray, 1), p[0], p[2], p[3], infinity<Real>, t, c1, c2);
+  }
+  EXPECT_EQ(hit, 0u) << "of " << rays;
+}
+
 }  // namespace
 }  // namespace alhazen::test
