@@ -1,6 +1,8 @@
-# The module of the CUDA backend, where nvcc is. Sets ALHAZEN_WITH_CUDA and enables the language; without nvcc says so and goes on.
+# The module of the CUDA backend. Sets ALHAZEN_WITH_CUDA and enables the language; without nvcc says so and goes on.
 
-option(ALHAZEN_CUDA "Build the CUDA backend where nvcc is" ON)
+set(ALHAZEN_CUDA AUTO CACHE STRING
+    "Build the CUDA backend: ON, OFF, or AUTO: where nvcc and a GPU are, or ALHAZEN_CUDA_ARCHITECTURES is set")
+set_property(CACHE ALHAZEN_CUDA PROPERTY STRINGS AUTO ON OFF)
 set(ALHAZEN_CUDA_ARCHITECTURES "" CACHE STRING
     "Compute capabilities to build for (90 or 75;80;86;89;90). Empty: that of this machine's GPU, or 80 and its PTX")
 
@@ -37,6 +39,9 @@ else()
     string(REGEX REPLACE "[ \n]+" ";" capabilities "${capabilities}")
     list(REMOVE_DUPLICATES capabilities)
     set(CMAKE_CUDA_ARCHITECTURES ${capabilities})
+  elseif(ALHAZEN_CUDA STREQUAL "AUTO")
+    message(STATUS "CUDA is off: nvcc is here, but no GPU. -DALHAZEN_CUDA=ON builds the backend all the same")
+    return()
   else()
     # Each architecture takes minutes. Code for 8.0 runs on all of 8.x; later GPUs compile its PTX when the program first
     # starts there, and keep the result. Those of 7.x must be asked for.
