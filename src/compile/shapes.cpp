@@ -101,9 +101,10 @@ template <class Real>
 DiskRecord<Real> disk_record(const Shape& shape, const Transform& transform) {
   DiskRecord<Real> record{};
   const auto normal = [&](const Vec3d& x, const Vec3d& y) {
-    const Vec3d n = cross(x, y);
-    const double size = std::sqrt(length(n));  // that of x and y
-    return n * ((dot(n, transform.direction({0, 0, 1})) < 0 ? -1 : 1) / size);
+    const double size = max_component(max(abs(x), abs(y)));
+    const Vec3d n = cross(x / size, y / size);
+    const double side = dot(n, transform.direction({0, 0, 1})) < 0 ? -1 : 1;
+    return n * (side * size / std::sqrt(length(n)));  // about as long as x and y
   };
   set_object_space(shape, transform, transform.point({0, 0, shape.z_min}), normal, record);
   // The errors along x and y, together.
@@ -113,7 +114,7 @@ DiskRecord<Real> disk_record(const Shape& shape, const Transform& transform) {
   const Real error = min(radial(error_of_point(record, {1, 1, 0})), max_rim_error<Real>);
   record.rim = 1 + error;
   record.rim_growth = radial(splat(rounding_bound<Real>(roundings_of_tests)));
-  record.inner_radius = static_cast<Real>(shape.inner_radius / shape.radius);
+  record.inner_radius = min(static_cast<Real>(shape.inner_radius / shape.radius), one_minus_epsilon<Real>);
   record.inner_rim = record.inner_radius - error;
   return record;
 }
