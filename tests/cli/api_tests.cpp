@@ -89,7 +89,6 @@ TEST_F(Api, SettingsAreFollowed) {
   settings.precision = "float";
   settings.backend = "serial";
   settings.strategy = "auto";
-  settings.threads = 0;
   const RenderedImage serial = render(scene_, settings);
   settings.backend = "openmp";
   settings.threads = 3;

@@ -298,7 +298,6 @@ TEST_F(BadInput, Settings) {
   expect_bad_usage({"--backend", "openmp", "--strategy", "columns"}, {"columns", "tiles, rows"});
   expect_bad_usage({"--backend", "serial", "--strategy", "rows"}, {"serial", "rows"});
   expect_bad_usage({"--backend", "serial", "--schedule", "dynamic"}, {"serial", "schedule", "'dynamic'"});
-  expect_bad_usage({"--backend", "serial", "-t", "4"}, {"serial", "4 threads"});
   expect_bad_usage({"--precision", "half"}, {"half", "float, double"});
   expect_bad_usage({"--schedule", "random"}, {"random", "static, dynamic, guided"});
   expect_bad_usage({"--schedule", "dynamic,0"}, {"chunk"});

@@ -14,9 +14,6 @@ class SerialBackend final : public Backend {
   void configure(const Settings& asked, RenderSettings& settings) const override {
     Backend::configure(asked, settings);
     if (asked.backend == "serial") refuse_schedule(asked);  // not where it is the choice for one thread
-    if (asked.threads > 1)
-      throw InputError("the backend 'serial' has one thread: leave out the " + std::to_string(asked.threads) +
-                       " threads, or use the backend openmp");
     settings.threads = 1;
   }
   std::vector<NamedSetting> named_settings(const RenderSettings&) const override { return {{"schedule", ""}}; }
