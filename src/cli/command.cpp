@@ -38,7 +38,7 @@ std::string unknown_subcommand(const CLI::App& app, int argc, char** argv) {
 
 /// The message of an error, with arguments that were not expected in the order given: CLI11 reverses it.
 std::string message_of(const CLI::ParseError& error, const CLI::App& app) {
-  if (error.get_name() != "ExtrasError") return error.what();
+  if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError)) return error.what();
   const std::vector<std::string> unexpected = app.remaining(true);
   std::string message = unexpected.size() == 1 ? "The following argument was not expected:"
                                                : "The following arguments were not expected:";
