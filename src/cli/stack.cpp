@@ -14,6 +14,13 @@ struct Call {
   int result = 0;
 };
 
+/// Under a limit on the address space (ulimit -v) the heap may take what the stack would grow into.
+bool main_stack_may_grow() {
+  rlimit stack{}, address_space{};
+  if (::getrlimit(RLIMIT_STACK, &stack) != 0 || ::getrlimit(RLIMIT_AS, &address_space) != 0) return true;
+  return stack.rlim_cur >= thread_stack_bytes && address_space.rlim_cur == RLIM_INFINITY;
+}
+
 void* make_call(void* call) {
   auto* const c = static_cast<Call*>(call);
   c->result = c->body();
@@ -24,8 +31,7 @@ void* make_call(void* call) {
 
 int run_on_enough_stack(const std::function<int()>& body) {
   const ThreadDefaults defaults;
-  rlimit limit{};
-  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= thread_stack_bytes) return body();
+  if (main_stack_may_grow()) return body();
   pthread_attr_t attributes;
   ::pthread_attr_init(&attributes);
   ::pthread_attr_setstacksize(&attributes, thread_stack_bytes);

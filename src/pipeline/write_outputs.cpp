@@ -122,7 +122,8 @@ OutputReport write_outputs(const OutputOptions& options, const Rendering& render
       write_output(path, options, rendering);
       report.written.push_back(path);
     } catch (const std::bad_alloc&) {
-      report.failures.push_back("cannot write " + path + ": out of memory");
+      report.failures.push_back("cannot write " + path +
+                                ": out of memory; this machine, or a limit set on it, allows no more");
     } catch (const std::exception& failure) {
       report.failures.push_back(failure.what());
     }
