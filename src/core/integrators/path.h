@@ -33,13 +33,16 @@ ALHAZEN_HD ALHAZEN_HOT Real bsdf_mis_weight(const PathState<Real>& path, Real li
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, const PathState<Real>& path,
                                                 Record& record) {
-  if (!is_zero(scene.background))
-    record.radiance += path.throughput * scene.background * bsdf_mis_weight(path, pdf_background(scene));
+  record.radiance += path.throughput * scene.background;  // not sampled as a light
+  if (scene.far_lights_count == 0) return;
+  const Vec3<Real> start = path.ray.origin - path.ray.direction * path.travelled;
+  const Real by_tree = path.is_specular ? Real(0) : light_tree_probability(scene, start, path.light_side);
   for (uint32_t i = 0; i < scene.far_lights_count; ++i) {
     const LightRecord<Real>& light = scene.lights[scene.far_lights[i]];
     const EscapedLight<Real> found = escaped_light(scene, light, path.ray.direction, !path.is_specular);
     if (is_zero(found.radiance)) continue;
-    record.radiance += path.throughput * found.radiance * bsdf_mis_weight(path, light.pmf * found.pdf);
+    const Real light_pdf = light.pmf * (1 - by_tree) * found.pdf;
+    record.radiance += path.throughput * found.radiance * bsdf_mis_weight(path, light_pdf);
   }
 }
 
