@@ -65,6 +65,10 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
   record.radiance += path.throughput * emission * bsdf_mis_weight(path, light_pdf);
 }
 
+/// Russian roulette ends paths whose throughput is below this. With a higher threshold more paths end that would have
+/// met a bright surface; a lower one costs more segments than it saves noise (docs/results/quality.md).
+inline constexpr double roulette_threshold = 0.25;
+
 /// Samples the next ray. Returns false if the path ends here.
 template <class Real, SamplerOf<Real> Sampler>
 ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingPoint<Real>& point,
@@ -78,7 +82,7 @@ ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingP
   path.eta_scale *= s.eta * s.eta;
   path.ray = spawn_ray(point.si, s.direction);
   path.travelled = 0;
-  const Real survival = max_component(path.throughput) * path.eta_scale;
+  const Real survival = max_component(path.throughput) * path.eta_scale * Real(1 / roulette_threshold);
   if (!(survival > 0)) return false;
   if (++path.vertex < 2 || survival >= 1) return true;
   if (sampler.template get_1d<Real>(dimensions.roulette()) >= survival) return false;
