@@ -51,8 +51,8 @@ TYPED_TEST(EnvironmentSampling, DirectionsFollowTheDensity) {
         histogram.add_nothing();
     }
     double integral = 0;
-    const ChiSquared test = histogram.test(
-        [&](const Vec3d& w) { return pdf_environment(scene.view, map, convert<Real>(w)); }, integral);
+    const ChiSquared test =
+        histogram.test([&](const Vec3d& w) { return pdf_environment(scene.view, map, convert<Real>(w)); }, integral);
     EXPECT_NEAR(integral, 1, 1e-3) << c.name;
     EXPECT_GT(test.p_value, sidak(0.01, 2 * cases.size()))
         << c.name << ": " << test.statistic << " for " << test.degrees_of_freedom << " degrees of freedom";
@@ -117,16 +117,18 @@ TYPED_TEST(EnvironmentSampling, WhatIsAboveTheMeanIsSampled) {
     const CompiledScene<Real> scene = compiled_scene<Real>(map_alone(c.map, c.axes));
     const EnvironmentRecord<Real>& map = scene.view.environments[0];
     const auto brightness = [&](const Vec3<Real>& radiance) { return luminance(convert<double>(radiance)); };
-    const double mean = integral_over_sphere(1024, [&](const Vec3d& d) {
-                          return brightness(evaluate_environment(scene.view, map, convert<Real>(d)));
-                        }) / (4 * pi<double>);
+    const double mean =
+        integral_over_sphere(
+            1024, [&](const Vec3d& d) { return brightness(evaluate_environment(scene.view, map, convert<Real>(d))); }) /
+        (4 * pi<double>);
     size_t brighter = 0, darker = 0;
     for (uint32_t row = 0; row < map.height; ++row)
       for (uint32_t column = 0; column < map.width; ++column) {
         double least = infinity<double>, most = 0;
         for (int i = 0; i < 16; ++i) {
-          const Vec2<Real> uv{(static_cast<Real>(column) + (Real(i % 4) + Real(0.5)) / 4) / static_cast<Real>(map.width),
-                              (static_cast<Real>(row) + (Real(i / 4) + Real(0.5)) / 4) / static_cast<Real>(map.height)};
+          const Vec2<Real> uv{
+              (static_cast<Real>(column) + (Real(i % 4) + Real(0.5)) / 4) / static_cast<Real>(map.width),
+              (static_cast<Real>(row) + (Real(i / 4) + Real(0.5)) / 4) / static_cast<Real>(map.height)};
           const double value = brightness(lookup_environment(scene.view, map, uv));
           least = std::min(least, value);
           most = std::max(most, value);

@@ -52,12 +52,10 @@ const std::string sky = R"(LightSource "infinite" "rgb L" [ 0.1 0.1 0.1 ] LightS
 
 /// The probability that `choose_light` chooses this one.
 template <class Real>
-double pmf_of_choice(const SceneView<Real>& scene, uint32_t light, const Vec3<Real>& point,
-                     const Vec3<Real>& normal) {
+double pmf_of_choice(const SceneView<Real>& scene, uint32_t light, const Vec3<Real>& point, const Vec3<Real>& normal) {
   const auto by_tree = static_cast<double>(light_tree_probability(scene, point, normal));
-  return scene.lights[light].kind == LightKind::distant
-             ? (1 - by_tree) * static_cast<double>(scene.lights[light].pmf)
-             : by_tree * pmf_of(scene, light, point, normal);
+  return scene.lights[light].kind == LightKind::distant ? (1 - by_tree) * static_cast<double>(scene.lights[light].pmf)
+                                                        : by_tree * pmf_of(scene, light, point, normal);
 }
 
 TYPED_TEST(LightTree, ProbabilitiesSumToOne) {

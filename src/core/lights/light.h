@@ -146,8 +146,7 @@ template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Real pmf_of_shape(const SceneView<Real>& scene, const LightRecord<Real>& light,
                                          const Vec3<Real>& reference, const Vec3<Real>& normal) {
   if (scene.light_tree_count == 0 || light.pmf == 0) return light.pmf;
-  return light_tree_probability(scene, reference, normal) *
-         pmf_of_light_tree(scene, light.trail, reference, normal);
+  return light_tree_probability(scene, reference, normal) * pmf_of_light_tree(scene, light.trail, reference, normal);
 }
 
 /// Samples a point of this light. The density excludes the probability of choosing the light. `is_on_light`:
