@@ -36,6 +36,16 @@ std::string unknown_subcommand(const CLI::App& app, int argc, char** argv) {
   return has_none_below && is_name(2) ? std::string("study ") + argv[2] : std::string();
 }
 
+/// The message of an error, with arguments that were not expected in the order given: CLI11 reverses it.
+std::string message_of(const CLI::ParseError& error, const CLI::App& app) {
+  if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError)) return error.what();
+  const std::vector<std::string> unexpected = app.remaining(true);
+  std::string message = unexpected.size() == 1 ? "The following argument was not expected:"
+                                               : "The following arguments were not expected:";
+  for (const std::string& argument : unexpected) message += " " + argument;
+  return message;
+}
+
 }  // namespace
 
 CommandOption& CommandOption::required() {
@@ -148,7 +158,7 @@ int run_command_line(const ProgramText& text, const std::function<void(Command&)
   } catch (const CLI::ParseError& error) {
     const std::string unknown = unknown_subcommand(app, argc, argv);
     tell("alhazen: {}\nRun 'alhazen --help' or 'alhazen SUBCOMMAND --help' for the options.\n",
-         printable(unknown.empty() ? error.what() : "there is no subcommand '" + unknown + "'"));
+         printable(unknown.empty() ? message_of(error, app) : "there is no subcommand '" + unknown + "'"));
     return exit_bad_input;
   }
 }

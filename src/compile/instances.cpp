@@ -8,8 +8,8 @@ namespace alhazen {
 
 namespace {
 
-/// Returns whether an object contains this shape of its group: lights, spheres and cylinders are copied to the world
-/// instead.
+/// Returns whether an object contains this shape of its group: lights, spheres, cylinders and disks are copied to
+/// the world instead.
 bool is_in_object(const Shape& shape) { return shape.type == ShapeType::mesh && !emits(shape); }
 
 /// If the instance moves too, the positions at start and end are exact, and points move linearly in between.

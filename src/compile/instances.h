@@ -36,7 +36,7 @@ void group_moving_meshes(Scene& scene);
 std::vector<bool> find_objects(const Scene& scene, uint64_t max_copied_triangles);
 
 /// The shapes of the world, and copies of all that no object contains: groups that are no objects, and the lights,
-/// spheres and cylinders of the others. `is_object` is what find_objects returns.
+/// spheres, cylinders and disks of the others. `is_object` is what find_objects returns.
 std::vector<ShapePlacement> world_placements(const Scene& scene, const std::vector<bool>& is_object);
 
 /// The shapes of every object, by group, in the space of the group; empty for groups that are no objects.

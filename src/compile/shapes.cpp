@@ -46,21 +46,24 @@ std::pair<Vec3d, Vec3d> motion_of(const Scene& scene, const MovingTransform& tra
   return {open, at(scene.camera.shutter_close) - open};
 }
 
-template <class Real>
-CylinderRecord<Real> cylinder_record(const Shape& shape, const Transform& transform) {
+const char* name_of(const Shape& shape) { return shape.type == ShapeType::disk ? "disk" : "cylinder"; }
+
+/// Sets the object space of a cylinder or disk, and the part of it within phimax. `z_axis(x, y)` returns the z axis of
+/// object space in world space, given the other two.
+template <class Real, class ZAxis>
+void set_object_space(const Shape& shape, const Transform& transform, const Vec3d& anchor, const ZAxis& z_axis,
+                      QuadricRecord<Real>& record) {
   const bool is_whole = shape.phi_max >= 360;
   const double half = is_whole ? pi<double> : shape.phi_max / 2 * (pi<double> / 180);
   const Vec3d x{is_whole ? -1 : std::cos(half), is_whole ? 0 : std::sin(half), 0};
-  CylinderRecord<Real> record{};
   record.cosine = static_cast<Real>(x.x);
   record.sine = static_cast<Real>(x.y);
   record.phi_max = static_cast<Real>(2 * half);
-  const Vec3d centre = transform.point({0, 0, (shape.z_min + shape.z_max) / 2});
-  const Vec3d axes[3] = {transform.direction(x * shape.radius), transform.direction(Vec3d{-x.y, x.x, 0} * shape.radius),
-                         transform.direction({0, 0, (shape.z_max - shape.z_min) / 2})};
-  if (!(max_component(abs(centre) + abs(axes[0]) + abs(axes[1]) + abs(axes[2])) <= max_coordinate<Real>))
-    throw precision_error<Real>(shape, "the cylinder is too large or too far away");
-  record.centre = convert<Real>(centre);
+  Vec3d axes[3] = {transform.direction(x * shape.radius), transform.direction(Vec3d{-x.y, x.x, 0} * shape.radius)};
+  axes[2] = z_axis(axes[0], axes[1]);
+  if (!(max_component(abs(anchor) + 2 * (abs(axes[0]) + abs(axes[1]) + abs(axes[2]))) <= max_coordinate<Real>))
+    throw precision_error<Real>(shape, std::string("the ") + name_of(shape) + " is too large or too far away");
+  record.anchor = convert<Real>(anchor);
   long double columns[3][4]{}, rows[3][4];
   for (int i = 0; i < 3; ++i) {
     record.world_from_object[i] = convert<Real>(axes[i]);
@@ -69,13 +72,57 @@ CylinderRecord<Real> cylinder_record(const Shape& shape, const Transform& transf
   invert(columns, rows);  // the rounded one: error_of_point counts no rounding of it
   for (int i = 0; i < 3; ++i)
     record.object_from_world[i] = convert<Real>(Vec3<long double>{rows[i][0], rows[i][1], rows[i][2]});
+}
+
+/// Tests along the axes of object space err by this number of roundings of the way from the origin of the ray.
+constexpr int roundings_of_tests = 6;
+
+/// Far from the origin of the world, rounding may be as large as a shape. It does not grow by more than this fraction.
+template <class Real>
+constexpr Real max_rim_error = Real(1) / 16;
+
+template <class Real>
+CylinderRecord<Real> cylinder_record(const Shape& shape, const Transform& transform) {
+  CylinderRecord<Real> record{};
+  const Vec3d low = transform.point({0, 0, shape.z_min}), high = transform.point({0, 0, shape.z_max});
+  const bool is_low_nearer = length_squared(low) <= length_squared(high);
+  record.anchor_z = is_low_nearer ? Real(-1) : Real(1);
+  const auto half_length = [&](const Vec3d&, const Vec3d&) {
+    return transform.direction({0, 0, (shape.z_max - shape.z_min) / 2});
+  };
+  set_object_space(shape, transform, is_low_nearer ? low : high, half_length, record);
+  const Vec3<Real> row = abs(record.object_from_world[2]);
+  record.rim = 1 + min(dot(row, error_of_point(record, {1, 1, -record.anchor_z})), max_rim_error<Real>);
+  record.rim_growth = dot(row, splat(rounding_bound<Real>(roundings_of_tests)));
+  return record;
+}
+
+template <class Real>
+DiskRecord<Real> disk_record(const Shape& shape, const Transform& transform) {
+  DiskRecord<Real> record{};
+  const auto normal = [&](const Vec3d& x, const Vec3d& y) {
+    const double size = max_component(max(abs(x), abs(y)));
+    const Vec3d n = cross(x / size, y / size);
+    const double side = dot(n, transform.direction({0, 0, 1})) < 0 ? -1 : 1;
+    return n * (side * size / std::sqrt(length(n)));  // about as long as x and y
+  };
+  set_object_space(shape, transform, transform.point({0, 0, shape.z_min}), normal, record);
+  // The errors along x and y, together.
+  const auto radial = [&](const Vec3<Real>& error) {
+    return std::hypot(dot(abs(record.object_from_world[0]), error), dot(abs(record.object_from_world[1]), error));
+  };
+  const Real error = min(radial(error_of_point(record, {1, 1, 0})), max_rim_error<Real>);
+  record.rim = 1 + error;
+  record.rim_growth = radial(splat(rounding_bound<Real>(roundings_of_tests)));
+  record.inner_radius = min(static_cast<Real>(shape.inner_radius / shape.radius), one_minus_epsilon<Real>);
+  record.inner_rim = record.inner_radius - error;
   return record;
 }
 
 /// Returns whether lengths in both spaces can be squared in this precision.
 template <class Real>
-bool is_resolved(const CylinderRecord<Real>& cylinder) {
-  for (const auto& vectors : {cylinder.world_from_object, cylinder.object_from_world})
+bool is_resolved(const QuadricRecord<Real>& quadric) {
+  for (const auto& vectors : {quadric.world_from_object, quadric.object_from_world})
     for (int i = 0; i < 3; ++i)
       if (const Real squared = length_squared(vectors[i]);
           !(squared > 0 && std::isfinite(1 / squared) && std::isfinite(squared)))
@@ -149,7 +196,8 @@ void ShapeBuilder<Real>::reserve() {
 template <class Real>
 void ShapeBuilder<Real>::place(const ShapePlacement& p) {
   if (p.shape->type == ShapeType::sphere) return place_sphere(p);
-  if (p.shape->type == ShapeType::cylinder) return place_cylinder(p);
+  if (p.shape->type == ShapeType::cylinder) return place_quadric(p, cylinder_record<Real>, out_.cylinders);
+  if (p.shape->type == ShapeType::disk) return place_quadric(p, disk_record<Real>, out_.disks);
   Mesh& mesh = scene_.meshes[p.shape->mesh];
   place_mesh(p, mesh);
   if (--uses_[p.shape->mesh] == 0) mesh = Mesh{};
@@ -195,20 +243,25 @@ uint32_t ShapeBuilder<Real>::add_sphere_frame(const Shape& shape, const Transfor
 }
 
 template <class Real>
-void ShapeBuilder<Real>::place_cylinder(const ShapePlacement& p) {
+template <class Record>
+void ShapeBuilder<Real>::place_quadric(const ShapePlacement& p, Record (*record_of)(const Shape&, const Transform&),
+                                       std::vector<Record>& records) {
   const Shape& shape = *p.shape;
-  if (!(shape.radius > 0 && shape.z_min < shape.z_max && shape.phi_max > 0))
-    throw InputError(shape.where, "a cylinder must have a radius, a height and an angle above 0");
-  if (emits(shape)) diagnostics_.warn(shape.where, "a cylinder that is no mesh does not emit");
+  const std::string name = std::string("a ") + name_of(shape);
+  const bool has_area =
+      shape.type == ShapeType::disk ? shape.inner_radius < shape.radius : shape.z_min < shape.z_max && shape.radius > 0;
+  if (!(has_area && shape.inner_radius >= 0 && shape.phi_max > 0))
+    throw InputError(shape.where, name + " must have a radius, a height or width, and an angle above 0");
+  if (emits(shape)) diagnostics_.warn(shape.where, name + " that is no mesh does not emit");
   if (p.world_from_object.is_moving())
-    diagnostics_.warn(shape.where, "a cylinder moves; it is rendered at rest, where it is at the start");
-  CylinderRecord<Real> record = cylinder_record<Real>(shape, p.world_from_object.start);
+    diagnostics_.warn(shape.where, name + " moves; it is rendered at rest, where it is at the start");
+  Record record = record_of(shape, p.world_from_object.start);
   if (!is_resolved(record)) {
-    diagnostics_.warn(shape.where, "a cylinder is too small or too thin for this precision and is left out");
+    diagnostics_.warn(shape.where, name + " is too small or too thin for this precision and is left out");
     return;
   }
   record.surface = add_surface(shape, no_light, no_offset, no_offset, p.reverse_orientation);
-  out_.cylinders.push_back(record);
+  records.push_back(record);
 }
 
 template <class Real>

@@ -47,7 +47,9 @@ class ShapeBuilder {
 
  private:
   void place_sphere(const ShapePlacement& p);
-  void place_cylinder(const ShapePlacement& p);
+  template <class Record>
+  void place_quadric(const ShapePlacement& p, Record (*record_of)(const Shape&, const Transform&),
+                     std::vector<Record>& records);
   void place_mesh(const ShapePlacement& p, const Mesh& mesh);
   uint32_t add_attributes(const ShapePlacement& p, const Mesh& mesh, uint32_t base);
   void add_triangles(const Shape& shape, const Mesh& mesh, uint32_t base, uint32_t normal_offset, uint32_t uv_offset,

@@ -52,6 +52,11 @@ void Backend::refuse_blocks(const Settings& asked) const {
     throw InputError("the backend '" + traits().name + "' takes no number of chunks: leave out '" + asked.chunk + "'");
 }
 
+void Backend::refuse_schedule(const Settings& asked) const {
+  if (!asked.schedule.empty())
+    throw InputError("the backend '" + traits().name + "' takes no schedule: leave out '" + asked.schedule + "'");
+}
+
 uint32_t parse_strategy(const BackendTraits& backend, const std::string& name) {
   if (name == "auto" || name.empty()) return 0;
   const auto found = std::find(backend.strategies.begin(), backend.strategies.end(), name);

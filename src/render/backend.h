@@ -82,6 +82,8 @@ class Backend {
   void require_available() const;
   /// Throws InputError where a size of blocks, or a number of chunks, is asked for.
   void refuse_blocks(const Settings& asked) const;
+  /// Throws InputError where a schedule is asked for.
+  void refuse_schedule(const Settings& asked) const;
 };
 
 /// Every backend that this program knows, available or not, and the name of the one that `auto` is for so many threads

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
+#include <sstream>
 
 #include "core/math/field_list.h"
 #include "core/sampling/hash.h"
@@ -21,18 +22,19 @@ namespace alhazen {
 namespace {
 
 /// The last character counts versions of the format.
-constexpr char file_magic[8] = {'a', 'h', 'z', 'e', 'n', 'k', 't', '2'};
+constexpr char file_magic[8] = {'a', 'h', 'z', 'e', 'n', 'k', 't', '3'};
 
 struct Header {
   char magic[8];
   char program_version[24];  ///< of the program that wrote the file, padded with zeros
   uint64_t fingerprint;
   uint64_t samples_done;
-  uint64_t bytes;     ///< of the planes
-  uint32_t unused;    ///< 0; there are no bytes between the members
-  uint32_t checksum;  ///< CRC-32 of the members above
+  uint64_t bytes;           ///< of the planes
+  uint32_t settings_bytes;  ///< of the settings that follow as text; there are no bytes between the members
+  uint32_t checksum;        ///< CRC-32 of the members above
 };
 static_assert(sizeof(Header) == 64);
+constexpr uint32_t max_settings_bytes = 4096;
 
 /// CRC-32 finds every flipped bit and every run of up to 32 damaged ones.
 uint32_t crc(uint32_t before, const void* data, size_t size) {
@@ -50,8 +52,8 @@ std::string program_version(const Header& header) {
   return {header.program_version, std::find(header.program_version, std::end(header.program_version), '\0')};
 }
 
-Header make_header(uint64_t fingerprint, uint64_t samples_done, uint64_t bytes) {
-  Header header{{}, {}, fingerprint, samples_done, bytes, 0, 0};
+Header make_header(uint64_t fingerprint, uint64_t samples_done, uint64_t bytes, size_t settings_bytes) {
+  Header header{{}, {}, fingerprint, samples_done, bytes, static_cast<uint32_t>(settings_bytes), 0};
   std::copy(std::begin(file_magic), std::end(file_magic), header.magic);
   std::strncpy(header.program_version, version(), sizeof(header.program_version) - 1);
   header.checksum = checksum_of(header);
@@ -90,16 +92,39 @@ class Hasher {
   uint64_t hash_ = 0;
 };
 
-uint64_t join_settings(const RenderSettings& s, uint64_t scene) {
+/// The settings that determine samples, each on a line: its name, a space, and its value.
+std::string settings_text(const RenderSettings& s) {
+  std::string text;
+  for (const SettingEntry& entry : setting_table())
+    if (entry.of_samples) text += entry.name + (" " + entry.of_samples(s)) + "\n";
+  return text;
+}
+
+uint64_t join_settings(const std::string& settings, uint64_t scene) {
   Hasher h;
   h.add(scene);
   h.add_bytes(version(), std::strlen(version()));
-  for (const SettingEntry& entry : setting_table()) {
-    if (!entry.of_samples) continue;
-    const std::string text = entry.name + ("=" + entry.of_samples(s));
-    h.add_bytes(text.data(), text.size());
-  }
+  h.add_bytes(settings.data(), settings.size());
   return h.value();
+}
+
+/// Returns the lines of `settings` that `others` lacks, separated by commas.
+std::string lines_without(const std::string& settings, const std::string& others) {
+  std::string different;
+  std::istringstream lines(settings);
+  for (std::string line; std::getline(lines, line);)
+    if (("\n" + others).find("\n" + line + "\n") == std::string::npos)
+      different += (different.empty() ? "" : ", ") + line;
+  return different;
+}
+
+/// Why a checkpoint that was written with `settings` is not one of a render with `wanted`.
+std::string mismatch(const std::string& settings, const std::string& wanted) {
+  const std::string has = lines_without(settings, wanted), lacks = lines_without(wanted, settings);
+  return (has.empty() && lacks.empty() ? "the checkpoint is of another scene: give the one that it was made with"
+                                       : "the checkpoint is of other settings: it was written with " + has +
+                                             ", and this render has " + lacks + ": give those that it was made with") +
+         ", or start anew with --overwrite instead of --resume";
 }
 
 template <class Record, auto... members>
@@ -144,7 +169,8 @@ uint64_t scene_fingerprint(const CompiledScene<Real>& scene) {
 
 CheckpointFile::CheckpointFile(const RenderSettings& settings, uint64_t scene_fingerprint)
     : path_(settings.asked.checkpoint),
-      fingerprint_(join_settings(settings, scene_fingerprint)),
+      settings_(settings_text(settings)),
+      fingerprint_(join_settings(settings_, scene_fingerprint)),
       samples_per_pixel_(settings.samples_per_pixel) {}
 
 void check_checkpoint(const RenderSettings& settings) {
@@ -170,13 +196,14 @@ void check_checkpoint(const RenderSettings& settings) {
 template <class Real>
 void CheckpointFile::save(Film<Real>& film, uint32_t samples_done) const {
   AtomicFile file(path_);
-  const Header header = make_header(fingerprint_, samples_done, plane_bytes(film));
+  const Header header = make_header(fingerprint_, samples_done, plane_bytes(film), settings_.size());
   uint32_t checksum = 0;
   const auto write = [&](const void* data, size_t size) {
     file.write(data, size);
     checksum = crc(checksum, data, size);
   };
   write(&header, sizeof(header));
+  write(settings_.data(), settings_.size());
   film.visit_planes(write);
   file.write(&checksum, sizeof(checksum));
   file.commit();
@@ -194,11 +221,13 @@ uint32_t CheckpointFile::load(Film<Real>& film) const {
   if (header->magic[7] != file_magic[7] || program_version(*header) != version())
     throw InputError({path_}, std::string("the checkpoint is of another version of Alhazen than ") + version() +
                                   ": end the render with that one, or start anew with --overwrite");
+  if (header->settings_bytes > max_settings_bytes) throw damaged;
+  std::string settings(header->settings_bytes, ' ');
+  in.read(settings.data(), static_cast<std::streamsize>(settings.size()));
+  if (!in) throw damaged;
   if (header->fingerprint != fingerprint_ || header->bytes != plane_bytes(film))
-    throw InputError({path_},
-                     "the checkpoint is of another scene or of other settings: give those that it was made "
-                     "with, or start anew with --overwrite instead of --resume");
-  uint32_t checksum = crc(0, &*header, sizeof(*header)), expected = 0;
+    throw InputError({path_}, mismatch(settings, settings_));
+  uint32_t checksum = crc(crc(0, &*header, sizeof(*header)), settings.data(), settings.size()), expected = 0;
   film.visit_planes([&](void* data, size_t size) {
     in.read(static_cast<char*>(data), static_cast<std::streamsize>(size));
     checksum = crc(checksum, data, size);

@@ -19,8 +19,8 @@ uint64_t scene_fingerprint(const CompiledScene<Real>& scene);
 /// is no checkpoint. Changes nothing. Throws InputError.
 void check_checkpoint(const RenderSettings& settings);
 
-/// The file consists of a header, the planes of the film and a CRC-32 of both. The header has a CRC-32 of its own, so
-/// that a damaged file is distinguished from a checkpoint of another render.
+/// The file consists of a header, the settings as text, the planes of the film and a CRC-32 of all. The header has a
+/// CRC-32 of its own, so that a damaged file is distinguished from a checkpoint of another render.
 class CheckpointFile {
  public:
   CheckpointFile(const RenderSettings& settings, uint64_t scene_fingerprint);
@@ -37,6 +37,7 @@ class CheckpointFile {
 
  private:
   std::string path_;
+  std::string settings_;  ///< those that determine samples, as text
   uint64_t fingerprint_;  ///< of scene and settings
   uint32_t samples_per_pixel_;
 };

@@ -146,25 +146,26 @@ SettingEntry of_samples(std::function<std::string(const RenderSettings&)> text, 
   return entry;
 }
 
-std::string layer_flags(const RenderSettings& s) {
-  std::string flags;
-  for (const bool layer : {s.aovs.albedo, s.aovs.normal, s.aovs.depth, s.aovs.bounces, s.aovs.samples, s.aovs.variance})
-    flags += layer ? '1' : '0';
-  return flags;
+std::string layer_names(const RenderSettings& s) {
+  const std::pair<bool, const char*> layers[] = {{s.aovs.albedo, "albedo"},   {s.aovs.normal, "normal"},
+                                                 {s.aovs.depth, "depth"},     {s.aovs.bounces, "bounces"},
+                                                 {s.aovs.samples, "samples"}, {s.aovs.variance, "variance"}};
+  std::string names;
+  for (const auto& [is_wanted, name] : layers)
+    if (is_wanted) names += std::string(names.empty() ? "" : "+") + name;
+  return names.empty() ? "none" : names;
 }
 
 std::string window_bounds(const RenderSettings& s) {
-  std::string text;
-  for (const int bound : {s.window.x0, s.window.x1, s.window.y0, s.window.y1})
-    text += (text.empty() ? "" : ",") + std::to_string(bound);
-  return text;
+  const auto range = [](int from, int to) { return std::to_string(from) + " to " + std::to_string(to); };
+  return "pixels " + range(s.window.x0, s.window.x1) + " by " + range(s.window.y0, s.window.y1);
 }
 
 std::vector<SettingEntry> output_settings() {
   constexpr SettingGroup group = SettingGroup::output;
   return {
       of_samples(
-          layer_flags,
+          layer_names,
           entry(group, "aov", "", "NAMES",
                 "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance",
                 layer_list(), true)),
@@ -184,7 +185,7 @@ std::vector<SettingEntry> image_settings() {
   return {
       entry(group, "spp", "", "N", "Samples per pixel",
             number<int64_t>("spp", &Settings::samples_per_pixel, 0, 1, max_samples_per_pixel)),
-      of_samples([](const RenderSettings& s) { return std::to_string(s.max_segments); },
+      of_samples([](const RenderSettings& s) { return std::to_string(s.max_segments - 1); },
                  entry(group, "max-depth", "--maxdepth", "N", "Bounces: a path has at most N + 1 segments",
                        number<int64_t>("max-depth", &Settings::max_depth, -1, 0, max_bounces))),
       of_samples([](const RenderSettings& s) { return std::to_string(s.width) + "x" + std::to_string(s.height); },
@@ -231,7 +232,7 @@ std::vector<SettingEntry> image_settings() {
 
 /// Backends that have the same kind give the same bits.
 std::string kind_of_bits(const RenderSettings& s) {
-  if (s.backend == "serial" || s.backend == "openmp") return "serial";
+  if (s.backend == "serial" || s.backend == "openmp") return "serial or openmp";
   return s.backend == "cuda" && s.device == host_device ? "cuda on the host" : s.backend;
 }
 

@@ -176,24 +176,26 @@ struct Emission {
   uint32_t texture = no_index;  ///< factor on the radiance; absent: 1
 };
 
-enum class ShapeType { sphere, cylinder, mesh };
+enum class ShapeType { sphere, cylinder, disk, mesh };
 
 struct Shape {
   ShapeType type = ShapeType::mesh;
-  double radius = 1;  ///< sphere, centred at the origin of object space; cylinder, about its z axis
-  double z_min = -1, z_max = 1, phi_max = 360;  ///< cylinder: its ends, and its azimuth from x in degrees
-  uint32_t mesh = no_index;                     ///< mesh: index into Scene::meshes
+  double radius = 1;             ///< sphere, centred at the origin of object space; cylinder and disk, about its z axis
+  double inner_radius = 0;       ///< disk
+  double z_min = -1, z_max = 1;  ///< cylinder: its ends; disk: both are its height
+  double phi_max = 360;          ///< cylinder, disk: the azimuth from x, degrees
+  uint32_t mesh = no_index;      ///< mesh: index into Scene::meshes
   MovingTransform world_from_object;
   uint32_t material = no_index;  ///< index into Scene::materials
   std::optional<Emission> emission;
   /// Flips normals and so also the emitting side. Without it the normal of a mesh follows the counter-clockwise winding
-  /// in object space, and that of a sphere or a cylinder points outward.
+  /// in object space, that of a sphere or a cylinder points outward, and that of a disk along z.
   bool reverse_orientation = false;
   SourceLocation where;
 
   /// Half the size of a box about the origin of object space that holds the shape, if it is not a mesh.
   Vec3d reach() const {
-    const double height = type == ShapeType::cylinder ? std::max(std::abs(z_min), std::abs(z_max)) : radius;
+    const double height = type == ShapeType::sphere ? radius : std::max(std::abs(z_min), std::abs(z_max));
     return {radius, radius, height};
   }
 };

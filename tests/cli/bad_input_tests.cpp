@@ -297,6 +297,7 @@ TEST_F(BadInput, Settings) {
   expect_bad_usage({"--backend", "gpu"}, {"gpu", "serial", "openmp"});
   expect_bad_usage({"--backend", "openmp", "--strategy", "columns"}, {"columns", "tiles, rows"});
   expect_bad_usage({"--backend", "serial", "--strategy", "rows"}, {"serial", "rows"});
+  expect_bad_usage({"--backend", "serial", "--schedule", "dynamic"}, {"serial", "schedule", "'dynamic'"});
   expect_bad_usage({"--precision", "half"}, {"half", "float, double"});
   expect_bad_usage({"--schedule", "random"}, {"random", "static, dynamic, guided"});
   expect_bad_usage({"--schedule", "dynamic,0"}, {"chunk"});
@@ -337,6 +338,7 @@ TEST_F(BadInput, Settings) {
 TEST_F(BadInput, Usage) {
   expect_error({"render"}, 2, {"SCENE"});
   expect_error({"paint", "scene.pbrt"}, 2, {"paint"});
+  expect_error({"render", "scene.pbrt", "b", "--no-such", "c"}, 2, {"not expected: b --no-such c"});
   expect_error({"study", "paint"}, 2, {"no subcommand 'study paint'"});
   expect_error({"study"}, 2, {"subcommand"});
   expect_error({"info"}, 2, {"SCENE"});
@@ -483,7 +485,8 @@ TEST_F(BadInput, Checkpoints) {
   folder_.write_text("other.pbrt", other);
   expect_error({"render", "other.pbrt", "-o", "target.exr", "--spp", "8", "--checkpoint", "state", "--resume"}, 2,
                {"state: ", "another scene"}, Place::file);
-  expect_bad_usage({"--checkpoint", "state", "--resume", "--seed", "3"}, {"state: ", "other settings"});
+  expect_bad_usage({"--checkpoint", "state", "--resume", "--seed", "3"},
+                   {"state: ", "other settings: it was written with seed 0,"});
   Bytes cut = read_file(folder_.file("state"));
   cut.resize(cut.size() / 2);
   folder_.write("state", cut);

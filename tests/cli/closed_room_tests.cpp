@@ -84,5 +84,35 @@ TEST_F(ClosedRoom, IsBlackInside) {
       }
 }
 
+/// Cans of a cylinder and two disks: wide and tall, flat, turned, stretched, skewed and far away.
+TEST_F(ClosedRoom, CansAreBlackInside) {
+  std::vector<std::vector<std::string>> engines = {{}, {"--backend", "cuda", "--device", "host"}};
+#if defined(ALHAZEN_WITH_EMBREE)
+  engines.push_back({"--backend", "embree"});
+#endif
+  for (const std::string precision : {"float", "double"})
+    for (const char* place :
+         {"", "Rotate 33 1 2 3\n", "Rotate 33 1 2 3\nScale 1 2 .5\n", "Rotate 33 1 2 3\nScale 1 1 100\n",
+          "Rotate 33 1 2 3\nScale 100 100 1\n", "ConcatTransform [ 1 .3 .2 0  0 1 -.4 0  .5 0 1 0  .3 .2 .1 1 ]\n",
+          "Translate 1000 -500 2000\nRotate 33 1 2 3\n"}) {
+      const bool is_far = std::string(place).find("Translate") == 0;
+      folder_.write_text("room.pbrt", "Film \"rgb\" \"integer xresolution\" 64 \"integer yresolution\" 32\n" +
+                                          std::string(is_far ? "Translate -1000 500 -2000\n" : "") +
+                                          R"(Camera "spherical" "string mapping" "equirectangular"
+WorldBegin
+LightSource "infinite" "rgb L" [ 10000 10000 10000 ]
+Material "diffuse" "rgb reflectance" [ 0.9 0.9 0.9 ]
+)" + place + R"(Shape "cylinder"
+Shape "disk" "float height" 1
+Shape "disk" "float height" -1
+)");
+      for (std::vector<std::string> engine : engines) {
+        if (precision == "double" && !engine.empty() && engine[1] == "embree") continue;
+        engine.insert(engine.end(), {"--precision", precision});
+        EXPECT_EQ(brightest(engine), 0) << place << engine[1];
+      }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen::test

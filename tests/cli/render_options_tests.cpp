@@ -162,6 +162,7 @@ TEST_F(RenderOptions, StatisticsAreOneObjectWithEveryKey) {
                           "triangles",
                           "spheres",
                           "cylinders",
+                          "disks",
                           "nodes",
                           "scene_bytes",
                           "load_seconds",

@@ -1,4 +1,4 @@
-// Images of cylinders are those of fine meshes of them.
+// Images of cylinders and disks are those of fine meshes of them.
 
 #include <gtest/gtest.h>
 
@@ -11,18 +11,19 @@ namespace alhazen::test {
 
 namespace {
 
-/// 4096 flat strips, with normals and uv as of a cylinder.
-Mesh strips_of(const Shape& cylinder) {
+/// 4096 flat strips, with normals and uv as of the cylinder or disk.
+Mesh strips_of(const Shape& shape) {
   constexpr uint32_t columns = 4096;
   Mesh mesh;
   for (uint32_t column = 0; column <= columns; ++column) {
     const double u = static_cast<double>(column) / columns;
-    const double phi = u * cylinder.phi_max * std::numbers::pi / 180;
-    const Vec3d normal{std::cos(phi), std::sin(phi), 0};
-    for (const double z : {cylinder.z_min, cylinder.z_max}) {
-      mesh.positions.push_back({normal.x * cylinder.radius, normal.y * cylinder.radius, z});
-      mesh.normals.push_back(convert<float>(normal));
-      mesh.uvs.push_back({static_cast<float>(u), z == cylinder.z_min ? 0.0f : 1.0f});
+    const double phi = u * shape.phi_max * std::numbers::pi / 180;
+    const Vec3d outward{std::cos(phi), std::sin(phi), 0};
+    for (const float v : {0.0f, 1.0f}) {
+      const double radius = v > 0 && shape.type == ShapeType::disk ? shape.inner_radius : shape.radius;
+      mesh.positions.push_back(outward * radius + Vec3d{0, 0, v > 0 ? shape.z_max : shape.z_min});
+      mesh.normals.push_back(shape.type == ShapeType::disk ? Vec3f{0, 0, 1} : convert<float>(outward));
+      mesh.uvs.push_back({static_cast<float>(u), v});
     }
     const uint32_t corner = 2 * column;
     if (column < columns)
@@ -34,7 +35,7 @@ Mesh strips_of(const Shape& cylinder) {
 Scene with_strips(Scene scene) {
   for (ShapeGroup& group : scene.groups)
     for (Shape& shape : group.shapes) {
-      if (shape.type != ShapeType::cylinder) continue;
+      if (shape.type != ShapeType::cylinder && shape.type != ShapeType::disk) continue;
       scene.meshes.push_back(strips_of(shape));
       shape.type = ShapeType::mesh;
       shape.mesh = static_cast<uint32_t>(scene.meshes.size() - 1);
@@ -44,7 +45,7 @@ Scene with_strips(Scene scene) {
 
 /// Each sample has the same random numbers in both images. Where a path meets a surface only in one of them, at
 /// silhouettes and edges, or differs after many reflections, it has another value.
-TEST(Cylinders, LookLikeFineMeshes) {
+void expect_fine_meshes(const char* scene) {
   for (const char* precision : {"float", "double"}) {
     SCOPED_TRACE(precision);
     Settings settings;
@@ -52,8 +53,8 @@ TEST(Cylinders, LookLikeFineMeshes) {
     settings.width = 60, settings.height = 50;
     settings.samples_per_pixel = 64;
     settings.aovs = {"albedo", "normal", "depth"};
-    const Outcome image = render_bits(parity_scene("cylinders"), settings);
-    const Outcome expected = render_bits(with_strips(parity_scene("cylinders")), settings);
+    const Outcome image = render_bits(parity_scene(scene), settings);
+    const Outcome expected = render_bits(with_strips(parity_scene(scene)), settings);
     ASSERT_EQ(image.channels, expected.channels);
     const size_t width = static_cast<size_t>(image.width), channels = image.channels.size();
     for (size_t c = 0; c < channels; ++c) {
@@ -74,6 +75,9 @@ TEST(Cylinders, LookLikeFineMeshes) {
     }
   }
 }
+
+TEST(Cylinders, LookLikeFineMeshes) { expect_fine_meshes("cylinders"); }
+TEST(Disks, LookLikeFineMeshes) { expect_fine_meshes("disks"); }
 
 }  // namespace
 

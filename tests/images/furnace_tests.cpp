@@ -107,6 +107,36 @@ AttributeEnd
                             5e-3);
 }
 
+/// The same for disks, and a can whose lid is ajar.
+TEST(Furnace, NothingCanBeSeenOfDisks) {
+  expect_nothing_to_be_seen(scene_of(sky + R"(Material "diffuse" "rgb reflectance" [ 1 1 1 ]
+AttributeBegin
+  Translate -0.8 0.7 0
+  Rotate 50 1 0.5 0
+  Shape "disk" "float radius" 0.7 "float innerradius" 0.3
+AttributeEnd
+AttributeBegin
+  ConcatTransform [ 0.8 0 0 0  0.3 -0.6 0 0  0.1 0.2 0.7 0  0.8 -0.7 0 1 ]
+  Shape "disk" "float phimax" 250
+AttributeEnd
+Material "conductor" "rgb reflectance" [ 1 1 1 ] "float roughness" 0
+AttributeBegin
+  Translate 0.8 0.7 0
+  Rotate -60 1 0.5 0
+  Shape "disk" "float radius" 0.5
+AttributeEnd
+Material "diffuse" "rgb reflectance" [ 1 1 1 ]
+AttributeBegin
+  Translate -0.8 -0.7 0
+  Rotate -60 1 0.5 0
+  Shape "cylinder" "float radius" 0.4 "float zmin" -0.3 "float zmax" 0.3
+  Shape "disk" "float radius" 0.4 "float height" -0.3
+  Shape "disk" "float radius" 0.4 "float height" 0.5
+AttributeEnd
+)"),
+                            5e-3);
+}
+
 /// A map that is 1 everywhere equals the constant sky.
 TEST(Furnace, NothingCanBeSeenUnderAMap) {
   for (const int width : {8, 16}) {

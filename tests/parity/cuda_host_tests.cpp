@@ -71,7 +71,8 @@ TEST_P(CudaOnHostScene, GivesTheSerialBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Parity, CudaOnHostScene,
-                         ::testing::Values("environments", "lights", "materials", "instances", "meshes", "cylinders"));
+                         ::testing::Values("environments", "lights", "materials", "instances", "meshes", "cylinders",
+                                           "disks"));
 
 TEST(CudaOnHostSizes, OnePixel) {
   Settings serial = serial_settings("float");

@@ -167,7 +167,7 @@ TEST_P(EmbreeImage, IsTheSameBitsByEveryStrategyAndThreadCount) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Parity, EmbreeImage, ::testing::Values("cornell", "spheres", "cylinders"));
+INSTANTIATE_TEST_SUITE_P(Parity, EmbreeImage, ::testing::Values("cornell", "spheres", "cylinders", "disks"));
 
 TEST(Embree, TracesInFloatAlone) {
   Settings settings = settings_of("embree");

@@ -40,8 +40,8 @@ void expect_same_bits(const std::string& name) {
     }
 }
 
-constexpr const char* every_scene[] = {"cornell",   "spheres",   "environments", "lights",
-                                       "materials", "instances", "meshes",       "cylinders"};
+constexpr const char* every_scene[] = {"cornell",   "spheres", "environments", "lights", "materials",
+                                       "instances", "meshes",  "cylinders",    "disks"};
 
 TEST(InstructionSets, GiveTheSameBitsInFloat) {
   for (const char* name : every_scene) expect_same_bits<float>(name);

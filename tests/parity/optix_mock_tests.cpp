@@ -181,7 +181,7 @@ OptixResult launch(OptixPipeline, CUstream, CUdeviceptr params, size_t size, con
   const bool mixed = SceneTraits(p.launch.scene).has_instances();
   EXPECT_EQ(p.traversable, mixed || !calls.inputs.empty() ? calls.inputs.size() : 0);
   const std::string names[] = {"__closesthit__triangle", "__closesthit__sphere", "__closesthit__moving_sphere",
-                               "__closesthit__cylinder"};
+                               "__closesthit__cylinder", "__closesthit__disk"};
   for (unsigned kind = 0; kind < primitive_kinds; ++kind)
     EXPECT_EQ(program_at(table->hitgroupRecordBase, table->hitgroupRecordStrideInBytes, kind),
               SceneTraits(p.launch.scene).has[kind] ? names[kind] : "");
@@ -309,7 +309,7 @@ Settings settings_of(const std::string& integrator) {
 }
 
 TEST(OptixMock, LaunchesGiveTheSerialBits) {
-  for (const std::string scene : {"cornell", "spheres", "instances", "cylinders"})
+  for (const std::string scene : {"cornell", "spheres", "instances", "cylinders", "disks"})
     for (const std::string integrator : {"path", "iterative"}) {
       const OptixFunctionTable table = mock_driver();
       const Settings settings = settings_of(integrator);

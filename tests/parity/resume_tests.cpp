@@ -87,18 +87,18 @@ TEST_P(Resume, AfterBeingStoppedGivesTheBitsOfOneRender) {
 
 TEST_P(Resume, RefusesAnotherRender) {
   render_bits(scene(), settings(8, false));
-  const auto refused = [&](const Settings& s, Scene scene) {
+  const auto refused = [&](const Settings& s, Scene scene, const char* words) {
     try {
       render_bits(std::move(scene), s);
       return false;
     } catch (const InputError& error) {
-      return std::string(error.what()).find("another scene or of other settings") != std::string::npos;
+      return std::string(error.what()).find(words) != std::string::npos;
     }
   };
   const auto refused_settings = [&](const auto& change) {
     Settings s = settings(16, true);
     change(s);
-    return refused(s, scene());
+    return refused(s, scene(), "of other settings: it was written with ");
   };
   EXPECT_TRUE(refused_settings([](Settings& s) { s.seed = 7; }));
   EXPECT_TRUE(refused_settings([](Settings& s) { s.max_depth = 2; }));

@@ -196,6 +196,43 @@ AttributeBegin ReverseOrientation Translate 0.5 -1.8 0 Scale -1 1 2 ObjectInstan
 )");
 }
 
+/// Disks, whole and in part: a can of glass, textured ones with a hole, mirrored, sheared, of rough metal, bumped, with
+/// holes, inside out, in instances, and one that is a lamp, which is a mesh.
+inline Scene read_disks() {
+  return scene_of(R"(LookAt 0 -6 3  0 0 0.6  0 0 1
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 20 "integer yresolution" 17
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.1 0.2 0.3 ]
+LightSource "point" "point3 from" [ 2 -3 5 ] "rgb I" [ 20 20 20 ]
+AttributeBegin AreaLightSource "diffuse" "rgb L" [ 8 7 5 ] ReverseOrientation
+Shape "disk" "float radius" 0.5 "float height" 3 AttributeEnd
+Texture "checks" "spectrum" "checkerboard" "rgb tex1" [ 0.8 0.2 0.2 ] "rgb tex2" [ 0.2 0.8 0.2 ]
+  "float uscale" 8 "float vscale" 4
+Texture "holes" "float" "checkerboard" "float tex1" 0.3 "float tex2" 1 "float uscale" 6 "float vscale" 6
+Texture "waves" "float" "wrinkled"
+Shape "disk" "float radius" 9
+AttributeBegin Material "diffuse" "texture reflectance" "checks" Translate -1.8 0 0.6 Rotate 70 1 0.3 0
+Shape "disk" "float radius" 0.8 "float innerradius" 0.3 AttributeEnd
+AttributeBegin Material "dielectric" "float eta" 1.5
+ConcatTransform [ 1 0 0 0  0 1 0 0  0.4 0.2 1 0  -0.4 -0.8 0.7 1 ]
+Shape "cylinder" "float radius" 0.5 "float zmin" -0.6 "float zmax" 0.6
+Shape "disk" "float radius" 0.5 "float height" 0.6
+ReverseOrientation Shape "disk" "float radius" 0.5 "float height" -0.6 AttributeEnd
+AttributeBegin Material "conductor" "float uroughness" 0.1 "float vroughness" 0.4 "texture displacement" "waves"
+Translate 0.8 0.6 0.8 Rotate 50 1 1 0 Scale -0.7 1.1 0.8
+Shape "disk" "float phimax" 230 "float height" 0.3 AttributeEnd
+AttributeBegin Material "diffuse" "rgb reflectance" [ 0.7 0.6 0.2 ] Translate 1.6 -0.9 0.7 Rotate 80 0 1 0.3
+Shape "disk" "float radius" 0.6 "texture alpha" "holes" AttributeEnd
+ObjectBegin "mirror"
+  Material "conductor" "rgb reflectance" [ 0.9 0.8 0.7 ] "float roughness" 0
+  Shape "disk" "float radius" 0.5
+ObjectEnd
+AttributeBegin Translate -0.5 1.2 1.4 Rotate 60 1 0 0 ObjectInstance "mirror" AttributeEnd
+AttributeBegin ReverseOrientation Translate 0.5 -1.8 0.3 Scale -1 1 2 ObjectInstance "mirror" AttributeEnd
+)");
+}
+
 inline const Scene& parity_scene(const std::string& name) {
   if (name == "cornell") {
     static const Scene cornell = scene_of(cornell_box(parity_height));
@@ -220,6 +257,10 @@ inline const Scene& parity_scene(const std::string& name) {
   if (name == "cylinders") {
     static const Scene cylinders = read_cylinders();
     return cylinders;
+  }
+  if (name == "disks") {
+    static const Scene disks = read_disks();
+    return disks;
   }
   if (name == "meshes") {
     static const Scene meshes = read_meshes();

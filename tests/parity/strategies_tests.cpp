@@ -109,12 +109,13 @@ void expect_same_by_every_strategy(const std::string& scene) {
 TEST(Parity, EnvironmentMapsByEveryStrategy) { expect_same_by_every_strategy("environments"); }
 TEST(Parity, MaterialsByEveryStrategy) { expect_same_by_every_strategy("materials"); }
 TEST(Parity, CylindersByEveryStrategy) { expect_same_by_every_strategy("cylinders"); }
+TEST(Parity, DisksByEveryStrategy) { expect_same_by_every_strategy("disks"); }
 TEST(Parity, ManyLightsByEveryStrategy) { expect_same_by_every_strategy("lights"); }
 
 TEST(Parity, TheSceneShowsEverythingThatItIsMadeFor) {
   // Black images would also have the same bits.
   for (const std::string scene :
-       {"cornell", "spheres", "environments", "lights", "materials", "instances", "cylinders"}) {
+       {"cornell", "spheres", "environments", "lights", "materials", "instances", "cylinders", "disks"}) {
     const Outcome outcome = render_bits(parity_scene(scene), serial_settings("float"));
     const size_t width = static_cast<size_t>(outcome.width), row = width * outcome.channels.size();
     for (size_t c = 0; c < outcome.channels.size(); ++c) {

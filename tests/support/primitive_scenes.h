@@ -48,6 +48,17 @@ class PrimitiveScene {
     scene_.groups[0].shapes.push_back(shape);
   }
 
+  /// `world` places the disk of radius 1 about the z axis, at this height, with azimuths up to `phi_max` degrees.
+  void add_disk(const Transform& world, double inner_radius = 0, double phi_max = 360, double height = 0) {
+    Shape shape;
+    shape.type = ShapeType::disk;
+    shape.inner_radius = inner_radius;
+    shape.z_min = shape.z_max = height;
+    shape.phi_max = phi_max;
+    shape.world_from_object = {world, world};
+    scene_.groups[0].shapes.push_back(shape);
+  }
+
   template <class Real>
   CompiledScene<Real> flat(int threads = 1) const {
     Scene copy = scene_;
@@ -76,9 +87,9 @@ inline Transform random_cylinder(const Vec3d& centre, double size, Random& rando
   return Transform::translate(centre) * stretch * random_stretch(random);
 }
 
-/// Triangles, spheres, moving spheres and cylinders of many sizes about the origin.
+/// Triangles, spheres, moving spheres, cylinders and disks of many sizes about the origin.
 inline PrimitiveScene mixed_primitives(uint64_t seed, int of_each_kind) {
-  Random random(seed), random_of_cylinders(seed + 1);
+  Random random(seed), random_of_cylinders(seed + 1), random_of_disks(seed + 2);
   PrimitiveScene scene;
   for (int i = 0; i < of_each_kind; ++i) {
     const Vec3d p = random.in_box(-10, 10);
@@ -90,6 +101,10 @@ inline PrimitiveScene mixed_primitives(uint64_t seed, int of_each_kind) {
     const double radius = random_of_cylinders.magnitude_between(0.01, 1);
     scene.add_cylinder(random_cylinder(centre, radius, random_of_cylinders),
                        i % 2 == 0 ? 360 : random_of_cylinders.between(1, 360));
+    const Vec3d middle = random_of_disks.in_box(-10, 10);
+    const double extent = random_of_disks.magnitude_between(0.01, 1);
+    scene.add_disk(random_cylinder(middle, extent, random_of_disks), i % 3 == 0 ? 0.4 : 0,
+                   i % 2 == 0 ? 360 : random_of_disks.between(1, 360));
   }
   return scene;
 }

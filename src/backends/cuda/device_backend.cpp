@@ -34,6 +34,7 @@ void DeviceBackend::configure(const Settings& asked, RenderSettings& settings) c
     throw InputError("the backend '" + traits().name + "' has no integrator '" + to_string(settings.integrator) +
                      "', which calls itself: it may be path, iterative");
   configure_blocks(asked, settings);
+  refuse_schedule(asked);
 }
 
 std::vector<NamedSetting> DeviceBackend::named_settings(const RenderSettings& settings) const {

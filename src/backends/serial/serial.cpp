@@ -13,6 +13,7 @@ class SerialBackend final : public Backend {
 
   void configure(const Settings& asked, RenderSettings& settings) const override {
     Backend::configure(asked, settings);
+    if (asked.backend == "serial") refuse_schedule(asked);  // not where it is the choice for one thread
     settings.threads = 1;
   }
   std::vector<NamedSetting> named_settings(const RenderSettings&) const override { return {{"schedule", ""}}; }

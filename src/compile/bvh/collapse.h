@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -138,8 +139,9 @@ class BvhCollapse {
     const float half_area = static_cast<float>(node.box.half_area());
     const float area = half_area < 1e30f ? half_area : 1e30f;
     const bool is_leaf = node.right == no_child;
-    const float leaf_cost =
-        area * (is_leaf && node.count == 1 ? leaf_cost_(node.first, 1) : leaf_cost_(node.first, node.count));
+    const float cost_per_area = leaf_cost_(node.first, node.count);
+    // The area of a tiny box is 0 in float, and its product with infinity would be NaN.
+    const float leaf_cost = std::isfinite(cost_per_area) ? area * cost_per_area : cost_per_area;
     if (is_leaf) {
       c.makes_leaf = true;
       c.cost.fill(leaf_cost);

@@ -1,7 +1,14 @@
 #pragma once
 
 // Cylinders without caps, whole or in part, under any affine map: intersection in object space, bounds, and the surface
-// at a hit.
+// at a hit. The object space and the bound on errors are those of disks, too (disk.h).
+//
+// A cylinder and two disks may form a closed can, so no ray must pass between them. Both round their placement, and the
+// tests round the coordinates of the ray in object space. A cylinder therefore reaches past its ends, and a disk past
+// its radius, by a bound on both errors: that of a point there (`rim`), and that of the test, which grows with the
+// distance along the ray (`rim_growth`). Inaccurate roots of the cylinder's equation need no more: they solve, for a
+// radius that is a few roundings larger or smaller, the same equation, and the disk reaches past that, too. A ray that
+// starts on one of them starts inside of the other, since hit points keep a distance from the rim (`rim_clearance`).
 
 #include "core/math/bounds.h"
 #include "core/math/ray.h"
@@ -33,12 +40,12 @@ template <class V, class Real, class Read>
 ALHAZEN_HD ALHAZEN_NOINLINE CylinderLanes<V> intersect_lanes(const NumbersOf<CylinderRecord<Real>, Read>& cylinder,
                                                              const RayLanes<V>& ray) {
   const V zero = on_all_lanes<V>(Real(0)), one = on_all_lanes<V>(Real(1));
-  const V from_centre[3] = {ray.origin[0] - cylinder[0], ray.origin[1] - cylinder[1], ray.origin[2] - cylinder[2]};
+  const V from_anchor[3] = {ray.origin[0] - cylinder[0], ray.origin[1] - cylinder[1], ray.origin[2] - cylinder[2]};
   const auto row = [&](int i, const V(&v)[3]) ALHAZEN_INLINE_LAMBDA {
     return cylinder[3 + 3 * i] * v[0] + cylinder[4 + 3 * i] * v[1] + cylinder[5 + 3 * i] * v[2];
   };
   CylinderLanes<V> hits;
-  const V x = row(0, from_centre), y = row(1, from_centre), dx = row(0, ray.direction), dy = row(1, ray.direction);
+  const V x = row(0, from_anchor), y = row(1, from_anchor), dx = row(0, ray.direction), dy = row(1, ray.direction);
   const V a = dx * dx + dy * dy;
   const V b = (zero - (x * dx + y * dy)) / a;
   const V closest_x = x + dx * b, closest_y = y + dy * b;
@@ -50,11 +57,12 @@ ALHAZEN_HD ALHAZEN_NOINLINE CylinderLanes<V> intersect_lanes(const NumbersOf<Cyl
   const V c = x * x + y * y - one;
   const V other = c / (a * q);
   const V near = where_less(b, zero, q, other), far = where_less(b, zero, other, q);
-  const V z = row(2, from_centre), dz = row(2, ray.direction);
-  const V cosine = cylinder[12], sine = cylinder[13];
+  const V z = row(2, from_anchor) + cylinder[16], dz = row(2, ray.direction);
+  const V cosine = cylinder[12], sine = cylinder[13], rim = cylinder[14], rim_growth = cylinder[15];
   // With the azimuth phi of the point in (-pi, pi], |phi| <= phi_max / 2 if sin(|phi| - phi_max / 2) <= 0.
   const auto is_on = [&](const V& t) ALHAZEN_INLINE_LAMBDA {
-    return less_equal(magnitude(z + dz * t), one) & less_equal(magnitude(y + dy * t) * cosine, (x + dx * t) * sine);
+    return less(magnitude(z + dz * t), rim + rim_growth * t) &
+           less_equal(magnitude(y + dy * t) * cosine, (x + dx * t) * sine);
   };
   const uint32_t near_hits = less(zero, c) & less(zero, near) & is_on(near);
   hits.crossed &= near_hits | is_on(far);
@@ -75,61 +83,97 @@ ALHAZEN_HD ALHAZEN_COLD bool intersect_record(const SceneView<Real>&, const Cyli
   return true;
 }
 
+/// Returns a vector of world space in object space.
 template <class Real>
-ALHAZEN_HD Vec3<Real> object_from_world(const CylinderRecord<Real>& cylinder, const Vec3<Real>& from_centre) {
-  const Vec3<Real>(&rows)[3] = cylinder.object_from_world;
-  return {dot(rows[0], from_centre), dot(rows[1], from_centre), dot(rows[2], from_centre)};
+ALHAZEN_HD Vec3<Real> object_from_world(const QuadricRecord<Real>& quadric, const Vec3<Real>& v) {
+  const Vec3<Real>(&rows)[3] = quadric.object_from_world;
+  return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
 }
 
+/// Returns the point of object space at a vector from the anchor in world space.
 template <class Real>
-ALHAZEN_HD Vec3<Real> world_from_object(const CylinderRecord<Real>& cylinder, const Vec3<Real>& v) {
-  const Vec3<Real>(&columns)[3] = cylinder.world_from_object;
+ALHAZEN_HD Vec3<Real> object_point(const QuadricRecord<Real>& quadric, const Vec3<Real>& from_anchor) {
+  return object_from_world(quadric, from_anchor) + Vec3<Real>{0, 0, quadric.anchor_z};
+}
+
+/// Returns a vector of object space in world space.
+template <class Real>
+ALHAZEN_HD Vec3<Real> world_from_object(const QuadricRecord<Real>& quadric, const Vec3<Real>& v) {
+  const Vec3<Real>(&columns)[3] = quadric.world_from_object;
   return columns[0] * v.x + columns[1] * v.y + columns[2] * v.z;
 }
 
-/// Bounds the error of a point of the cylinder, which is given in object space: that of its world position, and that of
-/// the way back to object space in the intersection test. With m = |object_from_world| and w = |world_from_object|, the
-/// test sees the coordinates of p to within 12 roundings of m w |p|. The scalar product of the normal with w (m w |p|)
-/// is at least what m w |p| is radially, so a ray that starts by it off the surface is on the right side for the test.
+/// Returns the vector from the anchor to a point, both in object space.
 template <class Real>
-ALHAZEN_HD Vec3<Real> error_of_point(const CylinderRecord<Real>& cylinder, const Vec3<Real>& point) {
-  const Vec3<Real>(&rows)[3] = cylinder.object_from_world;
-  const Vec3<Real>(&columns)[3] = cylinder.world_from_object;
+ALHAZEN_HD Vec3<Real> from_anchor(const QuadricRecord<Real>& quadric, const Vec3<Real>& point) {
+  return {point.x, point.y, point.z - quadric.anchor_z};
+}
+
+template <class Real>
+ALHAZEN_HD Vec3<Real> world_point(const QuadricRecord<Real>& quadric, const Vec3<Real>& point) {
+  return quadric.anchor + world_from_object(quadric, from_anchor(quadric, point));
+}
+
+/// Bounds the error of a point of the cylinder or disk, which is given in object space: that of its world position, and
+/// that of the way back to object space in the intersection test. With m = |object_from_world|, w = |world_from_object|
+/// and p the vector from the anchor, the test sees the coordinates of p to within 12 roundings of m w |p|. The scalar
+/// product of the normal with w (m w |p|) is at least what m w |p| is along the normal in object space, so a ray that
+/// starts by it off the surface is on the right side for the test.
+template <class Real>
+ALHAZEN_HD Vec3<Real> error_of_point(const QuadricRecord<Real>& quadric, const Vec3<Real>& point) {
+  const Vec3<Real>(&rows)[3] = quadric.object_from_world;
+  const Vec3<Real>(&columns)[3] = quadric.world_from_object;
   const auto extent = [&](const Vec3<Real>& v) {
     return abs(columns[0]) * v.x + abs(columns[1]) * v.y + abs(columns[2]) * v.z;
   };
-  const Vec3<Real> reach = extent(abs(point));
+  const Vec3<Real> reach = extent(abs(from_anchor(quadric, point)));
   const Vec3<Real> way_back{dot(abs(rows[0]), reach), dot(abs(rows[1]), reach), dot(abs(rows[2]), reach)};
-  return (abs(cylinder.centre) + reach + extent(way_back)) * rounding_bound<Real>(12);
+  return (abs(quadric.anchor) + reach + extent(way_back)) * rounding_bound<Real>(12);
+}
+
+/// Distance in object space that hit points keep from the rim. It is some errors of a point, so that a ray which starts
+/// there, moved off the surface, is on the inner side of a shape that shares the rim, for the test of that shape.
+template <class Real>
+ALHAZEN_HD Real rim_clearance(const QuadricRecord<Real>& quadric) {
+  return 4 * (quadric.rim - 1);
+}
+
+/// Returns the box of the arc with radius 1 in the plane z = 0, as offsets from its centre in world space.
+template <class Real>
+Bounds3<Real> bounds_of_arc(const QuadricRecord<Real>& quadric) {
+  Bounds3<Real> box;
+  for (int axis = 0; axis < 3; ++axis) {
+    // The arc is x cos(phi) + y sin(phi), which has its extremes at its ends, or where phi is that of (x, y) or
+    // opposite.
+    const Real x = quadric.world_from_object[0][axis], y = quadric.world_from_object[1][axis];
+    const Real middle = x * quadric.cosine, side = std::abs(y * quadric.sine);
+    const Real radius = std::sqrt(x * x + y * y), phi = std::abs(std::atan2(y, x)), half = quadric.phi_max / 2;
+    box.high[axis] = phi <= half ? radius : middle + side;
+    box.low[axis] = pi<Real> - phi <= half ? -radius : middle - side;
+  }
+  return box;
 }
 
 /// Returns the bounding box, padded by the error of its points.
 template <class Real>
 Bounds3<Real> bounds_of(const SceneView<Real>&, const CylinderRecord<Real>& cylinder) {
-  const Vec3<Real>(&columns)[3] = cylinder.world_from_object;
-  Vec3<Real> low, high;
-  for (int axis = 0; axis < 3; ++axis) {
-    // The arc is x cos(phi) + y sin(phi), which has its extremes at its ends, or where phi is that of (x, y) or
-    // opposite.
-    const Real x = columns[0][axis], y = columns[1][axis], half = cylinder.phi_max / 2;
-    const Real middle = x * cylinder.cosine, side = std::abs(y * cylinder.sine);
-    const Real radius = std::sqrt(x * x + y * y), phi = std::abs(std::atan2(y, x));
-    high[axis] = phi <= half ? radius : middle + side;
-    low[axis] = pi<Real> - phi <= half ? -radius : middle - side;
-  }
-  const Vec3<Real> pad = abs(columns[2]) + error_of_point(cylinder, splat(Real(1)));
-  return {cylinder.centre + low - pad, cylinder.centre + high + pad};
+  const Bounds3<Real> arc = bounds_of_arc(cylinder);
+  const Vec3<Real> centre = world_point(cylinder, {});
+  const Vec3<Real> far_end{1, 1, -cylinder.anchor_z};
+  const Vec3<Real> pad = abs(cylinder.world_from_object[2]) * cylinder.rim + error_of_point(cylinder, far_end);
+  return {centre + arc.low - pad, centre + arc.high + pad};
 }
 
 /// Sets the interaction on a cylinder. The hit point is projected onto it, so its error does not depend on the length
-/// of the ray.
+/// of the ray, and moved away from the ends.
 template <class Real>
 ALHAZEN_HD ALHAZEN_COLD void set_interaction(const SceneView<Real>& scene, const CylinderRecord<Real>& cylinder,
                                              const Ray<Real>& ray, const Hit<Real>& hit, SurfaceInteraction<Real>& si) {
-  const Vec3<Real> hit_point = object_from_world(cylinder, ray.origin - cylinder.centre + ray.direction * hit.t);
+  const Vec3<Real> hit_point = object_point(cylinder, ray.origin - cylinder.anchor + ray.direction * hit.t);
   const Real inverse_radius = 1 / std::sqrt(hit_point.x * hit_point.x + hit_point.y * hit_point.y);
-  const Vec3<Real> p{hit_point.x * inverse_radius, hit_point.y * inverse_radius, clamp(hit_point.z, Real(-1), Real(1))};
-  si.position = cylinder.centre + world_from_object(cylinder, p);
+  const Real end = max(1 - rim_clearance(cylinder), Real(0));
+  const Vec3<Real> p{hit_point.x * inverse_radius, hit_point.y * inverse_radius, clamp(hit_point.z, -end, end)};
+  si.position = world_point(cylinder, p);
   si.position_error = error_of_point(cylinder, p);
   const Vec3<Real> outward = normalize(cylinder.object_from_world[0] * p.x + cylinder.object_from_world[1] * p.y);
   si.normal = scene.surfaces[cylinder.surface].flip_normal ? -outward : outward;
@@ -148,7 +192,7 @@ ALHAZEN_HD SurfaceTangents<Real> cylinder_tangents(const CylinderRecord<Real>& c
 template <class Real>
 ALHAZEN_HD SurfaceTangents<Real> tangents_of(const SceneView<Real>&, const CylinderRecord<Real>& cylinder,
                                              const Hit<Real>&, const SurfaceInteraction<Real>& si) {
-  const Vec3<Real> p = object_from_world(cylinder, si.position - cylinder.centre);
+  const Vec3<Real> p = object_point(cylinder, si.position - cylinder.anchor);
   return cylinder_tangents(cylinder, p.x, p.y);
 }
 

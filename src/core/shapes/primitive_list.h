@@ -19,4 +19,5 @@
   PRIMITIVE(X, sphere, SphereRecord<Real>, spheres, RecordBlock<SphereRecord<Real>>, sphere_blocks)            \
   PRIMITIVE(X, moving_sphere, MovingSphereRecord<Real>, moving_spheres, RecordBlock<MovingSphereRecord<Real>>, \
             moving_sphere_blocks)                                                                              \
-  PRIMITIVE(X, cylinder, CylinderRecord<Real>, cylinders, RecordBlock<CylinderRecord<Real>>, cylinder_blocks)
+  PRIMITIVE(X, cylinder, CylinderRecord<Real>, cylinders, RecordBlock<CylinderRecord<Real>>, cylinder_blocks)  \
+  PRIMITIVE(X, disk, DiskRecord<Real>, disks, RecordBlock<DiskRecord<Real>>, disk_blocks)

@@ -7,6 +7,7 @@
 #include "core/bvh/ray_intersector.h"
 #include "core/scene_view.h"
 #include "core/shapes/cylinder.h"
+#include "core/shapes/disk.h"
 #include "core/shapes/sphere.h"
 #include "core/shapes/triangle.h"
 

@@ -47,27 +47,56 @@ struct MovingSphereRecord {
   ALHAZEN_HD constexpr Real number(int k) const { return k < 3 ? centre[k] : k == 3 ? radius : motion[k - 4]; }
 };
 
-/// Part of a cylinder. In its object space, which has its origin at `centre`, it consists of the points with x^2 + y^2
-/// = 1, |z| <= 1 and |phi| <= phi_max / 2, where phi is the azimuth about z from x.
+/// What cylinders and disks have in common: their object space, and |phi| <= phi_max / 2 at their points, where phi is
+/// the azimuth about z from x.
 template <class Real>
-struct CylinderRecord {
-  static constexpr PrimitiveKind kind = PrimitiveKind::cylinder;
-  static constexpr int numbers = 14;
-
-  Vec3<Real> centre;
+struct QuadricRecord {
+  Vec3<Real> anchor;                ///< the point (0, 0, anchor_z) of object space in world space
   Vec3<Real> object_from_world[3];  ///< rows
   Real cosine, sine;                ///< of phi_max / 2
+  Real rim;                         ///< how far tests reach in object space: 1, and the error of points at the rim
+  Real rim_growth;                  ///< the error of tests at the rim, in object space per distance along the ray
+  Real anchor_z;
   Real phi_max;                     ///< in radians
   Vec3<Real> world_from_object[3];  ///< columns
   uint32_t surface;
 
   ALHAZEN_HD constexpr Real number(int k) const {
-    return k < 3 ? centre[k] : k < 12 ? object_from_world[k / 3 - 1][k % 3] : k == 12 ? cosine : sine;
+    if (k < 12) return k < 3 ? anchor[k] : object_from_world[k / 3 - 1][k % 3];
+    return k == 12 ? cosine : k == 13 ? sine : k == 14 ? rim : rim_growth;
   }
 
-  using Fields = FieldList<&CylinderRecord::centre, &CylinderRecord::object_from_world, &CylinderRecord::cosine,
-                           &CylinderRecord::sine, &CylinderRecord::phi_max, &CylinderRecord::world_from_object,
-                           &CylinderRecord::surface>;
+  template <auto... more>
+  using FieldsAnd =
+      FieldList<&QuadricRecord::anchor, &QuadricRecord::object_from_world, &QuadricRecord::cosine, &QuadricRecord::sine,
+                &QuadricRecord::rim, &QuadricRecord::rim_growth, &QuadricRecord::anchor_z, &QuadricRecord::phi_max,
+                &QuadricRecord::world_from_object, &QuadricRecord::surface, more...>;
+};
+
+/// Part of a cylinder: points with x^2 + y^2 = 1 and |z| <= 1 in object space. The anchor is the end that is closest to
+/// the origin of the world, so that errors are relative to the coordinates of points, however long the cylinder is.
+template <class Real>
+struct CylinderRecord : QuadricRecord<Real> {
+  static constexpr PrimitiveKind kind = PrimitiveKind::cylinder;
+  static constexpr int numbers = 17;
+
+  ALHAZEN_HD constexpr Real number(int k) const { return k < 16 ? QuadricRecord<Real>::number(k) : this->anchor_z; }
+
+  using Fields = typename QuadricRecord<Real>::template FieldsAnd<>;
+};
+
+/// Part of a disk: points with z = 0 and inner_radius^2 <= x^2 + y^2 <= 1 in object space.
+template <class Real>
+struct DiskRecord : QuadricRecord<Real> {
+  static constexpr PrimitiveKind kind = PrimitiveKind::disk;
+  static constexpr int numbers = 17;
+
+  Real inner_rim;  ///< inner_radius, and the error of points there: inwards
+  Real inner_radius;
+
+  ALHAZEN_HD constexpr Real number(int k) const { return k < 16 ? QuadricRecord<Real>::number(k) : inner_rim; }
+
+  using Fields = typename QuadricRecord<Real>::template FieldsAnd<&DiskRecord::inner_rim, &DiskRecord::inner_radius>;
 };
 
 /// The axes of a sphere's object space in world space, for its uv coordinates: z is the polar axis.

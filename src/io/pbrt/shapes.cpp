@@ -85,14 +85,20 @@ void read_sphere(Build& build, ParameterList& list, Shape& shape) {
     become_mesh(shape, sphere_mesh(build, list, shape.radius, extent));
 }
 
-/// Returns whether a cylinder is exact where `world_from_object` places it: it is at rest, and its thickness is not
-/// lost in the rounding of coordinates along it.
-bool stays_cylinder(const Shape& shape, const MovingTransform& world_from_object) {
-  constexpr double max_magnification = 1e4;  // of rounding, on the way to a cylinder of radius 1 and height 2, and back
+bool is_cylinder_or_disk(const Shape& shape) {
+  return shape.type == ShapeType::cylinder || shape.type == ShapeType::disk;
+}
+
+/// Returns whether a cylinder or disk is exact where `world_from_object` places it: it is at rest, and its thickness is
+/// not lost in the rounding of coordinates along it.
+bool stays_exact(const Shape& shape, const MovingTransform& world_from_object) {
+  constexpr double max_magnification = 1e4;  // of rounding, on the way to a shape of radius 1 and height 2, and back
   const Matrix4& there = world_from_object.start.matrix();
   const Matrix4 back = world_from_object.start.inverse().matrix();
   if (world_from_object.is_moving() || there[3] != std::array<double, 4>{0, 0, 0, 1}) return false;
-  const std::array<double, 3> size{shape.radius, shape.radius, (shape.z_max - shape.z_min) / 2};
+  const bool is_disk = shape.type == ShapeType::disk;
+  const std::array<double, 3> size{shape.radius, shape.radius,
+                                   is_disk ? shape.radius : (shape.z_max - shape.z_min) / 2};
   for (size_t i = 0; i < 3; ++i)
     for (size_t j = 0; j < 3; ++j) {
       double magnified = 0;
@@ -102,9 +108,17 @@ bool stays_cylinder(const Shape& shape, const MovingTransform& world_from_object
   return true;
 }
 
-uint32_t cylinder_mesh(Build& build, const ParameterList& list, const Shape& shape) {
+uint32_t mesh_of_quadric(Build& build, const ParameterList& list, const Shape& shape) {
+  if (shape.type == ShapeType::disk)
+    return shared_mesh(build, list, "disk", {shape.radius, shape.inner_radius, shape.z_min, shape.phi_max},
+                       tessellated_disk);
   return shared_mesh(build, list, "cylinder", {shape.radius, shape.z_min, shape.z_max, shape.phi_max},
                      tessellated_cylinder);
+}
+
+void become_mesh_unless_exact(Build& build, const ParameterList& list, Shape& shape) {
+  if (build.state.area_light || !stays_exact(shape, shape.world_from_object))
+    become_mesh(shape, mesh_of_quadric(build, list, shape));
 }
 
 void read_cylinder(Build& build, ParameterList& list, Shape& shape) {
@@ -112,16 +126,16 @@ void read_cylinder(Build& build, ParameterList& list, Shape& shape) {
   const Extent extent = read_extent(list, -1, 1);
   shape.z_min = extent.z_min, shape.z_max = extent.z_max, shape.phi_max = extent.phi_max;
   shape.type = ShapeType::cylinder;
-  if (build.state.area_light || !stays_cylinder(shape, shape.world_from_object))
-    become_mesh(shape, cylinder_mesh(build, list, shape));
+  become_mesh_unless_exact(build, list, shape);
 }
 
 void read_disk(Build& build, ParameterList& list, Shape& shape) {
-  const double radius = list.positive("radius", 1), inner = list.number("innerradius", 0);
-  const double height = list.number("height", 0), phi_max = read_phi_max(list);
-  if (!(inner >= 0 && inner < radius))
+  shape.radius = list.positive("radius", 1), shape.inner_radius = list.number("innerradius", 0);
+  shape.z_min = shape.z_max = list.number("height", 0), shape.phi_max = read_phi_max(list);
+  if (!(shape.inner_radius >= 0 && shape.inner_radius < shape.radius))
     fail(list.place_of("innerradius"), "\"innerradius\" must be at least 0 and under \"radius\"");
-  become_mesh(shape, shared_mesh(build, list, "disk", {radius, inner, height, phi_max}, tessellated_disk));
+  shape.type = ShapeType::disk;
+  become_mesh_unless_exact(build, list, shape);
 }
 
 template <uint32_t (*read)(Build&, ParameterList&)>
@@ -185,8 +199,8 @@ uint32_t read_alpha(Build& build, ParameterList& list, bool& visible) {
   return constant && *constant >= 1 ? no_index : alpha;
 }
 
-/// Instances copy cylinders. Where these were more, they become meshes, which instances share.
-constexpr uint64_t max_cylinder_copies = 1u << 17;
+/// Instances copy cylinders and disks. Where these were more, they become meshes, which instances share.
+constexpr uint64_t max_quadric_copies = 1u << 17;
 
 }  // namespace
 
@@ -214,20 +228,19 @@ void add_shape(Build& build, const std::string& kind, ParameterList& list) {
 }
 
 void tessellate_for_instances(Build& build) {
-  const auto is_cylinder = [](const Shape& shape) { return shape.type == ShapeType::cylinder; };
   uint64_t copies = 0;
   for (const Instance& instance : build.scene.instances) {
     const std::vector<Shape>& shapes = build.scene.groups[instance.group].shapes;
-    copies += static_cast<uint64_t>(std::count_if(shapes.begin(), shapes.end(), is_cylinder));
+    copies += static_cast<uint64_t>(std::count_if(shapes.begin(), shapes.end(), is_cylinder_or_disk));
   }
   for (const Instance& instance : build.scene.instances)
     for (Shape& shape : build.scene.groups[instance.group].shapes) {
       const MovingTransform &outer = instance.world_from_group, &inner = shape.world_from_object;
       if (shape.type == ShapeType::sphere && !is_similarity(outer))
         become_mesh(shape, sphere_mesh(build, {}, shape.radius, {-shape.radius, shape.radius, 360}));
-      else if (is_cylinder(shape) && (copies > max_cylinder_copies ||
-                                      !stays_cylinder(shape, {outer.start * inner.start, outer.end * inner.end})))
-        become_mesh(shape, cylinder_mesh(build, {}, shape));
+      else if (is_cylinder_or_disk(shape) &&
+               (copies > max_quadric_copies || !stays_exact(shape, {outer.start * inner.start, outer.end * inner.end})))
+        become_mesh(shape, mesh_of_quadric(build, {}, shape));
     }
 }
 

@@ -13,6 +13,7 @@ namespace {
 Bounds3<float> box_of(const SceneView<float>& scene, const CwbvhPrimitive& p) {
   Bounds3<float> box;
   if (p.id.kind() == PrimitiveKind::cylinder) return bounds_of(scene, scene.cylinders[p.id.index()]);
+  if (p.id.kind() == PrimitiveKind::disk) return bounds_of(scene, scene.disks[p.id.index()]);
   if (p.id.kind() == PrimitiveKind::triangle) {
     box.extend(p.a);
     box.extend(p.b);

@@ -124,6 +124,8 @@ TYPED_TEST(ManyRays, BruteForcePackets) {
       primitives.add_sphere(random.in_box(-3, 3), 1);
       primitives.add_sphere(random.in_box(-3, 3), 1, random.in_box(-2, 2));
       primitives.add_cylinder(random_cylinder(random.in_box(-3, 3), 1, random), i % 2 == 0 ? 360 : 200);
+      primitives.add_disk(random_cylinder(random.in_box(-3, 3), 1, random), i % 3 == 0 ? 0.4 : 0,
+                          i % 2 == 0 ? 360 : 200);
     }
     const CompiledScene<TypeParam> scene = primitives.flat<TypeParam>();
     Queries<TypeParam> queries = bundles<TypeParam>(random, effort(5'000), 5);

@@ -68,15 +68,17 @@ class RayIntersectors : public ::testing::Test {
     return is_hit;
   }
 
-  /// A triangle across the z axis at z = 5, and a sphere about x = 10 and a cylinder about x = 20 that begin there.
+  /// A triangle across the z axis at z = 5, and a sphere about x = 10, a cylinder about x = 20 and a disk about x = 30
+  /// that begin there.
   static CompiledScene<RealOf> one_of_each() {
     PrimitiveScene scene;
     scene.add_triangle({-1, -1, 5}, {1, -1, 5}, {0, 1, 5});
     scene.add_sphere({10, 0, 6}, 1);
     scene.add_cylinder(Transform::translate({20, 0, 6}) * Transform::rotate(90, {1, 0, 0}));
+    scene.add_disk(Transform::translate({30, 0, 5}));
     return scene.flat<RealOf>();
   }
-  static constexpr RealOf middles[] = {0, 10, 20};
+  static constexpr RealOf middles[] = {0, 10, 20, 30};
 };
 TYPED_TEST_SUITE(RayIntersectors, Intersectors);
 

@@ -206,12 +206,48 @@ TYPED_TEST(SelfIntersectionOf, CylindersFromInside) {
       6, true, [&](const SceneView<Real>& view, const SurfaceInteraction<Real>& si, Random& random) {
         const CylinderRecord<Real>& cylinder = view.cylinders[si.primitive.index()];
         const Ray<Real> ray = spawn_ray(si, leaving_direction(si.normal, -1, random));
-        const Vec3d n = convert<double>(object_from_world(cylinder, si.position - cylinder.centre));
+        const Vec3d n = convert<double>(object_point(cylinder, si.position - cylinder.anchor));
         const Vec3d d = convert<double>(object_from_world(cylinder, ray.direction));
         const double chord = 2 * std::abs(n.x * d.x + n.y * d.y) / (d.x * d.x + d.y * d.y);
         hit_again += BruteForceIntersector<Real>(view).occluded(ray, static_cast<Real>(chord / 2));
       });
   EXPECT_EQ(hit_again, 0u);
+}
+
+TYPED_TEST(SelfIntersectionOf, Disks) {
+  using Real = TypeParam;
+  Random random(7);
+  size_t left = 0, hit_again = 0;
+  while (left < effort(1'000'000)) {
+    PrimitiveScene primitives;
+    for (int i = 0; i < 4096; ++i) {
+      const Vec3d centre = random.on_sphere() * random.magnitude_between(1e-3, 1e5);
+      const double size = random.magnitude_between(1e-3, 1e4);
+      const Transform world = i % 4 == 0 ? Transform::translate(centre) * Transform::scale(splat(size))
+                                         : random_cylinder(centre, size, random);
+      primitives.add_disk(world, i % 3 == 0 ? 0.3 : 0, i % 2 == 0 ? 360 : random.between(1, 360));
+    }
+    const CompiledScene<Real> scene = primitives.flat<Real>();
+    for (uint32_t i = 0; i < scene.view.disks_count; ++i) {
+      const PrimitiveId id(PrimitiveKind::disk, i);
+      SceneView<Real> view = scene.view;
+      view.primitives = &id;
+      view.primitives_count = 1;
+      const Bounds3<Real> box = bounds_of(view, view.disks[i]);
+      const double size = static_cast<double>(length(box.diagonal()));
+      for (int n = 0; n < 16; ++n) {
+        const Vec3d target = convert<double>(box.centre()) + random.on_sphere() * (random.uniform<double>() * size / 2);
+        const auto si = meet<Real>(view, target, size * random.magnitude_between(0.1, 100), random);
+        if (!si) continue;
+        for (const double side : {1.0, -1.0}) {
+          const Ray<Real> ray = spawn_ray(*si, leaving_direction(si->normal, side, random));
+          ++left;
+          hit_again += BruteForceIntersector<Real>(view).occluded(ray, infinity<Real>);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(hit_again, 0u) << "of " << left;
 }
 
 /// A sampled point of a light is visible if nothing is in between: the light does not occlude itself.

@@ -30,6 +30,8 @@ constexpr NamedText shapes[] = {
       "integer indices" [0 1 2 0 2 3])"},
     {"triangle without uv", R"(Shape "trianglemesh" "point3 P" [-1 -1 0  1 -1 0  1 1 0.5])"},
     {"disk", R"(Shape "disk" "float innerradius" 0.2)"},
+    {"disk without a hole", R"(Shape "disk" "float radius" 0.9)"},
+    {"part of a disk", R"(Shape "disk" "float innerradius" 0.3 "float phimax" 200 "float height" 0.2)"},
     {"cylinder", R"(Shape "cylinder")"},
     {"part of a cylinder", R"(Shape "cylinder" "float radius" 0.9 "float zmin" -0.5 "float phimax" 200)"},
     {"bilinear patch", R"(Shape "bilinearmesh" "point3 P" [-1 -1 0  1 -1 0.2  -1 1 0.5  1 1 -0.3])"},

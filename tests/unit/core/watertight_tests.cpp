@@ -1,8 +1,10 @@
 // No ray passes between the triangles of a closed mesh: not at edges, not at vertices, not far from the origin. Nor
-// does one pass through the side of a cylinder, not where u begins and ends.
+// does one pass through the side of a cylinder, not where u begins and ends, or between it and disks at its ends.
 
 #include <gtest/gtest.h>
 
+#include "core/integrators/stages.h"
+#include "core/shapes/interaction.h"
 #include "support/closed_meshes.h"
 #include "support/effort.h"
 #include "support/engines.h"
@@ -106,6 +108,65 @@ TYPED_TEST(WatertightOf, SkewedCylinderFarAway) {
   Random random(6);
   check_cylinder<TypeParam>(random_cylinder(far_away, 100, random), 6);
 }
+
+/// Rays within a can of a cylinder and two disks, half of them towards the rims: from points inside, and from where
+/// those hit, as many times as reflections would. Rays from outside through the rim do not hit the far side.
+template <class Tree>
+void check_can(const Transform& world, uint64_t seed) {
+  using Real = typename Tree::Real;
+  Random random(seed);
+  PrimitiveScene primitives;
+  primitives.add_cylinder(world);
+  for (const double height : {-1.0, 1.0}) primitives.add_disk(world, 0, 360, height);
+  const CompiledScene<Real> scene = primitives.flat<Real>();
+  const typename Tree::Intersector bvh(scene.view);
+  const auto on_cylinder = [&](double z) {
+    const double phi = random.between(0, 2 * pi<double>);
+    return world.point({std::cos(phi), std::sin(phi), z});
+  };
+  const auto on_rim = [&] { return on_cylinder(random.below(2) ? 1 : -1); };
+  size_t misses = 0, reflected_misses = 0, passed = 0;
+  for (size_t i = 0; i < effort(100'000); ++i) {
+    const Vec3<Real> inside = convert<Real>(world.point(random.on_sphere() * (random.uniform<double>() * 0.9)));
+    const Vec3<Real> target = convert<Real>(random.below(2) ? on_rim() : on_cylinder(random.between(-1, 1)));
+    Ray<Real> ray{inside, normalize(target - inside)};
+    Hit<Real> hit;
+    for (int bounce = 0; bounce < 6; ++bounce) {
+      if (!bvh.closest_hit(ray, infinity<Real>, hit)) {
+        ++(bounce == 0 ? misses : reflected_misses);
+        break;
+      }
+      const SurfaceInteraction<Real> si = surface_interaction(scene.view, ray, hit);
+      const Vec3<Real> inward = dot(si.normal, ray.direction) < 0 ? si.normal : -si.normal;
+      Vec3<Real> direction = normalize(convert<Real>(on_rim()) - si.position);
+      if (random.below(2) || !(dot(direction, inward) > Real(1e-5)))
+        direction = normalize(convert<Real>(random.on_hemisphere(convert<double>(inward))));
+      if (!(dot(direction, inward) > 0)) break;
+      ray = spawn_ray(si, direction);
+    }
+    const Vec3<Real> outside = target + (target - inside) * static_cast<Real>(random.magnitude_between(0.1, 30));
+    const Ray<Real> back{outside, normalize(inside - outside)};
+    passed += !bvh.closest_hit(back, infinity<Real>, hit) || hit.t > length(inside - outside);
+  }
+  EXPECT_EQ(misses, 0u);
+  EXPECT_EQ(reflected_misses, 0u);
+  EXPECT_EQ(passed, 0u);
+}
+
+const Transform turned = Transform::rotate(33, {1, 2, 3});
+
+TYPED_TEST(WatertightOf, Can) { check_can<TypeParam>({}, 7); }
+TYPED_TEST(WatertightOf, TurnedCan) { check_can<TypeParam>(turned, 8); }
+TYPED_TEST(WatertightOf, StretchedCan) { check_can<TypeParam>(turned * Transform::scale({1, 2, 0.5}), 9); }
+TYPED_TEST(WatertightOf, SkewedCan) {
+  Random random(10);
+  check_can<TypeParam>(random_cylinder({3, 4, -5}, 1, random), 10);
+}
+TYPED_TEST(WatertightOf, TallCan) {
+  check_can<TypeParam>(turned * Transform::translate({0, 0, 100}) * Transform::scale({1, 1, 100}), 11);
+}
+TYPED_TEST(WatertightOf, FlatCan) { check_can<TypeParam>(turned * Transform::scale({100, 100, 1}), 12); }
+TYPED_TEST(WatertightOf, CanFarAway) { check_can<TypeParam>(Transform::translate({1000, -500, 2000}) * turned, 13); }
 
 // From the exact centre of a mesh about the origin the direction to a vertex is exact: edge functions become 0.
 TYPED_TEST(WatertightOf, ExactlyThroughVertices) {

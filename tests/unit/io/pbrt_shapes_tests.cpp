@@ -70,9 +70,9 @@ TEST(PbrtShapes, PartialSphereHasTheParametrisationOfPbrt) {
   }
 }
 
-TEST(PbrtShapes, DiskHasExactlyTheAreaOfTheCircleAndFacesUp) {
+TEST(PbrtShapes, DiskAsAMeshHasExactlyTheAreaOfTheCircleAndFacesUp) {
   const Parsed p = parse_world(
-      "Shape \"disk\" \"float radius\" 2 \"float height\" 5 "
+      "AreaLightSource \"diffuse\" Shape \"disk\" \"float radius\" 2 \"float height\" 5 "
       "Shape \"disk\" \"float radius\" 2 \"float innerradius\" 1 \"float phimax\" 90");
   EXPECT_NEAR(area_of(mesh_of(p)), 4 * pi, 1e-12);
   EXPECT_NEAR(area_of(mesh_of(p, 1)), 3 * pi / 4, 1e-12);
@@ -95,6 +95,31 @@ TEST(PbrtShapes, Cylinder) {
   EXPECT_EQ(shapes(p).at(1).z_max, 1);
   EXPECT_EQ(shapes(p).at(1).phi_max, 360);
   EXPECT_TRUE(p.scene.meshes.empty());
+}
+
+TEST(PbrtShapes, Disk) {
+  const Parsed p = parse_world(
+      "Rotate 30 1 1 0 Scale 2 -1 0.5 Shape \"disk\" \"float radius\" 2 \"float innerradius\" 0.5 \"float height\" 3 "
+      "\"float phimax\" 200 Shape \"disk\"");
+  const Shape& shape = shapes(p).at(0);
+  EXPECT_EQ(shape.type, ShapeType::disk);
+  EXPECT_EQ(shape.radius, 2);
+  EXPECT_EQ(shape.inner_radius, 0.5);
+  EXPECT_EQ(shape.z_min, 3);
+  EXPECT_EQ(shape.z_max, 3);
+  EXPECT_EQ(shape.phi_max, 200);
+  EXPECT_EQ(shapes(p).at(1).inner_radius, 0);
+  EXPECT_EQ(shapes(p).at(1).z_min, 0);
+  EXPECT_TRUE(p.scene.meshes.empty());
+}
+
+TEST(PbrtShapes, DisksThatEmitOrMoveOrAreExtremelyThinBecomeMeshes) {
+  const std::string move = "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All ";
+  for (const std::string& text :
+       {std::string("AreaLightSource \"diffuse\" Shape \"disk\""), move + "Shape \"disk\"",
+        std::string("Rotate 30 1 1 0 Scale 1e-5 1 1 Shape \"disk\""),
+        "ObjectBegin \"o\" Shape \"disk\" ObjectEnd ObjectInstance \"o\" " + move + "ObjectInstance \"o\""})
+    EXPECT_EQ(parse_world(text).scene.groups.back().shapes.at(0).type, ShapeType::mesh) << text;
 }
 
 TEST(PbrtShapes, CylindersThatEmitOrMoveOrAreExtremelyThinBecomeMeshes) {

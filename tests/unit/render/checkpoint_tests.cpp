@@ -146,7 +146,12 @@ TYPED_TEST(CheckpointFiles, OfABackendWithOtherBitsIsRefused) {
   EXPECT_EQ(this->refusal(settings), "");
   for (const char* const other : {"embree", "cuda", "optix"}) {
     settings.backend = other;
-    EXPECT_NE(this->refusal(settings).find("of another scene or of other settings"), std::string::npos) << other;
+    const std::string refusal = this->refusal(settings);
+    EXPECT_NE(refusal.find("of other settings: it was written with backend serial or openmp, and this render has "
+                           "backend " +
+                           std::string(other) + ": "),
+              std::string::npos)
+        << refusal;
   }
   settings.backend = "cuda";
   settings.device = host_device;
@@ -164,7 +169,11 @@ TYPED_TEST(CheckpointFiles, OfAnotherRenderIsRefusedAsThat) {
     return this->refusal(other);
   };
   const std::string words = "other settings";
-  EXPECT_NE(refusal_with([](RenderSettings& s) { s.seed = 1; }).find(words), std::string::npos);
+  const std::string with_seed = refusal_with([](RenderSettings& s) { s.seed = 1, s.aovs.normal = true; });
+  EXPECT_NE(with_seed.find("written with aov albedo+samples, seed 0, and this render has aov albedo+normal+samples, "
+                           "seed 1: "),
+            std::string::npos)
+      << with_seed;
   EXPECT_NE(refusal_with([](RenderSettings& s) { s.width = 4; }).find(words), std::string::npos);
   EXPECT_NE(refusal_with([](RenderSettings& s) {
               s.precision = s.precision == Precision::single ? Precision::double_ : Precision::single;
