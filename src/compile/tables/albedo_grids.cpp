@@ -264,8 +264,10 @@ namespace {
 /// thousandths if alphas are interpolated too. Glass from inside needs more, since total reflection begins abruptly.
 size_t normals_of(const AlbedoGrid& grid, const AlbedoGridRecord& record) {
   const bool is_constant = record.alphas_u * record.alphas_v == 1;
-  if (grid.kind == AlbedoGrid::Kind::glass) return is_constant ? 1597 : record.azimuths > 1 ? 233 : 377;
-  return is_constant ? 610 : record.azimuths > 1 ? 256 : 377;
+  const bool is_isotropic = record.azimuths == 1;
+  if (grid.kind == AlbedoGrid::Kind::glass)
+    return is_constant ? (is_isotropic ? 1597 : 610) : (is_isotropic ? 377 : 233);
+  return is_constant ? 610 : is_isotropic ? 377 : 256;
 }
 
 std::vector<double> computed(const AlbedoGrid& grid) {
