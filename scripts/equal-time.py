@@ -15,8 +15,9 @@ Seconds are processor seconds without reading the scene and building its BVH, so
 little: the cost of a sample and of loading follow from two short renders, and the samples that fit are then rendered in
 one run, for each scene by all programs and integrators in turn.
 
-A reference is the mean of two halves with seeds of their own. Their difference gives the reference's own error:
-relMSE(half, half) / 4, which is also in every error that is measured against it.
+A reference is the mean of two halves with seeds of their own, so that relMSE(half, mean) estimates the variance of the
+mean: the reference's own error. The error of an independent image against the reference is the sum of its own and of
+the reference's, which is subtracted.
 """
 
 import argparse
@@ -159,8 +160,9 @@ class References:
         arguments = [*scene.arguments(pathlib.Path(self.options.scenes), self.options.pixels), "--integrator", "path"]
         if plan["asked"] != self.options.reference_seconds:
             cost = measure_cost(program, arguments, self.halves(scene)[0])
-            samples = max(1, round(self.options.reference_seconds / cost.sample / 2))
-            plan = {"asked": self.options.reference_seconds, "samples": 2 * samples}
+            # Whole blocks of 4 samples, which a checkpoint holds to the end.
+            blocks = max(1, round(self.options.reference_seconds / cost.sample / 8))
+            plan = {"asked": self.options.reference_seconds, "samples": 2 * 4 * blocks}
         self.keep_plan(scene, plan | {"complete": False})
         for half, seed in zip(self.halves(scene), HALF_SEEDS):
             state = half.with_suffix(".state")
@@ -168,7 +170,7 @@ class References:
             render(program, arguments, plan["samples"] // 2, seed, half, "--checkpoint", f"{state},30", *resume)
         mean_image(*self.halves(scene), self.image(scene))
         self.keep_plan(scene, plan | {"complete": True})
-        error = compare(program, *self.halves(scene))["relmse"] / 4
+        error = compare(program, self.halves(scene)[0], self.image(scene))["relmse"]
         print(f"{scene.name}: {plan['samples']} samples, {plan['asked']:g} s, own relMSE {error:.2g}", flush=True)
 
     def facts(self, scene: Scene, program: str) -> dict | None:
@@ -176,21 +178,20 @@ class References:
         plan = self.plan(scene)
         if not plan["complete"]:
             return None
-        difference = compare(program, *self.halves(scene))
-        return {"samples": plan["samples"], "relmse": difference["relmse"] / 4,
-                "trimmed": difference["relmse_trimmed"] / 4}  # fmt: skip
+        error = compare(program, self.halves(scene)[0], self.image(scene))
+        return {"samples": plan["samples"], "relmse": error["relmse"], "trimmed": error["relmse_trimmed"]}
 
 
-def measure_cost(program: str, arguments: list[str], image: pathlib.Path, seconds: float = 1.0) -> Cost:
-    """From a render of 4 samples and one that takes about `seconds`."""
-    few, many = 4, 8
+def measure_cost(program: str, arguments: list[str], image: pathlib.Path, seconds: float = 0.7) -> Cost:
+    """From a render of 4 samples and one that takes longer by `seconds` or more."""
+    few, many = 4, 16
     _, first = render(program, arguments, few, 1, image)
     while True:
         _, second = render(program, arguments, many, 1, image)
-        sample = (second - first) / (many - few)
-        if second - first >= 0.5 * seconds:
+        if second - first >= seconds:
+            sample = (second - first) / (many - few)
             return Cost(max(0.0, first - few * sample), sample)
-        many = few + min(64 * (many - few), max(2 * (many - few), round(seconds / max(sample, 1e-9))))
+        many *= 2  # not more: loading takes a little more one time than another
 
 
 class Measurement:
@@ -219,11 +220,17 @@ class Measurement:
         _, spent = render(method.program, arguments, samples, seed, self.image)
         error = compare(self.options.compare, self.image, self.references.image(scene))
         row = {"scene": scene.name, "method": method.label, "asked": seconds, "seed": seed, "samples": samples,
-               "seconds": max(spent - cost.load, 1e-3), "relmse": error["relmse"], "trimmed": error["relmse_trimmed"],
+               "seconds": max(spent - cost.load, 1e-3), "relmse": own_error(error["relmse"], facts["relmse"]),
+               "trimmed": own_error(error["relmse_trimmed"], facts["trimmed"]),
                "flip": error["flip"], "mean": error["mean_a"] / error["mean_b"], "reference": facts}  # fmt: skip
         self.rows.append(row)
         print(f"{scene.name}, {method.label}, {seconds} s: {samples} samples in {row['seconds']:.2f} s, "
               f"relMSE {row['relmse']:.4g}, trimmed {row['trimmed']:.4g}, FLIP {row['flip']:.3f}", flush=True)
+
+
+def own_error(measured: float, of_reference: float) -> float:
+    """The error of an image without that of the reference, of which a tenth is left at least: both are estimates."""
+    return max(measured - of_reference, measured / 10)
 
 
 def machine() -> str:
@@ -252,7 +259,7 @@ def efficiency(row: dict, error: str) -> float:
 
 
 def figure(row: dict, error: str) -> str:
-    """An error, with a star where a third of it or more may be the reference's."""
+    """An error, with a star where what was subtracted is not small."""
     return f"{row[error]:.3g}{'*' if row['reference'][error] > row[error] / 3 else ''}"
 
 
