@@ -158,7 +158,7 @@ class References:
         if plan["complete"] and plan["asked"] >= self.options.reference_seconds:
             return
         arguments = [*scene.arguments(pathlib.Path(self.options.scenes), self.options.pixels), "--integrator", "path"]
-        if plan["asked"] != self.options.reference_seconds:
+        if plan["asked"] < self.options.reference_seconds:  # else a larger one was interrupted
             cost = measure_cost(program, arguments, self.halves(scene)[0])
             # Whole blocks of 4 samples, which a checkpoint holds to the end.
             blocks = max(1, round(self.options.reference_seconds / cost.sample / 8))
