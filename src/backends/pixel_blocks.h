@@ -53,6 +53,7 @@ void take_requests(const RenderPass<Real>& pass, const BlockRequest* requests, u
     statistics.rays += sums[i].segments;
     statistics.shadow_rays += sums[i].shadow_rays;
     statistics.nonfinite_samples += sums[i].nonfinite;
+    if constexpr (counts_samples) statistics.counters.add(sums[i].counters);
   }
 }
 

@@ -107,14 +107,21 @@ template <class Real, SamplerOf<Real> Sampler, RecordOf<Real> Record, ShadowRayR
 ALHAZEN_HD ALHAZEN_HOT bool light_and_scatter(const SceneView<Real>& scene, const Sampler& sampler,
                                               const ShadingPoint<Real>& point, PathState<Real>& path, Record& record,
                                               const Light& light) {
-  const DirectLight<Real> direct =
-      direct_light(point, sample_light_for(scene, sampler, VertexDimensions(path.vertex), point));
+  const VertexDimensions dimensions(path.vertex);
+  const LightSample<Real> sample = sample_light_for(scene, sampler, dimensions, point);
+  const DirectLight<Real> direct = direct_light(point, sample);
+  if constexpr (has_counters<Record>) count_light_sample(scene, sampler, dimensions, point, sample, direct, record);
   if (direct.is_lit) {
     ++record.shadow_rays;
     light(direct.shadow, path.throughput * direct.radiance);
   }
   if (scene.light_tree_count > 0) path.light_side = side_of_light(point);
-  return continue_path(sampler, point, path);
+  const uint32_t vertex = path.vertex;
+  const bool goes_on = continue_path(sampler, point, path);
+  // The path has one vertex more unless the sample is black.
+  if constexpr (has_counters<Record>)
+    record.counters.count_bsdf_sample(point.bsdf.kind, path.vertex == vertex, !goes_on && path.vertex > vertex);
+  return goes_on;
 }
 
 /// Adds emission and direct light and scatters at a hit. Returns false if the path ends there. `light` is as above.

@@ -10,7 +10,7 @@
 
 namespace ALHAZEN_CORE {
 
-/// Takes one sample after the other, for recursive integrators.
+/// Takes one sample after the other, for recursive integrators and for counters.
 template <IntegratorKind kind, class Sampler, class Real, RayIntersector<Real> Intersector>
 requires SamplerOf<Sampler, Real>
 void take_blocks_singly(const KernelRequest& request, const SceneView<Real>& scene, const Intersector& intersector,
@@ -81,7 +81,8 @@ void take_blocks(const KernelRequest& request) {
   const Intersector intersector = make_intersector<Intersector>(scene, request.tracer);
   BlockSum<Real>* const sums = static_cast<BlockSum<Real>*>(request.sums);
   for (uint32_t b = 0; b < request.block_count; ++b) sums[b] = {};
-  if constexpr (kind == IntegratorKind::path || kind == IntegratorKind::iterative)
+  // Samples are counted where one is taken after the other, which gives the same bits.
+  if constexpr ((kind == IntegratorKind::path || kind == IntegratorKind::iterative) && !counts_samples)
     take_blocks_together<kind, Sampler>(request, scene, intersector, sums);
   else
     take_blocks_singly<kind, Sampler>(request, scene, intersector, sums);
