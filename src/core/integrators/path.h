@@ -33,7 +33,8 @@ ALHAZEN_HD ALHAZEN_HOT Real bsdf_mis_weight(const PathState<Real>& path, Real li
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, const PathState<Real>& path,
                                                 Record& record) {
-  record.radiance += path.throughput * scene.background;  // not sampled as a light
+  // The constant light is not sampled, so its weight is 1.
+  if (!is_zero(scene.background)) record.radiance += path.throughput * scene.background;
   if (scene.far_lights_count == 0) return;
   const Vec3<Real> start = path.ray.origin - path.ray.direction * path.travelled;
   const Real by_tree = path.is_specular ? Real(0) : light_tree_probability(scene, start, path.light_side);
