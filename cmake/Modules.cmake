@@ -14,7 +14,7 @@ function(alhazen_interface_header)
   set(folder ${PROJECT_BINARY_DIR}/generated)
   list(JOIN headers "\n" lines)
   file(CONFIGURE OUTPUT ${folder}/interface_headers.txt CONTENT "${lines}\n")
-  set(built_by "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${ALHAZEN_KERNEL_SETS} ${ALHAZEN_SANITIZE}")
+  set(built_by "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${ALHAZEN_KERNEL_SETS} ${ALHAZEN_SANITIZE} ${ALHAZEN_COUNTERS}")
   add_custom_command(OUTPUT ${folder}/alhazen_interface.h
     COMMAND ${CMAKE_COMMAND} -DHEADERS=${folder}/interface_headers.txt "-DBUILT_BY=${built_by}"
             -DOUTPUT=${folder}/alhazen_interface.h -P ${PROJECT_SOURCE_DIR}/cmake/InterfaceHash.cmake

@@ -46,13 +46,14 @@ BlockRequest request_block(const RenderPass<Real>& pass, int x, int y, uint32_t 
 template <class Real>
 void take_requests(const RenderPass<Real>& pass, const BlockRequest* requests, uint32_t count, BlockSum<Real>* sums,
                    ThreadStatistics& statistics) {
-  pass.kernel(pass.scene.view, pass.tracer, pass.settings.seed, pass.settings.max_segments, requests, count, sums,
-              pass.film.view().wants_first_hit());
+  pass.kernel(pass.scene.view, pass.tracer, sample_seed(pass.settings), pass.settings.max_segments, requests, count,
+              sums, pass.film.view().wants_first_hit());
   for (uint32_t i = 0; i < count; ++i) {
     statistics.samples += sums[i].samples;
     statistics.rays += sums[i].segments;
     statistics.shadow_rays += sums[i].shadow_rays;
     statistics.nonfinite_samples += sums[i].nonfinite;
+    if constexpr (counts_samples) statistics.counters.add(sums[i].counters);
   }
 }
 

@@ -30,6 +30,7 @@ std::string json_text(const ImageDifference& d) {
   const nlohmann::ordered_json object{{"mse", d.mse},
                                       {"rmse", d.rmse},
                                       {"relmse", d.relmse},
+                                      {"relmse_trimmed", d.relmse_trimmed},
                                       {"psnr", d.psnr},
                                       {"ssim", d.ssim},
                                       {"flip", d.flip},
@@ -49,6 +50,7 @@ std::string table_text(const ImageDifference& d) {
   line("MSE", d.mse, "mean squared error, linear");
   line("RMSE", d.rmse, "its root");
   line("relMSE", d.relmse, "squared error over (B^2 + 0.01)");
+  line("trimmed", d.relmse_trimmed, "relMSE without the 0.1 % of pixels of largest error");
   line("PSNR", d.psnr, "dB, sRGB-encoded");
   line("SSIM", d.ssim, "1 for equal images, encoded luminance");
   line("FLIP", d.flip, "0 for equal images, 67 pixels per degree");

@@ -18,6 +18,7 @@
 #include "pipeline/load_scene.h"
 #include "pipeline/write_outputs.h"
 #include "render/backend.h"
+#include "render/counter_lines.h"
 #include "render/renderer.h"
 #include "study/tuned.h"
 #include "util/printable.h"
@@ -91,7 +92,7 @@ void print_start(const RenderStatistics& s) {
 }
 
 std::string text_statistics(const RenderStatistics& s) {
-  return fmt::format(
+  const std::string text = fmt::format(
       "load    {:.3f} s\nbuild   {:.3f} s\nrender  {:.3f} s\nsamples {} ({:.3f} million per second)\n"
       "rays    {} and {} shadow rays ({:.3f} million per second)\nbounces {:.3f} segments per path\nmemory  {:.1f} MB "
       "at "
@@ -99,6 +100,7 @@ std::string text_statistics(const RenderStatistics& s) {
       s.load_seconds, s.build_seconds, s.render_seconds, s.camera_samples, s.msamples_per_second(), s.rays,
       s.shadow_rays, s.mrays_per_second(), s.mean_segments(), static_cast<double>(s.peak_rss_bytes) * 1e-6,
       static_cast<double>(s.scene_sizes.bytes) * 1e-6);
+  return counts_samples ? text + counter_table(s.counters) : text;
 }
 
 void print_end(const RenderOptions& options, const OutputReport& outputs, const RenderStatistics& statistics) {

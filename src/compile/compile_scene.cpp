@@ -72,7 +72,7 @@ class SceneCompiler {
     }
     build_trees_and_query(flat);
     count_primitives(flat.statistics);
-    flat.statistics.lights = out_.lights.size();
+    flat.statistics.lights = out_.lights.size() + (is_zero(flat.view.background) ? 0 : 1);
     flat.statistics.instances = out_.instances.size();
     out_.move_into(flat);
     return flat;

@@ -74,17 +74,30 @@ void append_cdf(const double* weights, size_t count, std::vector<Real>& out) {
   for (size_t i = out.size(); i-- > 0 && out[i] == last && positive > 0;) out[i] = Real(1);
 }
 
+/// Below this part of all light, what exceeds the mean is rounding, and the map is as good as constant.
+constexpr double min_excess = 1e-6;
+
+/// Appends the distribution of the sampling weights minus their mean over the sphere: MIS compensation (Karlik, Sik,
+/// Vevoda, Skrivan, Krivanek 2019, "MIS Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling",
+/// section 5). Returns what part of the integral of the weights that is; 0 if there is no distribution.
 template <class Real>
-void append_distribution(const ImageTexels& map, SphereMapping mapping, std::vector<Real>& out) {
-  const std::vector<double> means = texel_means(map, mapping);
+double append_distribution(const ImageTexels& map, SphereMapping mapping, std::vector<Real>& out) {
+  std::vector<double> means = texel_means(map, mapping);
   const size_t width = static_cast<size_t>(map.width), height = static_cast<size_t>(map.height);
+  const auto row_integral = [&](size_t y) {
+    return texel_solid_angle(map, mapping, static_cast<int>(y)) *
+           std::accumulate(&means[y * width], &means[y * width] + width, 0.0);
+  };
+  double all = 0;
+  for (size_t y = 0; y < height; ++y) all += row_integral(y);
+  for (double& mean : means) mean = std::max(mean - all / (4 * std::numbers::pi), 0.0);
   std::vector<double> rows;
-  for (size_t y = 0; y < height; ++y)
-    rows.push_back(texel_solid_angle(map, mapping, static_cast<int>(y)) *
-                   std::accumulate(&means[y * width], &means[y * width] + width, 0.0));
+  for (size_t y = 0; y < height; ++y) rows.push_back(row_integral(y));
+  const double excess = std::accumulate(rows.begin(), rows.end(), 0.0) / all;
   out.reserve(out.size() + (height + 1) + height * (width + 1));
   append_cdf(rows.data(), height, out);
   for (size_t y = 0; y < height; ++y) append_cdf(&means[y * width], width, out);
+  return excess > min_excess ? excess : 0;
 }
 
 Vec3d mean_radiance(const ImageTexels& map, SphereMapping mapping) {
@@ -102,7 +115,7 @@ Vec3d mean_radiance(const ImageTexels& map, SphereMapping mapping) {
 }  // namespace
 
 template <class Real>
-void add_environment(const Light& light, Scene& scene, SceneArrays<Real>& out) {
+double add_environment(const Light& light, Scene& scene, SceneArrays<Real>& out) {
   if (light.environment >= scene.environments.size()) throw InputError(light.where, "the light names no map");
   ImageTexels& map = scene.environments[light.environment];
   EnvironmentRecord<Real> record{};
@@ -113,7 +126,7 @@ void add_environment(const Light& light, Scene& scene, SceneArrays<Real>& out) {
   light_record.radiance = convert<Real>(mean_radiance(map, record.mapping) * light.radiance);
   if (!is_finite(light_record.radiance))
     throw InputError(light.where, "the environment map holds values that are not finite or too large");
-  if (is_zero(light_record.radiance)) return;
+  if (is_zero(light_record.radiance)) return 0;
   record.width = static_cast<uint32_t>(map.width);
   record.height = static_cast<uint32_t>(map.height);
   record.light = static_cast<uint32_t>(out.lights.size());
@@ -121,15 +134,16 @@ void add_environment(const Light& light, Scene& scene, SceneArrays<Real>& out) {
                  convert<Real>(light.axes.normal)};
   record.scale = convert<Real>(light.radiance);
   record.first_cdf = out.environment_cdf.size();
-  append_distribution(map, record.mapping, out.environment_cdf);
+  const double excess = append_distribution(map, record.mapping, out.environment_cdf);
   record.first_texel = out.texel_floats.size();
   out.texel_floats.insert(out.texel_floats.end(), map.floats.begin(), map.floats.end());
   std::vector<float>().swap(map.floats);
   out.environments.push_back(record);
   out.lights.push_back(light_record);
+  return excess;
 }
 
-template void add_environment(const Light&, Scene&, SceneArrays<float>&);
-template void add_environment(const Light&, Scene&, SceneArrays<double>&);
+template double add_environment(const Light&, Scene&, SceneArrays<float>&);
+template double add_environment(const Light&, Scene&, SceneArrays<double>&);
 
 }  // namespace alhazen

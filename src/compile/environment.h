@@ -8,9 +8,10 @@
 namespace alhazen {
 
 /// Appends the map of `light` to out.environments and the light to out.lights, unless it is black. The map's texels are
-/// moved out of the scene. Throws InputError for invalid maps: of a wrong aspect ratio, or with values that are not
+/// moved out of the scene. Returns the part of the light that is above the mean over all directions, which is what
+/// light sampling finds. Throws InputError for invalid maps: of a wrong aspect ratio, or with values that are not
 /// finite.
 template <class Real>
-void add_environment(const Light& light, Scene& scene, SceneArrays<Real>& out);
+double add_environment(const Light& light, Scene& scene, SceneArrays<Real>& out);
 
 }  // namespace alhazen

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "compile/environment.h"
@@ -108,7 +109,8 @@ void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>&
     }
     const size_t index = out.lights.size();
     if (light.kind == LightKind::environment) {
-      add_environment(light, scene, out);
+      const double excess = add_environment(light, scene, out);
+      if (out.lights.size() > index) measures.push_back(excess);
     } else if (!is_zero(light.radiance)) {
       if (light_traits(light.kind).has_image) {
         record.primitive = static_cast<uint32_t>(out.light_images.size());
@@ -121,16 +123,9 @@ void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>&
     if (out.lights.size() > index && light_traits(light.kind).is_at_infinity && light_traits(light.kind).has_size)
       out.far_lights.push_back(static_cast<uint32_t>(index));
   }
-  if (is_zero(background)) return;
-  LightRecord<Real> record{};
-  record.kind = LightKind::constant_infinite;
-  record.radiance = convert<Real>(background);
-  if (!is_finite(record.radiance))
+  view.background = convert<Real>(background);
+  if (!is_finite(view.background))
     throw InputError({scene.name}, "the infinite lights are together too bright for this precision");
-  view.background = record.radiance;
-  view.background_light = static_cast<uint32_t>(out.lights.size());
-  out.lights.push_back(record);
-  measures.resize(out.lights.size());
 }
 
 template <class Real>
@@ -156,25 +151,26 @@ void assign_light_probabilities(const std::vector<double>& measures, LightSampli
     finite += !is_infinite && weights[i] > 0 ? 1 : 0;
   }
   const bool both = total[0] > 0 && total[1] > 0;
-  for (size_t i = 0; i < count; ++i) {
-    const double total_weight = total[light_traits(out.lights[i].kind).is_at_infinity];
-    out.lights[i].pmf = static_cast<Real>(total_weight > 0 ? weights[i] / total_weight * (both ? 0.5 : 1) : 0);
-  }
   const bool has_tree = finite > 0 && sampling != LightSampling::power &&
-                        (sampling == LightSampling::tree || finite > max_lights_without_tree);
-  // With a tree the others are chosen among the infinite lights, which precede all shapes.
+                        (sampling == LightSampling::tree || both || finite > max_lights_without_tree);
+  // With a tree the others are chosen among the lights at infinity, which precede all shapes.
+  const double of_group = both && !has_tree ? 0.5 : 1;
   size_t chosen = count;
   while (has_tree && chosen > 0 && !light_traits(out.lights[chosen - 1].kind).is_at_infinity) --chosen;
   double sum = 0;
   out.light_cdf.assign(1, Real(0));
-  for (size_t i = 0; i < chosen; ++i) {
-    const bool counts = !has_tree || light_traits(out.lights[i].kind).is_at_infinity;
-    const double total_weight = total[light_traits(out.lights[i].kind).is_at_infinity];
-    if (counts && total_weight > 0) sum += weights[i] / total_weight * (both && !has_tree ? 0.5 : 1);
+  for (size_t i = 0; i < count; ++i) {
+    const bool is_infinite = light_traits(out.lights[i].kind).is_at_infinity;
+    const double total_weight = total[is_infinite];
+    const double pmf = total_weight > 0 ? weights[i] / total_weight * of_group : 0;
+    out.lights[i].pmf = static_cast<Real>(pmf);
+    if (i >= chosen) continue;
+    if (is_infinite || !has_tree) sum += pmf;
     out.light_cdf.push_back(i + 1 == chosen ? Real(1) : static_cast<Real>(sum));
   }
   if (!has_tree) return;
-  view.light_tree_probability = both ? Real(0.5) : Real(1);
+  const double largest = std::numeric_limits<Real>::max();
+  view.infinite_irradiance = static_cast<Real>(std::min(total[1], largest));
   build_light_tree(weights, out);
 }
 

@@ -121,6 +121,10 @@ class MaterialBuilder {
     record.ior = static_cast<Real>(checked_ior(material, material.ior));
     record.roughness = roughness_of(material);
     record.remap_roughness = material.remap_roughness;
+    if (record.ior != 1 && !is_smooth_everywhere(record.roughness, record.remap_roughness))
+      record.grid = tables_.grid({.kind = AlbedoGrid::Kind::glass,
+                                  .ior = static_cast<double>(record.ior),
+                                  .alpha_u = constant_alpha(material, record.roughness)});
   }
 
   void fill(const Material& material, AnisotropicDielectricRecord<Real>& record) {
@@ -128,6 +132,12 @@ class MaterialBuilder {
     record.roughness_u = range(material.roughness_u);
     record.roughness_v = range(material.roughness_v);
     record.remap_roughness = material.remap_roughness;
+    if (record.ior != 1)
+      record.grid = tables_.grid({.kind = AlbedoGrid::Kind::glass,
+                                  .ior = static_cast<double>(record.ior),
+                                  .is_anisotropic = true,
+                                  .alpha_u = constant_alpha(material, record.roughness_u),
+                                  .alpha_v = constant_alpha(material, record.roughness_v)});
   }
 
   void fill(const Material& material, ThinDielectricRecord<Real>& record) {
@@ -317,6 +327,12 @@ class MaterialBuilder {
     const Optional value = constant_of(roughness);
     if (!value) return std::nullopt;
     return layered_alpha(alpha_of_roughness(*value, material.remap_roughness));
+  }
+
+  bool is_smooth_everywhere(TextureRange roughness, uint32_t remap) const {
+    if (roughness.count == 0) return true;
+    const Optional value = constant_of(roughness);
+    return value && is_smooth(alpha_of_roughness(static_cast<Real>(*value), remap));
   }
 
   /// Returns the index, clamped to the limits beyond which an interface reflects almost everything. It is rounded to

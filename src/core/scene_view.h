@@ -70,14 +70,13 @@ struct SceneView {
 
   CameraRecord<Real> camera{};
   FilterRecord<Real> filter;
-  Vec3<Real> background{};               ///< radiance of the constant infinite light
-  uint32_t background_light = no_light;  ///< its index in `lights`
-  Real light_tree_probability = 0;       ///< probability of choosing a light by the tree instead of by light_cdf
-  Real exposure = 1;                     ///< factor on recorded radiance
-  uint32_t has_cutouts = 0;              ///< 1 if a material lets rays through, be it only camera rays
-  uint32_t lets_light_through = 0;       ///< 1 if a material lets shadow rays through
-  uint32_t has_lobes = 0;                ///< 1 if a material chooses among lobes at random
-  uint32_t has_narrow_triangles = 0;     ///< 1 if a triangle is much longer than wide (core/shapes/triangle.h)
+  Vec3<Real> background{};            ///< radiance of the constant infinite light, which `lights` does not hold
+  Real infinite_irradiance = 0;       ///< what light_cdf chooses from can send to a surface, if there is a light tree
+  Real exposure = 1;                  ///< factor on recorded radiance
+  uint32_t has_cutouts = 0;           ///< 1 if a material lets rays through, be it only camera rays
+  uint32_t lets_light_through = 0;    ///< 1 if a material lets shadow rays through
+  uint32_t has_lobes = 0;             ///< 1 if a material chooses among lobes at random
+  uint32_t has_narrow_triangles = 0;  ///< 1 if a triangle is much longer than wide (core/shapes/triangle.h)
 };
 
 }  // namespace ALHAZEN_CORE

@@ -163,7 +163,7 @@ uint64_t scene_fingerprint(const CompiledScene<Real>& scene) {
   h.add_bytes(&v.filter, sizeof(v.filter));
   h.add_bytes(&v.background, sizeof(v.background));
   h.add_bytes(&v.exposure, sizeof(v.exposure));
-  h.add_bytes(&v.light_tree_probability, sizeof(v.light_tree_probability));
+  h.add_bytes(&v.infinite_irradiance, sizeof(v.infinite_irradiance));
   return h.value();
 }
 

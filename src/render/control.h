@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/integrators/sample_counters.h"
+
 namespace alhazen {
 
 /// Statistics of one thread, on cache lines of their own.
@@ -15,6 +17,7 @@ struct alignas(128) ThreadStatistics {
   uint64_t shadow_rays = 0;
   uint64_t nonfinite_samples = 0;  ///< samples that were NaN or infinite and counted as black
   double busy_seconds = 0;
+  SampleCounters counters;  ///< zero in builds that do not count
 };
 
 class RenderControl {

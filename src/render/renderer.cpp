@@ -133,6 +133,7 @@ class PassLoop {
       statistics.rays += thread.rays;
       statistics.shadow_rays += thread.shadow_rays;
       statistics.nonfinite_samples += thread.nonfinite_samples;
+      statistics.counters.add(thread.counters);
     }
   }
 

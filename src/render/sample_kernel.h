@@ -49,9 +49,9 @@ class SampleKernel {
   explicit SampleKernel(RawKernel raw) : raw_(raw) {}
 
   /// Takes `count` blocks into `sums`. `tracer` holds further arguments of the kernel's intersector.
-  void operator()(const SceneView<Real>& scene, const ExternalTracer* tracer, uint32_t seed, uint32_t max_segments,
+  void operator()(const SceneView<Real>& scene, const ExternalTracer* tracer, SampleSeed seed, uint32_t max_segments,
                   const BlockRequest* blocks, uint32_t count, BlockSum<Real>* sums, bool wants_first_hit = true) const {
-    raw_({&scene, tracer, sums, blocks, count, seed, max_segments, wants_first_hit});
+    raw_({&scene, tracer, sums, blocks, count, seed.seed, seed.screen_order, max_segments, wants_first_hit});
   }
 
  private:

@@ -175,6 +175,11 @@ std::vector<SettingEntry> output_settings() {
   };
 }
 
+std::string order_of_samples(const RenderSettings& s) {
+  const uint32_t order = sample_seed(s).screen_order;
+  return to_string(s.sampler) + (order > 0 ? " for up to " + std::to_string(1u << (order - 1)) + " samples" : "");
+}
+
 std::vector<SettingEntry> image_settings() {
   constexpr SettingGroup group = SettingGroup::image;
   return {
@@ -215,8 +220,10 @@ std::vector<SettingEntry> image_settings() {
             name(&Settings::variant)),
       entry(group, "confine", "", "", "Read no files outside the folder of the scene: for untrusted scenes",
             flag(&Settings::confine)),
-      of_samples([](const RenderSettings& s) { return to_string(s.sampler); },
-                 entry(group, "sampler", "", "NAME", "sobol or independent", name(&Settings::sampler))),
+      of_samples(order_of_samples, entry(group, "sampler", "", "NAME",
+                                         "sobol, zsobol (noise that looks finer; plans for --spp samples, which a "
+                                         "checkpoint cannot change) or independent",
+                                         name(&Settings::sampler))),
       of_samples([](const RenderSettings& s) { return std::to_string(s.seed); },
                  entry(group, "seed", "", "N", "Seed of the random numbers",
                        optional_number("seed", &Settings::seed, uint32_t{0}, ~uint32_t{0}))),

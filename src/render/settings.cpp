@@ -1,6 +1,7 @@
 #include "render/settings.h"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <thread>
@@ -27,7 +28,8 @@ constexpr Named<IntegratorKind> integrators[] = {{"path", IntegratorKind::path},
                                                  {"iterative", IntegratorKind::iterative},
                                                  {"recursive", IntegratorKind::recursive},
                                                  {"branching", IntegratorKind::branching}};
-constexpr Named<SamplerType> samplers[] = {{"sobol", SamplerType::sobol}, {"independent", SamplerType::independent}};
+constexpr Named<SamplerType> samplers[] = {
+    {"sobol", SamplerType::sobol}, {"zsobol", SamplerType::zsobol}, {"independent", SamplerType::independent}};
 constexpr Named<ScheduleKind> schedules[] = {
     {"static", ScheduleKind::static_}, {"dynamic", ScheduleKind::dynamic}, {"guided", ScheduleKind::guided}};
 constexpr Named<bool AovSet::*> layers[] = {{"albedo", &AovSet::albedo},   {"normal", &AovSet::normal},
@@ -210,6 +212,11 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   choose_backend(asked, s);
   check_threads(asked.threads, s);
   return s;
+}
+
+SampleSeed sample_seed(const RenderSettings& settings) {
+  if (settings.sampler != SamplerType::zsobol) return settings.seed;
+  return {settings.seed, 1 + static_cast<uint32_t>(std::bit_width(settings.samples_per_pixel - 1))};
 }
 
 std::string to_string(Precision precision) { return name_of(precisions, precision); }

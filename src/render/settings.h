@@ -72,6 +72,9 @@ void apply_settings(const Settings& asked, Scene& scene);
 /// Merges `asked` with `scene`. Throws InputError as above.
 RenderSettings resolve_settings(const Settings& asked, const Scene& scene);
 
+/// The seed, and for zsobol the order of its points, which depends on the number of samples per pixel.
+SampleSeed sample_seed(const RenderSettings& settings);
+
 std::string to_string(Precision precision);
 std::string to_string(IntegratorKind integrator);
 std::string to_string(SamplerType sampler);

@@ -5,12 +5,34 @@
 #include <nlohmann/json.hpp>
 
 #include "render/backend.h"
+#include "render/counter_lines.h"
 
 namespace alhazen {
 
 namespace {
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
+
+nlohmann::ordered_json light_samples_json(const std::vector<LightSampleLine>& lines) {
+  nlohmann::ordered_json j = nlohmann::ordered_json::object();
+  for (const auto& [kind, counts] : lines)
+    j[kind] = {{"drawn", counts.drawn},
+               {"unlit", counts.unlit},
+               {"black", counts.black},
+               {"shadow_rays", counts.shadow_rays()},
+               {"blocked", counts.blocked}};
+  return j;
+}
+
+nlohmann::ordered_json counters_json(const SampleCounters& counters) {
+  const CounterLines lines = counter_lines(counters);
+  nlohmann::ordered_json bsdf = nlohmann::ordered_json::object();
+  for (const auto& [kind, counts] : lines.bsdf)
+    bsdf[kind] = {{"drawn", counts.drawn}, {"black", counts.black}, {"roulette", counts.roulette}};
+  return {{"light_samples_by_light", light_samples_json(lines.by_light)},
+          {"light_samples_by_closure", light_samples_json(lines.by_closure)},
+          {"bsdf_samples", bsdf}};
+}
 
 }  // namespace
 
@@ -66,6 +88,7 @@ std::string RenderStatistics::to_json() const {
   j["mrays_per_s"] = mrays_per_second();
   j["mean_segments"] = mean_segments();
   j["peak_rss_bytes"] = peak_rss_bytes;
+  if (counts_samples) j["counters"] = counters_json(counters);
   j["thread_statistics"] = nlohmann::ordered_json::array();
   for (const ThreadStatistics& t : threads)
     j["thread_statistics"].push_back({{"busy_seconds", t.busy_seconds}, {"samples", t.samples}});

@@ -24,6 +24,7 @@ struct RenderStatistics {
   bool complete = false;
   uint64_t camera_samples = 0, rays = 0, shadow_rays = 0, nonfinite_samples = 0;
   uint64_t peak_rss_bytes = 0;  ///< peak of the process
+  SampleCounters counters;      ///< of all threads; zero in builds that do not count
   std::vector<ThreadStatistics> threads;
 
   double mean_segments() const;

@@ -293,7 +293,7 @@ TEST_F(BadInput, Settings) {
   expect_bad_usage({"--seed", "4294967296"}, {"--seed"});
   expect_bad_usage({"--seed", "x"}, {"--seed"});
   expect_bad_usage({"--integrator", "bdpt"}, {"bdpt", "path, iterative, recursive, branching"});
-  expect_bad_usage({"--sampler", "halton"}, {"halton", "sobol, independent"});
+  expect_bad_usage({"--sampler", "halton"}, {"halton", "sobol, zsobol, independent"});
   expect_bad_usage({"--backend", "gpu"}, {"gpu", "serial", "openmp"});
   expect_bad_usage({"--backend", "openmp", "--strategy", "columns"}, {"columns", "tiles, rows"});
   expect_bad_usage({"--backend", "serial", "--strategy", "rows"}, {"serial", "rows"});

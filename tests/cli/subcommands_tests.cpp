@@ -24,13 +24,13 @@ TEST_F(Subcommands, CompareOfEqualImagesIsZero) {
   EXPECT_EQ(result.exit_code, 0) << result.everything();
   EXPECT_EQ(result.err, "");
   const nlohmann::json j = only_json(result.out);
-  for (const char* key : {"mse", "rmse", "relmse", "flip", "max_abs", "nonfinite_a", "nonfinite_b"})
+  for (const char* key : {"mse", "rmse", "relmse", "relmse_trimmed", "flip", "max_abs", "nonfinite_a", "nonfinite_b"})
     EXPECT_EQ(j[key], 0) << key;
   EXPECT_NEAR(j["ssim"].get<double>(), 1, 1e-12);
   EXPECT_TRUE(j["psnr"].is_null());
   EXPECT_NEAR(j["mean_a"].get<double>(), 0.5, 1e-6);
   EXPECT_NEAR(j["mean_b"].get<double>(), 0.5, 1e-6);
-  EXPECT_EQ(j.size(), 11u);
+  EXPECT_EQ(j.size(), 12u);
 }
 
 TEST_F(Subcommands, CompareMeasures) {

@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Parity, CudaOnHost,
                          ::testing::Combine(::testing::Values("cornell", "spheres"),
                                             ::testing::Values("float", "double"),
                                             ::testing::Values("path", "iterative"),
-                                            ::testing::Values("sobol", "independent")));
+                                            ::testing::Values("sobol", "zsobol", "independent")));
 
 class CudaOnHostScene : public ::testing::TestWithParam<std::string> {};
 

@@ -103,6 +103,7 @@ TEST_P(Resume, RefusesAnotherRender) {
   EXPECT_TRUE(refused_settings([](Settings& s) { s.seed = 7; }));
   EXPECT_TRUE(refused_settings([](Settings& s) { s.max_depth = 2; }));
   EXPECT_TRUE(refused_settings([](Settings& s) { s.sampler = "independent"; }));
+  EXPECT_TRUE(refused_settings([](Settings& s) { s.sampler = "zsobol"; }));
   EXPECT_TRUE(refused_settings([](Settings& s) { s.integrator = "iterative"; }));
   EXPECT_TRUE(refused_settings([](Settings& s) { s.precision = s.precision == "float" ? "double" : "float"; }));
   EXPECT_TRUE(refused_settings([](Settings& s) { s.width = 21; }));

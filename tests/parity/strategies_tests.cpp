@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Parity, EveryKernel,
                          ::testing::Combine(::testing::Values("cornell", "spheres"),
                                             ::testing::Values("float", "double"),
                                             ::testing::Values("path", "iterative", "recursive", "branching"),
-                                            ::testing::Values("sobol", "independent")));
+                                            ::testing::Values("sobol", "zsobol", "independent")));
 
 void expect_same_by_every_strategy(const std::string& scene) {
   for (const std::string precision : {"float", "double"})

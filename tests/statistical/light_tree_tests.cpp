@@ -48,21 +48,26 @@ double pmf_of_nothing(const SceneView<Real>& scene, const LightTreeNode& node, c
          (second > 0 ? second * pmf_of_nothing(scene, children[1], point, normal) : 0);
 }
 
-const std::string sky = R"(LightSource "infinite" "rgb L" [ 0.1 0.1 0.1 ] LightSource "distant")";
+const std::string sky = R"(LightSource "infinite" "rgb L" [ 0.1 0.1 0.1 ] LightSource "distant" "float scale" 0.1)";
+
+/// The probability that `choose_light` chooses this one.
+template <class Real>
+double pmf_of_choice(const SceneView<Real>& scene, uint32_t light, const Vec3<Real>& point, const Vec3<Real>& normal) {
+  const auto by_tree = static_cast<double>(light_tree_probability(scene, point, normal));
+  return scene.lights[light].kind == LightKind::distant ? (1 - by_tree) * static_cast<double>(scene.lights[light].pmf)
+                                                        : by_tree * pmf_of(scene, light, point, normal);
+}
 
 TYPED_TEST(LightTree, ProbabilitiesSumToOne) {
   using Real = TypeParam;
   for (const int count : {3, 6, 100, 1000}) {
     const CompiledScene<Real> scene = compiled_scene_of<Real>("WorldBegin " + sky + small_lights(count, 3, true));
     ASSERT_EQ(scene.view.light_tree_count, 2 * static_cast<uint32_t>(count));
-    ASSERT_EQ(scene.view.lights_count, static_cast<uint32_t>(count) + 2);
-    ASSERT_EQ(scene.view.light_tree_probability, Real(0.5));
+    ASSERT_EQ(scene.view.lights_count, static_cast<uint32_t>(count) + 1);
     for_points<Real>(20, [&](const Vec3<Real>& point, const Vec3<Real>& normal) {
       double sum = pmf_of_nothing(scene.view, scene.view.light_tree[0], point, normal);
       for (uint32_t i = 0; i < scene.view.lights_count; ++i) {
-        const LightKind kind = scene.view.lights[i].kind;
-        if (kind != LightKind::distant && kind != LightKind::constant_infinite)
-          sum += pmf_of(scene.view, i, point, normal);
+        if (scene.view.lights[i].kind != LightKind::distant) sum += pmf_of(scene.view, i, point, normal);
       }
       EXPECT_NEAR(sum, 1, by_precision<Real>(1e-4, 1e-12)) << count;
     });
@@ -84,20 +89,14 @@ TYPED_TEST(LightTree, LightsComeUpAsOftenAsTheyShould) {
         ++observed.back();
         continue;
       }
-      const bool in_tree = view.lights[choice.light].kind != LightKind::constant_infinite &&
-                           view.lights[choice.light].kind != LightKind::distant;
-      const double pmf = in_tree ? 0.5 * pmf_of(view, choice.light, point, normal)
-                                 : static_cast<double>(view.lights[choice.light].pmf);
+      const double pmf = pmf_of_choice(view, choice.light, point, normal);
       EXPECT_NEAR(static_cast<double>(choice.pmf), pmf, 1e-5 * pmf);
       ++observed[choice.light];
     }
-    for (uint32_t i = 0; i < view.lights_count; ++i) {
-      const LightKind kind = view.lights[i].kind;
-      const bool in_tree = kind != LightKind::constant_infinite && kind != LightKind::distant;
-      const double pmf = in_tree ? 0.5 * pmf_of(view, i, point, normal) : static_cast<double>(view.lights[i].pmf);
-      expected.push_back(pmf * samples);
-    }
-    expected.push_back(0.5 * samples * pmf_of_nothing(view, view.light_tree[0], point, normal));
+    for (uint32_t i = 0; i < view.lights_count; ++i)
+      expected.push_back(pmf_of_choice(view, i, point, normal) * samples);
+    expected.push_back(static_cast<double>(light_tree_probability(view, point, normal)) * samples *
+                       pmf_of_nothing(view, view.light_tree[0], point, normal));
     EXPECT_GT(chi_squared_test(observed, expected).p_value, sidak(0.01, 2 * points));
   });
 }

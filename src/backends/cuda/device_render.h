@@ -189,7 +189,7 @@ class DeviceRender {
             device_rows_,
             {},
             pass.settings.sampler,
-            pass.settings.seed,
+            sample_seed(pass.settings),
             pass.settings.max_segments};
   }
 

@@ -8,14 +8,14 @@
 #include "compile/tables/albedo_quadrature.h"
 #include "core/materials/coated_diffuse.h"
 #include "core/materials/lobes/ggx_albedo.h"
-#include "core/materials/lobes/rough_glass.h"
+#include "core/materials/lobes/glass_albedo.h"
 #include "core/materials/lobes/sheen.h"
 
 namespace alhazen {
 
 namespace {
 
-constexpr uint32_t max_quantities = 6;
+constexpr uint32_t max_quantities = 8;
 using Quantities = std::array<double, max_quantities>;
 
 struct GridNormals {
@@ -60,8 +60,11 @@ void add_ggx(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, 
   });
 }
 
-/// The quantities of glass on one side; `eta` is the index of the other side relative to it.
-void add_glass(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double eta, double* q) {
+/// Calls visit(direction, fraction reflected, or transmitted if it is below, Fresnel reflectance) for what single
+/// scattering sends from `o` in either direction. `eta` is the index of the other side relative to that of `o`.
+template <class Visit>
+void for_each_glass_facet(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double eta,
+                          const Visit& visit) {
   const UnshadowedFraction unshadowed(o, alpha);
   normals.for_each(o, alpha, [&](const Vec3d& m, double weight) {
     const double cosine = dot(o, m);
@@ -69,17 +72,39 @@ void add_glass(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha
     double cos_t;
     const double fresnel = fresnel_dielectric(cosine, eta, cos_t);
     const Vec3d r = m * (2 * cosine) - o;
-    const double reflected = r.z > 0 ? weight * unshadowed(r) : 0;
-    if (fresnel >= 1) {
-      q[GlassGrid::bare] += reflected;
-      return;
-    }
+    if (r.z > 0) visit(r, weight * unshadowed(r), fresnel);
+    if (fresnel >= 1) return;
     const Vec3d t = m * (cosine / eta - cos_t) - o * (1 / eta);
-    const double refracted = t.z < 0 ? weight * unshadowed(t) : 0;
-    q[GlassGrid::bare] += refracted;
-    q[GlassGrid::by_fresnel] += fresnel * (reflected - refracted);
-    q[GlassGrid::by_constant] += reflected - refracted;
+    if (t.z < 0) visit(t, weight * unshadowed(t), fresnel);
   });
+}
+
+double single_glass_albedo(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double eta) {
+  double sum = 0;
+  for_each_glass_facet(normals, o, alpha, eta, [&](const Vec3d& i, double fraction, double fresnel) {
+    sum += fraction * (i.z > 0 ? fresnel : 1 - fresnel);
+  });
+  return sum;
+}
+
+/// The quantities of glass on one side that depend on the albedos of single scattering, which `block` already holds.
+/// `o.z` < 0 from within; `place` is that of the block.
+void add_glass(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double ior,
+               const AlbedoGridPlace<double>& place, double* q) {
+  const bool within = o.z < 0;
+  const double side = within ? -1 : 1;
+  const GlassAlbedo<double> of_o = glass_albedo(place, ior, o);
+  double all = 0;
+  for_each_glass_facet(
+      normals, o * side, alpha, within ? 1 / ior : ior, [&](const Vec3d& i, double fraction, double fresnel) {
+        const double scaled = fraction * single_scattering_scale(of_o, glass_albedo(place, ior, i * side));
+        all += scaled * (i.z > 0 ? fresnel : 1 - fresnel);
+        if (fresnel >= 1) return;
+        const double gain = i.z > 0 ? scaled : -scaled;
+        q[GlassGrid::by_constant] += gain;
+        q[GlassGrid::by_fresnel] += fresnel * gain;
+      });
+  q[GlassGrid::missing] = std::max(0.0, 1 - all);
 }
 
 void add_coat(const GridNormals& normals, const AlbedoGrid& grid, const Vec3d& o, const Vec2d& alpha, Quantities& q) {
@@ -135,7 +160,8 @@ void add_side(const GridNormals& normals, const AlbedoGrid& grid, uint32_t first
       return;
     }
     case AlbedoGrid::Kind::glass:
-      return add_glass(normals.dense_in_tails, o, alpha, index_of(grid, first), q.data() + first);
+      q[first + GlassGrid::single] = single_glass_albedo(normals.dense_in_tails, o, alpha, index_of(grid, first));
+      return;
   }
 }
 
@@ -156,25 +182,47 @@ double mean_of(const double* rows, uint32_t azimuths, double ior) {
   return sum / turns;
 }
 
-void fill_block(const GridNormals& normals, const AlbedoGrid& grid, const AlbedoGridRecord& record, const Vec2d& alpha,
-                double* block) {
+/// Calls compute(first quantity, direction, q) for each direction of a side, and stores what it sets of q. Of equal
+/// alphas, one azimuth is computed.
+template <class Compute>
+void fill_rows(const AlbedoGrid& grid, const AlbedoGridRecord& record, const Vec2d& alpha, double* block,
+               uint32_t first_of_side, uint32_t count, const Compute& compute) {
   const uint32_t sides = grid.kind == AlbedoGrid::Kind::glass ? 2 : 1, each = record.quantities / sides;
-  const uint32_t azimuths = alpha.x == alpha.y ? 1 : record.azimuths;  // all azimuths are equal
-  for (uint32_t first = 0; first < record.quantities; first += each)
+  const uint32_t azimuths = alpha.x == alpha.y ? 1 : record.azimuths;
+  for (uint32_t side = 0; side < sides; ++side)
     for (uint32_t a = 0; a < azimuths; ++a)
       for (uint32_t i = 0; i < grid_cosines; ++i) {
+        const uint32_t first = side * each;
         const double cosine = cosine_at(i, index_of(grid, first), grid_cosines), sine = safe_sqrt(1 - cosine * cosine);
         const Vec2d azimuth = azimuth_of_node(a, record.azimuths);
         Quantities q{};
-        add_side(normals, grid, first, {sine * azimuth.x, sine * azimuth.y, cosine}, alpha, q);
-        for (uint32_t k = first; k < first + each; ++k)
+        compute(first, Vec3d{sine * azimuth.x, sine * azimuth.y, cosine}, q);
+        for (uint32_t k = first + first_of_side; k < first + first_of_side + count; ++k)
           for (uint32_t same = a; same < record.azimuths; same += azimuths)
             block[(k * record.azimuths + same) * grid_cosines + i] = q[k];
       }
-  if (grid.kind == AlbedoGrid::Kind::glass || grid.kind == AlbedoGrid::Kind::sheen) return;  // their means are unused
-  for (uint32_t k = 0; k < record.quantities; ++k)
+}
+
+void fill_block(const GridNormals& normals, const AlbedoGrid& grid, const AlbedoGridRecord& record, const Vec2d& alpha,
+                double* block) {
+  const bool is_glass = grid.kind == AlbedoGrid::Kind::glass;
+  const uint32_t azimuths = alpha.x == alpha.y ? 1 : record.azimuths;
+  fill_rows(grid, record, alpha, block, 0, is_glass ? 1 : record.quantities,
+            [&](uint32_t first, const Vec3d& o, Quantities& q) { add_side(normals, grid, first, o, alpha, q); });
+  if (is_glass) {
+    const AlbedoGridPlace<double> place{block, record.quantities, record.azimuths, 0, 0, 0, 0};
+    fill_rows(grid, record, alpha, block, 1, GlassGrid::from_within - 1,
+              [&](uint32_t first, const Vec3d& o, Quantities& q) {
+                const Vec3d w{o.x, o.y, first == GlassGrid::from_within ? -o.z : o.z};
+                add_glass(normals.dense_in_tails, w, alpha, grid.ior, place, q.data() + first);
+              });
+  }
+  if (grid.kind == AlbedoGrid::Kind::sheen) return;  // its mean is unused
+  for (uint32_t k = 0; k < record.quantities; ++k) {
+    if (is_glass && k % GlassGrid::from_within != GlassGrid::missing) continue;  // these means are unused too
     block[record.quantities * record.azimuths * grid_cosines + k] =
         mean_of(block + k * record.azimuths * grid_cosines, azimuths, index_of(grid, k));
+  }
 }
 
 /// Makes the block of a pair of alphas from that of the exchanged pair.
@@ -216,8 +264,10 @@ namespace {
 /// thousandths if alphas are interpolated too. Glass from inside needs more, since total reflection begins abruptly.
 size_t normals_of(const AlbedoGrid& grid, const AlbedoGridRecord& record) {
   const bool is_constant = record.alphas_u * record.alphas_v == 1;
-  if (grid.kind == AlbedoGrid::Kind::glass) return is_constant ? 1597 : 377;
-  return is_constant ? 610 : record.azimuths > 1 ? 256 : 377;
+  const bool is_isotropic = record.azimuths == 1;
+  if (grid.kind == AlbedoGrid::Kind::glass)
+    return is_constant ? (is_isotropic ? 1597 : 610) : (is_isotropic ? 377 : 233);
+  return is_constant ? 610 : is_isotropic ? 377 : 256;
 }
 
 std::vector<double> computed(const AlbedoGrid& grid) {

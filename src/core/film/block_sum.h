@@ -17,6 +17,7 @@ struct BlockSum {
   Real depth = 0;
   Real luminance_mean = 0, luminance_m2 = 0;  ///< Welford's running mean and sum of squared deviations
   uint32_t samples = 0, hits = 0, segments = 0, shadow_rays = 0, nonfinite = 0;
+  [[no_unique_address]] RecordCounters counters;
 
   ALHAZEN_HD void add_first_hit(const FirstHit<Real>& first) {
     ++hits;
@@ -45,6 +46,7 @@ struct BlockSum {
 
   ALHAZEN_HD void add(const SampleRecord<Real>& sample, Real filter_weight) {
     if (sample.has_hit) add_first_hit(sample.first);
+    counters.add(sample.counters);
     add_path(sample, filter_weight);
   }
 };

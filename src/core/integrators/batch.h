@@ -24,7 +24,7 @@ template <IntegratorKind kind, class Sampler, class Real, BatchIntersector<Real>
 requires SamplerOf<Sampler, Real>
 class PathBatch {
  public:
-  PathBatch(const SceneView<Real>& scene, const Intersector& intersector, uint32_t seed, uint32_t max_segments,
+  PathBatch(const SceneView<Real>& scene, const Intersector& intersector, SampleSeed seed, uint32_t max_segments,
             bool wants_first_hit, uint32_t count, const Pixel& pixel, const End& end)
       : scene_(scene),
         intersector_(intersector),
@@ -245,7 +245,8 @@ class PathBatch {
 
   const SceneView<Real>& scene_;
   const Intersector& intersector_;
-  uint32_t seed_, max_segments_;
+  SampleSeed seed_;
+  uint32_t max_segments_;
   bool wants_first_hit_;
   uint32_t count_, next_ = 0;
   const Pixel& pixel_;
@@ -267,8 +268,8 @@ class PathBatch {
 template <IntegratorKind kind, class Sampler, class Real, BatchIntersector<Real> Intersector, PixelLookup Pixel,
           SampleReceiver<Real> End>
 requires SamplerOf<Sampler, Real>
-void integrate_batch(const SceneView<Real>& scene, const Intersector& intersector, uint32_t seed, uint32_t max_segments,
-                     bool wants_first_hit, uint32_t count, const Pixel& pixel, const End& end) {
+void integrate_batch(const SceneView<Real>& scene, const Intersector& intersector, SampleSeed seed,
+                     uint32_t max_segments, bool wants_first_hit, uint32_t count, const Pixel& pixel, const End& end) {
   PathBatch<kind, Sampler, Real, Intersector, Pixel, End> batch(scene, intersector, seed, max_segments, wants_first_hit,
                                                                 count, pixel, end);
   batch.run();

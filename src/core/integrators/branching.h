@@ -1,7 +1,7 @@
 #pragma once
 
-// The report's Algorithm 2: recursion that follows both reflection and refraction at a dielectric. The cost grows as
-// 2^D through glass.
+// The report's Algorithm 2: recursion that follows both reflection and refraction at a smooth dielectric. The cost
+// grows as 2^D through glass.
 
 #include "core/integrators/stages.h"
 
@@ -30,7 +30,7 @@ ALHAZEN_HD Vec3<Real> cast_ray_branching(const SceneView<Real>& scene, const Int
                 cast_ray_branching(scene, intersector, numbers, spawn_ray(point.si, s.direction), segments_left - 1,
                                    segment + 1, record);
   };
-  if (point.bsdf.kind != MaterialKind::dielectric) {
+  if (point.bsdf.kind != MaterialKind::dielectric || !point.bsdf.is_specular()) {
     follow(scatter(point, sampler, dimensions), sampler, Real(1));
     return radiance;
   }

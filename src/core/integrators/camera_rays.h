@@ -27,7 +27,7 @@ class CameraRays {
  public:
   /// Generates `count` rays.
   template <PixelLookup Pixel>
-  void make(const SceneView<Real>& scene, uint32_t seed, uint32_t count, const Pixel& pixel) {
+  void make(const SceneView<Real>& scene, SampleSeed seed, uint32_t count, const Pixel& pixel) {
     for (uint32_t i = 0; i < count; ++i) pixels_.set(i, pixel(i));
     const uint32_t end = whole_rows(count);
     ALHAZEN_SIDE_BY_SIDE

@@ -69,6 +69,8 @@ ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& in
                [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
                  const Real visibility = visibility_of(scene, intersector, shadow);
                  if (visibility > 0) record.radiance += radiance * visibility;
+                 if constexpr (has_counters<Record>)
+                   if (!(visibility > 0)) record.counters.count_blocked();
                });
 }
 

@@ -29,14 +29,13 @@ class DiffuseSurfaces {
 
   uint32_t count() const { return count_; }
   uint32_t place(uint32_t i) const { return indices_[i]; }
-  void clear() { count_ = triangles_ = skies_ = 0; }
+  void clear() { count_ = triangles_ = 0; }
 
   /// Lights and scatters all of them; their indices are below `count`. `numbers` holds the random numbers.
   template <SampleBatchOf<Real> Numbers>
   void shade(const Points& points, const Numbers& numbers, uint32_t count) {
     const uint32_t end = whole_rows(count);
     if (triangles_ > 0) sample_triangles(points, numbers, end);
-    if (skies_ > 0) sample_sky(numbers, end);
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
       const DirectLight<Real> direct = direct_light(point_at(points, i), lights_[i]);
@@ -78,7 +77,7 @@ class DiffuseSurfaces {
  private:
   /// How a surface gets its light sample: it has one, or `sample_lights` takes one.
   struct LightSource {
-    static constexpr uint32_t sampled = 0, triangle = 1, sky = 2;
+    static constexpr uint32_t sampled = 0, triangle = 1;
   };
 
   /// Acts as the sampler of one path, with the random numbers that a diffuse surface uses.
@@ -122,13 +121,6 @@ class DiffuseSurfaces {
       emitters_.set(i, scene.triangle_emitters[light.emitter]);
       light_source_[i] = LightSource::triangle;
       ++triangles_;
-    } else if (light.kind == LightKind::constant_infinite) {
-      Light sky;
-      sky.radiance = light.radiance;
-      sky.pdf = pdf_uniform_sphere<Real> * choice.pmf;
-      lights_.template set_only<&Light::radiance, &Light::pdf>(i, sky);
-      light_source_[i] = LightSource::sky;
-      ++skies_;
     } else {
       Light sampled = sample_chosen_light(scene, light, point.si.position, choice.light == point.light, point.si.time,
                                           sampler.template get_2d<Real>(path_dimensions.light_point()));
@@ -148,16 +140,6 @@ class DiffuseSurfaces {
       lights_.set(i, select(light_source_[i] == LightSource::triangle, sampled, lights_[i]));
     }
   }
-  template <SampleBatchOf<Real> Numbers>
-  void sample_sky(const Numbers& numbers, uint32_t end) {
-    ALHAZEN_SIDE_BY_SIDE
-    for (uint32_t i = 0; i < end; ++i) {
-      Light sampled = lights_[i];
-      const Vec3<Real> direction = sample_uniform_sphere(numbers.pair(dimensions.light_point(), i));
-      sampled.direction = select(light_source_[i] == LightSource::sky, direction, sampled.direction);
-      lights_.template set_only<&Light::direction>(i, sampled);
-    }
-  }
 
   ALHAZEN_INLINE ShadingPoint<Real> point_at(const Points& points, uint32_t i) const {
     ShadingPoint<Real> point = points.bare_point(i);
@@ -170,7 +152,7 @@ class DiffuseSurfaces {
   using Path = PathState<Real>;
   /// The time of these rays, and the surface that they leave, are those of the hit.
   using RayArrays = SoA<Ray<Real>, max_count, FieldList<&Ray<Real>::origin, &Ray<Real>::direction>>;
-  uint32_t count_ = 0, triangles_ = 0, skies_ = 0;
+  uint32_t count_ = 0, triangles_ = 0;
   uint32_t indices_[max_count]{};
   SoA<Vec3<Real>, max_count> reflectance_;
   uint32_t light_source_[max_count]{};

@@ -33,13 +33,17 @@ ALHAZEN_HD ALHAZEN_HOT Real bsdf_mis_weight(const PathState<Real>& path, Real li
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, const PathState<Real>& path,
                                                 Record& record) {
-  if (!is_zero(scene.background))
-    record.radiance += path.throughput * scene.background * bsdf_mis_weight(path, pdf_background(scene));
+  // The constant light is not sampled, so its weight is 1.
+  if (!is_zero(scene.background)) record.radiance += path.throughput * scene.background;
+  if (scene.far_lights_count == 0) return;
+  const Vec3<Real> start = path.ray.origin - path.ray.direction * path.travelled;
+  const Real by_tree = path.is_specular ? Real(0) : light_tree_probability(scene, start, path.light_side);
   for (uint32_t i = 0; i < scene.far_lights_count; ++i) {
     const LightRecord<Real>& light = scene.lights[scene.far_lights[i]];
     const EscapedLight<Real> found = escaped_light(scene, light, path.ray.direction, !path.is_specular);
     if (is_zero(found.radiance)) continue;
-    record.radiance += path.throughput * found.radiance * bsdf_mis_weight(path, light.pmf * found.pdf);
+    const Real light_pdf = light.pmf * (1 - by_tree) * found.pdf;
+    record.radiance += path.throughput * found.radiance * bsdf_mis_weight(path, light_pdf);
   }
 }
 
@@ -62,6 +66,10 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
   record.radiance += path.throughput * emission * bsdf_mis_weight(path, light_pdf);
 }
 
+/// Russian roulette ends paths whose throughput is below this. With a higher threshold more paths end that would have
+/// met a bright surface; a lower one costs more segments than it saves noise (docs/results/quality.md).
+inline constexpr double roulette_threshold = 0.25;
+
 /// Samples the next ray. Returns false if the path ends here.
 template <class Real, SamplerOf<Real> Sampler>
 ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingPoint<Real>& point,
@@ -75,7 +83,7 @@ ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingP
   path.eta_scale *= s.eta * s.eta;
   path.ray = spawn_ray(point.si, s.direction);
   path.travelled = 0;
-  const Real survival = max_component(path.throughput) * path.eta_scale;
+  const Real survival = max_component(path.throughput) * path.eta_scale * Real(1 / roulette_threshold);
   if (!(survival > 0)) return false;
   if (++path.vertex < 2 || survival >= 1) return true;
   if (sampler.template get_1d<Real>(dimensions.roulette()) >= survival) return false;
@@ -100,14 +108,21 @@ template <class Real, SamplerOf<Real> Sampler, RecordOf<Real> Record, ShadowRayR
 ALHAZEN_HD ALHAZEN_HOT bool light_and_scatter(const SceneView<Real>& scene, const Sampler& sampler,
                                               const ShadingPoint<Real>& point, PathState<Real>& path, Record& record,
                                               const Light& light) {
-  const DirectLight<Real> direct =
-      direct_light(point, sample_light_for(scene, sampler, VertexDimensions(path.vertex), point));
+  const VertexDimensions dimensions(path.vertex);
+  const LightSample<Real> sample = sample_light_for(scene, sampler, dimensions, point);
+  const DirectLight<Real> direct = direct_light(point, sample);
+  if constexpr (has_counters<Record>) count_light_sample(scene, sampler, dimensions, point, sample, direct, record);
   if (direct.is_lit) {
     ++record.shadow_rays;
     light(direct.shadow, path.throughput * direct.radiance);
   }
   if (scene.light_tree_count > 0) path.light_side = side_of_light(point);
-  return continue_path(sampler, point, path);
+  const uint32_t vertex = path.vertex;
+  const bool goes_on = continue_path(sampler, point, path);
+  // The path has one vertex more unless the sample is black.
+  if constexpr (has_counters<Record>)
+    record.counters.count_bsdf_sample(point.bsdf.kind, path.vertex == vertex, !goes_on && path.vertex > vertex);
+  return goes_on;
 }
 
 /// Adds emission and direct light and scatters at a hit. Returns false if the path ends there. `light` is as above.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/integrators/sample_counters.h"
 #include "core/math/field_list.h"
 #include "core/math/vec.h"
 
@@ -40,6 +41,7 @@ struct SampleRecord : PathRecord<Real> {
   FirstHit<Real> first;  ///< valid if `has_hit`
   uint32_t has_hit = 0;  ///< 1 if the camera ray hit a surface
   bool keeps_first_hit = true;
+  [[no_unique_address]] RecordCounters counters;
 
   /// Resets the record for another sample. It assigns member by member: assigning a whole record goes through a
   /// temporary, whose stores the loads then wait for.

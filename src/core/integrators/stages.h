@@ -201,6 +201,20 @@ ALHAZEN_HD ALHAZEN_HOT DirectLight<Real> direct_light(const ShadingPoint<Real>& 
   return direct;
 }
 
+/// Counts a light sample by the kind of its light, which is chosen once more, and of the closure.
+template <class Real, SamplerOf<Real> Sampler, class Record>
+ALHAZEN_HD void count_light_sample(const SceneView<Real>& scene, const Sampler& sampler,
+                                   const VertexDimensions& dimensions, const ShadingPoint<Real>& point,
+                                   const LightSample<Real>& sample, const DirectLight<Real>& direct, Record& record) {
+  if (scene.lights_count == 0 || point.bsdf.is_specular()) return;
+  const LightChoiceInput<Real> by = light_choice_input(scene, sampler, dimensions, point);
+  const LightChoice<Real> choice = choose_light(scene, point.si.position, by.normal, by.u);
+  if (!(choice.pmf > 0)) return;
+  const bool is_unlit = !(sample.pdf > 0) || is_zero(sample.radiance);
+  record.counters.count_light_sample(scene.lights[choice.light].kind, point.bsdf.kind, is_unlit,
+                                     !is_unlit && !direct.is_lit);
+}
+
 template <class Real, SamplerOf<Real> Sampler>
 ALHAZEN_HD ALHAZEN_HOT BsdfSample<Real> scatter(const ShadingPoint<Real>& point, const Sampler& sampler,
                                                 const VertexDimensions& dimensions) {

@@ -2,7 +2,8 @@
 
 // An environment map: radiance from infinitely far away, given by an image of the whole sphere with bilinear
 // interpolation. It is sampled by a distribution that is constant over each texel: first a row, then a texel in the row
-// (Pharr, Jakob, Humphreys 2016, 14.2.4). Densities are over solid angle.
+// (Pharr, Jakob, Humphreys 2016, 14.2.4). The density is that of the radiance above its mean, since BSDF sampling finds
+// the rest with less variance. Densities are over solid angle.
 
 #include "core/lights/kinds/light_base.h"
 #include "core/lights/sphere_mapping.h"

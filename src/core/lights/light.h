@@ -130,18 +130,15 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_sphere_light(const SceneView<Rea
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightChoice<Real> choose_light(const SceneView<Real>& scene, const Vec3<Real>& reference,
                                                       const Vec3<Real>& normal, Real u) {
-  if (scene.light_tree_count > 0) {
-    const Real probability = scene.light_tree_probability;
-    if (u < probability) {
-      LightChoice<Real> choice =
-          sample_light_tree(scene, reference, normal, min(u / probability, one_minus_epsilon<Real>));
-      choice.pmf *= probability;
-      return choice;
-    }
-    u = min((u - probability) / (1 - probability), one_minus_epsilon<Real>);
+  const Real by_tree = light_tree_probability(scene, reference, normal);
+  if (u < by_tree) {
+    LightChoice<Real> choice = sample_light_tree(scene, reference, normal, min(u / by_tree, one_minus_epsilon<Real>));
+    choice.pmf *= by_tree;
+    return choice;
   }
+  u = min((u - by_tree) / (1 - by_tree), one_minus_epsilon<Real>);
   const uint32_t i = scene.lights_count == 1 ? 0 : sample_cdf(scene.light_cdf, scene.light_cdf_count - 1, u);
-  return {i, scene.lights[i].pmf};
+  return {i, scene.lights[i].pmf * (1 - by_tree)};
 }
 
 /// The probability that `choose_light` chooses this light, which is a shape.
@@ -149,7 +146,7 @@ template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Real pmf_of_shape(const SceneView<Real>& scene, const LightRecord<Real>& light,
                                          const Vec3<Real>& reference, const Vec3<Real>& normal) {
   if (scene.light_tree_count == 0 || light.pmf == 0) return light.pmf;
-  return scene.light_tree_probability * pmf_of_light_tree(scene, light.trail, reference, normal);
+  return light_tree_probability(scene, reference, normal) * pmf_of_light_tree(scene, light.trail, reference, normal);
 }
 
 /// Samples a point of this light. The density excludes the probability of choosing the light. `is_on_light`:
@@ -229,20 +226,6 @@ ALHAZEN_HD ALHAZEN_HOT Real pdf_light(const SceneView<Real>& scene, const LightR
     default:
       return 0;
   }
-}
-
-/// The same for a ray that escaped, by the constant infinite light.
-template <class Real>
-ALHAZEN_HD Real pdf_background(const SceneView<Real>& scene) {
-  return scene.background_light == no_light ? Real(0)
-                                            : scene.lights[scene.background_light].pmf * pdf_uniform_sphere<Real>;
-}
-
-/// The same for a ray along `direction`, by an environment map.
-template <class Real>
-ALHAZEN_HD Real pdf_environment_light(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
-                                      const Vec3<Real>& direction) {
-  return scene.lights[map.light].pmf * pdf_environment(scene, map, direction);
 }
 
 /// What a ray that escapes along unit `direction` finds of one of SceneView::far_lights; the density if `wants_pdf`.

@@ -22,8 +22,8 @@ struct LightRecord {
                         ///< environment: mean over all directions
   uint32_t two_sided;   ///< shapes: 1 if both sides emit
   uint32_t trail;       ///< position in the light tree: bit i selects the child at depth i
-  Real pmf;             ///< probability that the light is chosen, by power if there is a light tree; 0 if only BSDF
-                        ///< sampling finds it
+  Real pmf;  ///< probability that the light is chosen by power; if there is a light tree, among the lights at
+             ///< infinity; 0 if only BSDF sampling finds the light
   Vec3<Real> position;
   Vec3<Real> direction;   ///< direction of propagation, unit length
   Vec2<Real> parameters;  ///< as the file of the kind says

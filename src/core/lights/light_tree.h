@@ -75,6 +75,28 @@ ALHAZEN_HD Real first_child_probability(const SceneView<Real>& scene, uint32_t f
   return a + b > 0 ? a / (a + b) : Real(-1);
 }
 
+/// The least probability with which the light tree, or the lights at infinity, are chosen where both can contribute:
+/// either may turn out to be hidden.
+inline constexpr double min_group_probability = 0.2;
+
+/// The probability of choosing a light by the tree, not one at infinity: by the irradiance that each can cause at
+/// `point`.
+template <class Real>
+ALHAZEN_HD Real light_tree_probability(const SceneView<Real>& scene, const Vec3<Real>& point,
+                                       const Vec3<Real>& normal) {
+  if (scene.light_tree_count == 0) return 0;
+  if (scene.infinite_irradiance == 0) return 1;
+  const LightTreeNode& root = scene.light_tree[0];
+  const Real importance = root.is_leaf() ? light_importance(root, point, normal)
+                                         : light_importance(scene.light_tree[root.index()], point, normal) +
+                                               light_importance(scene.light_tree[root.index() + 1], point, normal);
+  if (!(importance > 0)) return 0;
+  // The importance is that of a surface that emits the power, which is pi times its intensity along the normal.
+  const Real irradiance = importance * (1 / pi<Real>);
+  return clamp(irradiance / (irradiance + scene.infinite_irradiance), Real(min_group_probability),
+               Real(1 - min_group_probability));
+}
+
 template <class Real>
 struct LightChoice {
   uint32_t light = no_light;

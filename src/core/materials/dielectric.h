@@ -1,11 +1,13 @@
 #pragma once
 
 // Glass and other dielectrics: reflection and refraction at a smooth interface or at GGX microfacets (Walter et al.
-// 2007). Refraction scales radiance by 1 / eta^2, as paths from the camera require. Anisotropic dielectrics are a kind
-// of their own, so that the frequent, isotropic kind stays small.
+// 2007), with compensation for multiple scattering (core/materials/lobes/glass_albedo.h). Refraction scales radiance by
+// 1 / eta^2, as paths from the camera require. Anisotropic dielectrics are a kind of their own, so that the frequent,
+// isotropic kind stays small.
 
 #include "core/materials/closure.h"
 #include "core/materials/lobes/fresnel.h"
+#include "core/materials/lobes/glass_albedo.h"
 #include "core/materials/lobes/microfacet.h"
 #include "core/textures/texture_record.h"
 
@@ -19,6 +21,7 @@ struct DielectricRecord {
   Real ior;                  ///< inside relative to outside
   TextureRange roughness;    ///< scalar; absent: smooth
   uint32_t remap_roughness;  ///< 1: alpha = sqrt(roughness)
+  AlbedoGridRecord grid;     ///< GlassGrid; no quantities if it is smooth everywhere
 };
 
 template <class Real>
@@ -26,17 +29,21 @@ struct AnisotropicDielectricRecord {
   Real ior;
   TextureRange roughness_u, roughness_v;  ///< scalars, along the tangent and the bitangent
   uint32_t remap_roughness;               ///< 1: alpha = sqrt(roughness)
+  AlbedoGridRecord grid;                  ///< GlassGrid
 };
 
 template <class Real, AlphaOf<Real> Alpha = Real>
 struct DielectricBsdf {
-  Real ior;     ///< inside (against the normal) relative to outside
-  Alpha alpha;  ///< below smooth_alpha: a smooth interface
+  Real ior;                      ///< inside (against the normal) relative to outside
+  Alpha alpha;                   ///< below smooth_alpha: a smooth interface
+  AlbedoGridPlace<Real> grid{};  ///< GlassGrid; without a block, there is only single scattering
 
   ALHAZEN_HD BsdfSample<Real> sample(const Vec3<Real>& wo, Real u_lobe, const Vec2<Real>& u) const;
   ALHAZEN_HD BsdfValue<Real> evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const;
   ALHAZEN_HD Vec3<Real> albedo() const { return splat(Real(1)); }
   ALHAZEN_HD constexpr bool is_specular() const { return is_smooth(alpha) || ior == 1; }
+  /// Returns whether multiple scattering is compensated.
+  ALHAZEN_HD constexpr bool is_compensated() const { return grid.block != nullptr; }
 };
 
 template <class Real>
@@ -47,6 +54,9 @@ ALHAZEN_HD ALHAZEN_HOT void make_closure(const DielectricRecord<Real>& record, c
                                          DielectricBsdf<Real>& bsdf) {
   bsdf.ior = record.ior;
   bsdf.alpha = textures.alpha(record.roughness, record.remap_roughness);
+  bsdf.grid = {};
+  if (record.grid.quantities > 0 && !bsdf.is_specular())
+    bsdf.grid = textures.grid(record.grid, Vec2<Real>{bsdf.alpha, bsdf.alpha});
 }
 
 template <class Real, TexturesOf<Real> Textures>
@@ -55,10 +65,12 @@ ALHAZEN_HD void make_closure(const AnisotropicDielectricRecord<Real>& record, co
   bsdf.ior = record.ior;
   bsdf.alpha = rough_alphas<Real>(textures.alpha(record.roughness_u, record.remap_roughness),
                                   textures.alpha(record.roughness_v, record.remap_roughness));
+  bsdf.grid = {};
+  if (record.grid.quantities > 0) bsdf.grid = textures.grid(record.grid, bsdf.alpha);
 }
 
-/// The reflected and the refracted direction at a microfacet whose normal is sampled by `u`. Their weights and
-/// densities exclude the Fresnel reflectance: the outgoing radiance is
+/// The reflected and the refracted direction at a microfacet whose normal is sampled by `u`, for single scattering.
+/// Their weights and densities exclude the Fresnel reflectance: the outgoing radiance is
 /// rate * L(reflected) * weight + (1 - rate) * L(refracted) * weight.
 template <class Real>
 struct DielectricBranches {
@@ -105,17 +117,6 @@ ALHAZEN_HD DielectricBranches<Real> dielectric_branches(const DielectricBsdf<Rea
   return branches;
 }
 
-/// Samples one of the two directions; the probability of reflection is the Fresnel reflectance.
-template <class Real, AlphaOf<Real> Alpha>
-ALHAZEN_HD BsdfSample<Real> DielectricBsdf<Real, Alpha>::sample(const Vec3<Real>& wo, Real u_lobe,
-                                                                const Vec2<Real>& u) const {
-  const DielectricBranches<Real> branches = dielectric_branches(*this, wo, u);
-  const bool reflect = u_lobe < branches.reflected_rate;
-  BsdfSample<Real> s = reflect ? branches.reflected : branches.refracted;
-  s.pdf *= reflect ? branches.reflected_rate : 1 - branches.reflected_rate;
-  return s;
-}
-
 /// The microfacet that reflects or refracts `wo` into `wi`.
 template <class Real>
 struct DielectricFacet {
@@ -153,15 +154,75 @@ ALHAZEN_HD ALHAZEN_HOT bool dielectric_facet(const DielectricBsdf<Real, Alpha>& 
   return true;
 }
 
+/// Evaluates single scattering without compensation.
 template <class Real, AlphaOf<Real> Alpha>
-ALHAZEN_HD BsdfValue<Real> DielectricBsdf<Real, Alpha>::evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const {
-  if (is_specular() || wo.z == 0 || wi.z == 0) return {};
+ALHAZEN_HD ALHAZEN_HOT BsdfValue<Real> evaluate_single_scattering(const DielectricBsdf<Real, Alpha>& bsdf,
+                                                                  const Vec3<Real>& wo, const Vec3<Real>& wi) {
   DielectricFacet<Real> f;
-  if (!dielectric_facet(*this, wo, wi, f)) return {};
+  if (!dielectric_facet(bsdf, wo, wi, f)) return {};
   if (f.reflects) return {splat(f.rate * f.d * f.g2 / (4 * f.cos_n)), f.rate * f.density / (4 * f.cos_o)};
   const Real jacobian = -f.cos_i / sqr(f.cos_i + f.cos_o / f.eta);
   return {splat((1 - f.rate) * f.d * f.g2 * jacobian * f.cos_o / (f.cos_n * f.eta * f.eta)),
           (1 - f.rate) * f.density * jacobian};
+}
+
+/// Adds compensation to single scattering, of which `v` has the value and the density.
+template <class Real, AlphaOf<Real> Alpha>
+ALHAZEN_HD void compensate(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo, const GlassAlbedo<Real>& o,
+                           const Vec3<Real>& wi, BsdfValue<Real>& v) {
+  const GlassAlbedo<Real> i = glass_albedo(bsdf.grid, bsdf.ior, wi);
+  const GlassMultiple<Real> multiple =
+      evaluate_glass_lobe(glass_lobe(bsdf.grid, bsdf.ior, wo.z < 0), o, i, wi.z, wo.z * wi.z > 0);
+  v.value = v.value * single_scattering_scale(o, i) + splat(multiple.value);
+  v.pdf = v.pdf * (1 - o.missing) + multiple.pdf;
+}
+
+template <class Real, AlphaOf<Real> Alpha>
+ALHAZEN_HD BsdfValue<Real> DielectricBsdf<Real, Alpha>::evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const {
+  if (is_specular() || wo.z == 0 || wi.z == 0) return {};
+  BsdfValue<Real> v = evaluate_single_scattering(*this, wo, wi);
+  if (is_compensated()) compensate(*this, wo, glass_albedo(grid, ior, wo), wi, v);
+  return v;
+}
+
+/// Samples one of the two directions of single scattering; the probability of reflection is the Fresnel reflectance.
+template <class Real, AlphaOf<Real> Alpha>
+ALHAZEN_HD BsdfSample<Real> sample_single_scattering(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
+                                                     Real u_lobe, const Vec2<Real>& u) {
+  const DielectricBranches<Real> branches = dielectric_branches(bsdf, wo, u);
+  const bool reflect = u_lobe < branches.reflected_rate;
+  BsdfSample<Real> s = reflect ? branches.reflected : branches.refracted;
+  s.pdf *= reflect ? branches.reflected_rate : 1 - branches.reflected_rate;
+  return s;
+}
+
+template <class Real, AlphaOf<Real> Alpha>
+ALHAZEN_HD BsdfSample<Real> DielectricBsdf<Real, Alpha>::sample(const Vec3<Real>& wo, Real u_lobe,
+                                                                const Vec2<Real>& u) const {
+  if (!is_compensated() || wo.z == 0) return sample_single_scattering(*this, wo, u_lobe, u);
+  const GlassAlbedo<Real> o = glass_albedo(grid, ior, wo);
+  const Real single = 1 - o.missing;
+  if (u_lobe < single) {
+    BsdfSample<Real> s = sample_single_scattering(*this, wo, min(u_lobe / single, one_minus_epsilon<Real>), u);
+    if (!(s.pdf > 0)) return s;
+    // Value and density are those of the sampled microfacet, which near an index of 1 is lost in the directions.
+    BsdfValue<Real> v{s.weight * s.pdf, s.pdf};
+    compensate(*this, wo, o, s.direction, v);
+    s.weight = v.value / v.pdf;
+    s.pdf = v.pdf;
+    return s;
+  }
+  const Vec3<Real> wi = sample_glass_lobe(glass_lobe(grid, ior, wo.z < 0), wo, (u_lobe - single) / o.missing, u);
+  if (wi.z == 0) return {};
+  BsdfValue<Real> v = evaluate_single_scattering(*this, wo, wi);
+  compensate(*this, wo, o, wi, v);
+  BsdfSample<Real> s;
+  if (!(v.pdf > 0)) return s;
+  s.direction = wi;
+  s.weight = v.value / v.pdf;
+  s.pdf = v.pdf;
+  if (wo.z * wi.z < 0) s.eta = wo.z < 0 ? 1 / ior : ior;
+  return s;
 }
 
 }  // namespace ALHAZEN_CORE

@@ -4,8 +4,8 @@
 // that mixes metal and dielectric, where the dielectric interface is over diffuse reflection or transmission. Each
 // layer attenuates the layers below by its directional albedo (core/materials/lobes/albedo_grid.h), so that all layers
 // together conserve energy if none of them absorbs. Multiple scattering is added by the lobe of Kulla and Conty for
-// metal, and by core/materials/lobes/rough_glass.h for glass. Clearcoat and sheen attenuate by the outgoing direction
-// alone, which is not reciprocal. No lobe is a Dirac delta distribution: smooth layers have the alpha
+// metal, and as in core/materials/lobes/glass_albedo.h for glass. Clearcoat and sheen attenuate by the outgoing
+// direction alone, which is not reciprocal. No lobe is a Dirac delta distribution: smooth layers have the alpha
 // `min_layered_alpha`.
 
 #include "core/materials/closure.h"
@@ -160,7 +160,7 @@ ALHAZEN_HD void add_refraction(const PrincipledRecord<Real>& record, const Textu
                                 channel == 2 ? Real(3) : Real(0)};
   }
   b.body_ior = b.ior;
-  glass.interface = {b.ior, b.alpha};
+  glass.interface = {b.ior, b.alpha, textures.grid(record.glass[channel], b.alpha)};
   const Real most = max_component(reflection);
   glass.constant = {}, glass.by_fresnel = splat(most);
   glass.tint = most > 0 ? reflection / most : Vec3<Real>{};
@@ -171,7 +171,6 @@ ALHAZEN_HD void add_refraction(const PrincipledRecord<Real>& record, const Textu
     const Real smooth = fresnel_dielectric(std::abs(cosine), cosine < 0 ? 1 / b.ior : b.ior, cos_t);
     if (smooth < 1) add_film_to_glass(glass, smooth, film_reflectance(film, outside, f0), film.amount);
   }
-  glass.albedo = textures.grid(record.glass[channel], b.alpha);
 }
 
 /// Sets the transmission through the base, tinted by `colour`: through a thin sheet, or into a body.

@@ -7,24 +7,28 @@
 
 namespace ALHAZEN_CORE {
 
-enum class SamplerType : uint32_t { sobol, independent };
+enum class SamplerType : uint32_t {
+  sobol,
+  independent,
+  zsobol,  ///< sobol with a SampleSeed::screen_order
+};
 
 /// Returns the same numbers as the sampler of its kind.
 class AnySampler {
  public:
-  ALHAZEN_HD AnySampler(SamplerType type, uint32_t seed, uint32_t x, uint32_t y, uint32_t sample)
+  ALHAZEN_HD AnySampler(SamplerType type, SampleSeed seed, uint32_t x, uint32_t y, uint32_t sample)
       : type_(type), sobol_(seed, x, y, sample) {
     if (type == SamplerType::independent) independent_ = IndependentSampler(seed, x, y, sample);
   }
 
   template <class Real>
   ALHAZEN_HD Real get_1d(uint32_t dimension) const {
-    return type_ == SamplerType::sobol ? sobol_.get_1d<Real>(dimension) : independent_.get_1d<Real>(dimension);
+    return type_ == SamplerType::independent ? independent_.get_1d<Real>(dimension) : sobol_.get_1d<Real>(dimension);
   }
 
   template <class Real>
   ALHAZEN_HD Vec2<Real> get_2d(uint32_t dimension) const {
-    return type_ == SamplerType::sobol ? sobol_.get_2d<Real>(dimension) : independent_.get_2d<Real>(dimension);
+    return type_ == SamplerType::independent ? independent_.get_2d<Real>(dimension) : sobol_.get_2d<Real>(dimension);
   }
 
  private:

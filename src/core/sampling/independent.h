@@ -4,16 +4,17 @@
 
 #include "core/math/vec.h"
 #include "core/sampling/hash.h"
+#include "core/sampling/sampler.h"
 
 namespace ALHAZEN_CORE {
 
 class IndependentSampler {
  public:
   IndependentSampler() = default;
-  ALHAZEN_HD IndependentSampler(uint32_t seed, uint32_t x, uint32_t y, uint32_t sample)
+  ALHAZEN_HD IndependentSampler(SampleSeed seed, uint32_t x, uint32_t y, uint32_t sample)
       // Complemented; otherwise pixel (a, seed) at sample b would get the numbers of pixel (b, seed) at sample a.
       : key_(mix64(mix64((static_cast<uint64_t>(y) << 32) | x) +
-                   mix64(~((static_cast<uint64_t>(seed) << 32) | sample)))) {}
+                   mix64(~((static_cast<uint64_t>(seed.seed) << 32) | sample)))) {}
 
   template <class Real>
   ALHAZEN_HD Real get_1d(uint32_t dimension) const {

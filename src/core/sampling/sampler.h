@@ -5,9 +5,21 @@
 #include <concepts>
 #include <cstdint>
 
+#include "core/math/platform.h"
 #include "core/math/vec.h"
 
 namespace ALHAZEN_CORE {
+
+/// What the random numbers of an image start from.
+struct SampleSeed {
+  uint32_t seed = 0;
+  /// 0: pixels are independent. Else: 1 and the logarithm to base 2 of the number of samples per pixel, and pixels
+  /// along a Z-order curve take successive parts of one sequence. Only Sobol' points can.
+  uint32_t screen_order = 0;
+
+  SampleSeed() = default;
+  ALHAZEN_HD constexpr SampleSeed(uint32_t value, uint32_t order = 0) : seed(value), screen_order(order) {}
+};
 
 /// The random numbers of one sample of a pixel, each in [0, 1). Equal dimensions return equal numbers; a pair takes one
 /// dimension. core/sampling/dimensions.h says what each is for.

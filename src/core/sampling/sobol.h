@@ -1,10 +1,13 @@
 #pragma once
 
 // Owen-scrambled Sobol' points, shuffled and padded across dimensions
-// (Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4)).
+// (Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4)); on request in an order by which neighbouring pixels
+// share well distributed points, so that their errors cancel when the eye averages them: blue noise (Ahmed, Wonka 2020,
+// "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels").
 
 #include "core/math/vec.h"
 #include "core/sampling/hash.h"
+#include "core/sampling/sampler.h"
 
 namespace ALHAZEN_CORE {
 
@@ -31,11 +34,32 @@ ALHAZEN_HD constexpr uint32_t sobol_second_reversed(uint32_t index) {
   return x;
 }
 
+/// Moves bit i to bit 2 i, for the low 16 bits.
+ALHAZEN_HD constexpr uint32_t spread_bits(uint32_t x) {
+  x &= 0xffffu;
+  x = (x | (x << 8)) & 0x00ff00ffu;
+  x = (x | (x << 4)) & 0x0f0f0f0fu;
+  x = (x | (x << 2)) & 0x33333333u;
+  return (x | (x << 1)) & 0x55555555u;
+}
+
 class SobolSampler {
  public:
   SobolSampler() = default;
-  ALHAZEN_HD SobolSampler(uint32_t seed, uint32_t x, uint32_t y, uint32_t sample)
-      : pixel_seed_(combine32(combine32(combine32(0x2545f491u, seed), x), y)), reversed_sample_(reverse_bits(sample)) {}
+  ALHAZEN_HD SobolSampler(SampleSeed seed, uint32_t x, uint32_t y, uint32_t sample) {
+    const uint32_t image_seed = combine32(0x2545f491u, seed.seed);
+    if (seed.screen_order == 0) {
+      pixel_seed_ = combine32(combine32(image_seed, x), y);
+      reversed_sample_ = reverse_bits(sample);
+      return;
+    }
+    // The sequence has 2^32 points: groups of pixels, and samples beyond the number planned, have their own.
+    const uint32_t bits = seed.screen_order - 1;
+    const uint64_t curve = (uint64_t{spread_bits(x) | (spread_bits(y) << 1)} << bits) | (sample & ((1u << bits) - 1));
+    const uint32_t beyond = combine32(sample >> bits, combine32(x >> 16, y >> 16));
+    pixel_seed_ = combine32(combine32(image_seed, static_cast<uint32_t>(curve >> 32)), beyond);
+    reversed_sample_ = reverse_bits(static_cast<uint32_t>(curve));
+  }
 
   template <class Real>
   ALHAZEN_HD Real get_1d(uint32_t dimension) const {

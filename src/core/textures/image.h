@@ -27,11 +27,10 @@ ALHAZEN_HD inline int wrapped_texel(int i, int size, uint32_t wrap) {
   return -1;
 }
 
+/// The texel at column x and row y, which are within the image, or black if one of them is -1.
 template <class Real>
-ALHAZEN_HD Vec3<Real> fetch_texel(const SceneView<Real>& scene, const ImageRecord& image, int x, int y) {
-  x = wrapped_texel(x, static_cast<int>(image.width), image.wrap_s);
-  y = wrapped_texel(y, static_cast<int>(image.height), image.wrap_t);
-  if (x < 0 || y < 0) return {};
+ALHAZEN_HD ALHAZEN_INLINE Vec3<Real> fetch_texel(const SceneView<Real>& scene, const ImageRecord& image, int x, int y) {
+  if ((x | y) < 0) return {};
   const uint64_t texel =
       image.first + image.channels * (static_cast<uint64_t>(y) * image.width + static_cast<uint64_t>(x));
   if (image.is_float) {
@@ -51,12 +50,16 @@ ALHAZEN_HD Vec3<Real> lookup_image(const SceneView<Real>& scene, const ImageReco
   if (!(std::abs(st.x) < Real(1e6) && std::abs(st.y) < Real(1e6))) return {};
   const Real x = st.x * static_cast<Real>(image.width), y = (1 - st.y) * static_cast<Real>(image.height);
   if (!(std::abs(x) < Real(2e9) && std::abs(y) < Real(2e9))) return {};
-  if (image.nearest) return fetch_texel(scene, image, static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
+  const auto column = [&](int i) { return wrapped_texel(i, static_cast<int>(image.width), image.wrap_s); };
+  const auto row = [&](int i) { return wrapped_texel(i, static_cast<int>(image.height), image.wrap_t); };
+  if (image.nearest)
+    return fetch_texel(scene, image, column(static_cast<int>(std::floor(x))), row(static_cast<int>(std::floor(y))));
   const Real fx = std::floor(x - Real(0.5)), fy = std::floor(y - Real(0.5));
-  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
   const Real wx = x - Real(0.5) - fx, wy = y - Real(0.5) - fy;
-  const Vec3<Real> top = lerp(fetch_texel(scene, image, ix, iy), fetch_texel(scene, image, ix + 1, iy), wx);
-  const Vec3<Real> bottom = lerp(fetch_texel(scene, image, ix, iy + 1), fetch_texel(scene, image, ix + 1, iy + 1), wx);
+  const int x0 = column(static_cast<int>(fx)), x1 = column(static_cast<int>(fx) + 1);
+  const int y0 = row(static_cast<int>(fy)), y1 = row(static_cast<int>(fy) + 1);
+  const Vec3<Real> top = lerp(fetch_texel(scene, image, x0, y0), fetch_texel(scene, image, x1, y0), wx);
+  const Vec3<Real> bottom = lerp(fetch_texel(scene, image, x0, y1), fetch_texel(scene, image, x1, y1), wx);
   return lerp(top, bottom, wy);
 }
 

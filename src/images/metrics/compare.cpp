@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 #include "core/math/vec.h"
 #include "images/codecs/decoders.h"
@@ -56,10 +58,19 @@ Vec3d encoded(const Vec3d& colour) {
 
 double mean_of(const Vec3d& v) { return (v.x + v.y + v.z) / 3; }
 
+/// Mean of the terms without the thousandth of them, rounded down, that is largest: a few pixels that a bright path hit
+/// then do not decide. Reorders the terms.
+double trimmed_mean(std::vector<double>& terms) {
+  const auto end = terms.end() - static_cast<std::ptrdiff_t>(terms.size() / 1000);
+  if (end != terms.end()) std::nth_element(terms.begin(), end, terms.end());
+  return std::accumulate(terms.begin(), end, 0.0) / static_cast<double>(end - terms.begin());
+}
+
 /// Computes the metrics that treat each pixel separately. Returns the number of valid pixels.
 int64_t compare_pixels(const Pair& pair, ImageDifference& result) {
   int64_t count = 0;
   double encoded_mse = 0;
+  std::vector<double> relative_errors;
   for (size_t i = 0; i < pair.size(); ++i) {
     const Vec3d a = pair.a(i), b = pair.b(i);
     result.nonfinite_a += is_finite(a) ? 0 : 1;
@@ -68,7 +79,8 @@ int64_t compare_pixels(const Pair& pair, ImageDifference& result) {
     ++count;
     const Vec3d difference = a - b, encoded_difference = encoded(a) - encoded(b);
     result.mse += mean_of(difference * difference);
-    result.relmse += mean_of(difference * difference / (b * b + splat(0.01)));
+    relative_errors.push_back(mean_of(difference * difference / (b * b + splat(0.01))));
+    result.relmse += relative_errors.back();
     encoded_mse += mean_of(encoded_difference * encoded_difference);
     result.mean_a += luminance(a);
     result.mean_b += luminance(b);
@@ -77,6 +89,7 @@ int64_t compare_pixels(const Pair& pair, ImageDifference& result) {
   const double pixels = static_cast<double>(count);
   for (double* sum : {&result.mse, &result.relmse, &result.mean_a, &result.mean_b}) *sum /= pixels;
   result.rmse = std::sqrt(result.mse);
+  result.relmse_trimmed = trimmed_mean(relative_errors);
   result.psnr = encoded_mse == 0 ? std::numeric_limits<double>::infinity() : -10 * std::log10(encoded_mse / pixels);
   return count;
 }

@@ -11,12 +11,13 @@ namespace alhazen {
 /// Metrics over the channels R, G, B of linear values unless said otherwise; pixels that are not finite in either image
 /// are counted and excluded from every mean.
 struct ImageDifference {
-  double mse = 0;     ///< mean squared error
-  double rmse = 0;    ///< its root
-  double relmse = 0;  ///< mean of (a - b)^2 / (b^2 + 0.01), b the reference
-  double psnr = 0;    ///< dB, of the sRGB-encoded values clamped to [0, 1]; infinite for equal images
-  double ssim = 0;    ///< structural similarity of the encoded luminance (Wang et al. 2004), Gaussian window of 11
-  double flip = 0;    ///< mean LDR-FLIP (Andersson et al. 2020) at 67 pixels per degree
+  double mse = 0;             ///< mean squared error
+  double rmse = 0;            ///< its root
+  double relmse = 0;          ///< mean of (a - b)^2 / (b^2 + 0.01), b the reference
+  double relmse_trimmed = 0;  ///< relmse without the 0.1 % of pixels (rounded down) with the largest terms
+  double psnr = 0;            ///< dB, of the sRGB-encoded values clamped to [0, 1]; infinite for equal images
+  double ssim = 0;  ///< structural similarity of the encoded luminance (Wang et al. 2004), Gaussian window of 11
+  double flip = 0;  ///< mean LDR-FLIP (Andersson et al. 2020) at 67 pixels per degree
   double mean_a = 0, mean_b = 0;             ///< mean luminance of each
   double max_abs = 0;                        ///< largest absolute difference of a channel
   int64_t nonfinite_a = 0, nonfinite_b = 0;  ///< pixels with a NaN or infinite channel

@@ -10,7 +10,7 @@
 
 namespace ALHAZEN_CORE {
 
-/// Takes one sample after the other, for recursive integrators.
+/// Takes one sample after the other, for recursive integrators and for counters.
 template <IntegratorKind kind, class Sampler, class Real, RayIntersector<Real> Intersector>
 requires SamplerOf<Sampler, Real>
 void take_blocks_singly(const KernelRequest& request, const SceneView<Real>& scene, const Intersector& intersector,
@@ -18,7 +18,7 @@ void take_blocks_singly(const KernelRequest& request, const SceneView<Real>& sce
   for (uint32_t b = 0; b < request.block_count; ++b) {
     const BlockRequest& block = request.blocks[b];
     for (uint32_t i = 0; i < block.count; ++i) {
-      const Sampler sampler(request.seed, block.x, block.y, block.first + i);
+      const Sampler sampler({request.seed, request.screen_order}, block.x, block.y, block.first + i);
       const CameraSample<Real> camera = sample_camera(scene, sampler, block.x, block.y);
       sums[b].add(integrate<kind>(scene, intersector, sampler, camera.ray, request.max_segments), camera.filter_weight);
     }
@@ -38,7 +38,7 @@ void take_blocks_together(const KernelRequest& request, const SceneView<Real>& s
     for (uint32_t i = 0; i < request.blocks[b].count; ++i)
       slots[count++] = static_cast<uint16_t>(b * samples_per_block + i);
   integrate_batch<kind, Sampler>(
-      scene, intersector, request.seed, request.max_segments, request.wants_first_hit, count,
+      scene, intersector, {request.seed, request.screen_order}, request.max_segments, request.wants_first_hit, count,
       [&](uint32_t sample) -> PixelSample {
         const uint32_t slot = slots[sample];
         const BlockRequest& block = request.blocks[slot / samples_per_block];
@@ -81,7 +81,8 @@ void take_blocks(const KernelRequest& request) {
   const Intersector intersector = make_intersector<Intersector>(scene, request.tracer);
   BlockSum<Real>* const sums = static_cast<BlockSum<Real>*>(request.sums);
   for (uint32_t b = 0; b < request.block_count; ++b) sums[b] = {};
-  if constexpr (kind == IntegratorKind::path || kind == IntegratorKind::iterative)
+  // Samples are counted where one is taken after the other, which gives the same bits.
+  if constexpr ((kind == IntegratorKind::path || kind == IntegratorKind::iterative) && !counts_samples)
     take_blocks_together<kind, Sampler>(request, scene, intersector, sums);
   else
     take_blocks_singly<kind, Sampler>(request, scene, intersector, sums);
@@ -104,8 +105,8 @@ RawKernel select_by_integrator(IntegratorKind integrator) {
 
 template <class Intersector, class Real>
 RawKernel select_kernel(IntegratorKind integrator, SamplerType sampler) {
-  return sampler == SamplerType::sobol ? select_by_integrator<SobolSampler, Intersector, Real>(integrator)
-                                       : select_by_integrator<IndependentSampler, Intersector, Real>(integrator);
+  return sampler == SamplerType::independent ? select_by_integrator<IndependentSampler, Intersector, Real>(integrator)
+                                             : select_by_integrator<SobolSampler, Intersector, Real>(integrator);
 }
 
 }  // namespace ALHAZEN_CORE

@@ -23,7 +23,7 @@ struct KernelRequest {
   void* sums;                    ///< BlockSum<Real>, one per block
   const BlockRequest* blocks;
   uint32_t block_count;
-  uint32_t seed;
+  uint32_t seed, screen_order;  ///< of a SampleSeed
   uint32_t max_segments;
   bool wants_first_hit;
 };

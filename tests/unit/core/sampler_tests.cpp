@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <vector>
 
 #include "core/sampling/dimensions.h"
@@ -80,6 +81,77 @@ TEST(Sobol, PointsAreNets) {
           ASSERT_EQ(std::count(cells.begin(), cells.end(), 1), static_cast<std::ptrdiff_t>(cells.size()))
               << "dimension " << dimension << ", k " << k << ", columns 2^" << columns;
         }
+}
+
+/// With a screen order the samples of a pixel form nets too, and so do those of aligned blocks of pixels together.
+TEST(ZSobol, BlocksOfPixelsShareNets) {
+  for (const uint32_t samples : {1u, 4u, 16u})
+    for (const uint32_t block : {1u, 2u, 4u, 8u})
+      for (const uint32_t dimension : {0u, 1u, 5u, 29u}) {
+        const SampleSeed seed(3, 1 + static_cast<uint32_t>(std::countr_zero(samples)));
+        const uint32_t count = samples * block * block;
+        const auto k = static_cast<uint32_t>(std::countr_zero(count));
+        for (uint32_t columns = 0; columns <= k; ++columns) {
+          std::vector<int> cells(count);
+          for (uint32_t i = 0; i < count; ++i) {
+            const uint32_t pixel = i / samples, x = 5 * block + pixel % block,
+                           y = 70'000 / block * block + pixel / block;
+            const Vec2d u = SobolSampler(seed, x, y, i % samples).get_2d<double>(dimension);
+            ++cells[(static_cast<uint32_t>(u.y * (1u << (k - columns))) << columns) +
+                    static_cast<uint32_t>(u.x * (1u << columns))];
+          }
+          ASSERT_EQ(std::count(cells.begin(), cells.end(), 1), static_cast<std::ptrdiff_t>(count))
+              << samples << " samples, block " << block << ", dimension " << dimension << ", columns 2^" << columns;
+        }
+      }
+}
+
+TEST(ZSobol, NoTwoSamplesAreEqual) {
+  // Also beyond the number planned, and where the curve is longer than the sequence.
+  for (const uint32_t planned : {0u, 3u, 20u}) {
+    std::vector<std::array<double, 3>> numbers;
+    for (const uint32_t corner : {0u, 4096u, 65'536u})
+      for (uint32_t y = 0; y < 12; ++y)
+        for (uint32_t x = 0; x < 12; ++x)
+          for (uint32_t sample = 0; sample < 12; ++sample) {
+            const SobolSampler sampler({7, 1 + planned}, corner + x, corner + y, sample);
+            const Vec2d u = sampler.get_2d<double>(4);
+            numbers.push_back({u.x, u.y, sampler.get_1d<double>(5)});
+          }
+    std::sort(numbers.begin(), numbers.end());
+    EXPECT_EQ(std::adjacent_find(numbers.begin(), numbers.end()), numbers.end()) << planned;
+  }
+}
+
+/// The mean squared error of an image of the same integral everywhere, blurred: that of independent pixels falls as
+/// that of white noise, that of zsobol further.
+TEST(ZSobol, ErrorsOfNeighboursCancel) {
+  constexpr uint32_t side = 128, block = 5, samples = 4;
+  const auto blurred_error = [&](uint32_t order, uint32_t dimension) {
+    std::vector<double> errors(side * side);
+    for (uint32_t i = 0; i < side * side; ++i) {
+      uint32_t inside = 0;
+      for (uint32_t sample = 0; sample < samples; ++sample) {
+        const Vec2d u = SobolSampler({11, order}, i % side, i / side, sample).get_2d<double>(dimension);
+        inside += u.x * u.x + u.y * u.y < 1 ? 1 : 0;
+      }
+      errors[i] = inside / double{samples} - 0.78539816339744831;
+    }
+    double sum = 0;
+    for (uint32_t y = 0; y + block <= side; ++y)
+      for (uint32_t x = 0; x + block <= side; ++x) {
+        double mean = 0;
+        for (uint32_t i = 0; i < block * block; ++i) mean += errors[(y + i / block) * side + x + i % block];
+        sum += mean * mean;
+      }
+    return sum;
+  };
+  double independent = 0, ordered = 0;
+  for (uint32_t dimension = 0; dimension < 16; ++dimension) {
+    independent += blurred_error(0, dimension);
+    ordered += blurred_error(3, dimension);
+  }
+  EXPECT_LT(ordered, 0.65 * independent);
 }
 
 TEST(Sobol, SingleNumbersAreStratified) {

@@ -53,6 +53,7 @@ TEST(Compare, EqualImages) {
   EXPECT_EQ(d.mse, 0);
   EXPECT_EQ(d.rmse, 0);
   EXPECT_EQ(d.relmse, 0);
+  EXPECT_EQ(d.relmse_trimmed, 0);
   EXPECT_TRUE(std::isinf(d.psnr) && d.psnr > 0);
   EXPECT_NEAR(d.ssim, 1, 1e-12);
   EXPECT_EQ(d.flip, 0);
@@ -90,6 +91,25 @@ TEST(Compare, TheReferenceDividesInRelmse) {
   const Image bright = constant_image(4, 4, 2), dark = constant_image(4, 4, 1);
   EXPECT_NEAR(compare_images(bright, dark).relmse, 1 / 1.01, 1e-12);
   EXPECT_NEAR(compare_images(dark, bright).relmse, 1 / 4.01, 1e-12);
+}
+
+TEST(Compare, TrimmedRelmseLeavesOutAThousandthOfThePixels) {
+  const Image black = constant_image(50, 40, 0);
+  Image noisy = constant_image(50, 40, 0.1f);
+  for (std::vector<float>& plane : noisy.planes) plane[7] = plane[1234] = 100;  // 2 of 2000 pixels
+  const ImageDifference d = compare_images(noisy, black);
+  EXPECT_NEAR(d.relmse_trimmed, 1, 1e-6);
+  EXPECT_NEAR(d.relmse, (1998 + 2 * 1e6) / 2000, 1e-3);
+  for (std::vector<float>& plane : noisy.planes) plane[99] = 100;  // one more than is left out
+  EXPECT_NEAR(compare_images(noisy, black).relmse_trimmed, (1997 + 1e6) / 1998, 1e-3);
+}
+
+TEST(Compare, TrimmedRelmseOfFewPixelsIsRelmse) {
+  const ImageDifference d = compare_images(pattern(30, 30, true), pattern(30, 30, false));
+  EXPECT_DOUBLE_EQ(d.relmse_trimmed, d.relmse);
+  Image none = constant_image(4, 4, 0);
+  none.planes[0].assign(16, nan);
+  EXPECT_TRUE(std::isnan(compare_images(none, none).relmse_trimmed));
 }
 
 TEST(Compare, MeansAreOfLuminance) {

@@ -75,7 +75,7 @@ struct Launch {
   DeviceRows device_rows;
   Slice slice;
   SamplerType sampler;
-  uint32_t seed;
+  SampleSeed seed;
   uint32_t max_segments;
 
   /// Returns the index in the film of column `x` of row `row` of the slice.

@@ -1,6 +1,7 @@
 #pragma once
 
-// Radiance from every direction, given by a map; the radiance of the record is the mean over all directions.
+// Radiance from every direction, given by a map; the radiance of the record is the mean over all directions. Samples
+// are of what exceeds the mean, and so is its power.
 
 #include "core/lights/environment.h"
 #include "core/lights/kinds/light_base.h"
@@ -11,8 +12,8 @@ struct EnvironmentLight : LightBase {
   static constexpr LightTraits traits{.name = "infinite light", .is_at_infinity = true, .has_size = true};
 
   template <class Real>
-  static double power(const LightRecord<Real>&, double amount, double) {
-    return amount * pi<double>;
+  static double power(const LightRecord<Real>&, double amount, double excess) {
+    return amount * pi<double> * excess;
   }
 
   template <class Real>

@@ -63,7 +63,8 @@ struct LightCone {
 ///     the light that arrives at a point, with a density over solid angle that excludes the choice of the light
 ///   static double power(const LightRecord<Real>&, double amount, double measure);
 ///     emitted power, W, or at infinity irradiance, W / m^2, for an `amount` of the record's radiance; `measure` is the
-///     integral of the light's image over solid angle, if it has one
+///     integral of the light's image over solid angle, if it has one; of a map, the part of its light that is above
+///     the mean
 struct LightBase {
   /// Sets what a record has beyond radiance, position and direction, from a described light (scene/scene.h).
   template <class Description, class Real>

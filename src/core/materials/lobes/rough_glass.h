@@ -1,22 +1,12 @@
 #pragma once
 
-// Rough glass that conserves energy: reflection and refraction at GGX microfacets (core/materials/dielectric.h),
-// divided by the directional albedo of single scattering (Turquin 2019, "Practical multiple scattering compensation for
-// microfacet models"). A coating may change the reflectance of the microfacets; they transmit the rest.
+// Rough glass that conserves energy, as in core/materials/dielectric.h, with colours. A coating may change the
+// reflectance of the microfacets; they transmit the rest, and all is scaled to conserve energy, which is then not
+// reciprocal.
 
 #include "core/materials/dielectric.h"
-#include "core/materials/lobes/albedo_grid.h"
 
 namespace ALHAZEN_CORE {
-
-/// Quantities in an AlbedoGrid of glass, first from outside, then the same from within. If the reflectance of
-/// microfacets is c + s * F, with the Fresnel reflectance F, and 1 on total internal reflection, the albedo of single
-/// scattering is bare + c * by_constant + s * by_fresnel.
-struct GlassGrid {
-  static constexpr uint32_t bare = 0, by_constant = 1, by_fresnel = 2;
-  static constexpr uint32_t from_within = 3;
-  static constexpr uint32_t count = 6;
-};
 
 template <class Real>
 struct GlassBsdf {
@@ -24,7 +14,6 @@ struct GlassBsdf {
   Vec3<Real> constant, by_fresnel;  ///< reflectance of microfacets: constant + by_fresnel * F
   Vec3<Real> tint;                  ///< factor on reflection outside; the rest of it is absorbed
   Vec3<Real> through;               ///< factor on transmission
-  AlbedoGridPlace<Real> albedo;
 };
 
 /// Returns the reflectance of a microfacet. `total`: total internal reflection.
@@ -40,37 +29,43 @@ ALHAZEN_HD Real glass_reflection_rate(const Vec3<Real>& reflectance) {
   return min(Real(1), (reflectance.x + reflectance.y + reflectance.z) * (Real(1) / 3));
 }
 
-/// Returns the factor that makes the directional albedo for `wo` equal to 1.
+/// Returns the factor that makes the directional albedo for the direction `o` equal to 1 if the reflectance of the
+/// microfacets is not that of bare glass.
 template <class Real>
-ALHAZEN_HD Vec3<Real> glass_compensation(const GlassBsdf<Real>& glass, const Vec3<Real>& wo) {
-  const bool within = wo.z < 0;
-  const GridDirection<Real> d = grid_direction(glass.albedo, Vec3<Real>{wo.x, wo.y, std::abs(wo.z)},
-                                               within ? 1 / glass.interface.ior : glass.interface.ior);
-  const uint32_t first = within ? GlassGrid::from_within : 0;
-  const Vec3<Real> kept = splat(grid_albedo(glass.albedo, first + GlassGrid::bare, d)) +
-                          glass.constant * grid_albedo(glass.albedo, first + GlassGrid::by_constant, d) +
-                          glass.by_fresnel * grid_albedo(glass.albedo, first + GlassGrid::by_fresnel, d);
-  return splat(Real(1)) / max(kept, splat(Real(0.01)));
+ALHAZEN_HD Vec3<Real> glass_normalization(const GlassBsdf<Real>& glass, const GlassGridDirection<Real>& o) {
+  const AlbedoGridPlace<Real>& grid = glass.interface.grid;
+  const Vec3<Real> albedo =
+      splat(Real(1)) + glass.constant * grid_albedo(grid, o.first + GlassGrid::by_constant, o.direction) +
+      (glass.by_fresnel - splat(Real(1))) * grid_albedo(grid, o.first + GlassGrid::by_fresnel, o.direction);
+  return splat(Real(1)) / max(albedo, splat(Real(0.01)));
+}
+
+/// Evaluates single scattering without compensation and without colours.
+template <class Real>
+ALHAZEN_HD BsdfValue<Real> evaluate_single_scattering(const GlassBsdf<Real>& glass, const Vec3<Real>& wo,
+                                                      const Vec3<Real>& wi) {
+  DielectricFacet<Real> f;
+  if (!dielectric_facet(glass.interface, wo, wi, f)) return {};
+  const Vec3<Real> reflectance = glass_reflectance(glass, f.rate, f.total);
+  const Real rate = glass_reflection_rate(reflectance);
+  if (f.reflects) return {reflectance * (f.d * f.g2 / (4 * f.cos_n)), rate * f.density / (4 * f.cos_o)};
+  const Real jacobian = -f.cos_i / sqr(f.cos_i + f.cos_o / f.eta);
+  return {(splat(Real(1)) - reflectance) * (f.d * f.g2 * jacobian * f.cos_o / (f.cos_n * f.eta * f.eta)),
+          (1 - rate) * f.density * jacobian};
 }
 
 template <class Real>
 ALHAZEN_HD BsdfValue<Real> evaluate_glass(const GlassBsdf<Real>& glass, const Vec3<Real>& wo, const Vec3<Real>& wi) {
-  DielectricFacet<Real> f;
-  if (wo.z == 0 || wi.z == 0 || !dielectric_facet(glass.interface, wo, wi, f)) return {};
-  const Vec3<Real> reflectance = glass_reflectance(glass, f.rate, f.total);
-  const Real rate = glass_reflection_rate(reflectance);
-  BsdfValue<Real> v;
-  if (f.reflects) {
-    v.value = reflectance * (f.d * f.g2 / (4 * f.cos_n));
-    if (wo.z > 0) v.value *= glass.tint;
-    v.pdf = rate * f.density / (4 * f.cos_o);
-  } else {
-    const Real jacobian = -f.cos_i / sqr(f.cos_i + f.cos_o / f.eta);
-    v.value =
-        (splat(Real(1)) - reflectance) * glass.through * (f.d * f.g2 * jacobian * f.cos_o / (f.cos_n * f.eta * f.eta));
-    v.pdf = (1 - rate) * f.density * jacobian;
-  }
-  v.value *= glass_compensation(glass, wo);
+  if (wo.z == 0 || wi.z == 0) return {};
+  const DielectricBsdf<Real, Vec2<Real>>& interface = glass.interface;
+  const GlassGridDirection<Real> o = glass_direction(interface.grid, interface.ior, wo);
+  BsdfValue<Real> v = evaluate_single_scattering(glass, wo, wi);
+  compensate(interface, wo, glass_albedo(interface.grid, o), wi, v);
+  v.value *= glass_normalization(glass, o);
+  if (wo.z * wi.z < 0)
+    v.value *= glass.through;
+  else if (wo.z > 0)
+    v.value *= glass.tint;
   return v;
 }
 
@@ -78,10 +73,14 @@ ALHAZEN_HD BsdfValue<Real> evaluate_glass(const GlassBsdf<Real>& glass, const Ve
 template <class Real>
 ALHAZEN_HD Vec3<Real> sample_glass(const GlassBsdf<Real>& glass, const Vec3<Real>& wo, Real u_lobe,
                                    const Vec2<Real>& u) {
-  const DielectricBranches<Real> branches = dielectric_branches(glass.interface, wo, u);
+  const DielectricBsdf<Real, Vec2<Real>>& interface = glass.interface;
+  const Real missing = glass_albedo(interface.grid, interface.ior, wo).missing, single = 1 - missing;
+  if (!(u_lobe < single))
+    return sample_glass_lobe(glass_lobe(interface.grid, interface.ior, wo.z < 0), wo, (u_lobe - single) / missing, u);
+  const DielectricBranches<Real> branches = dielectric_branches(interface, wo, u);
   const bool total = !(branches.reflected_rate < 1);
   const Real rate = glass_reflection_rate(glass_reflectance(glass, branches.reflected_rate, total));
-  return u_lobe < rate ? branches.reflected.direction : branches.refracted.direction;
+  return u_lobe < rate * single ? branches.reflected.direction : branches.refracted.direction;
 }
 
 /// Changes the reflectance of the microfacets so that, where the Fresnel reflectance of bare glass is `smooth`, it is
