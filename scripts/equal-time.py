@@ -7,6 +7,8 @@
       renders every scene for as many samples as fit into 5, 15 and 60 s of one core, and writes the page
   equal-time.py page
       writes the page again from the figures of the last measurement
+  equal-time.py counters --program before=BIN --scenes DIR
+      counts samples that are not used, by programs that were built with ALHAZEN_COUNTERS (docs/cpu.md)
 
 DIR of --scenes holds scenes by other authors: pbrt/kitchen, gltf/ToyCar, hdr/chinese_garden_1k and so on. Those that
 are not there are skipped, and said.
@@ -34,7 +36,14 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/results/quality.md"
-BEGIN, END = "<!-- written by scripts/equal-time.py -->", "<!-- end -->"
+NEW_PAGE = """# Quality: error against time
+
+<!-- equal-time.py measure -->
+<!-- end -->
+
+<!-- equal-time.py counters -->
+<!-- end -->
+"""
 HALF_SEEDS = (1001, 1002)  # not among the seeds that are measured
 
 
@@ -325,19 +334,56 @@ def plot(rows: list[dict], path: pathlib.Path) -> None:
     fig.savefig(path, dpi=110)
 
 
-def write_page(options: argparse.Namespace) -> None:
-    """Replaces what this script wrote into the page before; what stands around it is kept."""
+def write_block(page: pathlib.Path, task: str, text: str) -> None:
+    """Replaces what the task wrote into the page before; what stands around it is kept."""
+    begin, end = f"<!-- equal-time.py {task} -->", "<!-- end -->"
+    before, rest = (page.read_text(encoding="utf-8") if page.exists() else NEW_PAGE).split(begin, 1)
+    page.write_text(f"{before}{begin}\n\n{text}\n\n{end}{rest.split(end, 1)[1]}", encoding="utf-8")
+
+
+def write_measurement(options: argparse.Namespace) -> None:
     data = json.loads(pathlib.Path(options.json).read_text(encoding="utf-8"))
     page = pathlib.Path(options.page)
     rows = mean_of_seeds(data["rows"])
     picture = page.with_suffix(".png")
     plot(rows, picture)
-    text = (f"{BEGIN}\n\n{data['machine']}, {data['date']}, {data['pixels']} pixels, {data['seeds']} "
+    text = (f"{data['machine']}, {data['date']}, {data['pixels']} pixels, {data['seeds']} "
             f"{'seed' if data['seeds'] == 1 else 'seeds'}.\n\n    {data['command']}\n\n{tables(rows)}\n\n"
-            f"![Error against seconds of one core, dotted: trimmed]({picture.name})\n\n{END}")  # fmt: skip
-    old = page.read_text(encoding="utf-8") if page.exists() else f"# Quality: error against time\n\n{BEGIN}{END}\n"
-    before, rest = old.split(BEGIN, 1)
-    page.write_text(before + text + rest.split(END, 1)[1], encoding="utf-8")
+            f"![Error against seconds of one core, dotted: trimmed]({picture.name})")  # fmt: skip
+    write_block(page, "measure", text)
+
+
+def percentage(part: int, whole: int) -> str:
+    return f"{100 * part / whole:.1f} %" if whole else ""
+
+
+def count(options: argparse.Namespace, scenes: list[Scene]) -> None:
+    """Writes which samples of lights and BSDFs each program does not use, from a few samples of every pixel."""
+    lines = ["| scene | program | light samples | unlit or black | shadow rays blocked | BSDF samples | black | "
+             "ended by roulette |", "|---" * 8 + "|"]  # fmt: skip
+    for scene in scenes:
+        for method in methods_of(options):
+            arguments = scene.arguments(pathlib.Path(options.scenes), options.pixels // 4)
+            image = pathlib.Path(options.references) / "counted.pfm"
+            statistics, _ = render(method.program, arguments, 4, 1, image, *options.render)
+            if "counters" not in statistics:
+                sys.exit(f"equal-time: {method.program} does not count: build it with -DALHAZEN_COUNTERS=ON")
+            lights, bsdfs = (sum_of(statistics["counters"][key]) for key in ("light_samples_by_light", "bsdf_samples"))
+            lines.append(
+                f"| {scene.name} | {method.label} | {lights.get('drawn', 0)} | "
+                f"{percentage(lights.get('unlit', 0) + lights.get('black', 0), lights.get('drawn', 0))} | "
+                f"{percentage(lights.get('blocked', 0), lights.get('shadow_rays', 0))} | {bsdfs.get('drawn', 0)} | "
+                f"{percentage(bsdfs.get('black', 0), bsdfs.get('drawn', 0))} | "
+                f"{percentage(bsdfs.get('roulette', 0), bsdfs.get('drawn', 0))} |"
+            )
+            print(lines[-1], flush=True)
+    write_block(pathlib.Path(options.page), "counters", "\n".join(lines))
+
+
+def sum_of(counts: dict[str, dict[str, int]]) -> dict[str, int]:
+    """Counts of all kinds together."""
+    keys = {key for of_kind in counts.values() for key in of_kind}
+    return {key: sum(of_kind[key] for of_kind in counts.values()) for key in keys}
 
 
 def methods_of(options: argparse.Namespace) -> list[Method]:
@@ -368,7 +414,7 @@ def measure(options: argparse.Namespace, scenes: list[Scene]) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("task", choices=["references", "measure", "page"])
+    parser.add_argument("task", choices=["references", "measure", "page", "counters"])
     parser.add_argument("--program", action="append", metavar="[LABEL=]BIN", help="may be given more than once")
     parser.add_argument("--compare", metavar="BIN", help="the program that compares images; default: the last --program")
     parser.add_argument("--scenes", default="", metavar="DIR", help="scenes by other authors")
@@ -400,9 +446,12 @@ def main() -> None:
         for scene in scenes:
             references.make(scene, methods_of(options)[0].program)
         return
+    if options.task == "counters":
+        count(options, scenes)
+        return
     if options.task == "measure":
         measure(options, scenes)
-    write_page(options)
+    write_measurement(options)
 
 
 if __name__ == "__main__":
