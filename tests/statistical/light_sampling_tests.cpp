@@ -34,22 +34,22 @@ const std::string sun = R"(WorldBegin LightSource "distant" "point3 from" [1 2 3
 const std::string wide_sun =
     R"(WorldBegin LightSource "distant" "point3 from" [0 0 -1] "point3 to" [0 0 0] "float angle" 120
     "float scale" 2.35619449019234)";
-/// No light occludes another as seen from the origin.
-const std::string several = R"(WorldBegin LightSource "distant" "float angle" 120 "float scale" 0.3
+/// No light occludes another as seen from the origin. The edge of the sun is one of the bins of the histogram.
+const std::string several = R"(WorldBegin LightSource "distant" "float angle" 118.125 "float scale" 0.3
     AreaLightSource "diffuse" "rgb L" [2 1 1] "bool twosided" true
     Shape "trianglemesh" "point3 P" [-1 -1 3  2 -1 4  0 1 3] "integer indices" [0 1 2]
     Translate -4 0 0 AreaLightSource "diffuse" "rgb L" [3 4 5] "bool twosided" true
     Shape "sphere" "float radius" 1)";
 
 /// Enough lights for a light tree; none occludes another.
-const std::string many = R"(WorldBegin LightSource "distant" "float angle" 120 "float scale" 0.3
+const std::string many = R"(WorldBegin LightSource "distant" "float angle" 118.125 "float scale" 0.3
     AreaLightSource "diffuse" "rgb L" [2 1 1] "bool twosided" true
     Shape "trianglemesh" "point3 P" [-1 -1 3  2 -1 4  0 1 3] "integer indices" [0 1 2]
     Shape "trianglemesh" "point3 P" [-1 -1 -3  2 -1 -4  0 1 -3] "integer indices" [0 1 2]
     Shape "trianglemesh" "point3 P" [3 -1 -1  4 -1 2  3 1 0] "integer indices" [0 1 2]
     AttributeBegin Translate -4 0 0 AreaLightSource "diffuse" "rgb L" [3 4 5] Shape "sphere" AttributeEnd
     AttributeBegin Translate 0 5 0 AreaLightSource "diffuse" "rgb L" [1 2 3] Shape "sphere" AttributeEnd
-    AttributeBegin Translate 0 -9 0 AreaLightSource "diffuse" "rgb L" [9 9 9] Shape "sphere" AttributeEnd)";
+    AttributeBegin Translate 0 -9 0 AreaLightSource "diffuse" "rgb L" [1 1 1] Shape "sphere" AttributeEnd)";
 
 const LightCase light_cases[] = {
     {"triangle", triangle, {}, 0, {0.3, -0.3, 3.3}, 0.9},

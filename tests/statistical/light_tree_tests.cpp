@@ -48,7 +48,8 @@ double pmf_of_nothing(const SceneView<Real>& scene, const LightTreeNode& node, c
          (second > 0 ? second * pmf_of_nothing(scene, children[1], point, normal) : 0);
 }
 
-const std::string sky = R"(LightSource "infinite" "rgb L" [ 0.1 0.1 0.1 ] LightSource "distant" "float scale" 0.1)";
+const std::string sky = R"(LightSource "infinite" "rgb L" [ 0.1 0.1 0.1 ] LightSource "distant" "float scale" 0.1
+)";
 
 /// The probability that `choose_light` chooses this one.
 template <class Real>
@@ -140,20 +141,23 @@ TYPED_TEST(LightTree, LightsThatNoPlaneParts) {
   }
 }
 
-/// With few lights, they are chosen by power unless the scene requests the tree; with many, by the tree unless it
-/// requests power.
+/// With few lights, they are chosen by power unless the scene requests the tree; with many, or with lights at infinity
+/// that are sampled, by the tree unless it requests power.
 TYPED_TEST(LightTree, IsBuiltWhereItIsOfUse) {
   using Real = TypeParam;
-  const auto nodes = [](int count, const std::string& sampler) {
+  const auto nodes = [](int count, const std::string& sampler, const std::string& others = "") {
     const std::string integrator =
         sampler.empty() ? "" : "Integrator \"path\" \"string lightsampler\" \"" + sampler + "\" ";
-    return compiled_scene_of<Real>(integrator + "WorldBegin " + sky + small_lights(count, 3, true))
+    return compiled_scene_of<Real>(integrator + "WorldBegin " + others + small_lights(count, 3, true))
         .view.light_tree_count;
   };
   EXPECT_EQ(nodes(2, ""), 0u);
   EXPECT_EQ(nodes(3, ""), 6u);
   EXPECT_EQ(nodes(1, "bvh"), 2u);
   EXPECT_EQ(nodes(50, "power"), 0u);
+  EXPECT_EQ(nodes(2, "", "LightSource \"infinite\" "), 0u);
+  EXPECT_EQ(nodes(2, "", sky), 4u);
+  EXPECT_EQ(nodes(2, "power", sky), 0u);
 }
 
 /// A lamp that is black all over is never sampled, and the others get its probability; a half-black one counts half.

@@ -91,9 +91,10 @@ class DirectionHistogram {
     std::array<double, 4> parts{};
     double sum = 0;
     for (size_t i = 0; i < 4; ++i) sum += parts[i] = quadrature(pdf, quarters[i]);
-    // A fifth of a count among a million, but not below the resolution of float.
+    // A fifth of a count among a million, but not below the resolution of float. The corner of a light may be in a cell
+    // without containing any of its nodes, so every cell is divided.
     const double tolerance = 2e-7 + 1e-6 * sum;
-    if (std::abs(sum - whole) <= tolerance || depth == 6) return sum;
+    if ((std::abs(sum - whole) <= tolerance && depth > 0) || depth == 6) return sum;
     sum = 0;
     for (size_t i = 0; i < 4; ++i) sum += refine(pdf, quarters[i], parts[i], depth + 1);
     return sum;
