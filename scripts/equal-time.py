@@ -284,6 +284,9 @@ def tables(rows: list[dict]) -> str:
             cells = []
             for method in methods[1:]:
                 mine = [row for row in rows if row["scene"] == scene and row["method"] == method]
+                if not mine:
+                    cells.append("")
+                    continue
                 ratios = [math.exp(sum(math.log(efficiency(row, error) / efficiency(first[scene, row["asked"]], error))
                                        for row in mine) / len(mine)) for error in ("relmse", "trimmed")]  # fmt: skip
                 cells.append(f"{ratios[0]:.2f}, trimmed {ratios[1]:.2f}")
