@@ -332,6 +332,8 @@ def plot(rows: list[dict], path: pathlib.Path) -> None:
         axis.set_title(scene, fontsize=9)
         axis.tick_params(labelsize=7)
         axis.tick_params(which="minor", labelbottom=False, labelleft=False)
+        times = sorted({row["asked"] for row in rows})
+        axis.set_xticks(times, [f"{time:g}" for time in times])
         axis.grid(True, which="both", linewidth=0.3)
     for axis in axes[:, 0]:
         axis.set_ylabel("relMSE", fontsize=8)
