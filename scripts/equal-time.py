@@ -284,6 +284,9 @@ def tables(rows: list[dict]) -> str:
             cells = []
             for method in methods[1:]:
                 mine = [row for row in rows if row["scene"] == scene and row["method"] == method]
+                if not mine:
+                    cells.append("")
+                    continue
                 ratios = [math.exp(sum(math.log(efficiency(row, error) / efficiency(first[scene, row["asked"]], error))
                                        for row in mine) / len(mine)) for error in ("relmse", "trimmed")]  # fmt: skip
                 cells.append(f"{ratios[0]:.2f}, trimmed {ratios[1]:.2f}")
@@ -321,9 +324,16 @@ def plot(rows: list[dict], path: pathlib.Path) -> None:
                           key=lambda row: row["seconds"])  # fmt: skip
             times = [row["seconds"] for row in mine]
             axis.loglog(times, [row["relmse"] for row in mine], "o-", color=f"C{index}", markersize=3, label=method)
-            axis.loglog(times, [row["trimmed"] for row in mine], "o:", color=f"C{index}", markersize=3)
+            axis.loglog(times, [row["trimmed"] for row in mine], "o:", color=f"C{index}", markersize=3, fillstyle="none")
+        of_scene = [row for row in rows if row["scene"] == scene]
+        errors = [row[error] for row in of_scene for error in ("relmse", "trimmed")]
+        axis.set_xlim(min(row["seconds"] for row in rows) / 1.5, max(row["seconds"] for row in rows) * 1.5)
+        axis.set_ylim(10 ** math.floor(math.log10(min(errors))), 10 ** math.ceil(math.log10(max(errors))))
         axis.set_title(scene, fontsize=9)
-        axis.tick_params(which="both", labelsize=7)
+        axis.tick_params(labelsize=7)
+        axis.tick_params(which="minor", labelbottom=False, labelleft=False)
+        times = sorted({row["asked"] for row in rows})
+        axis.set_xticks(times, [f"{time:g}" for time in times])
         axis.grid(True, which="both", linewidth=0.3)
     for axis in axes[:, 0]:
         axis.set_ylabel("relMSE", fontsize=8)
@@ -349,7 +359,7 @@ def write_measurement(options: argparse.Namespace) -> None:
     plot(rows, picture)
     text = (f"{data['machine']}, {data['date']}, {data['pixels']} pixels, {data['seeds']} "
             f"{'seed' if data['seeds'] == 1 else 'seeds'}.\n\n    {data['command']}\n\n{tables(rows)}\n\n"
-            f"![Error against seconds of one core, dotted: trimmed]({picture.name})")  # fmt: skip
+            f"![Error against seconds of one core, hollow: trimmed]({picture.name})")  # fmt: skip
     write_block(page, "measure", text)
 
 
