@@ -33,6 +33,7 @@ import pathlib
 import platform
 import subprocess
 import sys
+import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/results/quality.md"
@@ -106,10 +107,13 @@ class Cost:
 
 def run(command: list[str]) -> tuple[str, float]:
     """Standard output and processor seconds of a command."""
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        out, err = process.stdout.read(), process.stderr.read()
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as errors, \
+         subprocess.Popen(command, stdout=subprocess.PIPE, stderr=errors, text=True) as process:
+        out = process.stdout.read()
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
+        errors.seek(0)
+        err = errors.read()
     if process.returncode != 0:
         sys.exit(f"equal-time: {' '.join(command)}\n{err.strip()}")
     return out, usage.ru_utime + usage.ru_stime
@@ -355,11 +359,11 @@ def write_measurement(options: argparse.Namespace) -> None:
     data = json.loads(pathlib.Path(options.json).read_text(encoding="utf-8"))
     page = pathlib.Path(options.page)
     rows = mean_of_seeds(data["rows"])
-    picture = page.with_suffix(".png")
-    plot(rows, picture)
+    figure = page.with_suffix(".png")
+    plot(rows, figure)
     text = (f"{data['machine']}, {data['date']}, {data['pixels']} pixels, {data['seeds']} "
             f"{'seed' if data['seeds'] == 1 else 'seeds'}.\n\n    {data['command']}\n\n{tables(rows)}\n\n"
-            f"![Error against seconds of one core, hollow: trimmed]({picture.name})")  # fmt: skip
+            f"![Error against seconds of one core, hollow: trimmed]({figure.name})")  # fmt: skip
     write_block(page, "measure", text)
 
 
@@ -375,6 +379,7 @@ def count(options: argparse.Namespace, scenes: list[Scene]) -> None:
         for method in methods_of(options):
             arguments = scene.arguments(pathlib.Path(options.scenes), options.pixels // 4)
             image = pathlib.Path(options.references) / "counted.pfm"
+            image.parent.mkdir(parents=True, exist_ok=True)
             statistics, _ = render(method.program, arguments, 4, 1, image, *options.render)
             if "counters" not in statistics:
                 sys.exit(f"equal-time: {method.program} does not count: build it with -DALHAZEN_COUNTERS=ON")

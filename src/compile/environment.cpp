@@ -22,14 +22,14 @@ SphereMapping mapping_of(const Light& light, const ImageTexels& map) {
   return is_octahedral ? SphereMapping::octahedral : SphereMapping::equirectangular;
 }
 
-/// Sampling weight of a texel: its luminance, kept above zero unless the texel is black.
+/// Brightness of a texel: its luminance, but above zero unless the texel is black.
 double worth(const float* texel) {
   const Vec3d colour{static_cast<double>(texel[0]), static_cast<double>(texel[1]), static_cast<double>(texel[2])};
   return std::max(luminance(colour), 1e-3 * max_component(colour));
 }
 
-/// Means, over the square of each texel, of the bilinearly interpolated weights. They are exact, and so above 0
-/// wherever a lookup is. Neighbours have the weights 1/8, 6/8, 1/8 along each axis.
+/// Means, over the square of each texel, of the bilinearly interpolated brightness. Neighbours have the weights 1/8,
+/// 6/8, 1/8 along each axis.
 std::vector<double> texel_means(const ImageTexels& map, SphereMapping mapping) {
   const int width = map.width, height = map.height;
   const auto index = [&](int x, int y) {
@@ -77,9 +77,10 @@ void append_cdf(const double* weights, size_t count, std::vector<Real>& out) {
 /// Below this part of all light, what exceeds the mean is rounding, and the map is as good as constant.
 constexpr double min_excess = 1e-6;
 
-/// Appends the distribution of the sampling weights minus their mean over the sphere: MIS compensation (Karlik, Sik,
-/// Vevoda, Skrivan, Krivanek 2019, "MIS Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling",
-/// section 5). Returns what part of the integral of the weights that is; 0 if there is no distribution.
+/// Appends the distribution of the brightness minus its mean over the sphere, where that is positive: MIS compensation
+/// (Karlik, Sik, Vevoda, Skrivan, Krivanek 2019, "MIS Compensation: Optimizing Sampling Techniques in Multiple
+/// Importance Sampling", section 5). Returns what part of the integral of the brightness that is; 0 if there is no
+/// distribution.
 template <class Real>
 double append_distribution(const ImageTexels& map, SphereMapping mapping, std::vector<Real>& out) {
   std::vector<double> means = texel_means(map, mapping);

@@ -129,13 +129,14 @@ void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>&
 }
 
 template <class Real>
-bool has_only_delta_lights(const SceneArrays<Real>& out) {
-  return std::all_of(out.lights.begin(), out.lights.end(),
+bool has_only_delta_lights(const SceneArrays<Real>& out, const SceneView<Real>& view) {
+  return is_zero(view.background) &&
+         std::all_of(out.lights.begin(), out.lights.end(),
                      [](const LightRecord<Real>& light) { return !light_traits(light.kind).has_size; });
 }
 
-template bool has_only_delta_lights(const SceneArrays<float>&);
-template bool has_only_delta_lights(const SceneArrays<double>&);
+template bool has_only_delta_lights(const SceneArrays<float>&, const SceneView<float>&);
+template bool has_only_delta_lights(const SceneArrays<double>&, const SceneView<double>&);
 
 template <class Real>
 void assign_light_probabilities(const std::vector<double>& measures, LightSampling sampling, SceneArrays<Real>& out,
@@ -157,6 +158,8 @@ void assign_light_probabilities(const std::vector<double>& measures, LightSampli
   const double of_group = both && !has_tree ? 0.5 : 1;
   size_t chosen = count;
   while (has_tree && chosen > 0 && !light_traits(out.lights[chosen - 1].kind).is_at_infinity) --chosen;
+  size_t last = chosen;  // that can be chosen: the distribution ends there
+  while (last > 1 && !(weights[last - 1] > 0)) --last;
   double sum = 0;
   out.light_cdf.assign(1, Real(0));
   for (size_t i = 0; i < count; ++i) {
@@ -166,7 +169,7 @@ void assign_light_probabilities(const std::vector<double>& measures, LightSampli
     out.lights[i].pmf = static_cast<Real>(pmf);
     if (i >= chosen) continue;
     if (is_infinite || !has_tree) sum += pmf;
-    out.light_cdf.push_back(i + 1 == chosen ? Real(1) : static_cast<Real>(sum));
+    out.light_cdf.push_back(i + 1 >= last ? Real(1) : static_cast<Real>(sum));
   }
   if (!has_tree) return;
   const double largest = std::numeric_limits<Real>::max();

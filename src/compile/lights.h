@@ -28,8 +28,8 @@ void add_triangle_emitters(SceneArrays<Real>& out);
 /// A light tree is built if there are more finite lights than this.
 inline constexpr size_t max_lights_without_tree = 2;
 
-/// Returns whether all lights but the constant infinite one are delta lights, which only shadow rays find.
+/// Returns whether all lights are delta lights, which only shadow rays find. `view` has the constant infinite light.
 template <class Real>
-bool has_only_delta_lights(const SceneArrays<Real>& out);
+bool has_only_delta_lights(const SceneArrays<Real>& out, const SceneView<Real>& view);
 
 }  // namespace alhazen

@@ -295,8 +295,7 @@ bool open_seen_backs(const SceneView<Real>& view, uint32_t width, uint32_t heigh
   if (std::find(is_open.begin(), is_open.end(), 1) == is_open.end()) return false;
   open_whole_walls(view, is_open);
   std::vector<uint8_t> is_lit_through(end);
-  if (is_zero(view.background) && has_only_delta_lights(out) && is_in_the_open(view))
-    is_lit_through = rooms_of(view, is_open);
+  if (has_only_delta_lights(out, view) && is_in_the_open(view)) is_lit_through = rooms_of(view, is_open);
   // The view is not used from here on: it lacks the new surfaces and materials.
   SurfacesWithFeature<Real> absent(out, MaterialFeatures::absent), lit_through(out, MaterialFeatures::lit_through);
   for (uint32_t i = 0; i < end; ++i) {

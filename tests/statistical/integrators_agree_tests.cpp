@@ -8,6 +8,7 @@
 
 #include "support/compiled_scenes.h"
 #include "support/effort.h"
+#include "support/environments.h"
 #include "support/light_scenes.h"
 #include "support/reals.h"
 #include "support/render_pixels.h"
@@ -20,8 +21,8 @@ constexpr uint32_t side = 24, block_side = 4, blocks_a_side = side / block_side;
 constexpr size_t blocks = blocks_a_side * blocks_a_side;
 constexpr size_t integrators = std::size(all_integrators);
 constexpr size_t pairs = integrators * (integrators - 1) / 2;
-/// Scenes, samplers, precisions, pairs; every block and the whole image.
-constexpr size_t cases = 4 * 2 * 2 * pairs * (blocks + 1);
+/// Scenes, precisions, pairs; every block and the whole image.
+constexpr size_t cases = 8 * 2 * pairs * (blocks + 1);
 
 /// Moments of each block's mean over images with different seeds, and at the end of the whole image's.
 using BlockMoments = std::array<Moments, blocks + 1>;
@@ -85,6 +86,39 @@ TYPED_TEST(IntegratorsAgree, ManyTexturedLights) {
       with_emission_texture(described_scene(film_of(side, side) + room_of_lights(40, false, 1.2))));
   ASSERT_GT(scene.view.light_tree_count, 0u);
   check_agreement(scene, SamplerType::independent);
+}
+
+/// A lamp among surfaces that reflect, transmit, and let some rays pass, all of which a light at infinity reaches too.
+const std::string lamp_in_the_open = film_of(side, side) + R"(
+    LookAt 0 -5 2.5  0 0 0.4  0 0 1
+    Camera "perspective" "float fov" 40
+    WorldBegin
+    Material "diffuse" "rgb reflectance" [0.6 0.6 0.6]
+    Shape "trianglemesh" "point3 P" [-9 -9 0  9 -9 0  9 9 0  -9 9 0] "integer indices" [0 1 2 0 2 3]
+    AttributeBegin
+      AreaLightSource "diffuse" "rgb L" [3 3 3] "bool twosided" true
+      Shape "trianglemesh" "point3 P" [-1 1 0  1 1 0  1 1.5 1.5  -1 1.5 1.5] "integer indices" [0 1 2 0 2 3]
+    AttributeEnd
+    Shape "trianglemesh" "point3 P" [-1.5 -1 0  -0.5 -1 0  -0.5 -1 1  -1.5 -1 1] "integer indices" [0 1 2 0 2 3]
+      "float alpha" 0.5
+    Material "diffusetransmission"
+    Shape "trianglemesh" "point3 P" [0.3 -1 0  1.5 -1 0  1.5 -1 1  0.3 -1 1] "integer indices" [0 1 2 0 2 3]
+    Material "conductor" "rgb reflectance" [0.9 0.9 0.9] "float roughness" 0.2
+    AttributeBegin Translate 0 0 0.5 Shape "sphere" "float radius" 0.5 AttributeEnd
+)";
+
+TYPED_TEST(IntegratorsAgree, LampAndASun) {
+  const CompiledScene<TypeParam> scene = compiled_scene_of<TypeParam>(
+      lamp_in_the_open + "LightSource \"distant\" \"point3 from\" [1 -2 2] \"float angle\" 40 \"float scale\" 0.5");
+  ASSERT_GT(scene.view.light_tree_count, 0u);
+  ASSERT_GT(scene.view.infinite_irradiance, TypeParam(0));
+  check_agreement(scene, SamplerType::independent);
+}
+TYPED_TEST(IntegratorsAgree, LampAndAMap) {
+  const CompiledScene<TypeParam> scene =
+      compiled_scene<TypeParam>(lit_by(described_scene(lamp_in_the_open), sun_map(16, 8, 20), map_askew()));
+  ASSERT_GT(scene.view.infinite_irradiance, TypeParam(0));
+  check_agreement(scene, SamplerType::sobol);
 }
 
 }  // namespace

@@ -154,5 +154,28 @@ TYPED_TEST(LightWeights, SphereAboveAPlane) {
     }
 }
 
+/// A sun that fills the upper hemisphere, over a floor and boxes that emit: the choice between both, at every point.
+TYPED_TEST(LightWeights, BoxesUnderASun) {
+  using Real = TypeParam;
+  const std::string box =
+      "Shape \"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  1 1 0  0 1 0  0 0 1  1 0 1  1 1 1  0 1 1] \"integer "
+      "indices\" "
+      "[0 2 1 0 3 2 4 5 6 4 6 7 0 1 5 0 5 4 2 3 7 2 7 6 0 4 7 0 7 3 1 2 6 1 6 5]\n";
+  for (const double albedo : {0.3, 0.8}) {
+    SCOPED_TRACE(albedo);
+    const CompiledScene<Real> scene = compiled_scene_of<Real>(
+        film_of(side, side) + "LookAt 3 -4 3  0.5 0.5 0  0 0 1 Camera \"perspective\" \"float fov\" 50 WorldBegin " +
+        "LightSource \"distant\" \"point3 from\" [0 0 1] \"point3 to\" [0 0 0] \"float angle\" 180 \"float scale\" " +
+        number(pi<double> * level) + surface(albedo) +
+        "Shape \"trianglemesh\" \"point3 P\" [-1e4 -1e4 0  1e4 -1e4 0  1e4 1e4 0  -1e4 1e4 0] \"integer indices\" [0 1 "
+        "2 0 2 "
+        "3] AttributeBegin Translate 0 0 0.5 " +
+        box + "AttributeEnd AttributeBegin Translate -1.5 0.2 0.1 Rotate 30 1 1 1 " + box + "AttributeEnd");
+    ASSERT_GT(scene.view.light_tree_count, 0u);
+    ASSERT_GT(scene.view.infinite_irradiance, Real(0));
+    expect_level(scene, 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace alhazen::test

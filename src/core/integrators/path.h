@@ -36,13 +36,15 @@ ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, co
   // The constant light is not sampled, so its weight is 1.
   if (!is_zero(scene.background)) record.radiance += path.throughput * scene.background;
   if (scene.far_lights_count == 0) return;
-  const Vec3<Real> start = path.ray.origin - path.ray.direction * path.travelled;
-  const Real by_tree = path.is_specular ? Real(0) : light_tree_probability(scene, start, path.light_side);
   for (uint32_t i = 0; i < scene.far_lights_count; ++i) {
     const LightRecord<Real>& light = scene.lights[scene.far_lights[i]];
     const EscapedLight<Real> found = escaped_light(scene, light, path.ray.direction, !path.is_specular);
     if (is_zero(found.radiance)) continue;
-    const Real light_pdf = light.pmf * (1 - by_tree) * found.pdf;
+    Real light_pdf = 0;
+    if (!path.is_specular) {
+      const Vec3<Real> start = path.ray.origin - path.ray.direction * path.travelled;
+      light_pdf = light.pmf * (1 - light_tree_probability(scene, start, path.light_side)) * found.pdf;
+    }
     record.radiance += path.throughput * found.radiance * bsdf_mis_weight(path, light_pdf);
   }
 }
@@ -67,7 +69,7 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
 }
 
 /// Russian roulette ends paths whose throughput is below this. With a higher threshold more paths end that would have
-/// met a bright surface; a lower one costs more segments than it saves noise (docs/results/quality.md).
+/// hit a bright surface; a lower one costs more segments than it saves noise (docs/results/quality.md).
 inline constexpr double roulette_threshold = 0.25;
 
 /// Samples the next ray. Returns false if the path ends here.

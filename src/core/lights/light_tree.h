@@ -75,8 +75,9 @@ ALHAZEN_HD Real first_child_probability(const SceneView<Real>& scene, uint32_t f
   return a + b > 0 ? a / (a + b) : Real(-1);
 }
 
-/// The least probability with which the light tree, or the lights at infinity, are chosen where both can contribute:
-/// either may turn out to be hidden.
+/// The minimum probability with which the light tree, or the lights at infinity, are chosen where both contribute:
+/// either may turn out to be hidden. That of the tree falls to 0 where less than a hundredth of the light is from the
+/// tree, so that rounding of the point changes it little.
 inline constexpr double min_group_probability = 0.2;
 
 /// The probability of choosing a light by the tree, not one at infinity: by the irradiance that each can cause at
@@ -91,10 +92,11 @@ ALHAZEN_HD Real light_tree_probability(const SceneView<Real>& scene, const Vec3<
                                          : light_importance(scene.light_tree[root.index()], point, normal) +
                                                light_importance(scene.light_tree[root.index() + 1], point, normal);
   if (!(importance > 0)) return 0;
-  // The importance is that of a surface that emits the power, which is pi times its intensity along the normal.
-  const Real irradiance = importance * (1 / pi<Real>);
-  return clamp(irradiance / (irradiance + scene.infinite_irradiance), Real(min_group_probability),
-               Real(1 - min_group_probability));
+  // The importance is that of surfaces that emit the power on one side, which is pi times their intensity along the
+  // normal; of other lights it is up to 4 times their irradiance.
+  const Real ratio = pi<Real> * scene.infinite_irradiance / importance;
+  const Real lowest = Real(min_group_probability) / (1 + ratio * Real(0.01));
+  return min(max(1 / (1 + ratio), lowest), Real(1 - min_group_probability));
 }
 
 template <class Real>

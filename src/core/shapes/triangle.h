@@ -49,9 +49,9 @@ inline double exact_difference_of_products(float a, float b, float c, float d) {
 }
 
 /// Recomputes the edge functions of a triangle that was hit, from its vertices in the sheared space of the ray. If the
-/// ray passes the triangle within rounding, they become the barycentric coordinates of the point of the edge that is
-/// nearest to the ray. It would not do to set the negative one to 0: in a long triangle seen at a grazing angle, the
-/// hit would move far along the edge, and t could get the wrong sign.
+/// ray passes the triangle within rounding, they become the barycentric coordinates of the point nearest to the ray on
+/// the first edge that it passes. It would not do to set the negative one to 0: in a long triangle seen at a grazing
+/// angle, the hit would move far along the edge, and t could get the wrong sign.
 template <class Real>
 ALHAZEN_RARE void recompute_edge_functions(const Real (&x)[3], const Real (&y)[3], Real (&e)[3]) {
   decltype(exact_difference_of_products(x[0], y[0], y[0], x[0])) exact[3], sum = 0;
