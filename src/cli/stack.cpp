@@ -1,5 +1,6 @@
 #include "cli/stack.h"
 
+#include <malloc.h>
 #include <pthread.h>
 #include <sys/resource.h>
 
@@ -32,6 +33,7 @@ void* make_call(void* call) {
 int run_on_enough_stack(const std::function<int()>& body) {
   const ThreadDefaults defaults;
   if (main_stack_may_grow()) return body();
+  ::mallopt(M_ARENA_MAX, 1);  // the heap of another thread would reserve 64 MiB of address space
   pthread_attr_t attributes;
   ::pthread_attr_init(&attributes);
   ::pthread_attr_setstacksize(&attributes, thread_stack_bytes);
