@@ -6,10 +6,9 @@
 // A cylinder and two disks may form a closed can, so no ray must pass between them. Both round their placement, and the
 // tests round the coordinates of the ray in object space. A cylinder therefore reaches past its ends, and a disk past
 // its radius, by a bound on both errors: that of a point there (`rim`), and that of the test, which grows with the
-// distance along the ray (`rim_growth`) to at most the former, which the bounds contain. Inaccurate roots of the
-// cylinder's equation need no more: they solve, for a radius that is a few roundings larger or smaller, the same
-// equation, and the disk reaches past that, too. A ray that starts on one of them starts inside of the other, since hit
-// points keep a distance from the rim (`rim_clearance`).
+// distance along the ray (`rim_growth`). Inaccurate roots of the cylinder's equation need no more: they solve, for a
+// radius that is a few roundings larger or smaller, the same equation, and the disk reaches past that, too. A ray that
+// starts on one of them starts inside of the other, since hit points keep a distance from the rim (`rim_clearance`).
 
 #include "core/math/bounds.h"
 #include "core/math/ray.h"
@@ -62,7 +61,7 @@ ALHAZEN_HD ALHAZEN_NOINLINE CylinderLanes<V> intersect_lanes(const NumbersOf<Cyl
   const V cosine = cylinder[12], sine = cylinder[13], rim = cylinder[14], rim_growth = cylinder[15];
   // With the azimuth phi of the point in (-pi, pi], |phi| <= phi_max / 2 if sin(|phi| - phi_max / 2) <= 0.
   const auto is_on = [&](const V& t) ALHAZEN_INLINE_LAMBDA {
-    return less(magnitude(z + dz * t), rim + min(rim_growth * t, rim - one)) &
+    return less(magnitude(z + dz * t), rim + rim_growth * t) &
            less_equal(magnitude(y + dy * t) * cosine, (x + dx * t) * sine);
   };
   const uint32_t near_hits = less(zero, c) & less(zero, near) & is_on(near);
@@ -161,8 +160,7 @@ Bounds3<Real> bounds_of(const SceneView<Real>&, const CylinderRecord<Real>& cyli
   const Bounds3<Real> arc = bounds_of_arc(cylinder);
   const Vec3<Real> centre = world_point(cylinder, {});
   const Vec3<Real> far_end{1, 1, -cylinder.anchor_z};
-  const Vec3<Real> pad =
-      abs(cylinder.world_from_object[2]) * (2 * cylinder.rim - 1) + error_of_point(cylinder, far_end);
+  const Vec3<Real> pad = abs(cylinder.world_from_object[2]) * cylinder.rim + error_of_point(cylinder, far_end);
   return {centre + arc.low - pad, centre + arc.high + pad};
 }
 

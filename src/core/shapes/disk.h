@@ -23,7 +23,7 @@ struct DiskLanes {
 template <class V, class Real, class Read>
 ALHAZEN_HD ALHAZEN_NOINLINE DiskLanes<V> intersect_lanes(const NumbersOf<DiskRecord<Real>, Read>& disk,
                                                          const RayLanes<V>& ray) {
-  const V zero = on_all_lanes<V>(Real(0)), one = on_all_lanes<V>(Real(1));
+  const V zero = on_all_lanes<V>(Real(0));
   const V from_centre[3] = {ray.origin[0] - disk[0], ray.origin[1] - disk[1], ray.origin[2] - disk[2]};
   const auto row = [&](int i, const V(&v)[3]) ALHAZEN_INLINE_LAMBDA {
     return disk[3 + 3 * i] * v[0] + disk[4 + 3 * i] * v[1] + disk[5 + 3 * i] * v[2];
@@ -33,7 +33,7 @@ ALHAZEN_HD ALHAZEN_NOINLINE DiskLanes<V> intersect_lanes(const NumbersOf<DiskRec
   const V x = row(0, from_centre) + row(0, ray.direction) * hits.t;
   const V y = row(1, from_centre) + row(1, ray.direction) * hits.t;
   const V radius_squared = x * x + y * y;
-  const V growth = min(disk[15] * hits.t, disk[14] - one), rim = disk[14] + growth, inner_rim = disk[16] - growth;
+  const V growth = disk[15] * hits.t, rim = disk[14] + growth, inner_rim = disk[16] - growth;
   // The inner rim may be below zero, where everything is outside of it. At an infinite t, infinity is not below itself.
   hits.crossed = less(zero, hits.t) & less(radius_squared, rim * rim) &
                  less_equal(inner_rim * magnitude(inner_rim), radius_squared) &
@@ -60,8 +60,7 @@ Bounds3<Real> bounds_of(const SceneView<Real>&, const DiskRecord<Real>& disk) {
   Bounds3<Real> arc = bounds_of_arc(disk);
   arc.extend(Vec3<Real>{});
   const Vec3<Real> pad = error_of_point(disk, {1, 1, 0});
-  const Real reach = 2 * disk.rim - 1;
-  return {disk.anchor + arc.low * reach - pad, disk.anchor + arc.high * reach + pad};
+  return {disk.anchor + arc.low * disk.rim - pad, disk.anchor + arc.high * disk.rim + pad};
 }
 
 /// Sets the interaction on a disk. The hit point is projected onto it, so its error does not depend on the length of
