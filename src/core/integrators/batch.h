@@ -136,8 +136,7 @@ class PathBatch {
     constexpr VertexDimensions d = VertexDimensions::from(0);
     numbers_.draw(live_, 1u << d.bsdf_direction() | (scene_.has_lobes ? 1u << d.bsdf_lobe() : 0));
     if (kind != IntegratorKind::path) return;
-    if (scene_.lights_count > 0) numbers_.draw(live_, 1u << d.light_point());
-    if (scene_.lights_count > 1) numbers_.draw(live_, 1u << d.light_choice());
+    if (scene_.lights_count > 0) numbers_.draw(live_, 1u << d.light());
     numbers_.draw(continuing_, 1u << d.roulette());  // no path uses it at its first surface
   }
 

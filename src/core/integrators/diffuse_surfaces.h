@@ -35,7 +35,7 @@ class DiffuseSurfaces {
   template <SampleBatchOf<Real> Numbers>
   void shade(const Points& points, const Numbers& numbers, uint32_t count) {
     const uint32_t end = whole_rows(count);
-    if (triangles_ > 0) sample_triangles(points, numbers, end);
+    if (triangles_ > 0) sample_triangles(points, end);
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
       const DirectLight<Real> direct = direct_light(point_at(points, i), lights_[i]);
@@ -112,30 +112,29 @@ class DiffuseSurfaces {
     light_source_[i] = LightSource::sampled;
     lights_.template set_only<&Light::pdf, &Light::is_delta, &Light::is_finite>(i, {});
     if (scene.lights_count == 0) return;
-    const LightChoiceInput<Real> by = light_choice_input(scene, sampler, path_dimensions, point);
-    const LightChoice<Real> choice = choose_light(scene, point.si.position, by.normal, by.u);
+    Vec2<Real> u = sampler.template get_2d<Real>(path_dimensions.light());
+    const LightChoice<Real> choice = choose_light_for(scene, point, u.x);
     if (!(choice.pmf > 0)) return;
+    u.x = choice.u;
     const LightRecord<Real>& light = scene.lights[choice.light];
     light_pmf_[i] = choice.pmf;
     if (light.kind == LightKind::triangle && light.texture.count == 0) {
       emitters_.set(i, scene.triangle_emitters[light.emitter]);
+      light_u_.set(i, u);
       light_source_[i] = LightSource::triangle;
       ++triangles_;
     } else {
-      Light sampled = sample_chosen_light(scene, light, point.si.position, choice.light == point.light, point.si.time,
-                                          sampler.template get_2d<Real>(path_dimensions.light_point()));
+      Light sampled = sample_chosen_light(scene, light, point.si.position, choice.light == point.light, point.si.time, u);
       sampled.pdf *= choice.pmf;
       lights_.set(i, sampled);
     }
   }
 
   /// Does what `sample_chosen_light` does for the deferred lights.
-  template <SampleBatchOf<Real> Numbers>
-  void sample_triangles(const Points& points, const Numbers& numbers, uint32_t end) {
+  void sample_triangles(const Points& points, uint32_t end) {
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
-      Light sampled =
-          sample_triangle_emitter(emitters_[i], points.position(i), numbers.pair(dimensions.light_point(), i));
+      Light sampled = sample_triangle_emitter(emitters_[i], points.position(i), light_u_[i]);
       sampled.pdf *= light_pmf_[i];
       lights_.set(i, select(light_source_[i] == LightSource::triangle, sampled, lights_[i]));
     }
@@ -157,6 +156,7 @@ class DiffuseSurfaces {
   SoA<Vec3<Real>, max_count> reflectance_;
   uint32_t light_source_[max_count]{};
   Real light_pmf_[max_count]{};
+  SoA<Vec2<Real>, max_count> light_u_;              ///< the random numbers that sample them
   SoA<TriangleEmitter<Real>, max_count> emitters_;  ///< of lights that are still to be sampled
   SoA<Light, max_count> lights_;
   uint32_t is_lit_[max_count]{};

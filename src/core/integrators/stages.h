@@ -162,19 +162,12 @@ struct DirectLight {
   bool is_lit = false;
 };
 
-/// The input by which a light is chosen for a surface.
+/// Chooses a light for a surface.
 template <class Real>
-struct LightChoiceInput {
-  Vec3<Real> normal;  ///< as for `choose_light`
-  Real u;
-};
-
-template <class Real, SamplerOf<Real> Sampler>
-ALHAZEN_HD ALHAZEN_HOT LightChoiceInput<Real> light_choice_input(const SceneView<Real>& scene, const Sampler& sampler,
-                                                                 const VertexDimensions& dimensions,
-                                                                 const ShadingPoint<Real>& point) {
-  return {scene.light_tree_count > 0 ? side_of_light(point) : Vec3<Real>{},
-          scene.lights_count > 1 ? sampler.template get_1d<Real>(dimensions.light_choice()) : Real(0)};
+ALHAZEN_HD ALHAZEN_HOT LightChoice<Real> choose_light_for(const SceneView<Real>& scene, const ShadingPoint<Real>& point,
+                                                          Real u) {
+  const Vec3<Real> normal = scene.light_tree_count > 0 ? side_of_light(point) : Vec3<Real>{};
+  return choose_light(scene, point.si.position, normal, u);
 }
 
 /// Samples one light and a point on it for a surface. pdf is 0 if there is none.
@@ -183,9 +176,13 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light_for(const SceneView<Real>&
                                                           const VertexDimensions& dimensions,
                                                           const ShadingPoint<Real>& point) {
   if (scene.lights_count == 0 || point.bsdf.is_specular()) return {};
-  const LightChoiceInput<Real> by = light_choice_input(scene, sampler, dimensions, point);
-  return sample_light(scene, point.si.position, by.normal, point.si.time, by.u,
-                      sampler.template get_2d<Real>(dimensions.light_point()), point.light);
+  const Vec2<Real> u = sampler.template get_2d<Real>(dimensions.light());
+  const LightChoice<Real> choice = choose_light_for(scene, point, u.x);
+  if (!(choice.pmf > 0)) return {};
+  LightSample<Real> s = sample_chosen_light(scene, scene.lights[choice.light], point.si.position,
+                                            choice.light == point.light, point.si.time, Vec2<Real>{choice.u, u.y});
+  s.pdf *= choice.pmf;
+  return s;
 }
 
 template <class Real>
@@ -207,8 +204,7 @@ ALHAZEN_HD void count_light_sample(const SceneView<Real>& scene, const Sampler& 
                                    const VertexDimensions& dimensions, const ShadingPoint<Real>& point,
                                    const LightSample<Real>& sample, const DirectLight<Real>& direct, Record& record) {
   if (scene.lights_count == 0 || point.bsdf.is_specular()) return;
-  const LightChoiceInput<Real> by = light_choice_input(scene, sampler, dimensions, point);
-  const LightChoice<Real> choice = choose_light(scene, point.si.position, by.normal, by.u);
+  const LightChoice<Real> choice = choose_light_for(scene, point, sampler.template get_2d<Real>(dimensions.light()).x);
   if (!(choice.pmf > 0)) return;
   const bool is_unlit = !(sample.pdf > 0) || is_zero(sample.radiance);
   record.counters.count_light_sample(scene.lights[choice.light].kind, point.bsdf.kind, is_unlit,

@@ -58,12 +58,6 @@ ALHAZEN_HD Real environment_square_pdf(const SceneView<Real>& scene, const Envir
          ((columns[1] - columns[0]) * static_cast<Real>(map.width));
 }
 
-/// Position in [0, 1) of `u` within item `i` of a cumulative distribution.
-template <class Real>
-ALHAZEN_HD Real position_within(const Real* cdf, uint32_t i, Real u) {
-  return clamp((u - cdf[i]) / (cdf[i + 1] - cdf[i]), Real(0), one_minus_epsilon<Real>);
-}
-
 template <class Real>
 ALHAZEN_HD EnvironmentSample<Real> sample_environment(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
                                                       const Vec2<Real>& u) {

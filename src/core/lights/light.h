@@ -126,7 +126,8 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_sphere_light(const SceneView<Rea
 }
 
 /// Chooses one of the lights. `normal` is that of the side of the surface from which light must arrive; zero means
-/// any.
+/// any. A light is chosen by an interval of the unit interval, so that stratified numbers stay stratified when they are
+/// rescaled.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightChoice<Real> choose_light(const SceneView<Real>& scene, const Vec3<Real>& reference,
                                                       const Vec3<Real>& normal, Real u) {
@@ -137,8 +138,9 @@ ALHAZEN_HD ALHAZEN_HOT LightChoice<Real> choose_light(const SceneView<Real>& sce
     return choice;
   }
   u = min((u - by_tree) / (1 - by_tree), one_minus_epsilon<Real>);
-  const uint32_t i = scene.lights_count == 1 ? 0 : sample_cdf(scene.light_cdf, scene.light_cdf_count - 1, u);
-  return {i, scene.lights[i].pmf * (1 - by_tree)};
+  if (scene.lights_count == 1) return {0, scene.lights[0].pmf * (1 - by_tree), u};
+  const uint32_t i = sample_cdf(scene.light_cdf, scene.light_cdf_count - 1, u);
+  return {i, scene.lights[i].pmf * (1 - by_tree), position_within(scene.light_cdf, i, u)};
 }
 
 /// The probability that `choose_light` chooses this light, which is a shape.
@@ -183,17 +185,17 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_chosen_light(const SceneView<Rea
   return s;
 }
 
-/// Chooses a light by `u_choice` and samples a point of it. `normal` is as for `choose_light`; `own_light` is the light
-/// that contains `reference`.
+/// Chooses a light and samples a point of it. `normal` is as for `choose_light`; `own_light` is the light that contains
+/// `reference`.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light(const SceneView<Real>& scene, const Vec3<Real>& reference,
-                                                      const Vec3<Real>& normal, Real time, Real u_choice,
-                                                      const Vec2<Real>& u, uint32_t own_light = no_light) {
+                                                      const Vec3<Real>& normal, Real time, const Vec2<Real>& u,
+                                                      uint32_t own_light = no_light) {
   if (scene.lights_count == 0) return {};
-  const LightChoice<Real> choice = choose_light(scene, reference, normal, u_choice);
+  const LightChoice<Real> choice = choose_light(scene, reference, normal, u.x);
   if (!(choice.pmf > 0)) return {};
-  LightSample<Real> s =
-      sample_chosen_light(scene, scene.lights[choice.light], reference, choice.light == own_light, time, u);
+  LightSample<Real> s = sample_chosen_light(scene, scene.lights[choice.light], reference, choice.light == own_light,
+                                            time, Vec2<Real>{choice.u, u.y});
   s.pdf *= choice.pmf;
   return s;
 }

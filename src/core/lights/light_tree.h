@@ -103,6 +103,7 @@ template <class Real>
 struct LightChoice {
   uint32_t light = no_light;
   Real pmf = 0;
+  Real u = 0;  ///< the random number of the choice, rescaled to [0, 1): it is uniform for each light
 };
 
 /// Chooses one light of the tree for `point`; no light if none can contribute.
@@ -115,13 +116,11 @@ ALHAZEN_HD LightChoice<Real> sample_light_tree(const SceneView<Real>& scene, con
     const Real p = first_child_probability(scene, node->index(), point, normal);
     if (p < 0) return {};
     const bool second = u >= p;
-    // The random number is rescaled for reuse at the next level.
-    u = second ? (u - p) / (1 - p) : u / p;
-    u = u < one_minus_epsilon<Real> ? u : one_minus_epsilon<Real>;
+    u = min(second ? (u - p) / (1 - p) : u / p, one_minus_epsilon<Real>);
     pmf *= second ? 1 - p : p;
     node = scene.light_tree + node->index() + (second ? 1 : 0);
   }
-  return {node->index(), pmf};
+  return {node->index(), pmf, u};
 }
 
 /// The probability that `sample_light_tree` chooses the light at `trail`.

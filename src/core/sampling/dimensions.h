@@ -18,8 +18,8 @@ struct CameraDimensions {
 
 /// The dimensions of one vertex of a path; `vertex` 0 is the first surface that the camera ray hits.
 struct VertexDimensions {
-  static constexpr uint32_t count = 5;
-  static constexpr uint32_t pairs = 0b01010;  ///< bit d: dimension base + d is a pair
+  static constexpr uint32_t count = 4;
+  static constexpr uint32_t pairs = 0b0110;  ///< bit d: dimension base + d is a pair
   uint32_t base;
 
   ALHAZEN_HD explicit constexpr VertexDimensions(uint32_t vertex) : base(CameraDimensions::count + count * vertex) {}
@@ -30,9 +30,8 @@ struct VertexDimensions {
   }
   ALHAZEN_HD constexpr uint32_t bsdf_lobe() const { return base; }
   ALHAZEN_HD constexpr uint32_t bsdf_direction() const { return base + 1; }  ///< pair
-  ALHAZEN_HD constexpr uint32_t light_choice() const { return base + 2; }
-  ALHAZEN_HD constexpr uint32_t light_point() const { return base + 3; }  ///< pair
-  ALHAZEN_HD constexpr uint32_t roulette() const { return base + 4; }
+  ALHAZEN_HD constexpr uint32_t light() const { return base + 2; }           ///< pair
+  ALHAZEN_HD constexpr uint32_t roulette() const { return base + 3; }
 };
 
 }  // namespace ALHAZEN_CORE

@@ -22,4 +22,10 @@ ALHAZEN_HD uint32_t sample_cdf(const Real* cdf, uint32_t count, Real u) {
   return low;
 }
 
+/// Position in [0, 1) of `u` within item `i` of a cumulative distribution.
+template <class Real>
+ALHAZEN_HD Real position_within(const Real* cdf, uint32_t i, Real u) {
+  return clamp((u - cdf[i]) / (cdf[i + 1] - cdf[i]), Real(0), one_minus_epsilon<Real>);
+}
+
 }  // namespace ALHAZEN_CORE
