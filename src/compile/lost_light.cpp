@@ -199,7 +199,8 @@ class LostLightSearch {
     Hit<Real> hit;
     const std::optional<SurfaceInteraction<Real>> si = point_on(receiver, hit);
     if (!si || is_cut_out(hit, *si)) return {};
-    const LightSample<Real> s = sample_chosen_light(view_, light, si->position, false, Real(0), Vec2<Real>{});
+    const LightSample<Real> s =
+        sample_chosen_light(view_, light, si->position, Vec3<Real>{}, false, Real(0), Vec2<Real>{});
     if (!(s.pdf > 0) || is_zero(s.radiance)) return {};
     const ShadowRay<Real> shadow = shadow_ray(*si, s);
     if (visibility_of(view_, intersector_, shadow) > 0) return {};
@@ -255,7 +256,8 @@ class LostLightSearch {
     const std::optional<SurfaceInteraction<Real>> found = point_on(candidate, hit);
     if (!found || is_cut_out(hit, *found)) return;
     const SurfaceInteraction<Real>& si = *found;
-    const LightSample<Real> s = sample_chosen_light(view_, light, si.position, false, Real(0), Vec2<Real>{});
+    const LightSample<Real> s =
+        sample_chosen_light(view_, light, si.position, Vec3<Real>{}, false, Real(0), Vec2<Real>{});
     if (!(s.pdf > 0) || is_zero(s.radiance)) return;
     if (!(visibility_of(view_, intersector_, shadow_ray(si, s)) > 0)) return;
     follow(ray_from_light(s, si, hit), hit);
@@ -281,7 +283,7 @@ class LostLightSearch {
     Real travelled = 0;
     if (!closest_stop(view_, intersector_, RayKind::scattered, ray, hit, travelled)) return;
     const SurfaceInteraction<Real> si = surface_interaction(view_, ray, hit);
-    if (is_zero(sample_chosen_light(view_, light, si.position, false, Real(0), u).radiance)) return;
+    if (is_zero(sample_chosen_light(view_, light, si.position, Vec3<Real>{}, false, Real(0), u).radiance)) return;
     if (may_be_sharp(view_.materials[view_.surfaces[si.surface].material].kind)) follow(ray, hit);
   }
 

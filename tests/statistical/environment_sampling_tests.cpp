@@ -44,7 +44,7 @@ TYPED_TEST(EnvironmentSampling, DirectionsFollowTheDensity) {
     Random random(1);
     for (size_t i = 0; i < effort(1'000'000); ++i) {
       const LightSample<Real> s =
-          sample_light(scene.view, Vec3<Real>{}, Vec3<Real>{}, Real(0), Real(0), random.uniform_2d<Real>());
+          sample_light(scene.view, Vec3<Real>{}, Vec3<Real>{}, Real(0), random.uniform_2d<Real>());
       if (s.pdf > 0)
         histogram.add(convert<double>(s.direction));
       else
@@ -154,10 +154,7 @@ TYPED_TEST(EnvironmentSampling, ConstantRadianceIsNotSampled) {
     const CompiledScene<Real> scene = compiled_scene<Real>(map_alone(even_map(width, height, 0.3f), map_askew()));
     Random random(4);
     for (int i = 0; i < 1000; ++i)
-      EXPECT_EQ(sample_light(scene.view, Vec3<Real>{}, Vec3<Real>{}, Real(0), random.uniform<Real>(),
-                             random.uniform_2d<Real>())
-                    .pdf,
-                Real(0));
+      EXPECT_EQ(sample_light(scene.view, Vec3<Real>{}, Vec3<Real>{}, Real(0), random.uniform_2d<Real>()).pdf, Real(0));
     EXPECT_NEAR(static_cast<double>(background_radiance(scene.view, Vec3<Real>{0, 0, 1}).x), 0.3, 1e-6);
   }
   const CompiledScene<Real> scene = compiled_scene_of<Real>("WorldBegin LightSource \"infinite\"");

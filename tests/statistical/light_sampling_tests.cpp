@@ -20,6 +20,7 @@ struct LightCase {
   double time;
   Vec3d axis;        ///< of the cap that contains the light
   double theta_max;  ///< half angle of the cap
+  Vec3d normal{};    ///< of the side from which light must arrive
 };
 
 const std::string triangle = R"(WorldBegin AreaLightSource "diffuse" "rgb L" [1 1 1] "bool twosided" true
@@ -55,6 +56,8 @@ const LightCase light_cases[] = {
     {"triangle", triangle, {}, 0, {0.3, -0.3, 3.3}, 0.9},
     {"triangle from the side", triangle, {3, -0.5, 1}, 0, {-2.7, 0.2, 2.3}, 0.9},
     {"triangle from close by", triangle, {0.3, -0.5, 3}, 0, {0, 0, 1}, pi<double>},
+    {"triangle from close by and askew", triangle, {0.3, -0.5, 3}, 0, {0, 0, 1}, pi<double>, {0.6, 0, 0.8}},
+    {"triangle across the horizon", triangle, {0.5, 0, 2.5}, 0, {0, 0, 1}, pi<double>, {-0.8, 0.6, 0}},
     {"sphere", sphere, {}, 0, {0, 0, 1}, std::asin(1 / 3.0) * (1 + 1e-5)},
     {"sphere from close by", sphere, {0.1, 0, 1.9}, 0, {0, 0, 1}, pi<double>},
     {"sphere from far away", sphere, {300, 200, 100}, 0, {-300, -200, -97}, 0.003},
@@ -71,17 +74,17 @@ constexpr size_t cases = 2 * std::size(light_cases);
 /// The density with which any of the lights gives this direction: that of the surface that the ray hits, and that of
 /// the lights at infinity behind all surfaces.
 template <class Real>
-Real pdf_of_direction(const SceneView<Real>& scene, const Ray<Real>& ray) {
+Real pdf_of_direction(const SceneView<Real>& scene, const Ray<Real>& ray, const Vec3<Real>& normal = {}) {
   Hit<Real> hit;
   Real pdf = 0;
-  const Real by_tree = light_tree_probability(scene, ray.origin, Vec3<Real>{});
+  const Real by_tree = light_tree_probability(scene, ray.origin, normal);
   for (uint32_t i = 0; i < scene.far_lights_count; ++i) {
     const LightRecord<Real>& light = scene.lights[scene.far_lights[i]];
     pdf += light.pmf * (1 - by_tree) * escaped_light(scene, light, ray.direction, true).pdf;
   }
   if (BruteForceIntersector<Real>(scene).closest_hit(ray, infinity<Real>, hit)) {
     const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
-    pdf += pdf_light(scene, scene.lights[scene.surfaces[si.surface].light], ray, hit, si, Vec3<Real>{});
+    pdf += pdf_light(scene, scene.lights[scene.surfaces[si.surface].light], ray, hit, si, normal);
   }
   return pdf;
 }
@@ -94,14 +97,12 @@ TYPED_TEST(LightSampling, DirectionsFollowTheDensity) {
   using Real = TypeParam;
   for (const LightCase& c : light_cases) {
     const CompiledScene<Real> scene = compiled_scene_of<Real>(c.text);
-    const Vec3<Real> reference = convert<Real>(c.reference);
+    const Vec3<Real> reference = convert<Real>(c.reference), normal = convert<Real>(c.normal);
     const Real time = static_cast<Real>(c.time);
     DirectionHistogram histogram(frame_about(normalize(c.axis)), c.theta_max);
     Random random(1);
     for (size_t i = 0; i < effort(1'000'000); ++i) {
-      const Real u_choice = random.uniform<Real>();
-      const LightSample<Real> s =
-          sample_light(scene.view, reference, Vec3<Real>{}, time, u_choice, random.uniform_2d<Real>());
+      const LightSample<Real> s = sample_light(scene.view, reference, normal, time, random.uniform_2d<Real>());
       if (s.pdf > 0)
         histogram.add(convert<double>(s.direction));
       else
@@ -110,7 +111,7 @@ TYPED_TEST(LightSampling, DirectionsFollowTheDensity) {
     double integral = 0;
     const ChiSquared test = histogram.test(
         [&](const Vec3d& w) {
-          return pdf_of_direction(scene.view, Ray<Real>{reference, convert<Real>(w), time});
+          return pdf_of_direction(scene.view, Ray<Real>{reference, convert<Real>(w), time}, normal);
         },
         integral);
     EXPECT_NEAR(integral, 1, 1e-3) << c.name;
@@ -126,17 +127,32 @@ TYPED_TEST(LightSampling, RayFindsWhatWasSampled) {
     const CompiledScene<Real> scene = compiled_scene_of<Real>(c.text);
     Random random(2);
     for (int i = 0; i < 2000; ++i) {
-      const Vec3<Real> reference = convert<Real>(c.reference);
+      const Vec3<Real> reference = convert<Real>(c.reference), normal = convert<Real>(c.normal);
       const Real time = static_cast<Real>(c.time);
-      const LightSample<Real> s =
-          sample_light(scene.view, reference, Vec3<Real>{}, time, Real(0.5), random.uniform_2d<Real>());
+      const LightSample<Real> s = sample_light(scene.view, reference, normal, time, random.uniform_2d<Real>());
       EXPECT_FALSE(s.is_delta);
       EXPECT_NEAR(static_cast<double>(s.radiance.y), 1, 1e-6);
       // If the light is seen edge-on, rounding decides whether and where it is hit.
       if (s.is_finite && abs_dot(s.normal, s.direction) < Real(0.2)) continue;
-      const Real pdf = pdf_of_direction(scene.view, Ray<Real>{reference, s.direction, time});
+      const Real pdf = pdf_of_direction(scene.view, Ray<Real>{reference, s.direction, time}, normal);
       ASSERT_NEAR(static_cast<double>(pdf / s.pdf), 1, by_precision<Real>(5e-3, 1e-9)) << c.name;
     }
+  }
+}
+
+/// Rounding puts a point of a lamp before or behind it. Its light must not seem to come from the whole hemisphere.
+TYPED_TEST(LightSampling, ALampDoesNotLightItself) {
+  using Real = TypeParam;
+  const CompiledScene<Real> scene = compiled_scene_of<Real>(triangle);
+  const TriangleEmitter<Real>& t = scene.view.triangle_emitters[0];
+  const Vec3<Real> front = normalize(cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]));
+  Random random(3);
+  for (int i = 0; i < 10'000; ++i) {
+    const Vec2<Real> b = sample_triangle(random.uniform_2d<Real>());
+    const Vec3<Real> reference = t.corner[0] * b.x + t.corner[1] * b.y + t.corner[2] * (1 - b.x - b.y);
+    const LightSample<Real> s = sample_light(scene.view, reference, front, Real(0), random.uniform_2d<Real>());
+    if (!(s.pdf > 0)) continue;
+    ASSERT_LT(static_cast<double>(abs_dot(s.direction, front) / s.pdf), by_precision<Real>(1e-3, 1e-9));
   }
 }
 
@@ -179,7 +195,7 @@ TYPED_TEST(LightSampling, LightsWithoutSizeAreSampledSurely) {
                                   "LightSource \"spot\" \"point3 from\" [0 5 0] \"point3 to\" [0 0 0]",
                                   "LightSource \"distant\" \"point3 from\" [0 5 0] \"point3 to\" [0 0 0]"}) {
     const CompiledScene<Real> scene = compiled_scene_of<Real>("WorldBegin " + light);
-    const LightSample<Real> s = sample_light(scene.view, Vec3<Real>{}, Vec3<Real>{}, Real(0), Real(0.3), Vec2<Real>{});
+    const LightSample<Real> s = sample_light(scene.view, Vec3<Real>{}, Vec3<Real>{}, Real(0), Vec2<Real>{Real(0.3), 0});
     EXPECT_TRUE(s.is_delta);
     EXPECT_EQ(s.pdf, Real(1));
     EXPECT_NEAR(static_cast<double>(s.direction.y), 1, 1e-6);

@@ -115,7 +115,7 @@ TYPED_TEST(LightTree, NoLightThatMattersIsLeftOut) {
       alone.lights += i;
       alone.lights_count = 1;
       alone.light_tree_count = 0;
-      const LightSample<Real> s = sample_light(alone, point, Vec3<Real>{}, Real(0), Real(0), random.uniform_2d<Real>());
+      const LightSample<Real> s = sample_light(alone, point, Vec3<Real>{}, Real(0), random.uniform_2d<Real>());
       const bool is_seen = is_zero(normal) || dot(normal, s.direction) > Real(1e-5);
       if (!(s.pdf > 0) || is_zero(s.radiance) || !is_seen) continue;
       ++reaching;

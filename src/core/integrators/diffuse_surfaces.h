@@ -22,20 +22,21 @@ class DiffuseSurfaces {
                           const Sampler& sampler, PathState<Real>& path) {
     indices_[count_++] = place;
     add_light(place, scene, point, sampler, VertexDimensions(path.vertex));
-    if (scene.light_tree_count > 0) path.light_side = side_of_light(point);
+    if (samples_by_side(scene)) path.light_side = side_of_light(point);
     reflectance_.set(place, point.bsdf.diffuse.reflectance);
     paths_.set(place, path);
   }
 
   uint32_t count() const { return count_; }
   uint32_t place(uint32_t i) const { return indices_[i]; }
-  void clear() { count_ = triangles_ = 0; }
+  void clear() { count_ = triangles_ = near_count_ = 0; }
 
   /// Lights and scatters all of them; their indices are below `count`. `numbers` holds the random numbers.
   template <SampleBatchOf<Real> Numbers>
   void shade(const Points& points, const Numbers& numbers, uint32_t count) {
     const uint32_t end = whole_rows(count);
     if (triangles_ > 0) sample_triangles(points, end);
+    if (near_count_ > 0) sample_near_triangles();
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
       const DirectLight<Real> direct = direct_light(point_at(points, i), lights_[i]);
@@ -113,18 +114,25 @@ class DiffuseSurfaces {
     lights_.template set_only<&Light::pdf, &Light::is_delta, &Light::is_finite>(i, {});
     if (scene.lights_count == 0) return;
     Vec2<Real> u = sampler.template get_2d<Real>(path_dimensions.light());
-    const LightChoice<Real> choice = choose_light_for(scene, point, u.x);
+    const Vec3<Real> side = samples_by_side(scene) ? side_of_light(point) : Vec3<Real>{};
+    const LightChoice<Real> choice = choose_light(scene, point.si.position, side, u.x);
     if (!(choice.pmf > 0)) return;
     u.x = choice.u;
     const LightRecord<Real>& light = scene.lights[choice.light];
     light_pmf_[i] = choice.pmf;
     if (light.kind == LightKind::triangle && light.texture.count == 0) {
-      emitters_.set(i, scene.triangle_emitters[light.emitter]);
+      const TriangleEmitter<Real>& triangle = scene.triangle_emitters[light.emitter];
+      if (is_near(triangle, point.si.position)) {
+        near_.add(near_count_++, i, triangle, point.si.position, side, u);
+        return;
+      }
+      emitters_.set(i, triangle);
       light_u_.set(i, u);
       light_source_[i] = LightSource::triangle;
       ++triangles_;
     } else {
-      Light sampled = sample_chosen_light(scene, light, point.si.position, choice.light == point.light, point.si.time, u);
+      Light sampled =
+          sample_chosen_light(scene, light, point.si.position, side, choice.light == point.light, point.si.time, u);
       sampled.pdf *= choice.pmf;
       lights_.set(i, sampled);
     }
@@ -134,9 +142,26 @@ class DiffuseSurfaces {
   void sample_triangles(const Points& points, uint32_t end) {
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
-      Light sampled = sample_triangle_emitter(emitters_[i], points.position(i), light_u_[i]);
+      Light sampled = sample_far_triangle(emitters_[i], points.position(i), light_u_[i]);
       sampled.pdf *= light_pmf_[i];
       lights_.set(i, select(light_source_[i] == LightSource::triangle, sampled, lights_[i]));
+    }
+  }
+
+  /// The same for near triangles, which are stored one after the other.
+  void sample_near_triangles() {
+    const uint32_t end = whole_rows(near_count_);
+    ALHAZEN_SIDE_BY_SIDE
+    for (uint32_t k = 0; k < end; ++k) {
+      Vec2<Real> weights;
+      near_.samples.set(
+          k, sample_near_triangle(near_.emitters[k], near_.references[k], near_.sides[k], near_.u[k], weights));
+    }
+    for (uint32_t k = 0; k < near_count_; ++k) {
+      const uint32_t i = near_.indices[k];
+      Light sampled = near_.samples[k];
+      sampled.pdf *= light_pmf_[i];
+      lights_.set(i, sampled);
     }
   }
 
@@ -154,6 +179,25 @@ class DiffuseSurfaces {
   uint32_t count_ = 0, triangles_ = 0;
   uint32_t indices_[max_count]{};
   SoA<Vec3<Real>, max_count> reflectance_;
+  /// Near triangles that are still to be sampled, and the surfaces that they light.
+  struct NearTriangles {
+    uint32_t indices[max_count]{};
+    SoA<TriangleEmitter<Real>, max_count> emitters;
+    SoA<Vec3<Real>, max_count> references, sides;
+    SoA<Vec2<Real>, max_count> u;
+    SoA<Light, max_count> samples;
+
+    ALHAZEN_INLINE void add(uint32_t k, uint32_t index, const TriangleEmitter<Real>& emitter,
+                            const Vec3<Real>& reference, const Vec3<Real>& side, const Vec2<Real>& numbers) {
+      indices[k] = index;
+      emitters.set(k, emitter);
+      references.set(k, reference);
+      sides.set(k, side);
+      u.set(k, numbers);
+    }
+  };
+  NearTriangles near_;
+  uint32_t near_count_ = 0;
   uint32_t light_source_[max_count]{};
   Real light_pmf_[max_count]{};
   SoA<Vec2<Real>, max_count> light_u_;              ///< the random numbers that sample them

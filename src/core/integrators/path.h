@@ -17,7 +17,7 @@ struct PathState {
   Real eta_scale = 1;       ///< product of eta^2 over refractions, undone for roulette
   uint32_t vertex = 0;      ///< number of surfaces hit so far
   bool is_specular = true;  ///< light sampling could not have found this direction
-  Vec3<Real> light_side{};  ///< `side_of_light` of the last surface, if there is a light tree
+  Vec3<Real> light_side{};  ///< `side_of_light` of the last surface, if light samples depend on it
   Real travelled = 0;       ///< distance before the ray's origin, through surfaces that the ray passed through
 
   using Fields = FieldList<&PathState::ray, &PathState::throughput, &PathState::bsdf_pdf, &PathState::eta_scale,
@@ -118,7 +118,7 @@ ALHAZEN_HD ALHAZEN_HOT bool light_and_scatter(const SceneView<Real>& scene, cons
     ++record.shadow_rays;
     light(direct.shadow, path.throughput * direct.radiance);
   }
-  if (scene.light_tree_count > 0) path.light_side = side_of_light(point);
+  if (samples_by_side(scene)) path.light_side = side_of_light(point);
   const uint32_t vertex = path.vertex;
   const bool goes_on = continue_path(sampler, point, path);
   // The path has one vertex more unless the sample is black.

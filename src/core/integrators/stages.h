@@ -92,6 +92,12 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> side_of_light(const ShadingPoint<Real>& point)
   return face_forward(point.si.normal, point.wo);
 }
 
+/// Returns whether light samples depend on `side_of_light`.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT bool samples_by_side(const SceneView<Real>& scene) {
+  return scene.light_tree_count > 0 || scene.triangle_emitters_count > 0;
+}
+
 /// Returns whether `wi` is on the same side of the shading normal as of the geometric normal: interpolated normals
 /// alone would let light leak through closed surfaces.
 template <class Real>
@@ -162,14 +168,6 @@ struct DirectLight {
   bool is_lit = false;
 };
 
-/// Chooses a light for a surface.
-template <class Real>
-ALHAZEN_HD ALHAZEN_HOT LightChoice<Real> choose_light_for(const SceneView<Real>& scene, const ShadingPoint<Real>& point,
-                                                          Real u) {
-  const Vec3<Real> normal = scene.light_tree_count > 0 ? side_of_light(point) : Vec3<Real>{};
-  return choose_light(scene, point.si.position, normal, u);
-}
-
 /// Samples one light and a point on it for a surface. pdf is 0 if there is none.
 template <class Real, SamplerOf<Real> Sampler>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light_for(const SceneView<Real>& scene, const Sampler& sampler,
@@ -177,12 +175,8 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light_for(const SceneView<Real>&
                                                           const ShadingPoint<Real>& point) {
   if (scene.lights_count == 0 || point.bsdf.is_specular()) return {};
   const Vec2<Real> u = sampler.template get_2d<Real>(dimensions.light());
-  const LightChoice<Real> choice = choose_light_for(scene, point, u.x);
-  if (!(choice.pmf > 0)) return {};
-  LightSample<Real> s = sample_chosen_light(scene, scene.lights[choice.light], point.si.position,
-                                            choice.light == point.light, point.si.time, Vec2<Real>{choice.u, u.y});
-  s.pdf *= choice.pmf;
-  return s;
+  const Vec3<Real> side = samples_by_side(scene) ? side_of_light(point) : Vec3<Real>{};
+  return sample_light(scene, point.si.position, side, point.si.time, u, point.light);
 }
 
 template <class Real>
@@ -204,7 +198,8 @@ ALHAZEN_HD void count_light_sample(const SceneView<Real>& scene, const Sampler& 
                                    const VertexDimensions& dimensions, const ShadingPoint<Real>& point,
                                    const LightSample<Real>& sample, const DirectLight<Real>& direct, Record& record) {
   if (scene.lights_count == 0 || point.bsdf.is_specular()) return;
-  const LightChoice<Real> choice = choose_light_for(scene, point, sampler.template get_2d<Real>(dimensions.light()).x);
+  const LightChoice<Real> choice =
+      choose_light(scene, point.si.position, side_of_light(point), sampler.template get_2d<Real>(dimensions.light()).x);
   if (!(choice.pmf > 0)) return;
   const bool is_unlit = !(sample.pdf > 0) || is_zero(sample.radiance);
   record.counters.count_light_sample(scene.lights[choice.light].kind, point.bsdf.kind, is_unlit,

@@ -8,6 +8,7 @@
 #include "core/lights/environment.h"
 #include "core/lights/light_list.h"
 #include "core/lights/light_tree.h"
+#include "core/lights/spherical_triangle.h"
 #include "core/sampling/discrete.h"
 #include "core/sampling/warp.h"
 #include "core/shapes/interaction.h"
@@ -68,14 +69,18 @@ ALHAZEN_HD TriangleEmitter<Real> make_triangle_emitter(const SceneView<Real>& sc
   t.flip_normal = surface.flip_normal;
   t.two_sided = light.two_sided;
   t.radiance = light.radiance;
+  t.centre = (t.corner[0] + t.corner[1] + t.corner[2]) * (Real(1) / 3);
+  t.near_distance = 0;
+  for (int i = 0; i < 3; ++i) t.near_distance = max(t.near_distance, 4 * length_squared(t.corner[i] - t.centre));
   return t;
 }
 
+/// The sample of the point of a triangle that has these weights of its first two corners, drawn uniformly over the
+/// area.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_triangle_emitter(const TriangleEmitter<Real>& t,
-                                                                 const Vec3<Real>& reference, const Vec2<Real>& u) {
+ALHAZEN_HD ALHAZEN_HOT LightSample<Real> triangle_light_sample(const TriangleEmitter<Real>& t,
+                                                               const Vec3<Real>& reference, const Vec2<Real>& b) {
   LightSample<Real> s;
-  const Vec2<Real> b = sample_triangle(u);
   const Vec3<Real> q0 = t.corner[0] * b.x;
   const Vec3<Real> q1 = t.corner[1] * b.y;
   const Vec3<Real> q2 = t.corner[2] * (1 - b.x - b.y);
@@ -95,16 +100,72 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_triangle_emitter(const TriangleE
   return s;
 }
 
+/// Samples a triangle that is not near.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_far_triangle(const TriangleEmitter<Real>& t,
+                                                             const Vec3<Real>& reference, const Vec2<Real>& u) {
+  return triangle_light_sample(t, reference, sample_triangle(u));
+}
+
+/// Returns whether the triangle is closer to `reference` than about its own size: then its points differ much in what
+/// they send there.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT bool is_near(const TriangleEmitter<Real>& t, const Vec3<Real>& reference) {
+  return length_squared(reference - t.centre) < t.near_distance;
+}
+
+/// Returns whether a near triangle is sampled by the solid angle that it subtends. One seen edge-on is sampled by area.
+/// So is one that covers nearly a hemisphere: the point may lie on it, where no light arrives but rounding decides
+/// about that.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT bool is_sampled_by_solid_angle(Real solid_angle) {
+  return solid_angle > Real(1e-3) && solid_angle < Real(6.2);
+}
+
+/// Samples a near triangle. `normal` is as for `choose_light`; `weights` receives those of the first two corners.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_near_triangle(const TriangleEmitter<Real>& t,
+                                                              const Vec3<Real>& reference, const Vec3<Real>& normal,
+                                                              const Vec2<Real>& u, Vec2<Real>& weights) {
+  const SphericalTriangle<Real> seen = spherical_triangle(reference, t.corner[0], t.corner[1], t.corner[2]);
+  const bool by_angle = is_sampled_by_solid_angle(seen.solid_angle);
+  const BilinearDensity<Real> density = cosine_density(seen, normal);
+  const Vec2<Real> place = sample_bilinear(density, u);
+  const Vec2<Real> by_solid_angle = sample_spherical_triangle(seen, place), by_area = sample_triangle(u);
+  weights = {by_angle ? by_solid_angle.x : by_area.x, by_angle ? by_solid_angle.y : by_area.y};
+  LightSample<Real> s = triangle_light_sample(t, reference, weights);
+  if (by_angle && s.pdf > 0) s.pdf = density.pdf(place) / seen.solid_angle;
+  return s;
+}
+
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_triangle_light(const SceneView<Real>& scene,
                                                                const LightRecord<Real>& light,
-                                                               const Vec3<Real>& reference, const Vec2<Real>& u) {
-  LightSample<Real> s = sample_triangle_emitter(scene.triangle_emitters[light.emitter], reference, u);
-  if (light.texture.count > 0) {
-    const Vec2<Real> b = sample_triangle(u);
-    s.radiance = s.radiance * triangle_emission_factor(scene, light, b.y, 1 - b.x - b.y);
-  }
+                                                               const Vec3<Real>& reference, const Vec3<Real>& normal,
+                                                               const Vec2<Real>& u) {
+  const TriangleEmitter<Real>& t = scene.triangle_emitters[light.emitter];
+  Vec2<Real> b = sample_triangle(u);
+  LightSample<Real> s =
+      is_near(t, reference) ? sample_near_triangle(t, reference, normal, u, b) : triangle_light_sample(t, reference, b);
+  if (light.texture.count > 0) s.radiance = s.radiance * triangle_emission_factor(scene, light, b.y, 1 - b.x - b.y);
   return s;
+}
+
+/// Density with which `sample_triangle_light` samples the point at `distance` along `ray`, where the unit normal of the
+/// triangle is `front`.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Real pdf_triangle(const TriangleEmitter<Real>& t, const Ray<Real>& ray, Real distance,
+                                         const Vec3<Real>& front, const Vec3<Real>& normal) {
+  if (is_near(t, ray.origin)) {
+    const SphericalTriangle<Real> seen = spherical_triangle(ray.origin, t.corner[0], t.corner[1], t.corner[2]);
+    if (is_sampled_by_solid_angle(seen.solid_angle)) {
+      const Vec2<Real> place = invert_spherical_triangle(seen, ray.direction);
+      return cosine_density(seen, normal).pdf(place) / seen.solid_angle;
+    }
+  }
+  const Real area = Real(0.5) * length(cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]));
+  const Real cos_area = abs_dot(front, ray.direction) * area;
+  return cos_area > 0 ? distance * distance / cos_area : Real(0);
 }
 
 template <class Real>
@@ -151,17 +212,17 @@ ALHAZEN_HD ALHAZEN_HOT Real pmf_of_shape(const SceneView<Real>& scene, const Lig
   return light_tree_probability(scene, reference, normal) * pmf_of_light_tree(scene, light.trail, reference, normal);
 }
 
-/// Samples a point of this light. The density excludes the probability of choosing the light. `is_on_light`:
-/// `reference` is a point of the light itself.
+/// Samples a point of this light. The density excludes the probability of choosing the light. `normal` is as for
+/// `choose_light`. `is_on_light`: `reference` is a point of the light itself.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_chosen_light(const SceneView<Real>& scene,
                                                              const LightRecord<Real>& light,
-                                                             const Vec3<Real>& reference, bool is_on_light, Real time,
-                                                             const Vec2<Real>& u) {
+                                                             const Vec3<Real>& reference, const Vec3<Real>& normal,
+                                                             bool is_on_light, Real time, const Vec2<Real>& u) {
   LightSample<Real> s;
   switch (light.kind) {
     case LightKind::triangle:
-      s = sample_triangle_light(scene, light, reference, u);
+      s = sample_triangle_light(scene, light, reference, normal, u);
       break;
     case LightKind::sphere: {
       const SphereRecord<Real>& sphere = scene.spheres[light.primitive];
@@ -194,8 +255,8 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light(const SceneView<Real>& sce
   if (scene.lights_count == 0) return {};
   const LightChoice<Real> choice = choose_light(scene, reference, normal, u.x);
   if (!(choice.pmf > 0)) return {};
-  LightSample<Real> s = sample_chosen_light(scene, scene.lights[choice.light], reference, choice.light == own_light,
-                                            time, Vec2<Real>{choice.u, u.y});
+  LightSample<Real> s = sample_chosen_light(scene, scene.lights[choice.light], reference, normal,
+                                            choice.light == own_light, time, Vec2<Real>{choice.u, u.y});
   s.pdf *= choice.pmf;
   return s;
 }
@@ -212,11 +273,8 @@ ALHAZEN_HD ALHAZEN_HOT Real pdf_light(const SceneView<Real>& scene, const LightR
     return pmf * pdf_sphere(centre, radius, ray.origin, ray.direction, hit.t, outward);
   };
   switch (light.kind) {
-    case LightKind::triangle: {
-      const Real area = Real(0.5) * length(triangle_cross(scene, scene.triangles[light.primitive]));
-      const Real cos_area = abs_dot(si.normal, ray.direction) * area;
-      return cos_area > 0 ? pmf * hit.t * hit.t / cos_area : 0;
-    }
+    case LightKind::triangle:
+      return pmf * pdf_triangle(scene.triangle_emitters[light.emitter], ray, hit.t, si.normal, normal);
     case LightKind::sphere: {
       const SphereRecord<Real>& s = scene.spheres[light.primitive];
       return of_sphere(s.centre, s.radius);

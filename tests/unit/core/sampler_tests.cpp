@@ -203,7 +203,7 @@ TEST(Dimensions, AreDistinct) {
   std::vector<uint32_t> used{CameraDimensions::film, CameraDimensions::lens, CameraDimensions::time};
   for (uint32_t vertex = 0; vertex < 20; ++vertex) {
     const VertexDimensions d(vertex);
-    used.insert(used.end(), {d.bsdf_lobe(), d.bsdf_direction(), d.light_choice(), d.light_point(), d.roulette()});
+    used.insert(used.end(), {d.bsdf_lobe(), d.bsdf_direction(), d.light(), d.roulette()});
   }
   std::sort(used.begin(), used.end());
   EXPECT_EQ(std::adjacent_find(used.begin(), used.end()), used.end());

@@ -281,8 +281,7 @@ TYPED_TEST(SelfIntersectionOf, LightsAreSeen) {
     from.position = convert<Real>(p + random.on_sphere() * distance);
     from.position_error = abs(from.position) * rounding_bound<Real>(7);
     for (int i = 0; i < 16; ++i) {
-      const LightSample<Real> s =
-          sample_light(view, from.position, Vec3<Real>{}, Real(0), Real(0), random.uniform_2d<Real>());
+      const LightSample<Real> s = sample_light(view, from.position, Vec3<Real>{}, Real(0), random.uniform_2d<Real>());
       if (!(s.pdf > 0)) continue;
       from.normal = s.direction;
       ++tried;

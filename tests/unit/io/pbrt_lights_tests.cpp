@@ -101,7 +101,7 @@ class PbrtLightImages : public ::testing::Test {
   Vec3d sent_to(const std::string& text, const Vec3d& point) const {
     const CompiledScene<double> scene = compiled_scene<double>(world(text).scene);
     EXPECT_EQ(scene.view.lights_count, 1u);
-    return sample_light(scene.view, point, Vec3d{}, 0.0, 0.0, Vec2d{0.5, 0.5}).radiance;
+    return sample_light(scene.view, point, Vec3d{}, 0.0, Vec2d{0.5, 0.5}).radiance;
   }
 
   TemporaryFolder folder_;
@@ -141,7 +141,7 @@ TEST_F(PbrtLightImages, PowerIsAllThatIsSent) {
         R"(LightSource "projection" "string filename" "even.exr" "float power" 10 "float fov" 20)"}) {
     const CompiledScene<double> scene = compiled_scene<double>(world(light).scene);
     const double sent = integral_over_sphere(600, [&](const Vec3d& d) {
-      return luminance(sample_light(scene.view, d, Vec3d{}, 0.0, 0.0, Vec2d{0.5, 0.5}).radiance);
+      return luminance(sample_light(scene.view, d, Vec3d{}, 0.0, Vec2d{0.5, 0.5}).radiance);
     });
     // In an image of few texels, interpolation moves light to texels with other weights.
     EXPECT_NEAR(sent, 10, light.find("even") != std::string::npos ? 0.1 : 0.6) << light;
@@ -167,7 +167,7 @@ TEST_F(PbrtLightImages, OfAreaLights) {
   EXPECT_TRUE(is_zero(emission_factor(scene.view, lamp, point_of_emission(si, hit))));
   // Light sampling and BSDF sampling see the same emission.
   for (const Vec2d& u : {Vec2d{0.1, 0.2}, {0.7, 0.9}, {0.95, 0.4}}) {
-    const LightSample<double> s = sample_light(scene.view, Vec3d{1, 1, 5}, Vec3d{}, 0.0, 0.9, u);
+    const LightSample<double> s = sample_light(scene.view, Vec3d{1, 1, 5}, Vec3d{}, 0.0, u);
     si.uv = {s.point.x / 4, s.point.y / 2};
     expect_near(s.radiance, emission_factor(scene.view, lamp, point_of_emission(si, hit)) * 3, 1e-6);
   }
