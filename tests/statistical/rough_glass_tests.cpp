@@ -161,6 +161,82 @@ TYPED_TEST(RoughGlass, EachDirectionKeepsItsLight) {
   }
 }
 
+/// A random walk among microfacets (Heitz et al. 2016, "Multiple-Scattering Microfacet BSDFs with the Smith Model") of
+/// uniformly distributed heights, independent of the BSDF. Directions are in the frame of the side on which light is.
+class MicrofacetWalk {
+ public:
+  MicrofacetWalk(double ior, double alpha, Random& random) : ior_(ior), alpha_(alpha), random_(random) {}
+
+  /// Returns whether light from outside that arrives at this cosine is transmitted.
+  bool transmits(double cosine) {
+    Vec3d w{-safe_sqrt(1 - cosine * cosine), 0, -cosine};
+    double level = 1;  // fraction of the surface that is below the light
+    bool outside = true;
+    while (hits(w, level)) {
+      const double eta = outside ? ior_ : 1 / ior_;
+      const Vec3d o = -w, m = visible_normal(o);
+      const double cos_o = std::max(dot(o, m), 1e-9);
+      double cos_t;
+      if (random_.uniform<double>() < fresnel_dielectric(cos_o, eta, cos_t)) {
+        w = m * (2 * cos_o) - o;
+      } else {
+        const Vec3d t = normalize(m * (cos_o / eta - cos_t) - o * (1 / eta));
+        w = {t.x, t.y, -t.z}, level = 1 - level, outside = !outside;
+      }
+    }
+    return !outside;
+  }
+
+ private:
+  /// Moves to the next microfacet; returns false if there is none.
+  bool hits(const Vec3d& w, double& level) {
+    const double u = random_.uniform<double>();
+    if (w.z > 0.99999) return false;
+    if (std::abs(w.z) < 1e-5) return true;
+    const double lambda = w.z > 0 ? ggx_lambda(w, alpha_) : -1 - ggx_lambda(w, alpha_);
+    if (w.z > 0 && u > 1 - std::pow(level, lambda)) return false;
+    level = std::clamp(level * std::pow(1 - u, -1 / lambda), 1e-12, 1.0);
+    return true;
+  }
+
+  /// Also for directions below the horizon, as from microfacets that face it.
+  Vec3d visible_normal(const Vec3d& o) {
+    const Vec3d stretched = normalize(stretch(o, alpha_));
+    const double z = 1 - random_.uniform<double>() * (1 + stretched.z), r = safe_sqrt(1 - z * z);
+    const double turn = 2 * pi<double> * random_.uniform<double>();
+    const Vec3d n{r * std::cos(turn) + stretched.x, r * std::sin(turn) + stretched.y, std::max(z + stretched.z, 1e-12)};
+    return normalize(stretch(n, alpha_));
+  }
+
+  double ior_, alpha_;
+  Random& random_;
+};
+
+TYPED_TEST(RoughGlass, TransmitsAsARandomWalkAmongMicrofacets) {
+  using Real = TypeParam;
+  Random random(59);
+  for (const double ior : {1.1, 1.5, 2.42, 4.0})
+    for (const double alpha : {0.1, 0.3, 1.0}) {
+      const Glass glass{Format::pbrt, ior, alpha, alpha};
+      const FlatMaterial<Real> material = material_of<Real>(glass);
+      MicrofacetWalk walk(ior, alpha, random);
+      for (const double cosine : {1.0, 0.6, 0.3, 0.1}) {
+        const Bsdf<Real> bsdf = material.bsdf(cosine);
+        const Vec3<Real> wo = direction_at(bsdf.frame, cosine, 0.6);
+        const size_t samples = effort(40'000);
+        double transmitted = 0, expected = 0;
+        for (size_t i = 0; i < samples; ++i) {
+          const Real u_lobe = random.uniform<Real>();
+          const BsdfSample<Real> s = sample_bsdf(bsdf, wo, u_lobe, random.uniform_2d<Real>());
+          if (s.eta != 1) transmitted += 1;
+          if (walk.transmits(cosine)) expected += 1;
+        }
+        EXPECT_NEAR(transmitted / static_cast<double>(samples), expected / static_cast<double>(samples), widened(0.028))
+            << name_of(glass) << ", cosine " << cosine;
+      }
+    }
+}
+
 /// f(wo, wi) / eta_i^2 = f(wi, wo) / eta_o^2 for radiance.
 TYPED_TEST(RoughGlass, IsReciprocal) {
   using Real = TypeParam;
