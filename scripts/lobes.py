@@ -129,12 +129,17 @@ def render(program: str, scene: pathlib.Path, light: pathlib.Path, integrator: s
     return str(image)
 
 
+def relmse(program: str, image: str, reference: str) -> float:
+    return json.loads(run(program, "compare", "--json", image, reference))["relmse"]
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", action="append", metavar="LABEL=BIN", help="may be given more than once")
     parser.add_argument("--spp", type=int, default=64)
+    parser.add_argument("--seeds", type=int, default=4, help="independent images, of which errors are the mean")
     parser.add_argument("--reference-spp", type=int, default=2048)
-    parser.add_argument("--only", default="", metavar="TEXT", help="materials with this in their names")
+    parser.add_argument("--only", default="", metavar="TEXTS", help="materials with one of these in their names")
     options = parser.parse_args()
     programs = [text.split("=", 1) for text in options.program or ["alhazen=build/release/bin/alhazen"]]
     with tempfile.TemporaryDirectory() as name:
@@ -148,18 +153,21 @@ def main() -> None:
         scenes = {of: (".pbrt", pbrt_scene(text)) for of, text in PBRT.items()}
         scenes |= {of: (".gltf", gltf_scene(material)) for of, material in GLTF.items()}
         for of, (ending, text) in scenes.items():
-            if options.only not in of:
+            if not any(text in of for text in options.only.split(",")):
                 continue
             scene = folder / f"scene{ending}"
             scene.write_text(text, encoding="utf-8")
             cells = []
             for light in lights.values():
-                references = [render(program, scene, light, "path", options.reference_spp, 1000 + index)
-                              for index, (_, program) in enumerate(programs)]  # fmt: skip
-                for integrator in ("iterative", "path"):
-                    for reference, (_, program) in zip(references, programs):
-                        image = render(program, scene, light, integrator, options.spp, 1)
-                        cells.append(f"{json.loads(run(program, 'compare', '--json', image, reference))['relmse']:.2g}")
+                errors = {}
+                for label, program in programs:
+                    reference = render(program, scene, light, "path", options.reference_spp, 1000)
+                    for integrator in ("iterative", "path"):
+                        images = [render(program, scene, light, integrator, options.spp, seed)
+                                  for seed in range(1, options.seeds + 1)]  # fmt: skip
+                        errors[integrator, label] = sum(relmse(program, image, reference) for image in images)
+                cells += [f"{errors[integrator, label] / options.seeds:.2g}"
+                          for integrator in ("iterative", "path") for label, _ in programs]  # fmt: skip
             print(f"| {of} | " + " | ".join(cells) + " |", flush=True)
 
 
