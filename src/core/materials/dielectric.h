@@ -215,13 +215,26 @@ ALHAZEN_HD BsdfValue<Real> DielectricBsdf<Real, Alpha>::evaluate(const Vec3<Real
 }
 
 /// Samples one of the two directions at a smooth surface; the probability of reflection is the Fresnel reflectance.
-template <class Real, AlphaOf<Real> Alpha>
-ALHAZEN_HD BsdfSample<Real> sample_smooth(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo, Real u_lobe,
-                                          const Vec2<Real>& u) {
-  const DielectricBranches<Real> branches = dielectric_branches(bsdf, wo, u);
-  const bool reflect = u_lobe < branches.reflected_rate;
-  BsdfSample<Real> s = reflect ? branches.reflected : branches.refracted;
-  s.pdf *= reflect ? branches.reflected_rate : 1 - branches.reflected_rate;
+template <class Real>
+ALHAZEN_HD BsdfSample<Real> sample_smooth_dielectric(Real ior, const Vec3<Real>& wo, Real u_lobe) {
+  BsdfSample<Real> s;
+  const Real side = wo.z < 0 ? Real(-1) : Real(1), eta = index_beyond(ior, wo.z < 0);
+  const Vec3<Real> o = wo * side;
+  Real cos_t;
+  const Real rate = fresnel_dielectric(o.z, eta, cos_t);
+  s.specular = 1;
+  if (u_lobe < rate) {
+    s.direction = {-wo.x, -wo.y, wo.z};
+    s.weight = splat(Real(1));
+    s.pdf = rate;
+    return s;
+  }
+  const Vec3<Real> bent = Vec3<Real>{0, 0, o.z / eta - cos_t} - o * (1 / eta);
+  if (!(bent.z < 0)) return {};
+  s.direction = normalize(bent) * side;
+  s.weight = splat(1 / (eta * eta));
+  s.pdf = 1 - rate;
+  s.eta = eta;
   return s;
 }
 
@@ -229,7 +242,7 @@ template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD BsdfSample<Real> DielectricBsdf<Real, Alpha>::sample(const Vec3<Real>& wo, Real u_lobe,
                                                                 const Vec2<Real>& u) const {
   if (wo.z == 0) return {};
-  if (is_specular()) return sample_smooth(*this, wo, u_lobe, u);
+  if (is_specular()) return sample_smooth_dielectric(ior, wo, u_lobe);
   BsdfSample<Real> s;
   DielectricFacet<Real> f;
   s.direction = sample_dielectric_facet(
