@@ -137,14 +137,15 @@ AttributeEnd
                             5e-3);
 }
 
-/// Microfacets of glass scatter light more than once, and it is not lost. Weights of samples vary, so there is noise.
+/// Microfacets of glass scatter light more than once, and it is not lost. Weights of samples vary little, even if paths
+/// within a body are long.
 TEST(Furnace, RoughGlassKeepsItsLight) {
   const auto ball = [](double x, double y, const std::string& glass) {
     return "AttributeBegin\nMaterial \"dielectric\" \"bool remaproughness\" false " + glass + "\nTranslate " +
            std::to_string(x) + " " + std::to_string(y) + " 0\nShape \"sphere\" \"float radius\" 0.7\nAttributeEnd\n";
   };
   const Scene scene = scene_of(sky + ball(-0.8, 0.7, "\"float eta\" 1.5 \"float roughness\" 0.3") +
-                               ball(0.8, 0.7, "\"float eta\" 2.42 \"float roughness\" 1") +
+                               ball(0.8, 0.7, "\"float eta\" 4 \"float roughness\" 1") +
                                ball(-0.8, -0.7, "\"float eta\" 1.1 \"float roughness\" 0.6") +
                                ball(0.8, -0.7, "\"float eta\" 1.5 \"float uroughness\" 0.1 \"float vroughness\" 0.5"));
   for (const char* precision : {"float", "double"})
@@ -154,8 +155,8 @@ TEST(Furnace, RoughGlassKeepsItsLight) {
       settings.integrator = integrator;
       settings.samples_per_pixel = 64;
       const Moments m = moments_of(render_bits(scene, settings));
-      EXPECT_NEAR(m.mean, 1, 4 * std::sqrt(3.0) * m.error + 1e-3) << precision << " " << integrator;
-      EXPECT_NEAR(m.mean, 1, 4e-3) << precision << " " << integrator;
+      EXPECT_NEAR(m.mean, 1, 1e-3) << precision << " " << integrator;
+      EXPECT_LT(m.error, 1e-3) << precision << " " << integrator;
     }
 }
 

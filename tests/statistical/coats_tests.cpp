@@ -57,7 +57,8 @@ double walk(const Coat& coat, double cosine, Random& random) {
   const DielectricBsdf<double> interface { 1.5, coat.alpha };
   const auto cross = [&](const Vec3d& wo, Vec3d& direction) {
     const double u = random.uniform<double>();
-    const BsdfSample<double> s = interface.sample(wo, u, random.uniform_2d<double>());
+    const DielectricBranches<double> both = dielectric_branches(interface, wo, random.uniform_2d<double>());
+    const BsdfSample<double>& s = u < both.reflected_rate ? both.reflected : both.refracted;
     direction = s.direction;
     return s.pdf > 0 ? s.weight.y * s.eta * s.eta : 0;
   };

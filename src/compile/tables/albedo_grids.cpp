@@ -60,51 +60,32 @@ void add_ggx(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, 
   });
 }
 
-/// Calls visit(direction, fraction reflected, or transmitted if it is below, Fresnel reflectance) for what single
-/// scattering sends from `o` in either direction. `eta` is the index of the other side relative to that of `o`.
-template <class Visit>
-void for_each_glass_facet(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double eta,
-                          const Visit& visit) {
-  const UnshadowedFraction unshadowed(o, alpha);
+/// Quantities of glass on one side; `eta` is the index of the other side relative to that of `o`.
+void add_glass(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double eta, double* q) {
+  const double g1 = ggx_g1(o, alpha);
+  const auto kept = [&](const Vec3d& i) { return std::min(1.0, ggx_g1(i, alpha) / g1); };
   normals.for_each(o, alpha, [&](const Vec3d& m, double weight) {
     const double cosine = dot(o, m);
     if (!(cosine > 0)) return;
     double cos_t;
     const double fresnel = fresnel_dielectric(cosine, eta, cos_t);
-    const Vec3d r = m * (2 * cosine) - o;
-    if (r.z > 0) visit(r, weight * unshadowed(r), fresnel);
+    const Vec3d r = m * (2 * cosine) - o, t = m * (cosine / eta - cos_t) - o * (1 / eta);
+    const double reflected = r.z > 0 ? kept(r) : 0.0, transmitted = fresnel < 1 && t.z < 0 ? kept(t) : 0.0;
+    q[GlassGrid::missing] += weight * (fresnel * (1 - reflected) + (1 - fresnel) * (1 - transmitted));
     if (fresnel >= 1) return;
-    const Vec3d t = m * (cosine / eta - cos_t) - o * (1 / eta);
-    if (t.z < 0) visit(t, weight * unshadowed(t), fresnel);
+    q[GlassGrid::by_constant] += weight * (reflected - transmitted);
+    q[GlassGrid::by_fresnel] += weight * fresnel * (reflected - transmitted);
   });
 }
 
-double single_glass_albedo(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double eta) {
-  double sum = 0;
-  for_each_glass_facet(normals, o, alpha, eta, [&](const Vec3d& i, double fraction, double fresnel) {
-    sum += fraction * (i.z > 0 ? fresnel : 1 - fresnel);
-  });
-  return sum;
-}
-
-/// The quantities of glass on one side that depend on the albedos of single scattering, which `block` already holds.
-/// `o.z` < 0 from within; `place` is that of the block.
-void add_glass(const VisibleNormals& normals, const Vec3d& o, const Vec2d& alpha, double ior,
-               const AlbedoGridPlace<double>& place, double* q) {
-  const bool within = o.z < 0;
-  const double side = within ? -1 : 1;
-  const GlassAlbedo<double> of_o = glass_albedo(place, ior, o);
-  double all = 0;
-  for_each_glass_facet(
-      normals, o * side, alpha, within ? 1 / ior : ior, [&](const Vec3d& i, double fraction, double fresnel) {
-        const double scaled = fraction * single_scattering_scale(of_o, glass_albedo(place, ior, i * side));
-        all += scaled * (i.z > 0 ? fresnel : 1 - fresnel);
-        if (fresnel >= 1) return;
-        const double gain = i.z > 0 ? scaled : -scaled;
-        q[GlassGrid::by_constant] += gain;
-        q[GlassGrid::by_fresnel] += fresnel * gain;
-      });
-  q[GlassGrid::missing] = std::max(0.0, 1 - all);
+/// Integrates the row of missing fractions over the squared cosine, as GlassGrid says.
+void accumulate(const double* missing, double ior, double* cumulative) {
+  cumulative[0] = 0;
+  for (uint32_t i = 1; i < grid_cosines; ++i) {
+    const double width =
+        squared_cosine_of_node(i, ior, grid_cosines) - squared_cosine_of_node(i - 1, ior, grid_cosines);
+    cumulative[i] = cumulative[i - 1] + 0.5 * (missing[i - 1] + missing[i]) * width;
+  }
 }
 
 void add_coat(const GridNormals& normals, const AlbedoGrid& grid, const Vec3d& o, const Vec2d& alpha, Quantities& q) {
@@ -160,8 +141,7 @@ void add_side(const GridNormals& normals, const AlbedoGrid& grid, uint32_t first
       return;
     }
     case AlbedoGrid::Kind::glass:
-      q[first + GlassGrid::single] = single_glass_albedo(normals.dense_in_tails, o, alpha, index_of(grid, first));
-      return;
+      return add_glass(normals.dense_in_tails, o, alpha, index_of(grid, first), q.data() + first);
   }
 }
 
@@ -182,11 +162,24 @@ double mean_of(const double* rows, uint32_t azimuths, double ior) {
   return sum / turns;
 }
 
-/// Calls compute(first quantity, direction, q) for each direction of a side, and stores what it sets of q. Of equal
-/// alphas, one azimuth is computed.
-template <class Compute>
-void fill_rows(const AlbedoGrid& grid, const AlbedoGridRecord& record, const Vec2d& alpha, double* block,
-               uint32_t first_of_side, uint32_t count, const Compute& compute) {
+/// Mean over the azimuths of the last value of each row.
+double mean_of_last(const double* rows, uint32_t azimuths) {
+  if (azimuths == 1) return rows[grid_cosines - 1];
+  const AlbedoGridPlace<double> place{rows, 1, azimuths, 0, 0, 0, 0};
+  constexpr int turns = 256;
+  double sum = 0;
+  for (int t = 0; t < turns; ++t) {
+    const double turn = (t + 0.5) / turns * pi<double> / 2;
+    GridDirection<double> d{grid_cosines - 2, 0, 1, 0};
+    locate_azimuth(place, std::cos(turn), std::sin(turn), d);
+    sum += grid_albedo(place, 0, d);
+  }
+  return sum / turns;
+}
+
+/// Computes the rows of a block; of equal alphas, one azimuth is computed.
+void fill_rows(const GridNormals& normals, const AlbedoGrid& grid, const AlbedoGridRecord& record, const Vec2d& alpha,
+               double* block) {
   const uint32_t sides = grid.kind == AlbedoGrid::Kind::glass ? 2 : 1, each = record.quantities / sides;
   const uint32_t azimuths = alpha.x == alpha.y ? 1 : record.azimuths;
   for (uint32_t side = 0; side < sides; ++side)
@@ -196,8 +189,8 @@ void fill_rows(const AlbedoGrid& grid, const AlbedoGridRecord& record, const Vec
         const double cosine = cosine_at(i, index_of(grid, first), grid_cosines), sine = safe_sqrt(1 - cosine * cosine);
         const Vec2d azimuth = azimuth_of_node(a, record.azimuths);
         Quantities q{};
-        compute(first, Vec3d{sine * azimuth.x, sine * azimuth.y, cosine}, q);
-        for (uint32_t k = first + first_of_side; k < first + first_of_side + count; ++k)
+        add_side(normals, grid, first, Vec3d{sine * azimuth.x, sine * azimuth.y, cosine}, alpha, q);
+        for (uint32_t k = first; k < first + each; ++k)
           for (uint32_t same = a; same < record.azimuths; same += azimuths)
             block[(k * record.azimuths + same) * grid_cosines + i] = q[k];
       }
@@ -205,23 +198,19 @@ void fill_rows(const AlbedoGrid& grid, const AlbedoGridRecord& record, const Vec
 
 void fill_block(const GridNormals& normals, const AlbedoGrid& grid, const AlbedoGridRecord& record, const Vec2d& alpha,
                 double* block) {
-  const bool is_glass = grid.kind == AlbedoGrid::Kind::glass;
   const uint32_t azimuths = alpha.x == alpha.y ? 1 : record.azimuths;
-  fill_rows(grid, record, alpha, block, 0, is_glass ? 1 : record.quantities,
-            [&](uint32_t first, const Vec3d& o, Quantities& q) { add_side(normals, grid, first, o, alpha, q); });
-  if (is_glass) {
-    const AlbedoGridPlace<double> place{block, record.quantities, record.azimuths, 0, 0, 0, 0};
-    fill_rows(grid, record, alpha, block, 1, GlassGrid::from_within - 1,
-              [&](uint32_t first, const Vec3d& o, Quantities& q) {
-                const Vec3d w{o.x, o.y, first == GlassGrid::from_within ? -o.z : o.z};
-                add_glass(normals.dense_in_tails, w, alpha, grid.ior, place, q.data() + first);
-              });
-  }
+  const auto row = [&](uint32_t k, uint32_t azimuth) { return block + (k * record.azimuths + azimuth) * grid_cosines; };
+  double* means = block + record.quantities * record.azimuths * grid_cosines;
+  fill_rows(normals, grid, record, alpha, block);
   if (grid.kind == AlbedoGrid::Kind::sheen) return;  // its mean is unused
-  for (uint32_t k = 0; k < record.quantities; ++k) {
-    if (is_glass && k % GlassGrid::from_within != GlassGrid::missing) continue;  // these means are unused too
-    block[record.quantities * record.azimuths * grid_cosines + k] =
-        mean_of(block + k * record.azimuths * grid_cosines, azimuths, index_of(grid, k));
+  if (grid.kind != AlbedoGrid::Kind::glass) {
+    for (uint32_t k = 0; k < record.quantities; ++k) means[k] = mean_of(row(k, 0), azimuths, index_of(grid, k));
+    return;
+  }
+  for (const uint32_t side : {0u, GlassGrid::from_within}) {
+    for (uint32_t a = 0; a < record.azimuths; ++a)
+      accumulate(row(side + GlassGrid::missing, a), index_of(grid, side), row(side + GlassGrid::cumulative, a));
+    means[side + GlassGrid::cumulative] = mean_of_last(row(side + GlassGrid::cumulative, 0), azimuths);
   }
 }
 

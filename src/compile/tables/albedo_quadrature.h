@@ -14,17 +14,9 @@
 
 namespace alhazen {
 
-/// The cosine of a node: the inverse of cosine_coordinate, moved slightly inside where the direction would be
-/// undefined.
+/// The cosine of a node, moved slightly inside where the direction would be undefined.
 inline double cosine_at(uint32_t node, double ior, uint32_t nodes) {
-  if (ior >= 1) return std::max(sqr(static_cast<double>(node) / (nodes - 1)), 1e-4);
-  const uint32_t critical = critical_node(nodes);
-  if (node > critical) {
-    const double cos_t = sqr(static_cast<double>(node - critical) / (nodes - 1 - critical));
-    return safe_sqrt(1 - ior * ior * (1 - cos_t * cos_t));
-  }
-  const double x = static_cast<double>(node) / critical;
-  return std::max(safe_sqrt(1 - ior * ior) * (1 - sqr(sqr(1 - x * x))), 1e-4);
+  return std::max(safe_sqrt(squared_cosine_of_node(node, ior, nodes)), 1e-4);
 }
 
 /// The inverse of alpha_coordinate, at a node.

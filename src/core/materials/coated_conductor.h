@@ -112,7 +112,10 @@ ALHAZEN_HD ALHAZEN_COLD CoatedConductorLobes<Real> lobes_of(const CoatedConducto
   if (coat_cosine > 0) lobes.coat = lookup_albedo(b.coat_albedo, coat_cosine, b.coat_alpha, b.coat_ior);
   const Real lobe_albedo = ggx_albedo(b.grid, o).all();
   lobes.factors = lobe_factors(b, lobe_albedo, o);
-  lobes.metal = (1 - lobes.coat) * (max_component(fresnel_of_metal(b, o.z)) * lobe_albedo * sqr(lobes.factors.all));
+  // Rough metal reflects light that arrives along the surface upwards, where more of it leaves the coat.
+  const Real up = o.z + (1 - o.z) * mean_alpha(b.alpha);
+  const CoatedMetalFactors<Real> leaving = coated_metal_factors(b.coated_metal, up);
+  lobes.metal = lobe_albedo * max_component(coated_metal_colour(lobes.factors, leaving, fresnel_of_metal(b, up)));
   const Real sum = lobes.coat + lobes.metal;
   const Real scale = sum > 0 ? 1 / sum : Real(0);
   lobes.coat *= scale, lobes.metal *= scale;

@@ -46,13 +46,14 @@ struct ConductorBsdf {
     }
     const Real side = wo.z < 0 ? Real(-1) : Real(1);
     const Vec3<Real> o = wo * side;
-    const Vec3<Real> m = sample_visible_normal(o, alpha, u);
+    const Vec3<Real> m = sample_reflecting_normal(o, alpha, u);
     const Real cos_om = dot(o, m);
     const Vec3<Real> i = m * (2 * cos_om) - o;
     if (!(i.z > 0 && cos_om > 0)) return s;
+    const Real density = ggx_reflection_density(o, alpha);
     s.direction = i * side;
-    s.pdf = pdf_visible_normal(o, m, alpha) / (4 * cos_om);
-    s.weight = fresnel_conductor(cos_om, eta, k) * (ggx_g2(o, i, alpha) / ggx_g1(o, alpha));
+    s.pdf = density * ggx_d(m, alpha);
+    s.weight = fresnel_conductor(cos_om, eta, k) * (ggx_g2(o, i, alpha) / (4 * o.z * density));
     return s;
   }
 
@@ -67,7 +68,7 @@ struct ConductorBsdf {
     if (!(cos_om > 0)) return {};
     const Real d = ggx_d(m, alpha);
     const Vec3<Real> f = fresnel_conductor(cos_om, eta, k);
-    return {f * (d * ggx_g2(o, i, alpha) / (4 * o.z)), ggx_g1(o, alpha) * d / (4 * o.z)};
+    return {f * (d * ggx_g2(o, i, alpha) / (4 * o.z)), d * ggx_reflection_density(o, alpha)};
   }
 
   ALHAZEN_HD Vec3<Real> albedo() const { return fresnel_conductor(Real(1), eta, k); }

@@ -1,9 +1,9 @@
 #pragma once
 
 // Glass and other dielectrics: reflection and refraction at a smooth interface or at GGX microfacets (Walter et al.
-// 2007), with compensation for multiple scattering (core/materials/lobes/glass_albedo.h). Refraction scales radiance by
-// 1 / eta^2, as paths from the camera require. Anisotropic dielectrics are a kind of their own, so that the frequent,
-// isotropic kind stays small.
+// 2007), with another term of shadowing and masking and a lobe of multiple scattering, so that no light is lost
+// (core/materials/lobes/glass_albedo.h). Refraction scales radiance by 1 / eta^2, as paths from the camera require.
+// Anisotropic dielectrics are a kind of their own, so that the frequent, isotropic kind stays small.
 
 #include "core/materials/closure.h"
 #include "core/materials/lobes/fresnel.h"
@@ -69,9 +69,9 @@ ALHAZEN_HD void make_closure(const AnisotropicDielectricRecord<Real>& record, co
   if (record.grid.quantities > 0) bsdf.grid = textures.grid(record.grid, bsdf.alpha);
 }
 
-/// The reflected and the refracted direction at a microfacet whose normal is sampled by `u`, for single scattering.
-/// Their weights and densities exclude the Fresnel reflectance: the outgoing radiance is
-/// rate * L(reflected) * weight + (1 - rate) * L(refracted) * weight.
+/// The reflected and the refracted direction at a microfacet whose normal is sampled by `u`, for single scattering with
+/// the height-correlated term of shadowing and masking of Smith. Their weights and densities exclude the Fresnel
+/// reflectance: the outgoing radiance is rate * L(reflected) * weight + (1 - rate) * L(refracted) * weight.
 template <class Real>
 struct DielectricBranches {
   BsdfSample<Real> reflected, refracted;  ///< pdf 0: there is no such direction
@@ -120,15 +120,20 @@ ALHAZEN_HD DielectricBranches<Real> dielectric_branches(const DielectricBsdf<Rea
 /// The microfacet that reflects or refracts `wo` into `wi`.
 template <class Real>
 struct DielectricFacet {
-  Real eta;           ///< index of the other side relative to that of wo
-  Real cos_o, cos_i;  ///< to the microfacet normal, which is on the side of wo
-  Real cos_n;         ///< between wo and the shading normal, > 0
-  Real rate;          ///< Fresnel reflectance
-  Real d, g2;
-  Real density;  ///< of sampling the microfacet normal
-  bool reflects;
-  bool total;  ///< total internal reflection
+  Real cos_o = 1, cos_i = 1;  ///< to the microfacet normal, which is on the side of wo
+  Real eta = 1;               ///< index of the other side relative to that of wo
+  Real rate = 1;              ///< Fresnel reflectance
+  Real density = 0;           ///< of sampling the microfacet normal, and of keeping it
+  bool reflects = true;
+  bool total = false;  ///< total internal reflection
 };
+
+/// Returns the density with respect to solid angle of sampling `wi`, if reflection has the probability `rate`.
+template <class Real>
+ALHAZEN_HD Real scattering_density(const DielectricFacet<Real>& f, Real rate) {
+  if (f.reflects) return rate * f.density / (4 * f.cos_o);
+  return (1 - rate) * f.density * -f.cos_i / sqr(f.cos_i + f.cos_o / f.eta);
+}
 
 /// Returns false if there is no such microfacet.
 template <class Real, AlphaOf<Real> Alpha>
@@ -148,80 +153,115 @@ ALHAZEN_HD ALHAZEN_HOT bool dielectric_facet(const DielectricBsdf<Real, Alpha>& 
   Real cos_t = 1;
   facet.rate = reflect ? fresnel_dielectric(cos_o, eta, cos_t) : fresnel_of_cosines(cos_o, -cos_i, eta);
   facet.total = !(cos_t > 0);
-  facet.d = ggx_d(m, bsdf.alpha), facet.g2 = ggx_g2(o, i, bsdf.alpha);
-  facet.density = ggx_g1(o, bsdf.alpha) * facet.d * cos_o / o.z;
-  facet.eta = eta, facet.cos_o = cos_o, facet.cos_i = cos_i, facet.cos_n = o.z, facet.reflects = reflect;
+  facet.density = min(ggx_g1(o, bsdf.alpha), ggx_g1(i, bsdf.alpha)) * ggx_d(m, bsdf.alpha) * cos_o / o.z;
+  facet.eta = eta, facet.cos_o = cos_o, facet.cos_i = cos_i, facet.reflects = reflect;
   return true;
 }
 
-/// Evaluates single scattering without compensation.
-template <class Real, AlphaOf<Real> Alpha>
-ALHAZEN_HD ALHAZEN_HOT BsdfValue<Real> evaluate_single_scattering(const DielectricBsdf<Real, Alpha>& bsdf,
-                                                                  const Vec3<Real>& wo, const Vec3<Real>& wi) {
-  DielectricFacet<Real> f;
-  if (!dielectric_facet(bsdf, wo, wi, f)) return {};
-  if (f.reflects) return {splat(f.rate * f.d * f.g2 / (4 * f.cos_n)), f.rate * f.density / (4 * f.cos_o)};
-  const Real jacobian = -f.cos_i / sqr(f.cos_i + f.cos_o / f.eta);
-  return {splat((1 - f.rate) * f.d * f.g2 * jacobian * f.cos_o / (f.cos_n * f.eta * f.eta)),
-          (1 - f.rate) * f.density * jacobian};
+/// Samples a microfacet visible from `wo`, whether it reflects or refracts, with the probability
+/// reflection_rate(Fresnel reflectance, whether reflection is total), and whether it is kept. Returns the
+/// direction, or zero if it is not kept; then `u_lobe` becomes a uniform number that is independent of all this.
+template <class Real, AlphaOf<Real> Alpha, class ReflectionRate>
+ALHAZEN_HD Vec3<Real> sample_dielectric_facet(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
+                                              const ReflectionRate& reflection_rate, Real& u_lobe, const Vec2<Real>& u,
+                                              DielectricFacet<Real>& facet) {
+  const Real side = wo.z < 0 ? Real(-1) : Real(1);
+  const Real eta = wo.z < 0 ? 1 / bsdf.ior : bsdf.ior;
+  const Vec3<Real> o = wo * side, m = sample_visible_normal(o, bsdf.alpha, u);
+  facet.eta = eta, facet.cos_o = dot(o, m);
+  if (!(facet.cos_o > 0)) return {};
+  Real cos_t;
+  facet.rate = fresnel_dielectric(facet.cos_o, eta, cos_t);
+  facet.total = !(cos_t > 0);
+  const Real rate = reflection_rate(facet.rate, facet.total);
+  facet.reflects = u_lobe < rate;
+  u_lobe = min(facet.reflects ? u_lobe / rate : (u_lobe - rate) / (1 - rate), one_minus_epsilon<Real>);
+  facet.cos_i = facet.reflects ? facet.cos_o : -cos_t;
+  const Vec3<Real> i =
+      facet.reflects ? m * (2 * facet.cos_o) - o : normalize(m * (facet.cos_o / eta - cos_t) - o * (1 / eta));
+  if (facet.reflects ? !(i.z > 0) : !(i.z < 0)) return {};
+  const Real g1 = ggx_g1(o, bsdf.alpha), visible = min(g1, ggx_g1(i, bsdf.alpha)), kept = visible / g1;
+  facet.density = visible * ggx_d(m, bsdf.alpha) * facet.cos_o / o.z;
+  if (u_lobe < kept) return i * side;
+  u_lobe = (u_lobe - kept) / (1 - kept);
+  return {};
 }
 
-/// Adds compensation to single scattering, of which `v` has the value and the density.
+/// Value and density of scattering at a rough surface; `single` is the density of single scattering. `missing` is the
+/// fraction that single scattering loses.
 template <class Real, AlphaOf<Real> Alpha>
-ALHAZEN_HD void compensate(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo, const GlassAlbedo<Real>& o,
-                           const Vec3<Real>& wi, BsdfValue<Real>& v) {
-  const GlassAlbedo<Real> i = glass_albedo(bsdf.grid, bsdf.ior, wi);
-  const GlassMultiple<Real> multiple =
-      evaluate_glass_lobe(glass_lobe(bsdf.grid, bsdf.ior, wo.z < 0), o, i, wi.z, wo.z * wi.z > 0);
-  v.value = v.value * single_scattering_scale(o, i) + splat(multiple.value);
-  v.pdf = v.pdf * (1 - o.missing) + multiple.pdf;
+ALHAZEN_HD BsdfValue<Real> with_multiple_scattering(const DielectricBsdf<Real, Alpha>& bsdf, Real single, Real missing,
+                                                    const Vec3<Real>& wo, const Vec3<Real>& wi) {
+  GlassMultiple<Real> multiple{0, 0};
+  const bool reflects = wo.z * wi.z > 0;
+  if (bsdf.is_compensated())
+    multiple = evaluate_glass_lobe(bsdf.grid, bsdf.ior, glass_lobe(bsdf.grid, bsdf.ior, wo.z < 0), wi, reflects);
+  const Real scale = reflects ? Real(1) : 1 / sqr(index_beyond(bsdf.ior, wo.z < 0));
+  return {splat((single + missing * multiple.value) * scale), single + missing * multiple.pdf};
+}
+
+/// Returns the fraction of light from `wo` that single scattering loses.
+template <class Real, AlphaOf<Real> Alpha>
+ALHAZEN_HD Real missing_of(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo) {
+  return bsdf.is_compensated() ? glass_missing(bsdf.grid, glass_direction(bsdf.grid, bsdf.ior, wo)) : Real(0);
 }
 
 template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD BsdfValue<Real> DielectricBsdf<Real, Alpha>::evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const {
   if (is_specular() || wo.z == 0 || wi.z == 0) return {};
-  BsdfValue<Real> v = evaluate_single_scattering(*this, wo, wi);
-  if (is_compensated()) compensate(*this, wo, glass_albedo(grid, ior, wo), wi, v);
-  return v;
+  DielectricFacet<Real> f;
+  const Real single = dielectric_facet(*this, wo, wi, f) ? scattering_density(f, f.rate) : Real(0);
+  return with_multiple_scattering(*this, single, missing_of(*this, wo), wo, wi);
 }
 
-/// Samples one of the two directions of single scattering; the probability of reflection is the Fresnel reflectance.
-template <class Real, AlphaOf<Real> Alpha>
-ALHAZEN_HD BsdfSample<Real> sample_single_scattering(const DielectricBsdf<Real, Alpha>& bsdf, const Vec3<Real>& wo,
-                                                     Real u_lobe, const Vec2<Real>& u) {
-  const DielectricBranches<Real> branches = dielectric_branches(bsdf, wo, u);
-  const bool reflect = u_lobe < branches.reflected_rate;
-  BsdfSample<Real> s = reflect ? branches.reflected : branches.refracted;
-  s.pdf *= reflect ? branches.reflected_rate : 1 - branches.reflected_rate;
+/// Samples one of the two directions at a smooth surface; the probability of reflection is the Fresnel reflectance.
+template <class Real>
+ALHAZEN_HD BsdfSample<Real> sample_smooth_dielectric(Real ior, const Vec3<Real>& wo, Real u_lobe) {
+  BsdfSample<Real> s;
+  const Real side = wo.z < 0 ? Real(-1) : Real(1), eta = index_beyond(ior, wo.z < 0);
+  const Vec3<Real> o = wo * side;
+  Real cos_t;
+  const Real rate = fresnel_dielectric(o.z, eta, cos_t);
+  s.specular = 1;
+  if (u_lobe < rate) {
+    s.direction = {-wo.x, -wo.y, wo.z};
+    s.weight = splat(Real(1));
+    s.pdf = rate;
+    return s;
+  }
+  const Vec3<Real> bent = Vec3<Real>{0, 0, o.z / eta - cos_t} - o * (1 / eta);
+  if (!(bent.z < 0)) return {};
+  s.direction = normalize(bent) * side;
+  s.weight = splat(1 / (eta * eta));
+  s.pdf = 1 - rate;
+  s.eta = eta;
   return s;
 }
 
 template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD BsdfSample<Real> DielectricBsdf<Real, Alpha>::sample(const Vec3<Real>& wo, Real u_lobe,
                                                                 const Vec2<Real>& u) const {
-  if (!is_compensated() || wo.z == 0) return sample_single_scattering(*this, wo, u_lobe, u);
-  const GlassAlbedo<Real> o = glass_albedo(grid, ior, wo);
-  const Real single = 1 - o.missing;
-  if (u_lobe < single) {
-    BsdfSample<Real> s = sample_single_scattering(*this, wo, min(u_lobe / single, one_minus_epsilon<Real>), u);
-    if (!(s.pdf > 0)) return s;
-    // Value and density are those of the sampled microfacet, which near an index of 1 is lost in the directions.
-    BsdfValue<Real> v{s.weight * s.pdf, s.pdf};
-    compensate(*this, wo, o, s.direction, v);
-    s.weight = v.value / v.pdf;
-    s.pdf = v.pdf;
-    return s;
-  }
-  const Vec3<Real> wi = sample_glass_lobe(glass_lobe(grid, ior, wo.z < 0), wo, (u_lobe - single) / o.missing, u);
-  if (wi.z == 0) return {};
-  BsdfValue<Real> v = evaluate_single_scattering(*this, wo, wi);
-  compensate(*this, wo, o, wi, v);
+  if (wo.z == 0) return {};
+  if (is_specular()) return sample_smooth_dielectric(ior, wo, u_lobe);
   BsdfSample<Real> s;
-  if (!(v.pdf > 0)) return s;
-  s.direction = wi;
+  DielectricFacet<Real> f;
+  s.direction = sample_dielectric_facet(
+      *this, wo, [](Real fresnel, bool) { return fresnel; }, u_lobe, u, f);
+  // Near an index of 1 the directions do not determine the microfacet precisely, so that which was sampled is used.
+  Real single = 0;
+  if (!is_zero(s.direction)) {
+    single = scattering_density(f, f.rate);
+  } else {
+    if (!is_compensated()) return {};
+    s.direction = sample_glass_lobe(grid, ior, wo, u_lobe, further_numbers(u));
+    if (s.direction.z == 0) return {};
+    if (dielectric_facet(*this, wo, s.direction, f)) single = scattering_density(f, f.rate);
+  }
+  const BsdfValue<Real> v = with_multiple_scattering(*this, single, missing_of(*this, wo), wo, s.direction);
+  if (!(v.pdf > 0)) return {};
   s.weight = v.value / v.pdf;
   s.pdf = v.pdf;
-  if (wo.z * wi.z < 0) s.eta = wo.z < 0 ? 1 / ior : ior;
+  if (wo.z * s.direction.z < 0) s.eta = index_beyond(ior, wo.z < 0);
   return s;
 }
 

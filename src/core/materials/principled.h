@@ -276,7 +276,7 @@ ALHAZEN_HD Vec3<Real> metal_multiple(const PrincipledBsdf<Real>& b, Real mean_gg
 template <class Real>
 struct PrincipledLobes {
   Real coat = 0, specular = 0, diffuse = 0, through = 0;  ///< sampling probabilities
-  Real diffuse_through = 0;                               ///< sampling probability
+  Real diffuse_through = 0, fuzz = 0;                     ///< sampling probabilities; fuzz: of the sheen
   Real below_coat = 1;                                    ///< fraction transmitted by the coat
   Vec3<Real> interface;                                   ///< fraction withheld by the dielectric interface
   GgxAlbedo<Real> ggx{0, 0};
@@ -293,26 +293,44 @@ ALHAZEN_HD bool is_within(const PrincipledBsdf<Real>& b, const Vec3<Real>& wo) {
   return wo.z < 0 && b.glass > 0;
 }
 
+/// Sets the sampling probabilities of glass. Its own sampling reflects and transmits as if it were clear: as far as it
+/// is darker than `clear`, the lobe of GGX reflection is sampled too.
+template <class Real>
+ALHAZEN_HD void add_glass_probabilities(const PrincipledBsdf<Real>& b, const Vec3<Real>& o, bool within, Real base,
+                                        PrincipledLobes<Real>& lobes) {
+  // Only its own sampling finds multiple scattering, of which there is much within.
+  const Real clear = clamp(max_component(b.refraction.through), within ? Real(0.2) : Real(0.03), Real(1));
+  lobes.through = base * b.glass * clear;
+  if (clear == 1) return;
+  Real cos_t;
+  const Real fresnel = fresnel_dielectric(min(o.z, Real(1)), index_beyond(b.body_ior, within), cos_t);
+  const Vec3<Real> reflectance = glass_reflectance(b.refraction, fresnel, !(cos_t > 0));
+  const Real reflected = within ? max_component(reflectance) : max_component(reflectance * b.refraction.tint);
+  lobes.specular += base * b.glass * reflected * (1 - clear);
+}
+
 /// Sets the sampling probabilities of the lobes in proportion to estimates of their albedos. `sheen` is the largest
 /// component of the sheen colour.
 template <class Real>
-ALHAZEN_HD void set_probabilities(const PrincipledBsdf<Real>& b, const Vec3<Real>& o, Real coat_albedo, Real sheen,
-                                  PrincipledLobes<Real>& lobes) {
+ALHAZEN_HD void set_probabilities(const PrincipledBsdf<Real>& b, const Vec3<Real>& o, bool within, Real coat_albedo,
+                                  Real sheen, PrincipledLobes<Real>& lobes) {
   const Real below = lobes.below_coat, base = below * lobes.below_sheen;
   const Vec3<Real> below_interface = splat(Real(1)) - lobes.interface;
+  const Real metal_f0 = max_component(b.metal_f0);
   lobes.coat = coat_albedo;
   lobes.specular =
-      base * (b.dielectric * max_component(lobes.interface) +
-              (b.metal > 0 ? b.metal * max_component(fresnel_of_metal(b, o.z)) * lobes.ggx.all() : Real(0)));
-  lobes.diffuse = below * sheen * lobes.sheen + base * (max_component(b.diffuse * lobes.entering) +
-                                                        b.metal * max_component(b.metal_f0) * lobes.ggx.missing());
-  lobes.through = base * (b.glass > 0 ? b.glass * max(max_component(b.refraction.through), Real(0.2))
-                                      : max_component(b.through * below_interface));
+      base * (b.dielectric * max_component(lobes.interface) + b.metal * (metal_f0 * lobes.ggx.base + lobes.ggx.edge));
+  lobes.diffuse = base * (max_component(b.diffuse * lobes.entering) + b.metal * metal_f0 * lobes.ggx.missing());
+  lobes.fuzz = below * min(sheen * lobes.sheen, Real(1));
+  if (b.glass > 0)
+    add_glass_probabilities(b, o, within, base, lobes);
+  else
+    lobes.through = base * max_component(b.through * below_interface);
   lobes.diffuse_through = base * max_component(b.diffuse_through * below_interface);
-  const Real sum = lobes.coat + lobes.specular + lobes.diffuse + lobes.diffuse_through + lobes.through;
+  const Real sum = lobes.coat + lobes.specular + lobes.diffuse + lobes.fuzz + lobes.diffuse_through + lobes.through;
   const Real scale = sum > 0 ? 1 / sum : Real(0);
   lobes.coat *= scale, lobes.specular *= scale, lobes.diffuse *= scale, lobes.through *= scale;
-  lobes.diffuse_through *= scale;
+  lobes.diffuse_through *= scale, lobes.fuzz *= scale;
 }
 
 template <class Real>
@@ -338,7 +356,7 @@ ALHAZEN_HD ALHAZEN_COLD PrincipledLobes<Real> lobes_of(const PrincipledBsdf<Real
     lobes.sheen = grid_albedo(b.sheen_grid, 0, grid_direction(b.sheen_grid, o, Real(1)));
     lobes.below_sheen = max(Real(0), 1 - sheen * lobes.sheen);
   }
-  set_probabilities(b, o, coat_albedo, sheen, lobes);
+  set_probabilities(b, o, within, coat_albedo, sheen, lobes);
   return lobes;
 }
 
@@ -373,6 +391,7 @@ ALHAZEN_HD BsdfValue<Real> evaluate_below_coat(const PrincipledBsdf<Real>& b, co
   if (lobes.sheen > 0) {
     v.value *= lobes.below_sheen;
     v.value += b.sheen * (evaluate_sheen(b.sheen_roughness, o, i) / max(Real(1), max_component(b.sheen) * lobes.sheen));
+    v.pdf += lobes.fuzz * pdf_sheen(b.sheen_roughness, i.z);
   }
   return v;
 }
@@ -445,7 +464,9 @@ ALHAZEN_HD Vec3<Real> sample_lobe(const PrincipledBsdf<Real>& b, const Vec3<Real
     if (wi.z < 0) return {};
   } else if (u_lobe < lobes.coat + lobes.specular + lobes.diffuse) {
     wi = sample_cosine_hemisphere(u);
-  } else if (u_lobe < lobes.coat + lobes.specular + lobes.diffuse + lobes.diffuse_through) {
+  } else if (u_lobe < lobes.coat + lobes.specular + lobes.diffuse + lobes.fuzz) {
+    wi = sample_sheen(b.sheen_roughness, u);
+  } else if (u_lobe < lobes.coat + lobes.specular + lobes.diffuse + lobes.fuzz + lobes.diffuse_through) {
     wi = sample_cosine_hemisphere(u);
     wi.z = -wi.z;
   } else if (b.glass > 0 && lobes.through > 0) {

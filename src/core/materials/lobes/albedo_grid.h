@@ -60,16 +60,22 @@ struct GridDirection {
   Real weight, azimuth_weight;
 };
 
+/// Locates the azimuth of a direction by its tangential coordinates.
+template <class Real>
+ALHAZEN_HD void locate_azimuth(const AlbedoGridPlace<Real>& place, Real x, Real y, GridDirection<Real>& d) {
+  if (place.azimuths == 1) return;
+  // Nodes are dense near the tangent and the bitangent, where the projected roughness changes most.
+  x = std::abs(x), y = std::abs(y);
+  const Real along = x + y > 0 ? (x - y) / (x + y) : Real(0);
+  d.azimuth_weight = node_weight(std::acos(clamp(-along, Real(-1), Real(1))) * inv_pi<Real>, place.azimuths, d.azimuth);
+}
+
 /// Locates the direction `w`, with `w.z` > 0; `ior` is that of cosine_coordinate.
 template <class Real>
 ALHAZEN_HD GridDirection<Real> grid_direction(const AlbedoGridPlace<Real>& place, const Vec3<Real>& w, Real ior) {
   GridDirection<Real> d{0, 0, 0, 0};
   d.weight = node_weight(cosine_coordinate(w.z, ior, grid_cosines), grid_cosines, d.node);
-  if (place.azimuths == 1) return d;
-  // Nodes are dense near the tangent and the bitangent, where the projected roughness changes most.
-  const Real x = std::abs(w.x), y = std::abs(w.y);
-  const Real along = x + y > 0 ? (x - y) / (x + y) : Real(0);
-  d.azimuth_weight = node_weight(std::acos(clamp(-along, Real(-1), Real(1))) * inv_pi<Real>, place.azimuths, d.azimuth);
+  locate_azimuth(place, w.x, w.y, d);
   return d;
 }
 

@@ -55,6 +55,16 @@ ALHAZEN_HD Real cosine_coordinate(Real cosine, Real ior, uint32_t nodes) {
   return critical * safe_sqrt(1 - std::sqrt(std::sqrt(below)));
 }
 
+/// Returns the square of the cosine whose coordinate is that of a node: the inverse of cosine_coordinate.
+template <class Real>
+ALHAZEN_HD Real squared_cosine_of_node(uint32_t node, Real ior, uint32_t nodes) {
+  const uint32_t critical = critical_node(nodes);
+  if (ior >= 1) return sqr(sqr(static_cast<Real>(node) / static_cast<Real>(nodes - 1)));
+  if (node > critical)
+    return 1 - ior * ior * (1 - sqr(sqr(static_cast<Real>(node - critical) / static_cast<Real>(nodes - 1 - critical))));
+  return (1 - ior * ior) * sqr(1 - sqr(sqr(1 - sqr(static_cast<Real>(node) / static_cast<Real>(critical)))));
+}
+
 /// Maps an alpha to a coordinate in [0, 1], linear in its square root.
 template <class Real>
 ALHAZEN_HD Real alpha_coordinate(Real alpha) {

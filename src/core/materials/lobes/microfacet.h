@@ -119,6 +119,30 @@ ALHAZEN_HD Vec3<Real> sample_visible_normal(const Vec3<Real>& w, const Alpha& al
   return normalize(stretch(Vec3<Real>{n.x, n.y, max(Real(1e-6), n.z)}, alpha));
 }
 
+template <class Real>
+ALHAZEN_HD constexpr Real min_alpha(Real alpha) {
+  return alpha;
+}
+template <class Real>
+ALHAZEN_HD constexpr Real min_alpha(const Vec2<Real>& alpha) {
+  return min(alpha.x, alpha.y);
+}
+
+/// Returns the factor on the lower end of the spherical cap from which microfacets are sampled, so that fewer of them
+/// reflect below the surface.
+template <class Real, AlphaOf<Real> Alpha>
+ALHAZEN_HD Real visible_reflection_bound(const Vec3<Real>& o, const Alpha& alpha) {
+  const Real a2 = sqr(min_alpha(alpha)), s2 = sqr(1 + std::sqrt(o.x * o.x + o.y * o.y));
+  return (1 - a2) * s2 / (s2 + a2 * o.z * o.z);
+}
+
+/// Returns the density of sample_ggx_reflection with respect to solid angle, divided by ggx_d of the microfacet, for
+/// `o.z` > 0.
+template <class Real, AlphaOf<Real> Alpha>
+ALHAZEN_HD Real ggx_reflection_density(const Vec3<Real>& o, const Alpha& alpha) {
+  return Real(0.5) / (visible_reflection_bound(o, alpha) * o.z + length(stretch(o, alpha)));
+}
+
 /// GGX reflection without the Fresnel term: f * cos of `i`, and the density of sample_ggx_reflection at `i` with
 /// respect to solid angle.
 template <class Real>
@@ -135,14 +159,26 @@ ALHAZEN_HD GgxReflection<Real> ggx_reflection(const Vec3<Real>& o, const Vec3<Re
   const Real d = ggx_d(m, alpha);
   r.cosine = min(dot(o, m), Real(1));
   r.value = d * ggx_g2(o, i, alpha) / (4 * o.z);
-  r.pdf = ggx_g1(o, alpha) * d / (4 * o.z);
+  r.pdf = d * ggx_reflection_density(o, alpha);
   return r;
+}
+
+/// Samples a microfacet visible from `o`, with `o.z` > 0, among those that may reflect above the surface: a point of a
+/// spherical cap (Dupuy and Benyoub 2023), bounded below (Eto and Tokuyoshi 2023, "Bounded VNDF Sampling for Smith-GGX
+/// Reflections").
+template <class Real, AlphaOf<Real> Alpha>
+ALHAZEN_HD Vec3<Real> sample_reflecting_normal(const Vec3<Real>& o, const Alpha& alpha, const Vec2<Real>& u) {
+  const Vec3<Real> stretched = normalize(stretch(o, alpha));
+  const Real z = 1 - u.x * (1 + visible_reflection_bound(o, alpha) * stretched.z), r = safe_sqrt(1 - z * z);
+  const auto [sine, cosine] = sine_cosine_of_turn(2 * pi<Real> * u.y);
+  const Vec3<Real> n{r * cosine + stretched.x, r * sine + stretched.y, max(Real(1e-6), z + stretched.z)};
+  return normalize(stretch(n, alpha));
 }
 
 /// Samples the reflection of `o` at a visible microfacet.
 template <class Real, AlphaOf<Real> Alpha>
 ALHAZEN_HD Vec3<Real> sample_ggx_reflection(const Vec3<Real>& o, const Alpha& alpha, const Vec2<Real>& u) {
-  const Vec3<Real> m = sample_visible_normal(o, alpha, u);
+  const Vec3<Real> m = sample_reflecting_normal(o, alpha, u);
   return m * (2 * dot(o, m)) - o;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 // Rough glass that conserves energy, as in core/materials/dielectric.h, with colours. A coating may change the
-// reflectance of the microfacets; they transmit the rest, and all is scaled to conserve energy, which is then not
-// reciprocal.
+// reflectance of the microfacets; they transmit the rest, and what is missing is changed to conserve energy, which is
+// then not reciprocal.
 
 #include "core/materials/dielectric.h"
 
@@ -29,42 +29,38 @@ ALHAZEN_HD Real glass_reflection_rate(const Vec3<Real>& reflectance) {
   return min(Real(1), (reflectance.x + reflectance.y + reflectance.z) * (Real(1) / 3));
 }
 
-/// Returns the factor that makes the directional albedo for the direction `o` equal to 1 if the reflectance of the
-/// microfacets is not that of bare glass.
+/// Returns the fraction of light from `wo` that single scattering loses.
 template <class Real>
-ALHAZEN_HD Vec3<Real> glass_normalization(const GlassBsdf<Real>& glass, const GlassGridDirection<Real>& o) {
+ALHAZEN_HD Vec3<Real> glass_missing(const GlassBsdf<Real>& glass, const Vec3<Real>& wo) {
   const AlbedoGridPlace<Real>& grid = glass.interface.grid;
-  const Vec3<Real> albedo =
-      splat(Real(1)) + glass.constant * grid_albedo(grid, o.first + GlassGrid::by_constant, o.direction) +
+  const GlassGridDirection<Real> o = glass_direction(grid, glass.interface.ior, wo);
+  const Vec3<Real> missing =
+      splat(glass_missing(grid, o)) -
+      glass.constant * grid_albedo(grid, o.first + GlassGrid::by_constant, o.direction) -
       (glass.by_fresnel - splat(Real(1))) * grid_albedo(grid, o.first + GlassGrid::by_fresnel, o.direction);
-  return splat(Real(1)) / max(albedo, splat(Real(0.01)));
-}
-
-/// Evaluates single scattering without compensation and without colours.
-template <class Real>
-ALHAZEN_HD BsdfValue<Real> evaluate_single_scattering(const GlassBsdf<Real>& glass, const Vec3<Real>& wo,
-                                                      const Vec3<Real>& wi) {
-  DielectricFacet<Real> f;
-  if (!dielectric_facet(glass.interface, wo, wi, f)) return {};
-  const Vec3<Real> reflectance = glass_reflectance(glass, f.rate, f.total);
-  const Real rate = glass_reflection_rate(reflectance);
-  if (f.reflects) return {reflectance * (f.d * f.g2 / (4 * f.cos_n)), rate * f.density / (4 * f.cos_o)};
-  const Real jacobian = -f.cos_i / sqr(f.cos_i + f.cos_o / f.eta);
-  return {(splat(Real(1)) - reflectance) * (f.d * f.g2 * jacobian * f.cos_o / (f.cos_n * f.eta * f.eta)),
-          (1 - rate) * f.density * jacobian};
+  return max(min(missing, splat(Real(1))), Vec3<Real>{});
 }
 
 template <class Real>
 ALHAZEN_HD BsdfValue<Real> evaluate_glass(const GlassBsdf<Real>& glass, const Vec3<Real>& wo, const Vec3<Real>& wi) {
   if (wo.z == 0 || wi.z == 0) return {};
   const DielectricBsdf<Real, Vec2<Real>>& interface = glass.interface;
-  const GlassGridDirection<Real> o = glass_direction(interface.grid, interface.ior, wo);
-  BsdfValue<Real> v = evaluate_single_scattering(glass, wo, wi);
-  compensate(interface, wo, glass_albedo(interface.grid, o), wi, v);
-  v.value *= glass_normalization(glass, o);
-  if (wo.z * wi.z < 0)
-    v.value *= glass.through;
-  else if (wo.z > 0)
+  const bool reflects = wo.z * wi.z > 0, within = wo.z < 0;
+  BsdfValue<Real> v;
+  DielectricFacet<Real> f;
+  if (dielectric_facet(interface, wo, wi, f)) {
+    const Vec3<Real> reflectance = glass_reflectance(glass, f.rate, f.total);
+    for (int c = 0; c < 3; ++c) v.value[c] = scattering_density(f, reflectance[c]);
+    v.pdf = scattering_density(f, glass_reflection_rate(reflectance));
+  }
+  const GlassMultiple<Real> multiple = evaluate_glass_lobe(
+      interface.grid, interface.ior, glass_lobe(interface.grid, interface.ior, within), wi, reflects);
+  const Vec3<Real> missing = glass_missing(glass, wo);
+  v.value += missing * multiple.value;
+  v.pdf += (missing.x + missing.y + missing.z) * (Real(1) / 3) * multiple.pdf;
+  if (!reflects)
+    v.value *= glass.through * (1 / sqr(index_beyond(interface.ior, within)));
+  else if (!within)
     v.value *= glass.tint;
   return v;
 }
@@ -74,13 +70,12 @@ template <class Real>
 ALHAZEN_HD Vec3<Real> sample_glass(const GlassBsdf<Real>& glass, const Vec3<Real>& wo, Real u_lobe,
                                    const Vec2<Real>& u) {
   const DielectricBsdf<Real, Vec2<Real>>& interface = glass.interface;
-  const Real missing = glass_albedo(interface.grid, interface.ior, wo).missing, single = 1 - missing;
-  if (!(u_lobe < single))
-    return sample_glass_lobe(glass_lobe(interface.grid, interface.ior, wo.z < 0), wo, (u_lobe - single) / missing, u);
-  const DielectricBranches<Real> branches = dielectric_branches(interface, wo, u);
-  const bool total = !(branches.reflected_rate < 1);
-  const Real rate = glass_reflection_rate(glass_reflectance(glass, branches.reflected_rate, total));
-  return u_lobe < rate * single ? branches.reflected.direction : branches.refracted.direction;
+  const auto rate = [&](Real fresnel, bool total) {
+    return glass_reflection_rate(glass_reflectance(glass, fresnel, total));
+  };
+  DielectricFacet<Real> f;
+  const Vec3<Real> wi = sample_dielectric_facet(interface, wo, rate, u_lobe, u, f);
+  return is_zero(wi) ? sample_glass_lobe(interface.grid, interface.ior, wo, u_lobe, further_numbers(u)) : wi;
 }
 
 /// Changes the reflectance of the microfacets so that, where the Fresnel reflectance of bare glass is `smooth`, it is

@@ -20,4 +20,25 @@ ALHAZEN_HD Real evaluate_sheen(Real roughness, const Vec3<Real>& o, const Vec3<R
   return d * i.z / (4 * (o.z + i.z - o.z * i.z));
 }
 
+/// Sheen is bright along the horizon, in a band as wide as the roughness: 1 - cos has the density k (1 - cos)^(k - 1).
+template <class Real>
+ALHAZEN_HD Real sheen_exponent(Real roughness) {
+  return max(Real(1), Real(0.65) / roughness);
+}
+
+/// Samples a direction for sheen, the same for all outgoing directions.
+template <class Real>
+ALHAZEN_HD Vec3<Real> sample_sheen(Real roughness, const Vec2<Real>& u) {
+  const Real z = 1 - std::pow(u.x, 1 / sheen_exponent(roughness)), r = safe_sqrt(1 - z * z);
+  const auto [sine, cosine] = sine_cosine_of_turn(2 * pi<Real> * u.y);
+  return {r * cosine, r * sine, z};
+}
+
+/// Returns the density of sample_sheen with respect to solid angle.
+template <class Real>
+ALHAZEN_HD Real pdf_sheen(Real roughness, Real cosine) {
+  const Real k = sheen_exponent(roughness);
+  return k * std::pow(max(Real(0), 1 - cosine), k - 1) * Real(0.5) * inv_pi<Real>;
+}
+
 }  // namespace ALHAZEN_CORE
