@@ -159,7 +159,7 @@ TEST(Lobes, ProbabilitiesAreFractionsOfTheAlbedo) {
       const Bsdf<double> bsdf = flat.bsdf(cosine);
       const double sine = std::sqrt(1 - cosine * cosine);
       const PrincipledLobes<double> lobes =
-          lobes_of(bsdf.principled, Vec3d{sine * std::cos(0.6), sine * std::sin(0.6), cosine}, cosine, false);
+          lobes_of(bsdf.principled, Vec3d{sine * std::cos(0.6), sine * std::sin(0.6), cosine});
       const std::array<double, 4> fractions = fractions_of(bsdf, cosine, random);
       const double probabilities[] = {lobes.coat, lobes.fuzz, lobes.through + lobes.diffuse_through};
       if (probabilities[0] + probabilities[1] + probabilities[2] == 0) continue;

@@ -68,7 +68,8 @@ class FlatMaterial {
   Bsdf<Real> bsdf(double cosine, Real u_channel = 0) const {
     Bsdf<Real> bsdf{};
     bsdf.frame = tilted_frame<Real>();
-    const auto view = [&] { return ClosureView<Real>{static_cast<Real>(cosine), u_channel, {0, 0, 1}}; };
+    const Real z = static_cast<Real>(cosine);
+    const auto view = [&] { return ClosureView<Real>{{safe_sqrt(1 - z * z), 0, z}, u_channel, {0, 0, 1}}; };
     make_bsdf(view_, view_.materials[0], TexturePoint<Real>{}, view, bsdf);
     return bsdf;
   }

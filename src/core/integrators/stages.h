@@ -58,7 +58,7 @@ ALHAZEN_HD ALHAZEN_HOT void set_material(const SceneView<Real>& scene, const Ray
     point.bsdf.frame = detailed_frame(scene, *point.material, hit, at, point.wo, point.si, coat_normal);
   const auto view = [&] {
     const Frame<Real>& f = point.bsdf.frame;
-    return ClosureView<Real>{dot(point.wo, f.normal), random_of_hit<Real>(hash_of_hit(ray, hit), HitChoice::channel),
+    return ClosureView<Real>{f.to_local(point.wo), random_of_hit<Real>(hash_of_hit(ray, hit), HitChoice::channel),
                              f.to_local(coat_normal)};
   };
   make_bsdf(scene, *point.material, at, view, point.bsdf);

@@ -75,10 +75,22 @@ ALHAZEN_HD BsdfSample<Real> evaluated_sample(const Closure& closure, const Vec3<
 /// View-dependent arguments of the rare kinds whose closure needs them.
 template <class Real>
 struct ClosureView {
-  Real cosine;             ///< between the outgoing direction and the shading normal, negative from behind
+  Vec3<Real> wo;           ///< local outgoing direction
   Real u_channel;          ///< random number that selects a colour channel for dispersion
   Vec3<Real> coat_normal;  ///< local; differs from z if a normal map perturbs only the base, or the coat differently
 };
+
+/// Returns the terms of a layered closure that depend only on the outgoing direction `wo`. Closures store those for the
+/// direction from which the surface is seen (`seen_from`), since light sampling and BSDF sampling both need them; those
+/// for other directions are computed into `others`.
+template <class Closure, class Real, class Lobes>
+ALHAZEN_HD ALHAZEN_HOT const Lobes& lobes_for(const Closure& closure, const Vec3<Real>& wo, Lobes& others) {
+  if (ALHAZEN_UNLIKELY(!(wo == closure.seen_from))) {
+    others = lobes_of(closure, wo);
+    return others;
+  }
+  return closure.lobes;
+}
 
 /// Returns the frame about the normal of a coat, for directions that were multiplied by `side` to be above the surface.
 template <class Real>

@@ -44,6 +44,26 @@ struct PrincipledRecord {
 template <class Real>
 inline constexpr Real clearcoat_ior = Real(1.5);
 
+/// Terms of the layers that depend only on the outgoing direction.
+template <class Real>
+struct PrincipledLobes {
+  bool within;                            ///< the direction is inside a body, where only the base is
+  Real coat, specular, diffuse, through;  ///< sampling probabilities
+  Real diffuse_through, fuzz;             ///< sampling probabilities; fuzz: of the sheen
+  Frame<Real> coat_frame;                 ///< on the side of the direction; set if there is a coat
+  Vec3<Real> coat_o;                      ///< the direction in that frame
+  Real below_coat;                        ///< fraction transmitted by the coat
+  Vec3<Real> interface;                   ///< fraction withheld by the dielectric interface
+  GgxAlbedo<Real> ggx, mean_ggx;          ///< for the direction, and the mean over all
+  Vec3<Real> entering;                    ///< fraction transmitted to the diffuse base
+  Vec3<Real> mean_entering;               ///< its mean over all directions
+  Real metal_scale;                       ///< factor on single scattering, usually 1
+  Vec3<Real> metal_multiple;              ///< colour of multiple scattering in metal; set if there is metal
+  Vec3<Real> interface_scale;             ///< factors on single scattering, usually 1
+  Real sheen;                             ///< directional albedo for colour 1
+  Real below_sheen;
+};
+
 /// Members that are not used are not initialised.
 template <class Real>
 struct PrincipledBsdf {
@@ -74,6 +94,9 @@ struct PrincipledBsdf {
   Vec3<Real> sheen;
   Real sheen_roughness;
   AlbedoGridPlace<Real> sheen_grid;  ///< holds one quantity, the albedo
+  // For the direction from which the surface is seen
+  Vec3<Real> seen_from;
+  PrincipledLobes<Real> lobes;
 
   ALHAZEN_HD BsdfSample<Real> sample(const Vec3<Real>& wo, Real u_lobe, const Vec2<Real>& u) const;
   ALHAZEN_HD ALHAZEN_COLD BsdfValue<Real> evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const;
@@ -165,7 +188,7 @@ ALHAZEN_HD void add_refraction(const PrincipledRecord<Real>& record, const Textu
   glass.constant = {}, glass.by_fresnel = splat(most);
   glass.tint = most > 0 ? reflection / most : Vec3<Real>{};
   if (film.amount > 0) {
-    const Real cosine = view.cosine;
+    const Real cosine = view.wo.z;
     const Real outside = cosine < 0 ? safe_sqrt(1 - (1 - cosine * cosine) * sqr(b.ior)) : cosine;
     Real cos_t;
     const Real smooth = fresnel_dielectric(std::abs(cosine), cosine < 0 ? 1 / b.ior : b.ior, cos_t);
@@ -210,7 +233,7 @@ ALHAZEN_HD void add_base(const PrincipledRecord<Real>& record, const Textures& t
   b.kept_f0 = splat(max_component(b.f0));
   b.metal_f0 = colour;
   const FilmLayer<Real> film = film_of(record, textures);
-  if (film.amount > 0) add_film(b, film, std::abs(view.cosine));
+  if (film.amount > 0) add_film(b, film, std::abs(view.wo.z));
   const Real rest = 1 - b.metal, transmission = textures.scalar_or(record.transmission, Real(0));
   add_light_through(record, textures, view, colour, tint, film, transmission, b);
   b.dielectric = rest - b.glass;
@@ -230,17 +253,6 @@ ALHAZEN_HD void add_sheen(const PrincipledRecord<Real>& record, const Textures& 
   b.sheen_roughness = max(textures.scalar_or(record.sheen_roughness, Real(0)), Real(0.07));
   const Real alpha = sqr(b.sheen_roughness);
   b.sheen_grid = textures.grid(record.sheen_grid, Vec2<Real>{alpha, alpha});
-}
-
-template <class Real, TexturesOf<Real> Textures>
-ALHAZEN_HD ALHAZEN_COLD void make_closure(const PrincipledRecord<Real>& record, const Textures& textures,
-                                          const ClosureView<Real>& view, PrincipledBsdf<Real>& b) {
-  add_base(record, textures, view, b);
-  b.coat = textures.scalar_or(record.clearcoat, Real(0));
-  b.coat_alpha = layered_alpha(sqr(textures.scalar_or(record.clearcoat_roughness, Real(0))));
-  b.coat_albedo = textures.table(record.coat_albedo);
-  b.coat_normal = view.coat_normal;
-  add_sheen(record, textures, b);
 }
 
 /// Returns the fraction of light that the dielectric interface withholds from the layers below, per channel.
@@ -272,21 +284,6 @@ ALHAZEN_HD Vec3<Real> metal_multiple(const PrincipledBsdf<Real>& b, Real mean_gg
   return Vec3<Real>{channel(b.metal_f0.x), channel(b.metal_f0.y), channel(b.metal_f0.z)} * b.metal;
 }
 
-/// Terms of the layers that depend only on the outgoing direction, `o.z` > 0.
-template <class Real>
-struct PrincipledLobes {
-  Real coat = 0, specular = 0, diffuse = 0, through = 0;  ///< sampling probabilities
-  Real diffuse_through = 0, fuzz = 0;                     ///< sampling probabilities; fuzz: of the sheen
-  Real below_coat = 1;                                    ///< fraction transmitted by the coat
-  Vec3<Real> interface;                                   ///< fraction withheld by the dielectric interface
-  GgxAlbedo<Real> ggx{0, 0};
-  Vec3<Real> entering;   ///< fraction transmitted to the diffuse base
-  Real metal_scale = 1;  ///< factors on single scattering, usually 1
-  Vec3<Real> interface_scale{1, 1, 1};
-  Real sheen = 0;  ///< directional albedo for colour 1
-  Real below_sheen = 1;
-};
-
 /// Returns whether `wo` is inside a body, where light hits only the base and not the layers over it.
 template <class Real>
 ALHAZEN_HD bool is_within(const PrincipledBsdf<Real>& b, const Vec3<Real>& wo) {
@@ -296,24 +293,24 @@ ALHAZEN_HD bool is_within(const PrincipledBsdf<Real>& b, const Vec3<Real>& wo) {
 /// Sets the sampling probabilities of glass. Its own sampling reflects and transmits as if it were clear: as far as it
 /// is darker than `clear`, the lobe of GGX reflection is sampled too.
 template <class Real>
-ALHAZEN_HD void add_glass_probabilities(const PrincipledBsdf<Real>& b, const Vec3<Real>& o, bool within, Real base,
+ALHAZEN_HD void add_glass_probabilities(const PrincipledBsdf<Real>& b, const Vec3<Real>& o, Real base,
                                         PrincipledLobes<Real>& lobes) {
   // Only its own sampling finds multiple scattering, of which there is much within.
-  const Real clear = clamp(max_component(b.refraction.through), within ? Real(0.2) : Real(0.03), Real(1));
+  const Real clear = clamp(max_component(b.refraction.through), lobes.within ? Real(0.2) : Real(0.03), Real(1));
   lobes.through = base * b.glass * clear;
   if (clear == 1) return;
   Real cos_t;
-  const Real fresnel = fresnel_dielectric(min(o.z, Real(1)), index_beyond(b.body_ior, within), cos_t);
+  const Real fresnel = fresnel_dielectric(min(o.z, Real(1)), index_beyond(b.body_ior, lobes.within), cos_t);
   const Vec3<Real> reflectance = glass_reflectance(b.refraction, fresnel, !(cos_t > 0));
-  const Real reflected = within ? max_component(reflectance) : max_component(reflectance * b.refraction.tint);
+  const Real reflected = lobes.within ? max_component(reflectance) : max_component(reflectance * b.refraction.tint);
   lobes.specular += base * b.glass * reflected * (1 - clear);
 }
 
 /// Sets the sampling probabilities of the lobes in proportion to estimates of their albedos. `sheen` is the largest
 /// component of the sheen colour.
 template <class Real>
-ALHAZEN_HD void set_probabilities(const PrincipledBsdf<Real>& b, const Vec3<Real>& o, bool within, Real coat_albedo,
-                                  Real sheen, PrincipledLobes<Real>& lobes) {
+ALHAZEN_HD void set_probabilities(const PrincipledBsdf<Real>& b, const Vec3<Real>& o, Real coat_albedo, Real sheen,
+                                  PrincipledLobes<Real>& lobes) {
   const Real below = lobes.below_coat, base = below * lobes.below_sheen;
   const Vec3<Real> below_interface = splat(Real(1)) - lobes.interface;
   const Real metal_f0 = max_component(b.metal_f0);
@@ -323,7 +320,7 @@ ALHAZEN_HD void set_probabilities(const PrincipledBsdf<Real>& b, const Vec3<Real
   lobes.diffuse = base * (max_component(b.diffuse * lobes.entering) + b.metal * metal_f0 * lobes.ggx.missing());
   lobes.fuzz = below * min(sheen * lobes.sheen, Real(1));
   if (b.glass > 0)
-    add_glass_probabilities(b, o, within, base, lobes);
+    add_glass_probabilities(b, o, base, lobes);
   else
     lobes.through = base * max_component(b.through * below_interface);
   lobes.diffuse_through = base * max_component(b.diffuse_through * below_interface);
@@ -334,40 +331,63 @@ ALHAZEN_HD void set_probabilities(const PrincipledBsdf<Real>& b, const Vec3<Real
 }
 
 template <class Real>
-ALHAZEN_HD ALHAZEN_COLD PrincipledLobes<Real> lobes_of(const PrincipledBsdf<Real>& b, const Vec3<Real>& o,
-                                                       Real coat_cosine, bool within) {
+ALHAZEN_HD ALHAZEN_COLD PrincipledLobes<Real> lobes_of(const PrincipledBsdf<Real>& b, const Vec3<Real>& wo) {
   PrincipledLobes<Real> lobes;
+  const Real side = wo.z < 0 ? Real(-1) : Real(1);
+  const Vec3<Real> o = wo * side;
+  lobes.within = is_within(b, wo);
+  lobes.below_coat = 1;
   Real coat_albedo = 0;
-  if (!within && b.coat > 0 && coat_cosine > 0) {
-    coat_albedo = b.coat * lookup_albedo(b.coat_albedo, coat_cosine, b.coat_alpha, clearcoat_ior<Real>);
-    lobes.below_coat = 1 - coat_albedo;
+  if (b.coat > 0) {
+    lobes.coat_frame = coat_frame(b.coat_normal, side);
+    lobes.coat_o = lobes.coat_frame.to_local(o);
+    if (!lobes.within && lobes.coat_o.z > 0) {
+      coat_albedo = b.coat * lookup_albedo(b.coat_albedo, lobes.coat_o.z, b.coat_alpha, clearcoat_ior<Real>);
+      lobes.below_coat = 1 - coat_albedo;
+    }
   }
   lobes.ggx = ggx_albedo(b.grid, o);
+  lobes.mean_ggx = mean_ggx_albedo(b.grid);
   lobes.interface = kept_by_interface(b, lobes.ggx);
   lobes.entering = max(splat(Real(1)) - lobes.interface, Vec3<Real>{});
-  const GgxAlbedo<Real> mean = mean_ggx_albedo(b.grid);
-  lobes.metal_scale = single_scattering_scale(lobes.ggx.all(), lobes.ggx.missing(), mean.missing());
-  const Vec3<Real> kept = kept_by_interface(b, mean);
+  lobes.metal_scale = single_scattering_scale(lobes.ggx.all(), lobes.ggx.missing(), lobes.mean_ggx.missing());
+  if (b.metal > 0) lobes.metal_multiple = metal_multiple(b, lobes.mean_ggx.all());
+  const Vec3<Real> kept = kept_by_interface(b, lobes.mean_ggx);
+  lobes.mean_entering = splat(Real(1)) - kept;
+  lobes.interface_scale = splat(Real(1));
   if (1 - max_component(kept) < min_mean_missing<Real>)
     for (int c = 0; c < 3; ++c)
       lobes.interface_scale[c] = single_scattering_scale(lobes.interface[c], lobes.entering[c], 1 - kept[c]);
-  const Real sheen = within ? Real(0) : max_component(b.sheen);
+  const Real sheen = lobes.within ? Real(0) : max_component(b.sheen);
+  lobes.sheen = 0, lobes.below_sheen = 1;
   if (sheen > 0) {
     lobes.sheen = grid_albedo(b.sheen_grid, 0, grid_direction(b.sheen_grid, o, Real(1)));
     lobes.below_sheen = max(Real(0), 1 - sheen * lobes.sheen);
   }
-  set_probabilities(b, o, within, coat_albedo, sheen, lobes);
+  set_probabilities(b, o, coat_albedo, sheen, lobes);
   return lobes;
 }
 
+template <class Real, TexturesOf<Real> Textures>
+ALHAZEN_HD ALHAZEN_COLD void make_closure(const PrincipledRecord<Real>& record, const Textures& textures,
+                                          const ClosureView<Real>& view, PrincipledBsdf<Real>& b) {
+  add_base(record, textures, view, b);
+  b.coat = textures.scalar_or(record.clearcoat, Real(0));
+  b.coat_alpha = layered_alpha(sqr(textures.scalar_or(record.clearcoat_roughness, Real(0))));
+  b.coat_albedo = textures.table(record.coat_albedo);
+  b.coat_normal = view.coat_normal;
+  add_sheen(record, textures, b);
+  b.seen_from = view.wo;
+  b.lobes = lobes_of(b, view.wo);
+}
+
 /// Returns the transmittance of the interface into the diffuse base, for the direction of `lobes`, and out of it along
-/// `i`, normalised by its mean to conserve energy.
+/// a direction with albedo `ggx_i`, normalised by its mean to conserve energy.
 template <class Real>
 ALHAZEN_HD Vec3<Real> diffuse_base_weight(const PrincipledBsdf<Real>& b, const PrincipledLobes<Real>& lobes,
-                                          const Vec3<Real>& i) {
-  const Vec3<Real> leaving = max(splat(Real(1)) - kept_by_interface(b, ggx_albedo(b.grid, i)), Vec3<Real>{});
-  const Vec3<Real> mean = splat(Real(1)) - kept_by_interface(b, mean_ggx_albedo(b.grid));
-  return lobes.entering * (leaving / max(mean, splat(min_mean_missing<Real>)));
+                                          const GgxAlbedo<Real>& ggx_i) {
+  const Vec3<Real> leaving = max(splat(Real(1)) - kept_by_interface(b, ggx_i), Vec3<Real>{});
+  return lobes.entering * (leaving / max(lobes.mean_entering, splat(min_mean_missing<Real>)));
 }
 
 /// Evaluates sheen and base for two directions on the same side, without attenuation by the coat.
@@ -381,12 +401,12 @@ ALHAZEN_HD BsdfValue<Real> evaluate_below_coat(const PrincipledBsdf<Real>& b, co
   v.pdf = lobes.specular * ggx.pdf;
   const Real lambert = i.z * inv_pi<Real>;
   v.pdf += lobes.diffuse * lambert;
-  if (max_component(b.diffuse) > 0) v.value += b.diffuse * (diffuse_base_weight(b, lobes, i) * lambert);
+  const GgxAlbedo<Real> ggx_i = ggx_albedo(b.grid, i);
+  if (max_component(b.diffuse) > 0) v.value += b.diffuse * (diffuse_base_weight(b, lobes, ggx_i) * lambert);
   if (b.metal > 0) {
-    const GgxAlbedo<Real> mean = mean_ggx_albedo(b.grid);
     v.value += fresnel_of_metal(b, ggx.cosine) * (b.metal * ggx.value * lobes.metal_scale);
-    v.value += metal_multiple(b, mean.all()) * (lambert * lobes.ggx.missing() * ggx_albedo(b.grid, i).missing() /
-                                                max(min_mean_missing<Real>, mean.missing()));
+    v.value += lobes.metal_multiple * (lambert * lobes.ggx.missing() * ggx_i.missing() /
+                                       max(min_mean_missing<Real>, lobes.mean_ggx.missing()));
   }
   if (lobes.sheen > 0) {
     v.value *= lobes.below_sheen;
@@ -411,7 +431,8 @@ ALHAZEN_HD void evaluate_through(const PrincipledBsdf<Real>& b, const Principled
     const Real lambert = mirrored.z * inv_pi<Real>;
     // Refracted radiance scales with the square of the relative index.
     const Real crossing = leaves_body ? sqr(b.body_ior) : 1 / sqr(b.body_ior);
-    v.value += b.diffuse_through * (lambert * diffuse_base_weight(b, lobes, mirrored) * (lobes.below_sheen * crossing));
+    v.value += b.diffuse_through *
+               (lambert * diffuse_base_weight(b, lobes, ggx_albedo(b.grid, mirrored)) * (lobes.below_sheen * crossing));
     v.pdf += lobes.diffuse_through * lambert;
   }
 }
@@ -419,28 +440,26 @@ ALHAZEN_HD void evaluate_through(const PrincipledBsdf<Real>& b, const Principled
 template <class Real>
 ALHAZEN_HD BsdfValue<Real> PrincipledBsdf<Real>::evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const {
   if (wo.z == 0 || wi.z == 0) return {};
-  const bool within = is_within(*this, wo);
+  PrincipledLobes<Real> others;
+  const PrincipledLobes<Real>& terms = lobes_for(*this, wo, others);
   const Real side = wo.z < 0 ? Real(-1) : Real(1);
   const Vec3<Real> o = wo * side, i = wi * side;
-  const Frame<Real> frame = coat_frame(coat_normal, side);
-  const Vec3<Real> coat_o = frame.to_local(o);
-  const PrincipledLobes<Real> lobes = lobes_of(*this, o, coat_o.z, within);
   BsdfValue<Real> v;
-  if (i.z > 0) v = evaluate_below_coat(*this, lobes, o, i);
+  if (i.z > 0) v = evaluate_below_coat(*this, terms, o, i);
   if (glass > 0) {
     const BsdfValue<Real> g = evaluate_glass(refraction, wo, wi);
-    v.value += g.value * (glass * lobes.below_sheen);
-    v.pdf += lobes.through * g.pdf;
+    v.value += g.value * (glass * terms.below_sheen);
+    v.pdf += terms.through * g.pdf;
   }
-  if (i.z < 0) evaluate_through(*this, lobes, o, i, wo.z < 0, v);
-  if (coat > 0 && !within) {
-    v.value *= lobes.below_coat;
-    const Vec3<Real> coat_i = frame.to_local(i);
+  if (i.z < 0) evaluate_through(*this, terms, o, i, wo.z < 0, v);
+  if (coat > 0 && !terms.within) {
+    v.value *= terms.below_coat;
+    const Vec3<Real> coat_o = terms.coat_o, coat_i = terms.coat_frame.to_local(i);
     if (i.z > 0 && coat_o.z > 0 && coat_i.z > 0) {
       const GgxReflection<Real> ggx = ggx_reflection(coat_o, coat_i, coat_alpha);
       Real cos_t;
       v.value += splat(coat * fresnel_dielectric(ggx.cosine, clearcoat_ior<Real>, cos_t) * ggx.value);
-      v.pdf += lobes.coat * ggx.pdf;
+      v.pdf += terms.coat * ggx.pdf;
     }
   }
   return v;
@@ -452,12 +471,11 @@ ALHAZEN_HD Vec3<Real> sample_lobe(const PrincipledBsdf<Real>& b, const Vec3<Real
                                   const Vec2<Real>& u) {
   const Real side = wo.z < 0 ? Real(-1) : Real(1);
   const Vec3<Real> o = wo * side;
-  const Frame<Real> coat = coat_frame(b.coat_normal, side);
-  const Vec3<Real> coat_o = coat.to_local(o);
-  const PrincipledLobes<Real> lobes = lobes_of(b, o, coat_o.z, is_within(b, wo));
+  PrincipledLobes<Real> others;
+  const PrincipledLobes<Real>& lobes = lobes_for(b, wo, others);
   Vec3<Real> wi{};
   if (u_lobe < lobes.coat) {
-    wi = coat.to_world(sample_ggx_reflection(coat_o, b.coat_alpha, u));
+    wi = lobes.coat_frame.to_world(sample_ggx_reflection(lobes.coat_o, b.coat_alpha, u));
     if (wi.z < 0) return {};
   } else if (u_lobe < lobes.coat + lobes.specular) {
     wi = sample_ggx_reflection(o, b.alpha, u);

@@ -82,6 +82,8 @@ ALHAZEN_HD GridDirection<Real> grid_direction(const AlbedoGridPlace<Real>& place
 /// Interpolates a quantity between the blocks; `value` looks it up in one block.
 template <class Real, class Value>
 ALHAZEN_HD Real over_blocks(const AlbedoGridPlace<Real>& place, const Value& value) {
+  if (place.step_v == 0)
+    return (1 - place.weight_u) * value(place.block) + place.weight_u * value(place.block + place.step_u);
   Real sum = 0;
   for (uint32_t corner = 0; corner < 4; ++corner) {
     const Real weight =
