@@ -87,8 +87,11 @@ uint32_t TextureBuilder<Real>::add_mapping(const Texture& texture) {
   for (size_t i = 0; i < 3; ++i)
     for (size_t j = 0; j < 4; ++j)
       mapping.texture_from_world[i][j] = static_cast<Real>(texture.texture_from_world.matrix()[i][j]);
-  out_.texture_mappings.push_back(mapping);
-  return static_cast<uint32_t>(out_.texture_mappings.size() - 1);
+  const auto [known, is_new] =
+      mappings_.try_emplace(std::string(reinterpret_cast<const char*>(&mapping), sizeof mapping),
+                            static_cast<uint32_t>(out_.texture_mappings.size()));
+  if (is_new) out_.texture_mappings.push_back(mapping);
+  return known->second;
 }
 
 template <class Real>

@@ -3,6 +3,8 @@
 // The part of compiling that turns textures into programs over their nodes.
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "compile/images.h"
@@ -42,9 +44,10 @@ class TextureBuilder {
 
   Scene& scene_;
   SceneArrays<Real>& out_;
-  std::vector<TextureRange> ranges_;  ///< by texture; count 0: not built yet
-  std::vector<bool> depends_on_uv_;   ///< by texture
-  std::vector<uint64_t> nodes_;       ///< by texture; 0: not known yet
+  std::vector<TextureRange> ranges_;          ///< by texture; count 0: not built yet
+  std::vector<bool> depends_on_uv_;           ///< by texture
+  std::vector<uint64_t> nodes_;               ///< by texture; 0: not known yet
+  std::map<std::string, uint32_t> mappings_;  ///< by the bytes of their records, so that equal ones are one
   ImageBuilder<Real> images_;
 };
 

@@ -43,6 +43,7 @@ ALHAZEN_HD Vec3<Real> bumped_normal(const SceneView<Real>& scene, TextureRange d
   constexpr Real step = Real(5e-4);
   const Real here = evaluate_texture(scene, displacement, at).x;
   TexturePoint<Real> along_u = at, along_v = at;
+  along_u.known = along_v.known = {};
   along_u.uv.x += step;
   along_u.position += tangents.dpdu * step;
   along_v.uv.y += step;

@@ -58,9 +58,23 @@ ALHAZEN_HD Vec3<Real> lookup_image(const SceneView<Real>& scene, const ImageReco
   const Real wx = x - Real(0.5) - fx, wy = y - Real(0.5) - fy;
   const int x0 = column(static_cast<int>(fx)), x1 = column(static_cast<int>(fx) + 1);
   const int y0 = row(static_cast<int>(fy)), y1 = row(static_cast<int>(fy) + 1);
-  const Vec3<Real> top = lerp(fetch_texel(scene, image, x0, y0), fetch_texel(scene, image, x1, y0), wx);
-  const Vec3<Real> bottom = lerp(fetch_texel(scene, image, x0, y1), fetch_texel(scene, image, x1, y1), wx);
-  return lerp(top, bottom, wy);
+  const auto blend = [](const auto& a, const auto& b, Real t) { return a * (1 - t) + b * t; };
+  if (ALHAZEN_UNLIKELY(image.is_float || (x0 | x1 | y0 | y1) < 0)) {
+    const Vec3<Real> top = blend(fetch_texel(scene, image, x0, y0), fetch_texel(scene, image, x1, y0), wx);
+    const Vec3<Real> bottom = blend(fetch_texel(scene, image, x0, y1), fetch_texel(scene, image, x1, y1), wx);
+    return blend(top, bottom, wy);
+  }
+  const Real* table = scene.srgb_decode_table + (image.is_srgb ? 0 : 256);
+  const uint8_t* texels = scene.texel_bytes + image.first;
+  const auto texel = [&](int i, int j) {
+    return texels + image.channels * (static_cast<uint64_t>(j) * image.width + static_cast<uint64_t>(i));
+  };
+  const uint8_t *t00 = texel(x0, y0), *t10 = texel(x1, y0), *t01 = texel(x0, y1), *t11 = texel(x1, y1);
+  const auto channel = [&](int c) {
+    return blend(blend(table[t00[c]], table[t10[c]], wx), blend(table[t01[c]], table[t11[c]], wx), wy);
+  };
+  if (image.channels == 1) return splat(channel(0));
+  return {channel(0), channel(1), channel(2)};
 }
 
 /// Base-2 logarithm of x >= 1, linear between powers of two: continuous, with the same bits everywhere, and too low by
@@ -75,7 +89,8 @@ ALHAZEN_HD inline float coarse_log2(float x) {
 template <class Real>
 ALHAZEN_HD float pyramid_level(const SceneView<Real>& scene, const ImageRecord& image, const TextureMapping<Real>& m,
                                const TexturePoint<Real>& at) {
-  const Real footprint = pixel_footprint(scene.camera, at.position, at.normal);
+  Real& footprint = at.known.footprint;
+  if (footprint < 0) footprint = pixel_footprint(scene.camera, at.position, at.normal);
   if (!(footprint > 0)) return 0;
   const Real density =
       m.kind == TextureMappingKind::uv ? density_of_uv(scene, m, at) : density_of_position(m, at, footprint);

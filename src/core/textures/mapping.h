@@ -51,7 +51,9 @@ template <class Real>
 ALHAZEN_HD Real density_of_uv(const SceneView<Real>& scene, const TextureMapping<Real>& m,
                               const TexturePoint<Real>& at) {
   const Real determinant = std::abs(m.st_of_uv[0][0] * m.st_of_uv[1][1] - m.st_of_uv[0][1] * m.st_of_uv[1][0]);
-  return determinant * uv_density(scene, at.hit, at.time, at.normal, m.uv_set);
+  Real& density = at.known.uv_density[m.uv_set];
+  if (density < 0) density = uv_density(scene, at.hit, at.time, at.normal, m.uv_set);
+  return determinant * density;
 }
 
 /// The same for the other mappings, by differences over a square of area `footprint`.

@@ -6,6 +6,16 @@
 
 namespace ALHAZEN_CORE {
 
+/// What several textures look up at one point, kept for those that follow: materials take channels of the same image.
+/// A negative number is not known yet.
+template <class Real>
+struct KnownOfPoint {
+  Real footprint = -1;                  ///< pixel_footprint
+  Real uv_density[2] = {-1, -1};        ///< of either uv set
+  uint32_t image = ~0u, mapping = ~0u;  ///< of the last image that was looked up
+  Vec3<Real> value{};                   ///< what was found there
+};
+
 template <class Real>
 struct TexturePoint {
   Vec3<Real> position;  ///< world space
@@ -15,6 +25,8 @@ struct TexturePoint {
   /// Gives access to vertex attributes other than uv; no primitive if there are none.
   Hit<Real> hit{Real(0), Real(0), Real(0), {}};
   Real time = 0;  ///< of the ray, for moving instances
+  /// Of this point: a copy that is moved elsewhere starts with nothing known.
+  mutable KnownOfPoint<Real> known{};
 };
 
 template <class Real>

@@ -20,7 +20,14 @@ struct TextureNode {
   ALHAZEN_HD Vec2<Real> st() const { return map_texture(scene, mapping(), at); }
   ALHAZEN_HD Vec3<Real> point() const { return map_solid(mapping(), at.position); }
   ALHAZEN_HD Vec3<Real> normal() const { return at.normal; }
-  ALHAZEN_HD Vec3<Real> image() const { return lookup_filtered(scene, record.image, mapping(), at); }
+  ALHAZEN_HD Vec3<Real> image() const {
+    KnownOfPoint<Real>& known = at.known;
+    if (known.image != record.image || known.mapping != record.mapping) {
+      known.value = lookup_filtered(scene, record.image, mapping(), at);
+      known.image = record.image, known.mapping = record.mapping;
+    }
+    return known.value;
+  }
   ALHAZEN_HD auto vertex_colour() const { return mesh_colour(scene, at.hit); }
   ALHAZEN_HD const uint8_t* permutation() const { return scene.noise_permutation; }
 
