@@ -86,6 +86,7 @@ SCENES = [
     Scene("mesh", "scenes/mesh.pbrt", 1.5),
     Scene("cornell-glass", "scenes/cornell-glass.pbrt", 1),
     Scene("window", "scenes/window.pbrt"),
+    Scene("panel", "scenes/panel.pbrt"),
     asset("DamagedHelmet", "DamagedHelmet.glb"),
     asset("TransmissionTest", "TransmissionTest.glb", "--camera", "0"),
     asset("ToyCar", "ToyCar.gltf", "--camera", "0"),
