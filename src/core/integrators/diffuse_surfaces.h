@@ -76,7 +76,7 @@ class DiffuseSurfaces {
   }
 
  private:
-  /// How a surface gets its light sample: it has one, or `sample_lights` takes one.
+  /// How a surface gets its light sample: it has one, or `shade` takes one.
   struct LightSource {
     static constexpr uint32_t sampled = 0, triangle = 1;
   };
@@ -106,7 +106,7 @@ class DiffuseSurfaces {
     ray.left_instance = hit.instance;
   }
 
-  /// Samples a light for surface i, or defers that to `sample_lights`.
+  /// Samples a light for surface i, or defers that to `shade`.
   template <SamplerOf<Real> Sampler>
   ALHAZEN_INLINE void add_light(uint32_t i, const SceneView<Real>& scene, const ShadingPoint<Real>& point,
                                 const Sampler& sampler, const VertexDimensions& path_dimensions) {
@@ -114,8 +114,8 @@ class DiffuseSurfaces {
     lights_.template set_only<&Light::pdf, &Light::is_delta, &Light::is_finite>(i, {});
     if (scene.lights_count == 0) return;
     Vec2<Real> u = sampler.template get_2d<Real>(path_dimensions.light());
-    const Vec3<Real> side = samples_by_side(scene) ? side_of_light(point) : Vec3<Real>{};
-    const LightChoice<Real> choice = choose_light(scene, point.si.position, side, u.x);
+    const Vec3<Real> side_for_tree = scene.light_tree_count > 0 ? side_of_light(point) : Vec3<Real>{};
+    const LightChoice<Real> choice = choose_light(scene, point.si.position, side_for_tree, u.x);
     if (!(choice.pmf > 0)) return;
     u.x = choice.u;
     const LightRecord<Real>& light = scene.lights[choice.light];
@@ -123,7 +123,7 @@ class DiffuseSurfaces {
     if (light.kind == LightKind::triangle && light.texture.count == 0) {
       const TriangleEmitter<Real>& triangle = scene.triangle_emitters[light.emitter];
       if (is_near(triangle, point.si.position)) {
-        near_.add(near_count_++, i, triangle, point.si.position, side, u);
+        near_.add(near_count_++, i, triangle, point.si.position, side_of_light(point), u);
         return;
       }
       emitters_.set(i, triangle);
@@ -131,8 +131,8 @@ class DiffuseSurfaces {
       light_source_[i] = LightSource::triangle;
       ++triangles_;
     } else {
-      Light sampled =
-          sample_chosen_light(scene, light, point.si.position, side, choice.light == point.light, point.si.time, u);
+      Light sampled = sample_chosen_light(scene, light, point.si.position, side_of_light(point),
+                                          choice.light == point.light, point.si.time, u);
       sampled.pdf *= choice.pmf;
       lights_.set(i, sampled);
     }

@@ -134,29 +134,15 @@ ALHAZEN_HD inline SineCosine<Real> sine_cosine(Real angle) {
   return {std::sin(angle), std::cos(angle)};
 }
 
-/// The angle in [0, pi] between the vector (x, y), y >= 0, and the x axis, in float, to 2e-7, by operations that round
-/// alike everywhere: reduction to an eighth of a turn, then the polynomial of Moshier's Cephes library.
-ALHAZEN_HD ALHAZEN_HOT float angle_of_vector(float x, float y) {
-  const float ax = std::abs(x);
-  const bool steep = y > ax;
-  const float less = steep ? ax : y, more = steep ? y : ax;
-  const bool upper = less > 0.414213562f * more;
-  const float t = upper ? (less - more) / (less + more) : more > 0 ? less / more : 0.0f;
+/// The arctangent of t, |t| <= tan(pi / 8), in float, to 1e-7: the polynomial of Moshier's Cephes library.
+ALHAZEN_HD ALHAZEN_HOT float arctangent_by_polynomials(float t) {
   const float t2 = t * t;
-  const float angle =
-      t + t * t2 * (-3.33329491539e-1f + t2 * (1.99777106478e-1f + t2 * (-1.38776856032e-1f + t2 * 8.05374449538e-2f)));
-  const float octant = upper ? angle + pi<float> / 4 : angle;
-  const float quarter = steep ? pi<float> / 2 - octant : octant;
-  return x < 0 ? pi<float> - quarter : quarter;
+  return t +
+         t * t2 * (-3.33329491539e-1f + t2 * (1.99777106478e-1f + t2 * (-1.38776856032e-1f + t2 * 8.05374449538e-2f)));
 }
 
 /// The same in double, to 3e-16.
-ALHAZEN_HD ALHAZEN_HOT double angle_of_vector(double x, double y) {
-  const double ax = std::abs(x);
-  const bool steep = y > ax;
-  const double less = steep ? ax : y, more = steep ? y : ax;
-  const bool upper = less > 0.41421356237309503 * more;
-  const double t = upper ? (less - more) / (less + more) : more > 0 ? less / more : 0.0;
+ALHAZEN_HD ALHAZEN_HOT double arctangent_by_polynomials(double t) {
   const double t2 = t * t;
   const double p =
       -6.485021904942025371773e1 +
@@ -167,10 +153,22 @@ ALHAZEN_HD ALHAZEN_HOT double angle_of_vector(double x, double y) {
       t2 *
           (4.853903996359136964868e2 +
            t2 * (4.328810604912902668951e2 + t2 * (1.650270098316988542046e2 + t2 * (2.485846490142306297962e1 + t2))));
-  const double angle = t + t * t2 * (p / q);
-  const double octant = upper ? angle + pi<double> / 4 : angle;
-  const double quarter = steep ? pi<double> / 2 - octant : octant;
-  return x < 0 ? pi<double> - quarter : quarter;
+  return t + t * t2 * (p / q);
+}
+
+/// The angle in [0, pi] between the vector (x, y), y >= 0, and the x axis, by operations that round alike everywhere.
+/// Reduces the angle to a sixteenth of a turn.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Real angle_of_vector(Real x, Real y) {
+  const Real ax = std::abs(x);
+  const bool steep = y > ax;
+  const Real less = steep ? ax : y, more = steep ? y : ax;
+  const bool upper = less > Real(0.41421356237309503) * more;
+  const Real t = upper ? (less - more) / (less + more) : more > 0 ? less / more : Real(0);
+  const Real angle = arctangent_by_polynomials(t);
+  const Real octant = upper ? angle + pi<Real> / 4 : angle;
+  const Real quarter = steep ? pi<Real> / 2 - octant : octant;
+  return x < 0 ? pi<Real> - quarter : quarter;
 }
 
 /// a * b + c, rounded once on GPUs and twice on CPUs, where all instruction sets must give the same bits.

@@ -58,11 +58,10 @@ ALHAZEN_HD Vec3<Real> lookup_image(const SceneView<Real>& scene, const ImageReco
   const Real wx = x - Real(0.5) - fx, wy = y - Real(0.5) - fy;
   const int x0 = column(static_cast<int>(fx)), x1 = column(static_cast<int>(fx) + 1);
   const int y0 = row(static_cast<int>(fy)), y1 = row(static_cast<int>(fy) + 1);
-  const auto blend = [](const auto& a, const auto& b, Real t) { return a * (1 - t) + b * t; };
   if (ALHAZEN_UNLIKELY(image.is_float || (x0 | x1 | y0 | y1) < 0)) {
-    const Vec3<Real> top = blend(fetch_texel(scene, image, x0, y0), fetch_texel(scene, image, x1, y0), wx);
-    const Vec3<Real> bottom = blend(fetch_texel(scene, image, x0, y1), fetch_texel(scene, image, x1, y1), wx);
-    return blend(top, bottom, wy);
+    const Vec3<Real> top = lerp(fetch_texel(scene, image, x0, y0), fetch_texel(scene, image, x1, y0), wx);
+    const Vec3<Real> bottom = lerp(fetch_texel(scene, image, x0, y1), fetch_texel(scene, image, x1, y1), wx);
+    return lerp(top, bottom, wy);
   }
   const Real* table = scene.srgb_decode_table + (image.is_srgb ? 0 : 256);
   const uint8_t* texels = scene.texel_bytes + image.first;
@@ -71,7 +70,7 @@ ALHAZEN_HD Vec3<Real> lookup_image(const SceneView<Real>& scene, const ImageReco
   };
   const uint8_t *t00 = texel(x0, y0), *t10 = texel(x1, y0), *t01 = texel(x0, y1), *t11 = texel(x1, y1);
   const auto channel = [&](int c) {
-    return blend(blend(table[t00[c]], table[t10[c]], wx), blend(table[t01[c]], table[t11[c]], wx), wy);
+    return lerp(lerp(table[t00[c]], table[t10[c]], wx), lerp(table[t01[c]], table[t11[c]], wx), wy);
   };
   if (image.channels == 1) return splat(channel(0));
   return {channel(0), channel(1), channel(2)};
