@@ -69,7 +69,7 @@ class PathBatch {
   /// A shadow ray whose result a path waits for.
   struct PendingShadowRay {
     ShadowRay<Real> shadow;
-    Vec3<Real> radiance;  ///< added to the path if the light is visible
+    Vec3<Real> radiance;  ///< added to the path as far as the light is visible
     uint32_t lane;
   };
 
@@ -219,20 +219,49 @@ class PathBatch {
     diffuse_.clear();
   }
 
+  const Ray<Real>& shadow_ray(uint32_t i) const { return shadow_rays_[i].shadow.ray; }
+  Real shadow_limit(uint32_t i) const { return shadow_rays_[i].shadow.t_max; }
+
   void trace_shadow_rays() {
-    if (scene_.lets_light_through) {
-      for (const PendingShadowRay* pending = shadow_rays_; pending != shadow_rays_ + shadow_ray_count_; ++pending) {
-        const Real visibility = visibility_of(scene_, intersector_, pending->shadow);
-        if (visibility > 0) lanes_[pending->lane].record.radiance += pending->radiance * visibility;
-      }
-      return;
-    }
+    if (scene_.lets_light_through) return trace_shadow_rays_through();
     intersector_.template trace<true>(
-        shadow_ray_count_, [&](uint32_t i) -> const Ray<Real>& { return shadow_rays_[i].shadow.ray; },
-        [&](uint32_t i) { return shadow_rays_[i].shadow.t_max; },
+        shadow_ray_count_, [&](uint32_t i) -> const Ray<Real>& { return shadow_ray(i); },
+        [&](uint32_t i) { return shadow_limit(i); },
         [&](uint32_t i, bool found, const Hit<Real>&) {
           if (!found) lanes_[shadow_rays_[i].lane].record.radiance += shadow_rays_[i].radiance;
         });
+  }
+
+  /// Does what `transmittance` does: traces the rays up to the next surface until each has arrived or is stopped.
+  void trace_shadow_rays_through() {
+    Real transmitted[max_paths];
+    for (uint32_t i = 0; i < shadow_ray_count_; ++i) transmitted[i] = 1;
+    for (uint32_t passed = 0; shadow_ray_count_ > 0; ++passed) {
+      const auto answer = [&](uint32_t i, bool found, const Hit<Real>& hit) {
+        Lane& lane = lanes_[shadow_rays_[i].lane];
+        lane.hit = hit;
+        lane.has_hit = found;
+      };
+      intersector_.template trace<false>(
+          shadow_ray_count_, [&](uint32_t i) -> const Ray<Real>& { return shadow_ray(i); },
+          [&](uint32_t i) { return shadow_limit(i); }, answer);
+      uint32_t left = 0;
+      for (uint32_t i = 0; i < shadow_ray_count_; ++i) {
+        PendingShadowRay& pending = shadow_rays_[i];
+        Lane& lane = lanes_[pending.lane];
+        Real& fraction = transmitted[i];
+        if (lane.has_hit && passed == max_transparent_hits) continue;
+        if (lane.has_hit) pass_light(scene_, lane.hit, pending.shadow.ray, pending.shadow.t_max, fraction);
+        if (!(fraction > 0)) continue;
+        if (lane.has_hit && pending.shadow.t_max > 0) {
+          transmitted[left] = fraction;
+          shadow_rays_[left++] = pending;
+        } else {
+          lane.record.radiance += pending.radiance * fraction;
+        }
+      }
+      shadow_ray_count_ = left;
+    }
   }
 
   void finish() {

@@ -113,6 +113,22 @@ ALHAZEN_HD ALHAZEN_COLD bool passes(const SceneView<Real>& scene, const Hit<Real
   return true;
 }
 
+/// Continues a shadow ray beyond a surface, over what is left of the distance `t_max`: `transmitted` falls by what the
+/// surface stops, to 0 if no light passes.
+template <class Real>
+ALHAZEN_HD ALHAZEN_COLD void pass_light(const SceneView<Real>& scene, const Hit<Real>& hit, Ray<Real>& ray, Real& t_max,
+                                        Real& transmitted) {
+  const MaterialRecord<Real>& material = material_of_hit(scene, hit);
+  if (!may_pass(material, RayKind::shadow)) {
+    transmitted = 0;
+    return;
+  }
+  const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
+  transmitted *= 1 - opacity(scene, material, ray, hit, si, RayKind::shadow);
+  t_max -= hit.t;
+  ray = ray_beyond(ray, hit, si);
+}
+
 /// Fraction of light that arrives along the ray over the distance `t_max`.
 template <class Real, RayIntersector<Real> Intersector>
 ALHAZEN_HD Real transmittance(const SceneView<Real>& scene, const Intersector& intersector, Ray<Real> ray, Real t_max) {
@@ -120,12 +136,7 @@ ALHAZEN_HD Real transmittance(const SceneView<Real>& scene, const Intersector& i
   Hit<Real> hit;
   for (uint32_t i = 0; transmitted > 0 && t_max > 0 && intersector.closest_hit(ray, t_max, hit); ++i) {
     if (i == max_transparent_hits) return 0;
-    const MaterialRecord<Real>& material = material_of_hit(scene, hit);
-    if (!may_pass(material, RayKind::shadow)) return 0;
-    const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
-    transmitted *= 1 - opacity(scene, material, ray, hit, si, RayKind::shadow);
-    t_max -= hit.t;
-    ray = ray_beyond(ray, hit, si);
+    pass_light(scene, hit, ray, t_max, transmitted);
   }
   return transmitted;
 }
