@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/lights/environment.h"
+
 namespace alhazen {
 
 namespace {
@@ -77,28 +79,140 @@ void append_cdf(const double* weights, size_t count, std::vector<Real>& out) {
 /// Below this part of all light, what exceeds the mean is rounding, and the map is as good as constant.
 constexpr double min_excess = 1e-6;
 
-/// Appends the distribution of the brightness minus its mean over the sphere, where that is positive: MIS compensation
-/// (Karlik, Sik, Vevoda, Skrivan, Krivanek 2019, "MIS Compensation: Optimizing Sampling Techniques in Multiple
-/// Importance Sampling", section 5). Returns what part of the integral of the brightness that is; 0 if there is no
-/// distribution.
+/// Number of cells along the longer side of a map. Their bounds are much finer than the groups of normals.
+constexpr uint32_t cells_per_side = 16;
+
+/// The light above the mean from a part of a cell: its direction, the sine of the angle about it that bounds the part,
+/// and the irradiance at a surface that faces it.
+struct CellPart {
+  Vec3d direction;
+  double radius;
+  double irradiance;
+};
+
+/// A unit normal in the middle of a group.
+Vec3d normal_of_group(uint32_t group) {
+  const auto middle = [](uint32_t i) { return (2 * i + 1.0) / normal_groups_per_side - 1; };
+  const double u = middle(group % normal_groups_per_side), v = middle(group / normal_groups_per_side);
+  const double z = 1 - std::abs(u) - std::abs(v);
+  if (z >= 0) return normalize(Vec3d{u, v, z});
+  return normalize(Vec3d{std::copysign(1 - std::abs(v), u), std::copysign(1 - std::abs(u), v), z});
+}
+
+/// The sine of the largest angle between a normal and the middle of its group.
+constexpr double group_radius = 0.26;
+
+/// What a part sends to the surfaces of a group: the irradiance times the mean of the positive cosine, as if the cosine
+/// were uniform within what the sizes of the part and the group allow.
+double sent_to(const Vec3d& normal, const CellPart& part) {
+  const double cosine = dot(normal, part.direction), spread = part.radius + group_radius;
+  if (cosine > spread) return part.irradiance * cosine;
+  return part.irradiance * sqr(std::max(0.0, cosine + spread)) / (4 * spread);
+}
+
+/// The brightness of each texel minus the mean over the sphere, where that is positive, times its solid angle.
+class ExcessLight {
+ public:
+  ExcessLight(const ImageTexels& map, SphereMapping mapping, const EnvironmentRecord<double>& cells)
+      : mapping_(mapping), cells_(cells), light_(texel_means(map, mapping)) {
+    double all = 0;
+    for (uint32_t y = 0; y < cells.height; ++y) {
+      const double solid_angle = texel_solid_angle(map, mapping, static_cast<int>(y));
+      for (uint32_t x = 0; x < cells.width; ++x) all += light_[index(x, y)] * solid_angle;
+    }
+    double excess = 0;
+    for (uint32_t y = 0; y < cells.height; ++y) {
+      const double solid_angle = texel_solid_angle(map, mapping, static_cast<int>(y));
+      for (uint32_t x = 0; x < cells.width; ++x) {
+        double& light = light_[index(x, y)];
+        light = std::max(light - all / (4 * std::numbers::pi), 0.0) * solid_angle;
+        excess += light;
+      }
+    }
+    part_of_all_ = excess / all;
+  }
+
+  double part_of_all() const { return part_of_all_; }
+  const double* row(uint32_t x, uint32_t y) const { return &light_[index(x, y)]; }
+
+  double of_row(const EnvironmentCell& cell, uint32_t y) const {
+    return std::accumulate(row(cell.x, y), row(cell.x, y) + cell.width, 0.0);
+  }
+
+  /// The light from parts of a cell, at most 8 by 8.
+  std::vector<CellPart> parts(const EnvironmentCell& cell) const {
+    const uint32_t columns = std::min(cell.width, 8u), rows = std::min(cell.height, 8u);
+    std::vector<CellPart> parts;
+    for (uint32_t i = 0; i < rows; ++i)
+      for (uint32_t k = 0; k < columns; ++k) {
+        const uint32_t x0 = cell.x + first_of_cell(k, cell.width, columns);
+        const uint32_t x1 = cell.x + first_of_cell(k + 1, cell.width, columns);
+        const uint32_t y0 = cell.y + first_of_cell(i, cell.height, rows);
+        const uint32_t y1 = cell.y + first_of_cell(i + 1, cell.height, rows);
+        CellPart part{};
+        for (uint32_t y = y0; y < y1; ++y)
+          for (uint32_t x = x0; x < x1; ++x) {
+            const double light = light_[index(x, y)];
+            if (light == 0) continue;
+            part.irradiance += light;
+            part.direction += direction(x + 0.5, y + 0.5) * light;
+          }
+        if (part.irradiance == 0 || is_zero(part.direction)) continue;
+        part.direction = normalize(part.direction);
+        for (const uint32_t x : {x0, x1})
+          for (const uint32_t y : {y0, y1})
+            part.radius = std::max(part.radius, length(cross(part.direction, direction(x, y))));
+        parts.push_back(part);
+      }
+    return parts;
+  }
+
+ private:
+  size_t index(uint32_t x, uint32_t y) const { return static_cast<size_t>(y) * cells_.width + x; }
+  Vec3d direction(double x, double y) const {
+    return direction_of_square(mapping_, Vec2<double>{x / cells_.width, y / cells_.height});
+  }
+
+  SphereMapping mapping_;
+  EnvironmentRecord<double> cells_;  ///< only its sizes
+  std::vector<double> light_;
+  double part_of_all_ = 0;
+};
+
+/// Appends the distributions of the light above the mean: MIS compensation (Karlik, Sik, Vevoda, Skrivan, Krivanek
+/// 2019, "MIS Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling", section 5). Returns what
+/// part of the integral of the brightness that is; 0 if there is nothing to sample.
 template <class Real>
-double append_distribution(const ImageTexels& map, SphereMapping mapping, std::vector<Real>& out) {
-  std::vector<double> means = texel_means(map, mapping);
-  const size_t width = static_cast<size_t>(map.width), height = static_cast<size_t>(map.height);
-  const auto row_integral = [&](size_t y) {
-    return texel_solid_angle(map, mapping, static_cast<int>(y)) *
-           std::accumulate(&means[y * width], &means[y * width] + width, 0.0);
-  };
-  double all = 0;
-  for (size_t y = 0; y < height; ++y) all += row_integral(y);
-  for (double& mean : means) mean = std::max(mean - all / (4 * std::numbers::pi), 0.0);
-  std::vector<double> rows;
-  for (size_t y = 0; y < height; ++y) rows.push_back(row_integral(y));
-  const double excess = std::accumulate(rows.begin(), rows.end(), 0.0) / all;
-  out.reserve(out.size() + (height + 1) + height * (width + 1));
-  append_cdf(rows.data(), height, out);
-  for (size_t y = 0; y < height; ++y) append_cdf(&means[y * width], width, out);
-  return excess > min_excess ? excess : 0;
+double append_distributions(const ImageTexels& map, const EnvironmentRecord<Real>& record, std::vector<Real>& out) {
+  EnvironmentRecord<double> cells{};
+  cells.width = record.width, cells.height = record.height;
+  cells.cell_columns = record.cell_columns, cells.cell_rows = record.cell_rows;
+  const ExcessLight light(map, record.mapping, cells);
+  std::vector<EnvironmentCell> all_cells;
+  std::vector<double> weights[normal_groups];
+  for (uint32_t y = 0; y < record.cell_rows; ++y)
+    for (uint32_t x = 0; x < record.cell_columns; ++x) all_cells.push_back(environment_cell(cells, x, y));
+  Vec3d normals[any_normal_group];
+  for (uint32_t group = 0; group < any_normal_group; ++group) normals[group] = normal_of_group(group);
+  for (const EnvironmentCell& cell : all_cells) {
+    const std::vector<CellPart> parts = light.parts(cell);
+    for (uint32_t group = 0; group < any_normal_group; ++group) {
+      double weight = 0;
+      for (const CellPart& part : parts) weight += sent_to(normals[group], part);
+      weights[group].push_back(weight);
+    }
+    double weight = 0;
+    for (const CellPart& part : parts) weight += part.irradiance;
+    weights[any_normal_group].push_back(weight);
+  }
+  for (const std::vector<double>& of_group : weights) append_cdf(of_group.data(), of_group.size(), out);
+  for (const EnvironmentCell& cell : all_cells) {
+    std::vector<double> rows;
+    for (uint32_t y = cell.y; y < cell.y + cell.height; ++y) rows.push_back(light.of_row(cell, y));
+    append_cdf(rows.data(), rows.size(), out);
+    for (uint32_t y = cell.y; y < cell.y + cell.height; ++y) append_cdf(light.row(cell.x, y), cell.width, out);
+  }
+  return light.part_of_all() > min_excess ? light.part_of_all() : 0;
 }
 
 Vec3d mean_radiance(const ImageTexels& map, SphereMapping mapping) {
@@ -135,7 +249,9 @@ double add_environment(const Light& light, Scene& scene, SceneArrays<Real>& out)
                  convert<Real>(light.axes.normal)};
   record.scale = convert<Real>(light.radiance);
   record.first_cdf = out.environment_cdf.size();
-  const double excess = append_distribution(map, record.mapping, out.environment_cdf);
+  record.cell_columns = std::min(record.width, cells_per_side);
+  record.cell_rows = std::min(record.height, cells_per_side);
+  const double excess = append_distributions(map, record, out.environment_cdf);
   record.first_texel = out.texel_floats.size();
   out.texel_floats.insert(out.texel_floats.end(), map.floats.begin(), map.floats.end());
   std::vector<float>().swap(map.floats);

@@ -1,5 +1,6 @@
-// Environment maps: sampled directions against the density, the density against 1 and against the radiance above the
-// mean, radiance over density against the integral of the map, and images with and without light sampling.
+// Environment maps: sampled directions against the density, for surfaces of any normal and of some, the density against
+// 1 and against the radiance above the mean, radiance over density against the integral of the map, and images with and
+// without light sampling.
 
 #include <gtest/gtest.h>
 
@@ -32,6 +33,9 @@ template <class Real>
 class EnvironmentSampling : public ::testing::Test {};
 TYPED_TEST_SUITE(EnvironmentSampling, Reals);
 
+/// The first means that light may arrive from anywhere.
+const Vec3d normals[] = {{0, 0, 0}, {0, 0, 1}, {0.6, -0.64, -0.48}};
+
 TYPED_TEST(EnvironmentSampling, DirectionsFollowTheDensity) {
   using Real = TypeParam;
   const std::vector<MapCase> cases = map_cases();
@@ -40,22 +44,68 @@ TYPED_TEST(EnvironmentSampling, DirectionsFollowTheDensity) {
     const EnvironmentRecord<Real>& map = scene.view.environments[0];
     // There are lamps at the poles, where the density is too steep for bins other than the map's.
     const bool has_lamps = c.name.find("lamps") != std::string::npos;
-    DirectionHistogram histogram(has_lamps ? c.axes : map_as_world, pi<double>);
-    Random random(1);
-    for (size_t i = 0; i < effort(1'000'000); ++i) {
-      const LightSample<Real> s =
-          sample_light(scene.view, Vec3<Real>{}, Vec3<Real>{}, Real(0), random.uniform_2d<Real>());
-      if (s.pdf > 0)
-        histogram.add(convert<double>(s.direction));
-      else
-        histogram.add_nothing();
+    for (const Vec3d& normal : normals) {
+      const Vec3<Real> n = convert<Real>(normal);
+      DirectionHistogram histogram(has_lamps ? c.axes : map_as_world, pi<double>);
+      Random random(1);
+      for (size_t i = 0; i < effort(1'000'000); ++i) {
+        const LightSample<Real> s = sample_light(scene.view, Vec3<Real>{}, n, Real(0), random.uniform_2d<Real>());
+        if (s.pdf > 0)
+          histogram.add(convert<double>(s.direction));
+        else
+          histogram.add_nothing();
+      }
+      double integral = 0;
+      const ChiSquared test = histogram.test(
+          [&](const Vec3d& w) { return pdf_environment(scene.view, map, n, convert<Real>(w)); }, integral);
+      EXPECT_NEAR(integral, 1, 1e-3) << c.name;
+      EXPECT_GT(test.p_value, sidak(0.01, 2 * cases.size() * std::size(normals)))
+          << c.name << ": " << test.statistic << " for " << test.degrees_of_freedom << " degrees of freedom";
     }
-    double integral = 0;
-    const ChiSquared test =
-        histogram.test([&](const Vec3d& w) { return pdf_environment(scene.view, map, convert<Real>(w)); }, integral);
-    EXPECT_NEAR(integral, 1, 1e-3) << c.name;
-    EXPECT_GT(test.p_value, sidak(0.01, 2 * cases.size()))
-        << c.name << ": " << test.statistic << " for " << test.degrees_of_freedom << " degrees of freedom";
+  }
+}
+
+/// Normals of one group are within 15 degrees of their mean.
+TEST(EnvironmentSampling, GroupsAreOfSimilarNormals) {
+  std::vector<Vec3d> of_group[normal_groups];
+  Random random(6);
+  for (int i = 0; i < 200'000; ++i) {
+    const Vec3d n = sample_uniform_sphere(random.uniform_2d<double>());
+    ASSERT_LT(normal_group(n), any_normal_group);
+    of_group[normal_group(n)].push_back(n);
+  }
+  for (uint32_t group = 0; group < any_normal_group; ++group) {
+    Vec3d mean{};
+    for (const Vec3d& n : of_group[group]) mean += n;
+    ASSERT_GT(length(mean), 0) << group;
+    for (const Vec3d& n : of_group[group]) ASSERT_GT(dot(n, normalize(mean)), std::cos(15 * pi<double> / 180)) << group;
+  }
+  EXPECT_EQ(normal_group(Vec3d{}), any_normal_group);
+  EXPECT_EQ(normal_group(Vec3d{std::nan(""), 0, 1}), any_normal_group);
+}
+
+/// Fewer samples arrive below the surface than of those for any normal, though some suns are just below; and what is
+/// above is sampled.
+TYPED_TEST(EnvironmentSampling, SamplesArriveAboveTheSurface) {
+  using Real = TypeParam;
+  for (const MapCase& c : map_cases()) {
+    const CompiledScene<Real> scene = compiled_scene<Real>(map_alone(c.map, c.axes));
+    const EnvironmentRecord<Real>& map = scene.view.environments[0];
+    Random random(4);
+    int below = 0, below_of_any = 0;
+    for (int k = 0; k < 20; ++k) {
+      const Vec3<Real> normal = sample_uniform_sphere(random.uniform_2d<Real>());
+      for (int i = 0; i < 2000; ++i) {
+        const Vec2<Real> u = random.uniform_2d<Real>();
+        const EnvironmentSample<Real> s = sample_environment(scene.view, map, normal, u);
+        below += s.pdf > 0 && dot(s.direction, normal) < 0 ? 1 : 0;
+        const EnvironmentSample<Real> other = sample_environment(scene.view, map, Vec3<Real>{}, u);
+        below_of_any += dot(other.direction, normal) < 0 ? 1 : 0;
+        if (dot(other.direction, normal) > Real(0.05))
+          ASSERT_GT(pdf_environment(scene.view, map, normal, other.direction), Real(0)) << c.name;
+      }
+    }
+    EXPECT_LT(below, 0.6 * below_of_any) << c.name;
   }
 }
 
@@ -67,7 +117,7 @@ TYPED_TEST(EnvironmentSampling, WhatIsSampledIsWhatARayFinds) {
     Random random(2);
     size_t differing = 0;
     for (int i = 0; i < 100'000; ++i) {
-      const EnvironmentSample<Real> s = sample_environment(scene.view, map, random.uniform_2d<Real>());
+      const EnvironmentSample<Real> s = sample_environment(scene.view, map, Vec3<Real>{}, random.uniform_2d<Real>());
       ASSERT_GT(s.pdf, Real(0)) << c.name;
       ASSERT_NEAR(static_cast<double>(length(s.direction)), 1, 1e-6) << c.name;
       // Near the poles of one mapping rounding changes directions a lot.
@@ -76,7 +126,7 @@ TYPED_TEST(EnvironmentSampling, WhatIsSampledIsWhatARayFinds) {
       const Vec3<Real> found = evaluate_environment(scene.view, map, s.direction);
       const double scale = static_cast<double>(max_component(found)) + 1;
       ASSERT_LT(static_cast<double>(length(found - s.radiance)), by_precision<Real>(0.01, 1e-9) * scale) << c.name;
-      const double ratio = static_cast<double>(pdf_environment(scene.view, map, s.direction) / s.pdf);
+      const double ratio = static_cast<double>(pdf_environment(scene.view, map, Vec3<Real>{}, s.direction) / s.pdf);
       if (std::abs(ratio - 1) > by_precision<Real>(1e-3, 1e-9)) ++differing;  // rounded into the next texel
     }
     EXPECT_LT(differing, by_precision<Real>(100, 1)) << c.name;
@@ -90,13 +140,14 @@ TYPED_TEST(EnvironmentSampling, RadianceOverDensityIsTheIntegral) {
     const CompiledScene<Real> scene = compiled_scene<Real>(map_alone(c.map, c.axes));
     const EnvironmentRecord<Real>& map = scene.view.environments[0];
     const double expected = integral_over_sphere(1024, [&](const Vec3d& d) {
-      const EnvironmentSample<Real> found = evaluate_environment_and_pdf(scene.view, map, convert<Real>(d), true);
+      const EnvironmentSample<Real> found =
+          evaluate_environment_and_pdf(scene.view, map, Vec3<Real>{}, convert<Real>(d), true);
       return found.pdf > 0 ? static_cast<double>(found.radiance.y) : 0;
     });
     Moments moments;
     Random random(3);
     for (size_t i = 0; i < effort(1'000'000); ++i) {
-      const EnvironmentSample<Real> s = sample_environment(scene.view, map, random.uniform_2d<Real>());
+      const EnvironmentSample<Real> s = sample_environment(scene.view, map, Vec3<Real>{}, random.uniform_2d<Real>());
       moments.add(s.pdf > 0 ? static_cast<double>(s.radiance.y / s.pdf) : 0);
     }
     EXPECT_GT(mean_p_value(moments, expected, 2e-4 * expected), sidak(0.01, 2 * cases.size()))
@@ -133,7 +184,7 @@ TYPED_TEST(EnvironmentSampling, WhatIsAboveTheMeanIsSampled) {
           least = std::min(least, value);
           most = std::max(most, value);
         }
-        const Real density = environment_square_pdf(scene.view, map, row, column);
+        const Real density = environment_square_pdf(scene.view, map, any_normal_group, row, column);
         if (least > 1.01 * mean) {
           EXPECT_GT(density, Real(0)) << c.name << " " << column << " " << row;
           ++brighter;

@@ -80,7 +80,7 @@ Real pdf_of_direction(const SceneView<Real>& scene, const Ray<Real>& ray, const 
   const Real by_tree = light_tree_probability(scene, ray.origin, normal);
   for (uint32_t i = 0; i < scene.far_lights_count; ++i) {
     const LightRecord<Real>& light = scene.lights[scene.far_lights[i]];
-    pdf += light.pmf * (1 - by_tree) * escaped_light(scene, light, ray.direction, true).pdf;
+    pdf += light.pmf * (1 - by_tree) * escaped_light(scene, light, normal, ray.direction, true).pdf;
   }
   if (BruteForceIntersector<Real>(scene).closest_hit(ray, infinity<Real>, hit)) {
     const SurfaceInteraction<Real> si = surface_interaction(scene, ray, hit);
@@ -177,7 +177,8 @@ TYPED_TEST(LightSampling, SunHasTheIrradianceOfADistantLight) {
         const double theta = (ring + 0.5) * width, phi = 2 * pi<double> * (sector + 0.3) / sectors;
         const Vec3d local{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
         const double solid_angle = 2 * pi<double> / sectors * std::sin(theta) * width;
-        const EscapedLight<Real> found = escaped_light(scene.view, light, convert<Real>(axes.to_world(local)), true);
+        const EscapedLight<Real> found =
+            escaped_light(scene.view, light, Vec3<Real>{}, convert<Real>(axes.to_world(local)), true);
         irradiance += static_cast<double>(found.radiance.y) * std::cos(theta) * solid_angle;
         probability += static_cast<double>(found.pdf) * solid_angle;
       }

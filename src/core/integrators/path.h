@@ -38,7 +38,8 @@ ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, co
   if (scene.far_lights_count == 0) return;
   for (uint32_t i = 0; i < scene.far_lights_count; ++i) {
     const LightRecord<Real>& light = scene.lights[scene.far_lights[i]];
-    const EscapedLight<Real> found = escaped_light(scene, light, path.ray.direction, !path.is_specular);
+    const EscapedLight<Real> found =
+        escaped_light(scene, light, path.light_side, path.ray.direction, !path.is_specular);
     if (is_zero(found.radiance)) continue;
     Real light_pdf = 0;
     if (!path.is_specular) {

@@ -95,7 +95,7 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> side_of_light(const ShadingPoint<Real>& point)
 /// Returns whether light samples depend on `side_of_light`.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT bool samples_by_side(const SceneView<Real>& scene) {
-  return scene.light_tree_count > 0 || scene.triangle_emitters_count > 0;
+  return scene.light_tree_count > 0 || scene.triangle_emitters_count > 0 || scene.environments_count > 0;
 }
 
 /// Returns whether `wi` is on the same side of the shading normal as of the geometric normal: interpolated normals

@@ -236,9 +236,9 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_chosen_light(const SceneView<Rea
                               sphere.frame, reference, is_on_light, u);
       break;
     }
-#define ALHAZEN_CASE(name, Name)                         \
-  case LightKind::name:                                  \
-    s = Name##Light::sample(scene, light, reference, u); \
+#define ALHAZEN_CASE(name, Name)                                 \
+  case LightKind::name:                                          \
+    s = Name##Light::sample(scene, light, reference, normal, u); \
     break;
       ALHAZEN_LIGHTS(ALHAZEN_CASE)
 #undef ALHAZEN_CASE
@@ -288,14 +288,15 @@ ALHAZEN_HD ALHAZEN_HOT Real pdf_light(const SceneView<Real>& scene, const LightR
   }
 }
 
-/// What a ray that escapes along unit `direction` finds of one of SceneView::far_lights; the density if `wants_pdf`.
+/// What a ray that escapes along unit `direction` finds of one of SceneView::far_lights; if `wants_pdf`, with the
+/// density of the sample at its start. `normal` is as for `choose_light`.
 template <class Real>
 ALHAZEN_HD EscapedLight<Real> escaped_light(const SceneView<Real>& scene, const LightRecord<Real>& light,
-                                            const Vec3<Real>& direction, bool wants_pdf) {
+                                            const Vec3<Real>& normal, const Vec3<Real>& direction, bool wants_pdf) {
   switch (light.kind) {
 #define ALHAZEN_CASE(name, Name) \
   case LightKind::name:          \
-    return Name##Light::escaped(scene, light, direction, wants_pdf);
+    return Name##Light::escaped(scene, light, normal, direction, wants_pdf);
     ALHAZEN_LIGHTS(ALHAZEN_CASE)
 #undef ALHAZEN_CASE
     case LightKind::triangle:
@@ -311,7 +312,7 @@ template <class Real>
 ALHAZEN_HD Vec3<Real> background_radiance(const SceneView<Real>& scene, const Vec3<Real>& direction) {
   Vec3<Real> radiance = scene.background;
   for (uint32_t i = 0; i < scene.far_lights_count; ++i)
-    radiance += escaped_light(scene, scene.lights[scene.far_lights[i]], direction, false).radiance;
+    radiance += escaped_light(scene, scene.lights[scene.far_lights[i]], Vec3<Real>{}, direction, false).radiance;
   return radiance;
 }
 

@@ -79,12 +79,13 @@ struct LightImageRecord {
   Real unused;                   ///< padding, so that every byte of the record is defined
 };
 
-/// The texels of the map are stored like an image's in texel_floats, linear; its distribution is in environment_cdf:
-/// height + 1 values over the rows, then width + 1 for each row.
+/// The texels of the map are stored like an image's in texel_floats, linear; its distributions are in environment_cdf:
+/// those over the cells, for each group of normals, then those within each cell.
 template <class Real>
 struct EnvironmentRecord {
   uint64_t first_texel, first_cdf;
   uint32_t width, height;
+  uint32_t cell_columns, cell_rows;
   SphereMapping mapping;
   uint32_t light;    ///< its index in `lights`
   Frame<Real> axes;  ///< x, y and z of the map in world space: orthonormal, of either handedness

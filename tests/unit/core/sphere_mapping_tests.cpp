@@ -113,7 +113,7 @@ TYPED_TEST(SphereMappings, NotANumber) {
     const CompiledScene<Real> scene = compiled_scene<Real>(map_alone(even_map(width, 4, 1)));
     for (const Vec3<Real>& d : {Vec3<Real>{nan, 0, 1}, Vec3<Real>{0, nan, 0}, Vec3<Real>{nan, nan, nan}}) {
       EXPECT_TRUE(is_zero(evaluate_environment(scene.view, scene.view.environments[0], d)));
-      EXPECT_EQ(pdf_environment(scene.view, scene.view.environments[0], d), Real(0));
+      EXPECT_EQ(pdf_environment(scene.view, scene.view.environments[0], Vec3<Real>{}, d), Real(0));
     }
   }
 }

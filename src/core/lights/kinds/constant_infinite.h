@@ -17,7 +17,7 @@ struct ConstantInfiniteLight : LightBase {
 
   template <class Real>
   ALHAZEN_HD static LightSample<Real> sample(const SceneView<Real>&, const LightRecord<Real>&, const Vec3<Real>&,
-                                             const Vec2<Real>&) {
+                                             const Vec3<Real>&, const Vec2<Real>&) {
     return {};
   }
 };

@@ -16,7 +16,7 @@ struct DistantLight : LightBase {
 
   template <class Real>
   ALHAZEN_HD static LightSample<Real> sample(const SceneView<Real>&, const LightRecord<Real>& light, const Vec3<Real>&,
-                                             const Vec2<Real>&) {
+                                             const Vec3<Real>&, const Vec2<Real>&) {
     LightSample<Real> s;
     s.direction = -light.direction;
     s.radiance = light.radiance;

@@ -18,9 +18,9 @@ struct EnvironmentLight : LightBase {
 
   template <class Real>
   ALHAZEN_HD static LightSample<Real> sample(const SceneView<Real>& scene, const LightRecord<Real>& light,
-                                             const Vec3<Real>&, const Vec2<Real>& u) {
+                                             const Vec3<Real>&, const Vec3<Real>& normal, const Vec2<Real>& u) {
     LightSample<Real> s;
-    const EnvironmentSample<Real> e = sample_environment(scene, scene.environments[light.primitive], u);
+    const EnvironmentSample<Real> e = sample_environment(scene, scene.environments[light.primitive], normal, u);
     s.direction = e.direction;
     s.radiance = e.radiance;
     s.pdf = e.pdf;
@@ -29,9 +29,9 @@ struct EnvironmentLight : LightBase {
 
   template <class Real>
   ALHAZEN_HD static EscapedLight<Real> escaped(const SceneView<Real>& scene, const LightRecord<Real>& light,
-                                               const Vec3<Real>& direction, bool wants_pdf) {
+                                               const Vec3<Real>& normal, const Vec3<Real>& direction, bool wants_pdf) {
     const EnvironmentSample<Real> e =
-        evaluate_environment_and_pdf(scene, scene.environments[light.primitive], direction, wants_pdf);
+        evaluate_environment_and_pdf(scene, scene.environments[light.primitive], normal, direction, wants_pdf);
     return {e.radiance, e.pdf};
   }
 };

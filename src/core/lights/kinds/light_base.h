@@ -59,8 +59,9 @@ struct LightCone {
 /// The base of the kinds. Each adds
 ///   static constexpr LightTraits traits;
 ///   static LightSample<Real> sample(const SceneView<Real>&, const LightRecord<Real>&, const Vec3<Real>& reference,
-///                                   const Vec2<Real>& u);
-///     the light that arrives at a point, with a density over solid angle that excludes the choice of the light
+///                                   const Vec3<Real>& normal, const Vec2<Real>& u);
+///     the light that arrives at a point, with a density over solid angle that excludes the choice of the light;
+///     `normal` is on the side of the surface from which light must arrive, zero means any
 ///   static double power(const LightRecord<Real>&, double amount, double measure);
 ///     emitted power, W, or at infinity irradiance, W / m^2, for an `amount` of the record's radiance; `measure` is the
 ///     integral of the light's image over solid angle, if it has one; of a map, the part of its light that is above
@@ -81,10 +82,11 @@ struct LightBase {
     return sample_uniform_sphere(u);
   }
 
-  /// What a ray along unit `direction` finds of a light at infinity that has a size.
+  /// What a ray along unit `direction`, from a surface with `normal` as in `sample`, finds of a light at infinity that
+  /// has a size.
   template <class Real>
   ALHAZEN_HD static EscapedLight<Real> escaped(const SceneView<Real>&, const LightRecord<Real>&, const Vec3<Real>&,
-                                               bool /*wants_pdf*/) {
+                                               const Vec3<Real>&, bool /*wants_pdf*/) {
     return {};
   }
 };

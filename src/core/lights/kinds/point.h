@@ -16,7 +16,7 @@ struct PointLight : LightBase {
 
   template <class Real>
   ALHAZEN_HD static LightSample<Real> sample(const SceneView<Real>&, const LightRecord<Real>& light,
-                                             const Vec3<Real>& reference, const Vec2<Real>&) {
+                                             const Vec3<Real>& reference, const Vec3<Real>&, const Vec2<Real>&) {
     return sample_position(light, reference, [](const Vec3<Real>&) { return Real(1); });
   }
 };

@@ -31,7 +31,7 @@ struct ProjectionLight : LightBase {
 
   template <class Real>
   ALHAZEN_HD static LightSample<Real> sample(const SceneView<Real>& scene, const LightRecord<Real>& light,
-                                             const Vec3<Real>& reference, const Vec2<Real>&) {
+                                             const Vec3<Real>& reference, const Vec3<Real>&, const Vec2<Real>&) {
     LightSample<Real> s = sample_position(light, reference, [](const Vec3<Real>&) { return Real(1); });
     if (s.is_finite)
       s.radiance = s.radiance * light_image_factor(scene, scene.light_images[light.primitive], false, -s.direction);

@@ -48,7 +48,7 @@ struct SpotLight : LightBase {
 
   template <class Real>
   ALHAZEN_HD static LightSample<Real> sample(const SceneView<Real>&, const LightRecord<Real>& light,
-                                             const Vec3<Real>& reference, const Vec2<Real>&) {
+                                             const Vec3<Real>& reference, const Vec3<Real>&, const Vec2<Real>&) {
     return sample_position(light, reference,
                            [&](const Vec3<Real>& d) { return falloff(light, -dot(d, light.direction)); });
   }

@@ -31,7 +31,7 @@ struct SunLight : LightBase {
   /// Samples the cone uniformly over solid angle.
   template <class Real>
   ALHAZEN_HD static LightSample<Real> sample(const SceneView<Real>&, const LightRecord<Real>& light, const Vec3<Real>&,
-                                             const Vec2<Real>& u) {
+                                             const Vec3<Real>&, const Vec2<Real>& u) {
     LightSample<Real> s;
     const Real height = u.x * light.parameters.x;  // 1 minus the cosine
     const Real sine = safe_sqrt(height * (2 - height));
@@ -45,7 +45,7 @@ struct SunLight : LightBase {
   /// The squared distance of two unit vectors is 2 minus twice their cosine; unlike that it is exact for small angles.
   template <class Real>
   ALHAZEN_HD static EscapedLight<Real> escaped(const SceneView<Real>&, const LightRecord<Real>& light,
-                                               const Vec3<Real>& direction, bool) {
+                                               const Vec3<Real>&, const Vec3<Real>& direction, bool) {
     if (!(length_squared(direction + light.direction) <= 2 * light.parameters.x)) return {};
     return {light.radiance, light.parameters.y};
   }
