@@ -1,6 +1,7 @@
 #include "render/noise.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -8,12 +9,10 @@ namespace alhazen {
 
 namespace {
 
-constexpr uint32_t first_decision = 16;
-/// Decisions are at whole pairs of blocks, so that both halves have the same size.
-constexpr uint32_t decision_step = 2 * samples_per_block;
+constexpr uint32_t first_decision = 16, decision_step = 2 * samples_per_block;
 
-/// Means are taken over windows of 3 x 3 and 7 x 7 pixels, and over 3 x 3 tiles of 8 x 8.
-constexpr int near_radius = 1, window_radius = 3, tile_size = 8;
+/// Means are taken over windows of 7 x 7 pixels, and over 3 x 3 tiles of 8 x 8.
+constexpr int window_radius = 3, tile_size = 8;
 /// A pixel is not finished while its wide neighbourhood has more than this multiple of the target's square.
 constexpr float wide_ratio = 4;
 /// The luminance to which errors are relative is at least this fraction of the image's mean luminance, for which the
@@ -21,6 +20,8 @@ constexpr float wide_ratio = 4;
 constexpr double dark_fraction = 0.1, bright_part = 0.01;
 /// Bounds the ratio of both estimates of the variance, which is noisy.
 constexpr double min_gain = 0.05;
+/// The largest a for which the variance of n samples is taken to fall as 1 / n^(1 + a).
+constexpr double max_exponent = 0.25;
 
 /// The mean of `values` over the square of this radius around every pixel, or what of it is in the image.
 std::vector<float> window_means(const std::vector<float>& values, int width, int height, int radius) {
@@ -43,13 +44,14 @@ std::vector<float> window_means(const std::vector<float>& values, int width, int
 /// Sums over tiles, of which the last in each direction may be smaller.
 class TileSums {
  public:
-  TileSums(const std::vector<float>& values, int width, int height)
+  /// `value(i)` is that of pixel i.
+  template <class Value>
+  TileSums(size_t pixels, int width, int height, const Value& value)
       : columns_((width + tile_size - 1) / tile_size), rows_((height + tile_size - 1) / tile_size) {
     sums_.resize(static_cast<size_t>(columns_) * static_cast<size_t>(rows_));
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        sums_[index(x / tile_size, y / tile_size)] +=
-            static_cast<double>(values[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)]);
+    const size_t row = static_cast<size_t>(width);
+    for (size_t i = 0; i < pixels; ++i)
+      sums_[index(static_cast<int>(i % row) / tile_size, static_cast<int>(i / row) / tile_size)] += value(i);
   }
 
   int columns() const { return columns_; }
@@ -71,6 +73,17 @@ class TileSums {
   std::vector<double> sums_;
 };
 
+/// Blocks of a pixel, and how its samples are divided: the first 2^k blocks, of which there are fewer than all, and the
+/// others.
+struct Halves {
+  explicit Halves(uint32_t samples) {
+    blocks = (samples + samples_per_block - 1) / samples_per_block;
+    first = std::bit_floor(blocks - 1) * samples_per_block;
+    second = samples - first;
+  }
+  uint32_t blocks, first, second;
+};
+
 /// A pixel's luminance, and the variance of it by both estimates.
 struct PixelMean {
   double luminance = 0, by_blocks = 0, by_halves = 0;
@@ -81,17 +94,14 @@ PixelMean pixel_mean(const FilmView<Real>& film, size_t i) {
   const uint32_t samples = film.samples[i];
   if (samples < 2 * samples_per_block) return {};
   const double n = samples;
-  const uint32_t blocks = (samples + samples_per_block - 1) / samples_per_block;
-  const uint32_t last_pair = samples % decision_step;
-  const double odd =
-      samples / decision_step * samples_per_block + (last_pair > samples_per_block ? last_pair - samples_per_block : 0);
-  const double even = n - odd;
+  const Halves halves(samples);
+  const double first = halves.first, second = halves.second;
   PixelMean mean;
   mean.luminance = static_cast<double>(film.luminance_mean[i]);
-  mean.by_blocks = static_cast<double>(film.block_m2[i]) / (n * (blocks - 1));
+  mean.by_blocks = static_cast<double>(film.block_m2[i]) / (n * (halves.blocks - 1));
   const double sum = mean.luminance * n, difference = static_cast<double>(film.half_difference[i]);
-  const double of_means = (sum + difference) / 2 / even - (sum - difference) / 2 / odd;
-  mean.by_halves = of_means * of_means * even * odd / (n * n);
+  const double of_means = (sum + difference) / 2 / first - (sum - difference) / 2 / second;
+  mean.by_halves = of_means * of_means * first * second / (n * n);
   if (film.weights) {
     // The mean is a quotient of two sums over samples of weight 1 or -1. Its variance to first order is that of the
     // unweighted mean, divided by the square of the mean weight.
@@ -118,13 +128,32 @@ double darkest_luminance(const FilmView<Real>& film, size_t pixels) {
   return dark_fraction * sum / static_cast<double>(pixels);
 }
 
+/// What the samples of some pixels are like, in the mean.
+struct Division {
+  double blocks, of_first, of_second;  ///< number of blocks; all samples over those of each half
+};
+
+/// Returns the variance of a mean as a multiple of what its blocks say, if `measured` is what its halves say as such a
+/// multiple. With V(n) = c / n^(1 + a), errors within n samples cancel in part, so blocks see (B^(1 + a) - 1) / (B - 1)
+/// times V(n), and halves of p and q samples (n / p)^a + (n / q)^a - 1 times. Their quotient gives a.
+double variance_ratio(double measured, const Division& division) {
+  const auto of_halves = [&](double a) { return std::pow(division.of_first, a) + std::pow(division.of_second, a) - 1; };
+  const auto of_blocks = [&](double a) { return (std::pow(division.blocks, 1 + a) - 1) / (division.blocks - 1); };
+  double low = 0, high = max_exponent;
+  for (int i = 0; i < 12; ++i) {
+    const double a = (low + high) / 2;
+    (of_halves(a) > measured * of_blocks(a) ? low : high) = a;
+  }
+  return measured / of_halves(low);
+}
+
 float finite_square(double value) { return static_cast<float>(std::min(value, 1e30)); }
 
 }  // namespace
 
 uint32_t next_decision(uint32_t samples) {
   uint32_t decision = first_decision;
-  while (decision <= samples) decision += std::max(decision_step, decision / 4 / decision_step * decision_step);
+  while (decision <= samples) decision += std::max(decision_step, std::bit_floor(decision) / 4);
   return decision;
 }
 
@@ -165,21 +194,33 @@ void NoiseEstimate<Real>::measure_pixels(const RenderSettings& settings) {
 
 template <class Real>
 void NoiseEstimate<Real>::join_neighbours() {
-  const std::vector<float> near = window_means(errors_, width_, height_, near_radius);
+  const uint32_t* samples = film_.view().samples;
+  const auto tiles = [&](const auto& value) { return TileSums(errors_.size(), width_, height_, value); };
+  const auto of_halves = [&](const auto& value) {
+    return tiles(
+        [&](size_t i) { return samples[i] > samples_per_block ? value(Halves(samples[i]), samples[i]) : 2.0; });
+  };
+  const TileSums by_blocks = tiles([&](size_t i) { return static_cast<double>(errors_[i]); });
+  const TileSums by_halves = tiles([&](size_t i) { return static_cast<double>(of_halves_[i]); });
+  const TileSums counts = tiles([](size_t) { return 1.0; });
+  const TileSums blocks = of_halves([](const Halves& halves, double) { return static_cast<double>(halves.blocks); });
+  const TileSums of_first = of_halves([](const Halves& halves, double n) { return n / halves.first; });
+  const TileSums of_second = of_halves([](const Halves& halves, double n) { return n / halves.second; });
   const std::vector<float> around = window_means(errors_, width_, height_, window_radius);
-  const TileSums sums(errors_, width_, height_), of_halves(of_halves_, width_, height_);
-  const TileSums counts(std::vector<float>(errors_.size(), 1.0f), width_, height_);
   double squares = 0;
-  for (int row = 0; row < sums.rows(); ++row)
-    for (int column = 0; column < sums.columns(); ++column) {
-      const double sum = sums.around(column, row);
-      const double gain = sum > 0 ? std::clamp(of_halves.around(column, row) / sum, min_gain, 1.0) : 1;
-      const float wide = static_cast<float>(sum / counts.around(column, row)) / wide_ratio;
+  for (int row = 0; row < counts.rows(); ++row)
+    for (int column = 0; column < counts.columns(); ++column) {
+      const double sum = by_blocks.around(column, row), pixels = counts.around(column, row);
+      const double measured = sum > 0 ? std::clamp(by_halves.around(column, row) / sum, min_gain, 1.0) : 1;
+      const double gain =
+          variance_ratio(measured, {blocks.around(column, row) / pixels, of_first.around(column, row) / pixels,
+                                    of_second.around(column, row) / pixels});
+      const float wide = static_cast<float>(sum / pixels) / wide_ratio;
       for (int y = row * tile_size; y < std::min(height_, (row + 1) * tile_size); ++y)
         for (int x = column * tile_size; x < std::min(width_, (column + 1) * tile_size); ++x) {
           const size_t i = static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
           squares += gain * static_cast<double>(errors_[i]);
-          errors_[i] = static_cast<float>(gain) * std::max({near[i], around[i], wide});
+          errors_[i] = static_cast<float>(gain) * std::max(around[i], wide);
         }
     }
   mean_square_ = squares / static_cast<double>(errors_.size());

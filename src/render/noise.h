@@ -3,11 +3,11 @@
 // A noise target: how large the error of every pixel is, estimated from its samples and those around it, and which
 // pixels need no more of them.
 //
-// The variance of a pixel's mean comes from its blocks of samples, v = sum 4 (y_b - y)^2 / (n (B - 1)) for B blocks of
-// luminance y_b and n = 4 B samples, y their mean. Samples of `sobol` are spread more evenly than independent ones,
-// also over blocks, so the error is smaller than v says. How much smaller is measured by the difference of two halves:
-// the even blocks and the odd ones have means a and b, and (a - b)^2 / 4 estimates the variance of the pixel's mean,
-// from one number only, so it is summed over a neighbourhood.
+// docs/noise.md defines the estimate. The variance of a pixel's mean comes from its blocks of samples, v = sum 4 (y_b -
+// y)^2 / (n (B - 1)) for B blocks of luminance y_b and n = 4 B samples, y their mean. Samples of `sobol` are spread
+// more evenly than independent ones, also over blocks, so the error is smaller than v says. How much smaller is
+// measured by the difference of the means of the first half of the samples and of the second. It is one number for each
+// pixel, so it is summed over a neighbourhood.
 
 #include <cstdint>
 #include <vector>
@@ -25,9 +25,10 @@ struct NoiseState {
   double expected_samples = 0;  ///< of all pixels together, when every pixel is below the target or has the most
 };
 
-/// Pixels are decided on when all that are not finished have one of these numbers of samples: 16, and then always about
-/// a quarter more. Returns the smallest that is larger than `samples`. The numbers depend on nothing else, so neither
-/// do the decisions: any engine, any size of passes and any interruption lead to the same.
+/// Pixels are decided on when all that are not finished have one of these numbers of samples: 16, 24, 32, 40 and so on
+/// to 64, and from there 2^k times 1, 1.25, 1.5 and 1.75. Returns the smallest that is larger than `samples`. The
+/// numbers depend on nothing else, so neither do the decisions: any engine, any size of passes and any interruption
+/// lead to the same.
 uint32_t next_decision(uint32_t samples);
 
 template <class Real>

@@ -44,7 +44,7 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--maxdepth", "--size", "--crop", "--cropwindow", "--pixelbounds", "--integrator", "--sampler", "--seed",
       "--backend", "--strategy", "--schedule", "--threads", "--nthreads", "--precision", "--progress", "--quiet",
       "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--overwrite", "--device", "--block",
-      "--chunk", "--denoise", "--environment", "--texture-budget", "--coats", "--filter",
+      "--chunk", "--denoise", "--environment", "--texture-budget", "--coats", "--filter", "--noise",
       // Tested in gltf_tests.cpp:
       "--camera", "--time", "--animation", "--variant", "--list",
       // Tested in hostile_input_tests.cpp:

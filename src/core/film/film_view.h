@@ -9,8 +9,8 @@ namespace ALHAZEN_CORE {
 /// Lists every plane of the film once: PLANE(element type, name). All but the first two exist only on request:
 /// `weights` if the filter has negative weights, the last three for a noise target, the others for their layers.
 /// `block_m2` is the sum of squared deviations of the luminance of blocks from the pixel's mean, times their samples;
-/// `half_difference` the luminance of its even blocks less that of its odd ones; `finished` is 1 where no more samples
-/// are taken.
+/// `half_difference` the luminance of its first 2^k blocks less that of the others, for the largest k that leaves some;
+/// `finished` is 1 where no more samples are taken.
 #define ALHAZEN_FILM_PLANES(PLANE) \
   PLANE(Vec3<Real>, radiance)      \
   PLANE(uint32_t, samples)         \
@@ -71,8 +71,9 @@ struct FilmView {
     const Real n = static_cast<Real>(samples[i]), m = static_cast<Real>(block.samples);
     const Real delta = block.luminance_mean - luminance_mean[i];
     block_m2[i] += delta * delta * n * m / (n + m);
-    const bool is_odd = samples[i] / samples_per_block % 2 == 1;
-    half_difference[i] += is_odd ? -block.luminance_mean * m : block.luminance_mean * m;
+    const uint32_t number = samples[i] / samples_per_block;
+    if ((number & (number - 1)) == 0) half_difference[i] = luminance_mean[i] * n;
+    half_difference[i] -= block.luminance_mean * m;
   }
 };
 
