@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 """How well a noise target is met (docs/noise.md): target, measured error, samples and time, and FLIP at equal samples.
 
-  measure-noise.py [--program BIN] [--targets 0.1,0.05] [--only NAMES]
+  measure-noise.py [--program BIN] [--targets "0.1 0.02,display"] [--only NAMES]
 
 Every scene of the repository is rendered with each target by several seeds, and compared with a reference: the mean of
 uniform renders by other seeds, together `--reference` samples per pixel. The error of a pixel is that of its luminance,
 relative to the luminance of the reference or, where that is darker, to a tenth of the mean of the image without its
-brightest hundredth, as in the estimate. Its mean square over pixels and seeds has the reference's own variance
+brightest hundredth, as in the estimate; of a target of what is displayed, that of the sRGB value that is shown. Its mean square over pixels and seeds has the reference's own variance
 subtracted, which the spread of the reference's parts gives. Pixels that got the fewest samples or the most are left out
 of `decided`: there the target decided nothing.
 
-FLIP is the 95th percentile of tiles of 8 x 8 pixels of the error in what is displayed (the difference of sRGB grey),
-of a uniform render with as many samples as the other took in the mean, over that of the other. Needs numpy.
+FLIP is the 95th percentile, over pixels, of the FLIP error of uniform renders that take as many samples as the others
+in the mean, over that of the others. Needs numpy.
 """
 
 import argparse
@@ -82,19 +82,30 @@ class Renders:
     def __init__(self, options: argparse.Namespace, folder: pathlib.Path):
         self.options, self.folder = options, folder
 
-    def render(self, scene: str, seed: int, samples: int, *more: str) -> tuple[numpy.ndarray, numpy.ndarray, dict]:
-        """Luminance and samples of every pixel, and statistics."""
+    def flip(self, image: dict[str, numpy.ndarray], reference: dict[str, numpy.ndarray]) -> numpy.ndarray:
+        """The FLIP error of every pixel."""
+        paths = [self.folder / name for name in ("a.pfm", "b.pfm", "flip.pfm")]
+        write_pfm(paths[0], image)
+        write_pfm(paths[1], reference)
+        subprocess.run([self.options.program, "compare", paths[0], paths[1], "--diff", paths[2]],
+                       check=True, capture_output=True)  # fmt: skip
+        # The red of the colour map of src/images/display/colour_map.cpp, which rises up to 7/8.
+        red = 255 * displayed(read_pfm(paths[2]))
+        return numpy.interp(red, [0, 28, 79, 129, 181, 229, 251, 254], numpy.arange(8) / 8)
+
+    def render(self, scene: str, seed: int, samples: int, *more: str) -> tuple[dict[str, numpy.ndarray], dict]:
+        """Channels of the image, and statistics."""
         file, aspect = SCENES[scene]
         size = f"{round(math.sqrt(self.options.pixels * aspect))}x{round(math.sqrt(self.options.pixels / aspect))}"
         image = self.folder / "image.exr"
         command = [self.options.program, "render", str(ROOT / "scenes" / file), "--size", size, "--seed", str(seed),
                    "--spp", str(samples), "-o", str(image), "--exr-type", "float", "--aov", "samples", "--stats=json",
-                   "-q", "--progress", "none", *more, *self.options.render.split()]  # fmt: skip
+                   "--exposure", "0", "-q", "--progress", "none", *more, *self.options.render.split()]  # fmt: skip
         result = subprocess.run(command, capture_output=True, text=True, check=False)
         if result.returncode != 0:
             sys.exit(f"measure-noise: {' '.join(command)}\n{result.stderr}")
         channels = read_exr(image)
-        return luminance(channels), channels["samples.Y"], json.loads(result.stdout)
+        return channels, json.loads(result.stdout)
 
 
 def least(reference: numpy.ndarray) -> float:
@@ -109,45 +120,47 @@ def displayed(values: numpy.ndarray) -> numpy.ndarray:
     return numpy.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 
 
-def tile_percentile(squares: numpy.ndarray) -> float:
-    height, width = (side // 8 * 8 for side in squares.shape)
-    tiles = squares[:height, :width].reshape(height // 8, 8, width // 8, 8).mean((1, 3))
-    return float(numpy.sqrt(numpy.percentile(tiles, 95)))
+def write_pfm(path: pathlib.Path, image: dict[str, numpy.ndarray]) -> None:
+    height, width = image["R"].shape
+    pixels = numpy.stack([image[channel] for channel in LUMINANCE], -1)[::-1].astype("<f4")
+    path.write_bytes(f"PF\n{width} {height}\n-1\n".encode() + pixels.tobytes())
 
 
-def measure(renders: Renders, scene: str, targets: list[float]) -> None:
+def read_pfm(path: pathlib.Path) -> numpy.ndarray:
+    kind, size, _, values = path.read_bytes().split(b"\n", 3)
+    width, height = map(int, size.split())
+    return numpy.frombuffer(values, "<f4").reshape(height, width, -1 if kind == b"PF" else 1)[..., 0]
+
+
+def measure(renders: Renders, scene: str, targets: list[str]) -> None:
     options = renders.options
     parts = [renders.render(scene, 1000 + i, options.reference // options.parts)[0] for i in range(options.parts)]
-    reference = numpy.mean(parts, 0)
-    scale = 1 / numpy.maximum(reference, least(reference)) ** 2
-    own = numpy.var(parts, 0, ddof=1) / options.parts
+    whole = {channel: numpy.mean([part[channel] for part in parts], 0) for channel in LUMINANCE}
+    reference = luminance(whole)
+    scale = 1 / numpy.maximum(reference, least(reference))
     for target in targets:
-        kept = [renders.render(scene, seed, options.spp, "--noise", f"{target:g}") for seed in range(1, options.seeds + 1)]
-        squares, decided = 0.0, 0.0
-        errors, weights = 0.0, 0.0
-        for image, samples, _ in kept:
-            error = ((image - reference) ** 2 - own) * scale
-            is_decided = (samples > FEWEST) & (samples < options.spp)
-            squares += error.mean() / len(kept)
-            errors, weights = errors + error[is_decided].sum(), weights + is_decided.sum()
-            decided += is_decided.mean() / len(kept)
-        mean = sum(samples.mean() for _, samples, _ in kept) / len(kept)
-        seconds = sum(statistics["render_seconds"] for _, _, statistics in kept) / len(kept)
-        reached = sum(statistics["noise"]["reached"] for _, _, statistics in kept) / len(kept)
-        most = sum((samples >= options.spp).mean() for _, samples, _ in kept) / len(kept)
-        uniform = [renders.render(scene, seed, round(mean))[0] for seed in range(1, options.seeds + 1)]
-        display = [numpy.mean([(displayed(image) - displayed(reference)) ** 2 for image in images], 0)
-                   for images in ([image for image, _, _ in kept], uniform)]  # fmt: skip
-        ratio = tile_percentile(display[1]) / tile_percentile(display[0])
-        print(f"| {scene} | {target:g} | {math.sqrt(max(errors / max(weights, 1), 0)):.3f} | "
-              f"{math.sqrt(max(squares, 0)):.3f} | {reached:.3f} | {100 * decided:.0f} % | {100 * most:.0f} % | "
-              f"{mean:.0f} | {seconds:.1f} | {ratio:.2f} |", flush=True)  # fmt: skip
+        of = displayed if target.endswith(",display") else lambda values: values * scale
+        own = numpy.var([of(luminance(part)) for part in parts], 0, ddof=1) / options.parts
+        kept = [renders.render(scene, seed, options.spp, "--noise", target) for seed in range(1, options.seeds + 1)]
+        all_samples = [image["samples.Y"] for image, _ in kept]
+        squares = [(of(luminance(image)) - of(reference)) ** 2 - own for image, _ in kept]
+        is_decided = [(samples > FEWEST) & (samples < options.spp) for samples in all_samples]
+        errors = sum(square[here].sum() for square, here in zip(squares, is_decided)) / max(1, numpy.sum(is_decided))
+        mean = float(numpy.mean(all_samples))
+        seconds = numpy.mean([statistics["render_seconds"] for _, statistics in kept])
+        reached = numpy.mean([statistics["noise"]["reached"] for _, statistics in kept])
+        uniform = [renders.render(scene, seed, round(mean)) for seed in range(1, options.seeds + 1)]
+        flips = [numpy.percentile([renders.flip(image, whole) for image, _ in images], 95) for images in (kept, uniform)]
+        print(f"| {scene} | {target} | {math.sqrt(max(errors, 0)):.3f} | {math.sqrt(max(numpy.mean(squares), 0)):.3f} | "
+              f"{reached:.3f} | {100 * numpy.mean(is_decided):.0f} % | "
+              f"{100 * numpy.mean([samples >= options.spp for samples in all_samples]):.0f} % | {mean:.0f} | "
+              f"{seconds:.1f} | {flips[0]:.3f} | {flips[1] / flips[0]:.2f} |", flush=True)  # fmt: skip
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default="build/release/bin/alhazen", metavar="BIN")
-    parser.add_argument("--targets", default="0.1", help="separated by commas")
+    parser.add_argument("--targets", default="0.1 0.02,display", help="values of --noise, separated by spaces")
     parser.add_argument("--only", default="", metavar="NAMES", help="scenes, separated by commas")
     parser.add_argument("--spp", type=int, default=1024, help="the most samples of a pixel")
     parser.add_argument("--seeds", type=int, default=2)
@@ -159,11 +172,11 @@ def main() -> None:
     names = options.only.split(",") if options.only else list(SCENES)
     if unknown := set(names) - set(SCENES):
         sys.exit(f"measure-noise: no scene {', '.join(sorted(unknown))}; there are {', '.join(SCENES)}")
-    print("| scene | target | error, decided | error, all | reached | decided | at most | mean spp | s | FLIP |")
-    print("|---" * 10 + "|")
+    print("| scene | target | error, decided | error, all | reached | decided | at most | mean spp | s | FLIP | uniform / it |")
+    print("|---" * 11 + "|")
     with tempfile.TemporaryDirectory() as folder:
         for name in names:
-            measure(Renders(options, pathlib.Path(folder)), name, [float(text) for text in options.targets.split(",")])
+            measure(Renders(options, pathlib.Path(folder)), name, options.targets.split())
 
 
 if __name__ == "__main__":

@@ -322,6 +322,23 @@ TEST_F(RenderOptions, ImageOptionsReachTheRenderer) {
   EXPECT_EQ(statistics({"-o", "a.exr", "--seed", "4294967295"})["seed"], 4294967295u);
 }
 
+TEST_F(RenderOptions, ANoiseTargetStopsEarlyAndIsReported) {
+  const nlohmann::json j = statistics({"-o", "a.exr", "--spp", "400", "--noise", "0.5"});
+  EXPECT_EQ(j["complete"], true);
+  EXPECT_EQ(j["noise"]["target"], 0.5);
+  EXPECT_EQ(j["noise"]["measure"], "relative");
+  EXPECT_EQ(j["noise"]["most_spp"], 400);
+  EXPECT_LT(j["noise"]["mean_spp"], 400);
+  EXPECT_GT(j["noise"]["reached"], 0);
+  EXPECT_EQ(statistics({"-o", "a.exr", "--spp", "16", "--noise", "0.5,display"})["noise"]["measure"], "display");
+  EXPECT_FALSE(statistics({"-o", "a.exr"}).contains("noise"));
+  for (const char* wrong : {"0", "-0.1", "nan", "inf", "2", "x", "", "0.1,", "0.1,seen", "0.1,display,1"}) {
+    const CommandResult result = render({"-o", "no.exr", "--noise", wrong});
+    EXPECT_EQ(result.exit_code, 2) << wrong;
+    EXPECT_NE(result.err.find("--noise must be a number above 0 and at most 1"), std::string::npos) << result.err;
+  }
+}
+
 TEST_F(RenderOptions, SeedsChangeTheNoise) {
   ASSERT_EQ(render({"-o", "a.exr", "--spp", "2"}).exit_code, 0);
   ASSERT_EQ(render({"-o", "b.exr", "--spp", "2", "--seed", "1"}).exit_code, 0);
