@@ -13,8 +13,6 @@ constexpr uint32_t first_decision = 16, decision_step = 2 * samples_per_block;
 
 /// Means are taken over windows of 7 x 7 pixels, and over 3 x 3 tiles of 8 x 8.
 constexpr int window_radius = 3, tile_size = 8;
-/// A pixel is not finished while its wide neighbourhood has more than this multiple of the target's square.
-constexpr float wide_ratio = 4;
 /// The luminance to which errors are relative is at least this fraction of the image's mean luminance, for which the
 /// brightest hundredth of the pixels is left out.
 constexpr double dark_fraction = 0.1, bright_part = 0.01;
@@ -215,7 +213,7 @@ void NoiseEstimate<Real>::join_neighbours() {
       const double gain =
           variance_ratio(measured, {blocks.around(column, row) / pixels, of_first.around(column, row) / pixels,
                                     of_second.around(column, row) / pixels});
-      const float wide = static_cast<float>(sum / pixels) / wide_ratio;
+      const float wide = static_cast<float>(sum / pixels);
       for (int y = row * tile_size; y < std::min(height_, (row + 1) * tile_size); ++y)
         for (int x = column * tile_size; x < std::min(width_, (column + 1) * tile_size); ++x) {
           const size_t i = static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
