@@ -111,7 +111,7 @@ PixelMean pixel_mean(const FilmView<Real>& film, size_t i) {
   return mean;
 }
 
-/// The luminance that a twentieth, say, of the image may have without counting: see dark_fraction.
+/// The luminance to which the errors of darker pixels are relative.
 template <class Real>
 double darkest_luminance(const FilmView<Real>& film, size_t pixels) {
   std::vector<float> values(pixels);
@@ -243,9 +243,11 @@ NoiseState NoiseEstimate<Real>::state() const {
     const double n = film.samples[i];
     samples += film.samples[i];
     below += errors_[i] < limit || film.finished[i] ? 1 : 0;
-    state.expected_samples += film.finished[i] ? n
-                                               : std::clamp(n * static_cast<double>(errors_[i]) / (target_ * target_),
-                                                            n, std::max<double>(n, most_samples_));
+    // One that is not finished is decided on again at the next number of samples at the earliest.
+    const double most = std::max(film.samples[i], most_samples_);
+    const double least = std::min<double>(next_decision(film.samples[i]), most);
+    state.expected_samples +=
+        film.finished[i] ? n : std::clamp(n * static_cast<double>(errors_[i]) / (target_ * target_), least, most);
   }
   const double pixels = static_cast<double>(errors_.size());
   state.below = static_cast<double>(below) / pixels;

@@ -124,6 +124,7 @@ class PassLoop {
     {
       ProgressReporter reporter(events_.progress, control_);
       take_passes();
+      if (is_done()) control_.set_total(control_.samples_done());
       problem = reporter.finish();
     }
     save_checkpoint();
