@@ -45,7 +45,16 @@ struct Settings {
   std::string variant;    ///< glTF: a name or a number of KHR_materials_variants; empty: none
   std::string animation;  ///< glTF: a name or a number; empty: the first if `animation_time` is given
   std::optional<double> animation_time;  ///< glTF: seconds; absent: no animation is applied
-  int64_t samples_per_pixel = 0;
+  int64_t samples_per_pixel = 0;         ///< with a noise target, the most that a pixel gets
+  /// Noise target: a pixel gets no more samples once its estimated error is below it; above 0 and at most 1; 0: none.
+  /// docs/noise.md says how the error is estimated.
+  double noise = 0;
+  /// What the noise target is of: relative (to the pixel's luminance; the default), or display: of the sRGB value from
+  /// 0 to 1 that is shown at the exposure `noise_exposure` in stops, by the tone map `noise_tone_map` (none, reinhard
+  /// or filmic; empty: none).
+  std::string noise_measure;
+  double noise_exposure = 0;
+  std::string noise_tone_map;
   int64_t max_depth = -1;         ///< bounces: a path has at most max_depth + 1 segments
   int64_t width = 0, height = 0;  ///< pixels
   std::optional<uint32_t> seed;
@@ -68,8 +77,9 @@ struct Settings {
 };
 
 struct Progress {
-  double fraction = 0;  ///< of the samples, 0 to 1
+  double fraction = 0;  ///< of the samples, 0 to 1; it does not decrease
   double seconds = 0;   ///< of rendering so far
+  /// With a noise target, `samples_total` is an estimate that changes while the image is rendered.
   uint64_t samples_done = 0, samples_total = 0;
 };
 
@@ -84,7 +94,7 @@ struct RenderedImage {
   int width = 0, height = 0;
   std::vector<std::string> channels;
   std::vector<std::vector<float>> planes;
-  bool complete = true;               ///< false if stopped before all samples were taken
+  bool complete = true;  ///< false if stopped before all samples were taken or the noise target was reached
   std::vector<std::string> warnings;  ///< of the scene reader and the renderer
 
   /// The width * height values of a channel, or null.

@@ -27,10 +27,11 @@ uint32_t block_count(const RenderPass<Real>& pass) {
   return (pass.sample_count + samples_per_block - 1) / samples_per_block;
 }
 
-/// Returns the first block to take at pixel (x, y). If the render was stopped during this pass and resumed, the film
-/// already contains earlier blocks.
+/// Returns the first block to take at pixel (x, y), block_count if there is none. If the render was stopped during this
+/// pass and resumed, the film already contains earlier blocks.
 template <class Real>
 uint32_t first_block(const RenderPass<Real>& pass, int x, int y) {
+  if (pass.film.is_finished(x, y)) return block_count(pass);
   const uint32_t held = pass.film.samples_at(x, y);
   return held > pass.first_sample ? (held - pass.first_sample) / samples_per_block : 0;
 }

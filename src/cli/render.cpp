@@ -20,6 +20,7 @@
 #include "render/backend.h"
 #include "render/counter_lines.h"
 #include "render/renderer.h"
+#include "render/setting_table.h"
 #include "study/tuned.h"
 #include "util/printable.h"
 
@@ -48,6 +49,8 @@ void parse_output_options(RenderOptions& o) {
   o.output.how.tone_map = o.tone_map == "none"       ? ToneMap::none
                           : o.tone_map == "reinhard" ? ToneMap::reinhard
                                                      : ToneMap::filmic;
+  o.settings.noise_exposure = o.output.how.exposure;
+  o.settings.noise_tone_map = o.tone_map;
   if (!o.stats.empty() && o.stats != "text" && o.stats != "json")
     throw InputError("unknown statistics '" + o.stats + "': it may be text, json");
 }
@@ -86,9 +89,9 @@ void print_start(const RenderStatistics& s) {
   tell("{}: {} triangles, {} spheres{}, {} lights; read in {:.2f} s, BVH of {} nodes in {:.2f} s\n", printable(s.scene),
        s.scene_sizes.triangles, s.scene_sizes.spheres, others, s.scene_sizes.lights, s.load_seconds,
        s.scene_sizes.nodes, s.build_seconds);
-  tell("{} x {} pixels, {} samples each, {} in {}, depth {}; {}{}{} on {}\n", r.window.width(), r.window.height(),
-       r.samples_per_pixel, to_string(r.integrator), to_string(r.precision), r.max_segments - 1, r.backend,
-       strategy.empty() ? "" : " ", strategy, engine_of(r));
+  tell("{} x {} pixels, {}{} samples each, {} in {}, depth {}; {}{}{} on {}\n", r.window.width(), r.window.height(),
+       r.asked.noise > 0 ? "at most " : "", r.samples_per_pixel, to_string(r.integrator), to_string(r.precision),
+       r.max_segments - 1, r.backend, strategy.empty() ? "" : " ", strategy, engine_of(r));
 }
 
 std::string text_statistics(const RenderStatistics& s) {
@@ -100,14 +103,27 @@ std::string text_statistics(const RenderStatistics& s) {
       s.load_seconds, s.build_seconds, s.render_seconds, s.camera_samples, s.msamples_per_second(), s.rays,
       s.shadow_rays, s.mrays_per_second(), s.mean_segments(), static_cast<double>(s.peak_rss_bytes) * 1e-6,
       static_cast<double>(s.scene_sizes.bytes) * 1e-6);
-  return counts_samples ? text + counter_table(s.counters) : text;
+  const std::string noise = s.settings.asked.noise > 0
+                                ? fmt::format(
+                                      "noise   {:.4g} of a target of {}; {:.2f} % of the pixels are below it, "
+                                      "by {:.2f} samples on average, at most {}\n",
+                                      s.noise.noise, setting_text(s.settings.asked, "noise"), 100 * s.noise.below,
+                                      s.noise.mean_samples, s.samples_per_pixel)
+                                : "";
+  return text + noise + (counts_samples ? counter_table(s.counters) : "");
+}
+
+std::string samples_taken(const RenderStatistics& s) {
+  if (s.settings.asked.noise == 0) return fmt::format("{} samples per pixel", s.samples_per_pixel);
+  return fmt::format("{:.1f} samples per pixel, at most {}, noise {:.3g}, {:.1f} % of the pixels below {}",
+                     s.noise.mean_samples, s.samples_per_pixel, s.noise.noise, 100 * s.noise.below,
+                     setting_text(s.settings.asked, "noise"));
 }
 
 void print_end(const RenderOptions& options, const OutputReport& outputs, const RenderStatistics& statistics) {
   for (const std::string& failure : outputs.failures) tell("alhazen: {}\n", failure);
   if (!options.quiet) {
-    std::string line = fmt::format("{} samples per pixel in {}", statistics.samples_per_pixel,
-                                   format_seconds(statistics.render_seconds));
+    std::string line = samples_taken(statistics) + " in " + format_seconds(statistics.render_seconds);
     for (const std::string& path : outputs.written)
       line += (&path == &outputs.written[0] ? "; wrote " : ", ") + printable(path);
     if (!options.exposure && options.output.how.exposure < 0)
@@ -151,6 +167,10 @@ int run(RenderOptions& options) {
               {{options.scene, "the scene"}, {options.settings.environment, "the environment map"}}, *loaded.inputs);
 
   const bool fits_exposure = scene.film.fits_exposure && !options.exposure;
+  if (fits_exposure && settings.noise_curve)
+    throw InputError(
+        "the exposure of this scene is chosen once it is rendered: to take samples by what is displayed, "
+        "give --exposure");
   WarningPrinter warnings(diagnostics, printer);
   RenderEvents events;
   events.progress = [&](const Progress& progress) {

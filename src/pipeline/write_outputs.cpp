@@ -9,6 +9,7 @@
 #include "files/atomic_file.h"
 #include "files/file_identity.h"
 #include "render/backend.h"
+#include "render/setting_table.h"
 
 namespace alhazen {
 
@@ -26,16 +27,22 @@ void check_output(const std::string& path) {
 std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
   const RenderSettings& settings = s.settings;
   const std::string strategy = strategy_name(settings);
-  return {{"software", std::string("Alhazen ") + version()},
-          {"scene", s.scene},
-          {"samples", std::to_string(s.samples_per_pixel)},
-          {"seed", std::to_string(settings.seed)},
-          {"seconds", fmt::format("{:.3f}", s.render_seconds)},
-          {"settings",
-           fmt::format("--backend {}{}{} --precision {} --integrator {} --sampler {} --max-depth {} --threads {}",
-                       settings.backend, strategy.empty() ? "" : " --strategy ", strategy,
-                       to_string(settings.precision), to_string(settings.integrator), to_string(settings.sampler),
-                       settings.max_segments - 1, settings.threads)}};
+  std::map<std::string, std::string> metadata{
+      {"software", std::string("Alhazen ") + version()},
+      {"scene", s.scene},
+      {"samples", std::to_string(s.samples_per_pixel)},
+      {"seed", std::to_string(settings.seed)},
+      {"seconds", fmt::format("{:.3f}", s.render_seconds)},
+      {"settings",
+       fmt::format("--backend {}{}{} --precision {} --integrator {} --sampler {} --max-depth {} --threads {}",
+                   settings.backend, strategy.empty() ? "" : " --strategy ", strategy, to_string(settings.precision),
+                   to_string(settings.integrator), to_string(settings.sampler), settings.max_segments - 1,
+                   settings.threads)}};
+  if (settings.asked.noise > 0)
+    metadata["noise"] =
+        fmt::format("target {}; reached {:.3g}, {:.4g} % of the pixels; {:.5g} samples per pixel",
+                    setting_text(settings.asked, "noise"), s.noise.noise, 100 * s.noise.below, s.noise.mean_samples);
+  return metadata;
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ namespace alhazen {
 
 /// Samples [first_sample, first_sample + sample_count) of every pixel of the film. `first_sample` and, but for the last
 /// pass, `sample_count` are multiples of samples_per_block; sample_count is at most what the backend asks for. What a
-/// pixel holds of them already, by a pass that was stopped, is not taken again.
+/// pixel holds of them already, by a pass that was stopped, is not taken again, and pixels that are finished are left
+/// out.
 template <class Real>
 struct RenderPass {
   const CompiledScene<Real>& scene;

@@ -95,8 +95,10 @@ class Hasher {
 /// The settings that determine samples, each on a line: its name, a space, and its value.
 std::string settings_text(const RenderSettings& s) {
   std::string text;
-  for (const SettingEntry& entry : setting_table())
-    if (entry.of_samples) text += entry.name + (" " + entry.of_samples(s)) + "\n";
+  for (const SettingEntry& entry : setting_table()) {
+    const std::string value = entry.of_samples ? entry.of_samples(s) : "";
+    if (!value.empty()) text += entry.name + (" " + value) + "\n";
+  }
   return text;
 }
 
@@ -120,10 +122,13 @@ std::string lines_without(const std::string& settings, const std::string& others
 
 /// Why a checkpoint that was written with `settings` is not one of a render with `wanted`.
 std::string mismatch(const std::string& settings, const std::string& wanted) {
-  const std::string has = lines_without(settings, wanted), lacks = lines_without(wanted, settings);
-  return (has.empty() && lacks.empty() ? "the checkpoint is of another scene: give the one that it was made with"
-                                       : "the checkpoint is of other settings: it was written with " + has +
-                                             ", and this render has " + lacks + ": give those that it was made with") +
+  std::string has = lines_without(settings, wanted), lacks = lines_without(wanted, settings);
+  const bool is_other_scene = has.empty() && lacks.empty();
+  if (has.empty()) has = "none of the following";
+  if (lacks.empty()) lacks = "none of that";
+  return (is_other_scene ? "the checkpoint is of another scene: give the one that it was made with"
+                         : "the checkpoint is of other settings: it was written with " + has +
+                               ", and this render has " + lacks + ": give those that it was made with") +
          ", or start anew with --overwrite instead of --resume";
 }
 

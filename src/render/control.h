@@ -30,13 +30,17 @@ class RenderControl {
   void add_samples(uint64_t count) { samples_done_.fetch_add(count, std::memory_order_relaxed); }
   uint64_t samples_done() const { return samples_done_.load(std::memory_order_relaxed); }
 
+  /// Samples of all pixels together that the render takes, as far as is known.
+  void set_total(uint64_t count) { samples_total_.store(count, std::memory_order_relaxed); }
+  uint64_t samples_total() const { return samples_total_.load(std::memory_order_relaxed); }
+
   /// Asks the backend to return soon; pixels that it has not begun remain as they are.
   void stop() { stopped_.store(true, std::memory_order_relaxed); }
   bool is_stopped() const { return stopped_.load(std::memory_order_relaxed); }
 
  private:
   std::vector<ThreadStatistics> threads_;
-  std::atomic<uint64_t> samples_done_{0};
+  std::atomic<uint64_t> samples_done_{0}, samples_total_{0};
   std::atomic<bool> stopped_{false};
 };
 

@@ -12,19 +12,21 @@ void allocate_if(bool wanted, Vector& plane, size_t size) {
 }  // namespace
 
 template <class Real>
-uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted) {
+uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted, bool has_noise_target) {
   size_t pixel = sizeof(Vec3<Real>) + sizeof(uint32_t);
   if (weighted) pixel += sizeof(Real);
   if (aovs.albedo) pixel += sizeof(Vec3<Real>);
   if (aovs.normal) pixel += sizeof(Vec3<Real>);
   if (aovs.depth) pixel += sizeof(Real) + sizeof(uint32_t);
   if (aovs.bounces) pixel += sizeof(uint32_t);
-  if (aovs.variance) pixel += 2 * sizeof(Real);
+  if (aovs.variance || has_noise_target) pixel += 2 * sizeof(Real);
+  if (has_noise_target) pixel += 2 * sizeof(Real) + sizeof(uint8_t);
   return pixel * static_cast<uint64_t>(window.pixels());
 }
 
 template <class Real>
-Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, bool weighted) : window_(window), aovs_(aovs) {
+Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, bool weighted, bool has_noise_target)
+    : window_(window), aovs_(aovs) {
   const size_t pixels = static_cast<size_t>(window.pixels());
   radiance_.resize(pixels);
   samples_.resize(pixels);
@@ -34,12 +36,33 @@ Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, bool weighted) :
   allocate_if(aovs.depth, depth_, pixels);
   allocate_if(aovs.depth, hits_, pixels);
   allocate_if(aovs.bounces, segments_, pixels);
-  allocate_if(aovs.variance, luminance_m2_, pixels);
-  allocate_if(aovs.variance, luminance_mean_, pixels);
+  allocate_if(aovs.variance || has_noise_target, luminance_m2_, pixels);
+  allocate_if(aovs.variance || has_noise_target, luminance_mean_, pixels);
+  allocate_if(has_noise_target, block_m2_, pixels);
+  allocate_if(has_noise_target, half_difference_, pixels);
+  allocate_if(has_noise_target, finished_, pixels);
   const auto pointer = [](auto& plane) { return plane.empty() ? nullptr : plane.data(); };
 #define ALHAZEN_PLANE(type, name) view_.name = pointer(name##_);
   ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
 #undef ALHAZEN_PLANE
+}
+
+template <class Real>
+uint64_t Film<Real>::unfinished(int x0, int x1, int y0, int y1) const {
+  uint64_t count = static_cast<uint64_t>(x1 - x0) * static_cast<uint64_t>(y1 - y0);
+  if (finished_.empty()) return count;
+  for (int y = y0; y < y1; ++y) {
+    const uint8_t* row = finished_.data() + index_of(x0, y);
+    count -= static_cast<uint64_t>(std::count(row, row + (x1 - x0), uint8_t{1}));
+  }
+  return count;
+}
+
+template <class Real>
+uint64_t Film<Real>::total_samples(uint32_t limit) const {
+  uint64_t total = 0;
+  for (const uint32_t samples : samples_) total += std::min(samples, limit);
+  return total;
 }
 
 template <class Real>
@@ -84,8 +107,8 @@ void Film<Real>::resolve_row(int y, std::span<float> row) const {
   }
 }
 
-template uint64_t film_bytes<float>(const PixelWindow&, const AovSet&, bool);
-template uint64_t film_bytes<double>(const PixelWindow&, const AovSet&, bool);
+template uint64_t film_bytes<float>(const PixelWindow&, const AovSet&, bool, bool);
+template uint64_t film_bytes<double>(const PixelWindow&, const AovSet&, bool, bool);
 template class Film<float>;
 template class Film<double>;
 

@@ -16,12 +16,12 @@ namespace alhazen {
 
 /// Bytes that a film with these pixels and layers takes.
 template <class Real>
-uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted);
+uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted, bool has_noise_target = false);
 
 template <class Real>
 class Film {
  public:
-  Film(const PixelWindow& window, const AovSet& aovs, bool weighted);
+  Film(const PixelWindow& window, const AovSet& aovs, bool weighted, bool has_noise_target = false);
   Film(const Film&) = delete;
   Film& operator=(const Film&) = delete;
 
@@ -32,6 +32,13 @@ class Film {
   const PixelWindow& window() const { return window_; }
   /// Number of samples that pixel (x, y) of the whole image holds.
   uint32_t samples_at(int x, int y) const { return samples_[index_of(x, y)]; }
+  /// Whether no more samples are taken at pixel (x, y) of the whole image.
+  bool is_finished(int x, int y) const { return view_.is_finished(index_of(x, y)); }
+  /// Number of pixels x0 <= x < x1, y0 <= y < y1 of the whole image that are not finished.
+  uint64_t unfinished(int x0, int x1, int y0, int y1) const;
+  uint64_t unfinished() const { return unfinished(window_.x0, window_.x1, window_.y0, window_.y1); }
+  /// Samples of all pixels together, of each at most `limit`.
+  uint64_t total_samples(uint32_t limit) const;
   /// The largest number of samples in any pixel.
   uint32_t max_samples() const { return *std::max_element(samples_.begin(), samples_.end()); }
   std::vector<std::string> channels() const;

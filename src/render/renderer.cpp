@@ -16,6 +16,7 @@
 #include "render/backend.h"
 #include "render/checkpoint.h"
 #include "render/denoiser.h"
+#include "render/noise.h"
 #include "render/sample_kernel.h"
 #include "util/thread_limit.h"
 
@@ -30,8 +31,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 /// Reports progress from its own thread, and stops the render if the callback returns false or throws.
 class ProgressReporter {
  public:
-  ProgressReporter(const ProgressFunction& listener, RenderControl& control, uint64_t total)
-      : listener_(listener), control_(control), total_(total) {
+  ProgressReporter(const ProgressFunction& listener, RenderControl& control) : listener_(listener), control_(control) {
     if (listener_) thread_ = start_thread("the thread that reports progress", [this] { run(); });
   }
 
@@ -62,16 +62,18 @@ class ProgressReporter {
 
   void tell() {
     Progress p;
-    p.samples_done = std::min(control_.samples_done(), total_);
-    p.samples_total = total_;
-    p.fraction = total_ > 0 ? static_cast<double>(p.samples_done) / static_cast<double>(total_) : 1;
+    const uint64_t total = control_.samples_total();
+    p.samples_done = std::min(control_.samples_done(), total);
+    p.samples_total = total;
+    fraction_ = std::max(fraction_, total > 0 ? static_cast<double>(p.samples_done) / static_cast<double>(total) : 1);
+    p.fraction = fraction_;
     p.seconds = seconds_since(start_);
     if (!listener_(p)) control_.stop();
   }
 
   const ProgressFunction& listener_;
   RenderControl& control_;
-  uint64_t total_;
+  double fraction_ = 0;
   Clock::time_point start_ = Clock::now();
   std::mutex mutex_;
   std::condition_variable wake_;
@@ -81,14 +83,16 @@ class ProgressReporter {
 };
 
 /// The number of samples of the next pass: whole blocks, enough to make the cost of a pass's end negligible, few enough
-/// for the image to grow evenly and for a time limit to be kept; at the end the remainder that is no whole block.
-uint32_t pass_size(const RenderSettings& settings, uint32_t max_size, uint32_t samples_done, double elapsed) {
-  const uint32_t left = settings.samples_per_pixel - samples_done;
+/// for the image to grow evenly and for a time limit to be kept; at the end the remainder that is no whole block. With
+/// a noise target, a pass ends where pixels are decided on. `per_sample` is the time of one sample of every pixel.
+uint32_t pass_size(const RenderSettings& settings, uint32_t max_size, uint32_t samples_done, double elapsed,
+                   double per_sample) {
+  uint32_t left = settings.samples_per_pixel - samples_done;
+  if (settings.asked.noise > 0) left = std::min(left, next_decision(samples_done) - samples_done);
   uint32_t size = std::clamp(settings.samples_per_pixel / 16, max_size / 4, max_size);
   if (settings.asked.time_limit > 0) {
     size = samples_per_block;
     if (samples_done > 0) {
-      const double per_sample = elapsed / samples_done;
       size = static_cast<uint32_t>(std::clamp((settings.asked.time_limit - elapsed) / 8 / std::max(per_sample, 1e-9),
                                               1.0, static_cast<double>(max_size)));
     }
@@ -114,19 +118,21 @@ class PassLoop {
   void run(RenderStatistics& statistics) {
     if (!settings_.asked.checkpoint.empty()) checkpoint_.emplace(settings_, scene_fingerprint(scene_));
     if (settings_.asked.resume) samples_done_ = checkpoint_->load(film_);
-    const uint64_t pixels = static_cast<uint64_t>(settings_.window.pixels());
-    control_.add_samples(pixels * samples_done_);
+    control_.add_samples(film_.total_samples(samples_done_));
+    set_total();
     std::exception_ptr problem;
     {
-      ProgressReporter reporter(events_.progress, control_, pixels * settings_.samples_per_pixel);
+      ProgressReporter reporter(events_.progress, control_);
       take_passes();
+      if (is_done()) control_.set_total(control_.samples_done());
       problem = reporter.finish();
     }
     save_checkpoint();
     if (problem) std::rethrow_exception(problem);
     statistics.render_seconds = elapsed_;
     statistics.samples_per_pixel = samples_done_;
-    statistics.complete = samples_done_ == settings_.samples_per_pixel;
+    statistics.complete = is_done();
+    if (settings_.asked.noise > 0) statistics.noise = NoiseEstimate<Real>(settings_, film_).state();
     statistics.threads = control_.threads();
     for (const ThreadStatistics& thread : control_.threads()) {
       statistics.camera_samples += thread.samples;
@@ -142,8 +148,9 @@ class PassLoop {
     const SampleKernel<Real> kernel = select_sample_kernel<Real>(settings_.integrator, settings_.sampler);
     Clock::time_point saved = Clock::now();
     double last_pass_per_sample = 0;
-    while (samples_done_ < settings_.samples_per_pixel && !control_.is_stopped()) {
-      const uint32_t size = pass_size(settings_, backend_.max_samples_per_pass(), samples_done_, elapsed_);
+    while (!is_done() && !control_.is_stopped()) {
+      const uint32_t size =
+          pass_size(settings_, backend_.max_samples_per_pass(), samples_done_, elapsed_, seconds_per_sample());
       if (settings_.asked.time_limit > 0 && elapsed_ > 0 &&
           elapsed_ + last_pass_per_sample * size > settings_.asked.time_limit)
         return;
@@ -158,11 +165,40 @@ class PassLoop {
       if (control_.is_stopped()) return;
       last_pass_per_sample = seconds / size;
       samples_done_ += size;
+      if (settings_.asked.noise > 0 && next_decision(samples_done_ - 1) == samples_done_)
+        last_pass_per_sample *= finish_pixels();
       if (seconds_since(saved) >= settings_.asked.checkpoint_seconds) {
         save_checkpoint();
         saved = Clock::now();
       }
     }
+  }
+
+  bool is_done() const { return samples_done_ == settings_.samples_per_pixel || unfinished_ == 0; }
+
+  /// How long one sample of every pixel took so far, or would take of those that are not finished.
+  double seconds_per_sample() const {
+    if (settings_.asked.noise == 0) return samples_done_ > 0 ? elapsed_ / samples_done_ : 0;
+    const double taken = static_cast<double>(control_.samples_done());
+    return taken > 0 ? elapsed_ / taken * static_cast<double>(unfinished_) : 0;
+  }
+
+  /// Returns the fraction of the pixels that are left of those that were not finished before.
+  double finish_pixels() {
+    const NoiseEstimate<Real> estimate(settings_, film_);
+    estimate.finish_pixels();
+    const double before = static_cast<double>(unfinished_);
+    unfinished_ = film_.unfinished();
+    control_.set_total(static_cast<uint64_t>(estimate.state().expected_samples));
+    return static_cast<double>(unfinished_) / before;
+  }
+
+  void set_total() {
+    const uint64_t pixels = static_cast<uint64_t>(settings_.window.pixels());
+    unfinished_ = film_.unfinished();
+    control_.set_total(settings_.asked.noise > 0 && samples_done_ >= next_decision(0)
+                           ? static_cast<uint64_t>(NoiseEstimate<Real>(settings_, film_).state().expected_samples)
+                           : pixels * settings_.samples_per_pixel);
   }
 
   /// Nothing is saved once the film contains a partial block: the sums of a longer render would be rounded differently.
@@ -188,6 +224,7 @@ class PassLoop {
   RenderControl control_;
   std::optional<CheckpointFile> checkpoint_;
   uint32_t samples_done_ = 0;  ///< in every pixel
+  uint64_t unfinished_ = 0;    ///< pixels
   bool in_whole_blocks_ = true;
   double elapsed_ = 0;
 };
@@ -202,10 +239,11 @@ void check_memory(uint64_t bytes) {
 
 template <class Real>
 std::unique_ptr<Film<Real>> make_film(const RenderSettings& settings, bool weighted) {
-  const uint64_t bytes = film_bytes<Real>(settings.window, settings.aovs, weighted);
+  const bool has_noise_target = settings.asked.noise > 0;
+  const uint64_t bytes = film_bytes<Real>(settings.window, settings.aovs, weighted, has_noise_target);
   check_memory(bytes);
   try {
-    return std::make_unique<Film<Real>>(settings.window, settings.aovs, weighted);
+    return std::make_unique<Film<Real>>(settings.window, settings.aovs, weighted, has_noise_target);
   } catch (const std::bad_alloc&) {
     throw InputError("the image with its layers takes " + std::to_string(bytes >> 20) +
                      " MiB, more than is left beside the scene: render parts of it with --crop, or with fewer layers");

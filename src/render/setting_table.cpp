@@ -120,6 +120,26 @@ Codec checkpoint() {
           }};
 }
 
+/// A number, and optionally a comma and what it measures.
+Codec noise() {
+  return {[](const Settings& s) {
+            if (s.noise == 0) return std::string();
+            return text_of(s.noise) + (s.noise_measure.empty() ? "" : "," + s.noise_measure);
+          },
+          [](Settings& s, const std::string& text) {
+            const size_t comma = text.find(',');
+            std::array<double, 1> value;
+            const bool has_measure = comma != std::string::npos;
+            const std::string measure = has_measure ? text.substr(comma + 1) : "";
+            if (!parse_numbers(text.substr(0, comma), ' ', value) || !(value[0] > 0 && value[0] <= 1) ||
+                (has_measure && measure != "relative" && measure != "display"))
+              refuse("noise", text,
+                     "a number above 0 and at most 1, or such a number with ',relative' or ',display' after it");
+            s.noise = value[0];
+            s.noise_measure = measure;
+          }};
+}
+
 Codec layer_list() {
   return {[](const Settings& s) {
             std::string text;
@@ -180,11 +200,24 @@ std::string order_of_samples(const RenderSettings& s) {
   return to_string(s.sampler) + (order > 0 ? " for up to " + std::to_string(1u << (order - 1)) + " samples" : "");
 }
 
+/// Empty without a target, as in checkpoints of renders that have none.
+std::string noise_target(const RenderSettings& s) {
+  if (s.asked.noise == 0) return {};
+  if (!s.noise_curve) return text_of(s.asked.noise) + " relative";
+  return text_of(s.asked.noise) + " displayed at exposure " + text_of(s.asked.noise_exposure) + " by tone map " +
+         (s.asked.noise_tone_map.empty() ? "none" : s.asked.noise_tone_map);
+}
+
 std::vector<SettingEntry> image_settings() {
   constexpr SettingGroup group = SettingGroup::image;
   return {
-      entry(group, "spp", "", "N", "Samples per pixel",
+      entry(group, "spp", "", "N", "Samples per pixel; with --noise, the most",
             number<int64_t>("spp", &Settings::samples_per_pixel, 0, 1, max_samples_per_pixel)),
+      of_samples(noise_target,
+                 entry(group, "noise", "", "X[,MEASURE]",
+                       "Take no more samples of pixels whose estimated error is below X: relative (0.05 is 5 percent; "
+                       "the default), or of the displayed value from 0 to 1: 0.01,display",
+                       noise())),
       of_samples([](const RenderSettings& s) { return std::to_string(s.max_segments - 1); },
                  entry(group, "max-depth", "--maxdepth", "N", "Bounces: a path has at most N + 1 segments",
                        number<int64_t>("max-depth", &Settings::max_depth, -1, 0, max_bounces))),

@@ -32,6 +32,8 @@ constexpr Named<SamplerType> samplers[] = {
     {"sobol", SamplerType::sobol}, {"zsobol", SamplerType::zsobol}, {"independent", SamplerType::independent}};
 constexpr Named<ScheduleKind> schedules[] = {
     {"static", ScheduleKind::static_}, {"dynamic", ScheduleKind::dynamic}, {"guided", ScheduleKind::guided}};
+constexpr Named<ToneMap> tone_maps[] = {
+    {"none", ToneMap::none}, {"reinhard", ToneMap::reinhard}, {"filmic", ToneMap::filmic}};
 constexpr Named<bool AovSet::*> layers[] = {{"albedo", &AovSet::albedo},   {"normal", &AovSet::normal},
                                             {"depth", &AovSet::depth},     {"bounces", &AovSet::bounces},
                                             {"samples", &AovSet::samples}, {"variance", &AovSet::variance}};
@@ -127,6 +129,20 @@ void resolve_denoiser(const std::string& name, RenderSettings& s) {
   s.aovs.albedo = s.aovs.normal = true;
 }
 
+void resolve_noise(const Settings& asked, RenderSettings& s) {
+  if (!(asked.noise >= 0 && asked.noise <= 1))
+    throw InputError("the noise target must be a number above 0 and at most 1, for example 0.05; 0 for none");
+  const bool is_displayed = asked.noise_measure == "display";
+  if (!is_displayed && !asked.noise_measure.empty() && asked.noise_measure != "relative")
+    throw InputError("unknown measure of noise '" + asked.noise_measure + "': it may be relative, display");
+  if (asked.noise == 0 || !is_displayed) return;
+  if (!(std::abs(asked.noise_exposure) <= 100))
+    throw InputError("the exposure at which noise is seen must be a number of stops from -100 to 100");
+  s.noise_curve =
+      DisplayCurve{std::exp2(asked.noise_exposure),
+                   asked.noise_tone_map.empty() ? ToneMap::none : by_name(tone_maps, asked.noise_tone_map, "tone map")};
+}
+
 CoatModel parse_coats(const std::string& text) {
   if (text.empty() || text == "lossless") return CoatModel::lossless;
   if (text == "pbrt") return CoatModel::pbrt;
@@ -199,6 +215,7 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   if (asked.time_limit < 0 || !std::isfinite(asked.time_limit)) throw InputError("the time limit must not be negative");
   if (!(asked.checkpoint_seconds >= 0) || !std::isfinite(asked.checkpoint_seconds))
     throw InputError("the time between checkpoints must be a finite number of seconds, not negative");
+  resolve_noise(asked, s);
   s.texture_budget =
       static_cast<uint64_t>(in_range(asked.texture_budget, 0, int64_t{1} << 30, "the budget of textures")) << 20;
   if (asked.resume && asked.checkpoint.empty())

@@ -3,11 +3,13 @@
 // Settings, validated and merged with those of the scene.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "alhazen/alhazen.h"
 #include "core/integrators/camera_sample.h"
+#include "images/display/display_error.h"
 #include "scene/scene.h"
 
 namespace alhazen {
@@ -55,8 +57,9 @@ struct RenderSettings {
   IntegratorKind integrator = IntegratorKind::path;
   SamplerType sampler = SamplerType::sobol;
   int threads = 1;
-  uint32_t samples_per_pixel = 16;
-  uint32_t max_segments = 6;  ///< D, bounces + 1
+  uint32_t samples_per_pixel = 16;          ///< with a noise target, the most
+  std::optional<DisplayCurve> noise_curve;  ///< present: the noise target is of what is displayed
+  uint32_t max_segments = 6;                ///< D, bounces + 1
   int width = 0, height = 0;
   PixelWindow window;
   uint32_t seed = 0;

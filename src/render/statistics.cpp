@@ -68,6 +68,10 @@ std::string RenderStatistics::to_json() const {
   j["width"] = settings.window.width();
   j["height"] = settings.window.height();
   j["spp"] = samples_per_pixel;
+  if (settings.asked.noise > 0)
+    j["noise"] = {{"target", settings.asked.noise}, {"measure", settings.noise_curve ? "display" : "relative"},
+                  {"reached", noise.noise},         {"pixels_below", noise.below},
+                  {"mean_spp", noise.mean_samples}, {"most_spp", settings.samples_per_pixel}};
   j["max_depth"] = settings.max_segments - 1;
   j["triangles"] = scene_sizes.triangles;
   j["spheres"] = scene_sizes.spheres;

@@ -8,6 +8,7 @@
 
 #include "compile/compiled_scene.h"
 #include "render/control.h"
+#include "render/noise.h"
 #include "render/settings.h"
 
 namespace alhazen {
@@ -21,6 +22,7 @@ struct RenderStatistics {
   double denoise_seconds = 0;      ///< 0 if no denoiser ran
   double render_seconds = 0;       ///< taking samples only
   uint32_t samples_per_pixel = 0;  ///< in complete passes
+  NoiseState noise;                ///< zero without a noise target
   bool complete = false;
   uint64_t camera_samples = 0, rays = 0, shadow_rays = 0, nonfinite_samples = 0;
   uint64_t peak_rss_bytes = 0;  ///< peak of the process

@@ -44,7 +44,7 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--maxdepth", "--size", "--crop", "--cropwindow", "--pixelbounds", "--integrator", "--sampler", "--seed",
       "--backend", "--strategy", "--schedule", "--threads", "--nthreads", "--precision", "--progress", "--quiet",
       "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--overwrite", "--device", "--block",
-      "--chunk", "--denoise", "--environment", "--texture-budget", "--coats", "--filter",
+      "--chunk", "--denoise", "--environment", "--texture-budget", "--coats", "--filter", "--noise",
       // Tested in gltf_tests.cpp:
       "--camera", "--time", "--animation", "--variant", "--list",
       // Tested in hostile_input_tests.cpp:
@@ -320,6 +320,23 @@ TEST_F(RenderOptions, ImageOptionsReachTheRenderer) {
   for (const char* sampler : {"sobol", "independent"})
     EXPECT_EQ(statistics({"-o", "a.exr", "--sampler", sampler})["sampler"], sampler);
   EXPECT_EQ(statistics({"-o", "a.exr", "--seed", "4294967295"})["seed"], 4294967295u);
+}
+
+TEST_F(RenderOptions, ANoiseTargetStopsEarlyAndIsReported) {
+  const nlohmann::json j = statistics({"-o", "a.exr", "--spp", "400", "--noise", "0.5"});
+  EXPECT_EQ(j["complete"], true);
+  EXPECT_EQ(j["noise"]["target"], 0.5);
+  EXPECT_EQ(j["noise"]["measure"], "relative");
+  EXPECT_EQ(j["noise"]["most_spp"], 400);
+  EXPECT_LT(j["noise"]["mean_spp"], 400);
+  EXPECT_GT(j["noise"]["reached"], 0);
+  EXPECT_EQ(statistics({"-o", "a.exr", "--spp", "16", "--noise", "0.5,display"})["noise"]["measure"], "display");
+  EXPECT_FALSE(statistics({"-o", "a.exr"}).contains("noise"));
+  for (const char* wrong : {"0", "-0.1", "nan", "inf", "2", "x", "", "0.1,", "0.1,seen", "0.1,display,1"}) {
+    const CommandResult result = render({"-o", "no.exr", "--noise", wrong});
+    EXPECT_EQ(result.exit_code, 2) << wrong;
+    EXPECT_NE(result.err.find("--noise must be a number above 0 and at most 1"), std::string::npos) << result.err;
+  }
 }
 
 TEST_F(RenderOptions, SeedsChangeTheNoise) {

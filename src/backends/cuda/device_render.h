@@ -7,6 +7,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "backends/cuda/executor.h"
 #include "backends/cuda/kernels/persistent.h"
@@ -72,7 +73,7 @@ class DeviceRender {
       executor_.wait();
       if (!finished) break;
       plan.advance(launch.slice, std::chrono::duration<double>(Clock::now() - start).count());
-      pass.control.add_samples(static_cast<uint64_t>(launch.width) * launch.slice.rows * launch.slice.count);
+      pass.control.add_samples(unfinished(pass.film, launch.slice) * launch.slice.count);
     }
     items_ = plan.items();
     download(pass);
@@ -92,6 +93,9 @@ class DeviceRender {
       host_film_ = &pass.film;
       upload_film(pass.film);
     }
+    // The host finishes pixels between passes.
+    const uint8_t* finished = pass.film.view().finished;
+    if (finished) executor_.upload(film_view_.finished, finished, static_cast<size_t>(pass.film.window().pixels()));
   }
 
   void upload_scene(const CompiledScene<Real>& scene) {
@@ -149,7 +153,7 @@ class DeviceRender {
     const uint32_t height = static_cast<uint32_t>(pass.film.window().height());
     const uint32_t rows = device_rows_.rows_of(height);
     const auto copy = [&](auto* to, const auto* from) {
-      if (!to) return;
+      if (!to || std::is_same_v<decltype(to), uint8_t*>) return;  // only the host finishes pixels
       if (device_rows_.devices == 1) return executor_.download(to, from, width * height * sizeof(*to));
       for (uint32_t row = 0; row < rows; row += DeviceRows::band) {
         const size_t first = device_rows_.window_row(row) * width;
@@ -159,6 +163,17 @@ class DeviceRender {
 #define ALHAZEN_PLANE(type, name) copy(host.name, film_view_.name);
     ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
 #undef ALHAZEN_PLANE
+  }
+
+  /// Number of pixels in the rows of a slice that are not finished.
+  uint64_t unfinished(const Film<Real>& film, const Slice& slice) const {
+    const PixelWindow& window = film.window();
+    uint64_t count = 0;
+    for (uint32_t row = slice.row; row < slice.row + slice.rows; ++row) {
+      const int y = window.y0 + static_cast<int>(device_rows_.window_row(row));
+      count += film.unfinished(window.x0, window.x1, y, y + 1);
+    }
+    return count;
   }
 
   void add_totals(ThreadStatistics& statistics) {

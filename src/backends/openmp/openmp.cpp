@@ -19,6 +19,7 @@ template <class Real>
 void reduce_pixel(const RenderPass<Real>& pass, int x, int y) {
   BlockSum<Real> blocks[default_samples_per_pass / samples_per_block];
   const int first = static_cast<int>(first_block(pass, x, y)), count = static_cast<int>(block_count(pass));
+  if (first >= count) return;  // without starting a team
 #pragma omp parallel num_threads(pass.settings.threads)
   {
     // A nested parallel region has a team of one thread. Its work counts for the thread of the outer team.
@@ -49,7 +50,7 @@ void render_rows(const RenderPass<Real>& pass) {
         BlockBatch<Real> batch(pass, statistics);
         for (int x = window.x0; x < window.x1; ++x) batch.add_pixel(x, y);
       }
-      pass.control.add_samples(static_cast<uint64_t>(window.width()) * pass.sample_count);
+      pass.control.add_samples(pass.film.unfinished(window.x0, window.x1, y, y + 1) * pass.sample_count);
     }
   }
 }
@@ -65,7 +66,7 @@ void render_collapsed(const RenderPass<Real>& pass) {
 #pragma omp for collapse(2) schedule(runtime) nowait
     for (int y = window.y0; y < window.y1; ++y)
       for (int x = window.x0; x < window.x1; ++x) {
-        if (pass.control.is_stopped()) continue;
+        if (pass.control.is_stopped() || pass.film.is_finished(x, y)) continue;
         BlockBatch<Real>(pass, statistics).add_pixel(x, y);
         pass.control.add_samples(pass.sample_count);
       }
@@ -81,7 +82,7 @@ void render_rows_with_reduction(const RenderPass<Real>& pass) {
   for (int y = window.y0; y < window.y1; ++y) {
     if (pass.control.is_stopped()) continue;
     for (int x = window.x0; x < window.x1; ++x) reduce_pixel(pass, x, y);
-    pass.control.add_samples(static_cast<uint64_t>(window.width()) * pass.sample_count);
+    pass.control.add_samples(pass.film.unfinished(window.x0, window.x1, y, y + 1) * pass.sample_count);
   }
 }
 
@@ -92,7 +93,7 @@ void render_with_reduction(const RenderPass<Real>& pass) {
   for (int y = window.y0; y < window.y1; ++y) {
     if (pass.control.is_stopped()) return;
     for (int x = window.x0; x < window.x1; ++x) reduce_pixel(pass, x, y);
-    pass.control.add_samples(static_cast<uint64_t>(window.width()) * pass.sample_count);
+    pass.control.add_samples(pass.film.unfinished(window.x0, window.x1, y, y + 1) * pass.sample_count);
   }
 }
 
@@ -116,7 +117,7 @@ void render_tiles(const RenderPass<Real>& pass) {
         for (int y = y0; y < y1; ++y)
           for (int x = x0; x < x1; ++x) batch.add_pixel(x, y);
       }
-      pass.control.add_samples(static_cast<uint64_t>((x1 - x0) * (y1 - y0)) * pass.sample_count);
+      pass.control.add_samples(pass.film.unfinished(x0, x1, y0, y1) * pass.sample_count);
     }
   }
 }

@@ -32,7 +32,7 @@ class SerialBackend final : public Backend {
         BlockBatch<Real> batch(pass, statistics);
         for (int x = window.x0; x < window.x1; ++x) batch.add_pixel(x, y);
       }
-      pass.control.add_samples(static_cast<uint64_t>(window.width()) * pass.sample_count);
+      pass.control.add_samples(pass.film.unfinished(window.x0, window.x1, y, y + 1) * pass.sample_count);
     }
   }
 };

@@ -7,7 +7,10 @@
 namespace ALHAZEN_CORE {
 
 /// Lists every plane of the film once: PLANE(element type, name). All but the first two exist only on request:
-/// `weights` if the filter has negative weights, the others for their layers.
+/// `weights` if the filter has negative weights, the last three for a noise target, the others for their layers.
+/// `block_m2` is the sum of squared deviations of the luminance of blocks from the pixel's mean, times their samples;
+/// `half_difference` the luminance of its first 2^k blocks less that of the others, for the largest k that leaves some;
+/// `finished` is 1 where no more samples are taken.
 #define ALHAZEN_FILM_PLANES(PLANE) \
   PLANE(Vec3<Real>, radiance)      \
   PLANE(uint32_t, samples)         \
@@ -18,7 +21,10 @@ namespace ALHAZEN_CORE {
   PLANE(uint32_t, hits)            \
   PLANE(uint32_t, segments)        \
   PLANE(Real, luminance_m2)        \
-  PLANE(Real, luminance_mean)
+  PLANE(Real, luminance_mean)      \
+  PLANE(Real, block_m2)            \
+  PLANE(Real, half_difference)     \
+  PLANE(uint8_t, finished)
 
 /// Merges the moments of two sets of samples (Chan, Golub, LeVeque 1983).
 template <class Real>
@@ -40,8 +46,11 @@ struct FilmView {
   /// Returns whether anything about the first hit of camera rays is recorded besides radiance.
   ALHAZEN_HD bool wants_first_hit() const { return albedo || normal || depth; }
 
+  ALHAZEN_HD bool is_finished(size_t i) const { return finished && finished[i]; }
+
   /// Adds a block to pixel `i`. The blocks of a pixel must be added in the order of their samples.
   ALHAZEN_HD void add(size_t i, const BlockSum<Real>& block) const {
+    if (block_m2) add_deviation(i, block);
     if (luminance_m2)
       merge_moments(luminance_mean[i], luminance_m2[i], samples[i], block.luminance_mean, block.luminance_m2,
                     block.samples);
@@ -55,6 +64,16 @@ struct FilmView {
       hits[i] += block.hits;
     }
     if (segments) segments[i] += block.segments;
+  }
+
+ private:
+  ALHAZEN_HD void add_deviation(size_t i, const BlockSum<Real>& block) const {
+    const Real n = static_cast<Real>(samples[i]), m = static_cast<Real>(block.samples);
+    const Real delta = block.luminance_mean - luminance_mean[i];
+    block_m2[i] += delta * delta * n * m / (n + m);
+    const uint32_t number = samples[i] / samples_per_block;
+    if ((number & (number - 1)) == 0) half_difference[i] = luminance_mean[i] * n;
+    half_difference[i] -= block.luminance_mean * m;
   }
 };
 

@@ -37,7 +37,7 @@ ALHAZEN_HD inline Item item_at(const ItemGrid& grid, uint32_t index) {
           tile / grid.tiles_x() * ItemGrid::tile_height + lane / ItemGrid::tile_width, group % grid.blocks};
 }
 
-/// Claims the next item that is in the image and not yet in the film. Returns false if the queue is empty.
+/// Claims the next item that is in the image and to be taken. Returns false if the queue is empty.
 template <QueueThread Thread, class Real>
 ALHAZEN_HD bool claim_item(const Thread& thread, const Launch<Real>& launch, const ItemGrid& grid, uint32_t* next_item,
                            uint32_t& index, Item& item) {
@@ -46,7 +46,7 @@ ALHAZEN_HD bool claim_item(const Thread& thread, const Launch<Real>& launch, con
     if (index >= grid.count()) return false;
     item = item_at(grid, index);
     if (item.x < grid.width && item.row < grid.rows &&
-        !launch.holds_block(launch.film_index(item.x, item.row), item.block))
+        !launch.skips_block(launch.film_index(item.x, item.row), item.block))
       return true;
   }
 }
@@ -65,7 +65,7 @@ struct FoldKernel {
     const uint32_t x = pixel % grid.width, row = pixel / grid.width;
     const size_t film_pixel = launch.film_index(x, row);
     for (uint32_t block = 0; block < grid.blocks; ++block)
-      if (!launch.holds_block(film_pixel, block))
+      if (!launch.skips_block(film_pixel, block))
         finish_block(thread, launch, film_pixel, sums[grid.item_of(x, row, block)]);
   }
 };

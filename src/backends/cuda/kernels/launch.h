@@ -84,10 +84,10 @@ struct Launch {
   }
   ALHAZEN_HD uint32_t image_x(uint32_t x) const { return x0 + x; }
   ALHAZEN_HD uint32_t image_y(uint32_t row) const { return y0 + device_rows.window_row(slice.row + row); }
-  /// Returns whether the film already contains block `block` of the slice at that pixel. It can if an earlier render
-  /// was stopped within this pass.
-  ALHAZEN_HD bool holds_block(size_t film_pixel, uint32_t block) const {
-    return film.samples[film_pixel] > slice.first + block * samples_per_block;
+  /// Returns whether block `block` of the slice is not taken at that pixel: because the pixel is finished, or because
+  /// the film already contains it. It can if an earlier render was stopped within this pass.
+  ALHAZEN_HD bool skips_block(size_t film_pixel, uint32_t block) const {
+    return film.is_finished(film_pixel) || film.samples[film_pixel] > slice.first + block * samples_per_block;
   }
   /// Returns the number of samples in a block of the slice: samples_per_block, or fewer in the last block.
   ALHAZEN_HD uint32_t samples_in_block(uint32_t block) const {

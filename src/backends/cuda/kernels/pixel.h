@@ -32,7 +32,7 @@ struct PixelKernel {
   ALHAZEN_HD void render_pixel(const Thread& thread, uint32_t x, uint32_t row, BlockSum<Real>& sum) const {
     const size_t film_pixel = launch.film_index(x, row);
     for (uint32_t block = 0; block < launch.slice.blocks(); ++block) {
-      if (launch.holds_block(film_pixel, block)) continue;
+      if (launch.skips_block(film_pixel, block)) continue;
       sum = {};
       for (uint32_t i = 0; i < launch.samples_in_block(block); ++i)
         take_sample(thread, x, row, launch.slice.first + block * samples_per_block + i, sum);

@@ -1,0 +1,20 @@
+#pragma once
+
+// How far a luminance and its error are apart on a display.
+
+#include "images/image.h"
+
+namespace alhazen {
+
+/// How a linear luminance becomes a grey value of sRGB from 0 to 1.
+struct DisplayCurve {
+  double scale = 1;  ///< factor of exposure
+  ToneMap tone_map = ToneMap::none;
+
+  double operator()(double luminance) const;
+  /// The error of the displayed value where `luminance` has the standard deviation `deviation`: half of the difference
+  /// of what is displayed one deviation above and one below.
+  double error(double luminance, double deviation) const;
+};
+
+}  // namespace alhazen
