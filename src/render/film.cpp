@@ -12,30 +12,36 @@ void allocate_if(bool wanted, Vector& plane, size_t size) {
 }  // namespace
 
 template <class Real>
-uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted) {
+uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted, bool for_denoising) {
   size_t pixel = sizeof(Vec3<Real>) + sizeof(uint32_t);
   if (weighted) pixel += sizeof(Real);
-  if (aovs.albedo) pixel += sizeof(Vec3<Real>);
-  if (aovs.normal) pixel += sizeof(Vec3<Real>);
-  if (aovs.depth) pixel += sizeof(Real) + sizeof(uint32_t);
+  if (aovs.albedo || for_denoising) pixel += sizeof(Vec3<Real>);
+  if (aovs.normal || for_denoising) pixel += sizeof(Vec3<Real>);
+  if (aovs.depth || for_denoising) pixel += sizeof(Real) + sizeof(uint32_t);
   if (aovs.bounces) pixel += sizeof(uint32_t);
-  if (aovs.variance) pixel += 2 * sizeof(Real);
+  if (aovs.variance || for_denoising) pixel += 2 * sizeof(Real);
+  if (for_denoising) pixel += 3 * sizeof(Vec3<Real>) + sizeof(Real);
   return pixel * static_cast<uint64_t>(window.pixels());
 }
 
 template <class Real>
-Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, bool weighted) : window_(window), aovs_(aovs) {
+Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, bool weighted, bool for_denoising)
+    : window_(window), aovs_(aovs) {
   const size_t pixels = static_cast<size_t>(window.pixels());
   radiance_.resize(pixels);
   samples_.resize(pixels);
   allocate_if(weighted, weights_, pixels);
-  allocate_if(aovs.albedo, albedo_, pixels);
-  allocate_if(aovs.normal, normal_, pixels);
-  allocate_if(aovs.depth, depth_, pixels);
-  allocate_if(aovs.depth, hits_, pixels);
+  allocate_if(aovs.albedo || for_denoising, albedo_, pixels);
+  allocate_if(aovs.normal || for_denoising, normal_, pixels);
+  allocate_if(aovs.depth || for_denoising, depth_, pixels);
+  allocate_if(aovs.depth || for_denoising, hits_, pixels);
   allocate_if(aovs.bounces, segments_, pixels);
-  allocate_if(aovs.variance, luminance_m2_, pixels);
-  allocate_if(aovs.variance, luminance_mean_, pixels);
+  allocate_if(aovs.variance || for_denoising, luminance_m2_, pixels);
+  allocate_if(aovs.variance || for_denoising, luminance_mean_, pixels);
+  allocate_if(for_denoising, odd_radiance_, pixels);
+  allocate_if(for_denoising, odd_albedo_, pixels);
+  allocate_if(for_denoising, odd_normal_, pixels);
+  allocate_if(for_denoising, odd_depth_, pixels);
   const auto pointer = [](auto& plane) { return plane.empty() ? nullptr : plane.data(); };
 #define ALHAZEN_PLANE(type, name) view_.name = pointer(name##_);
   ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
@@ -84,8 +90,8 @@ void Film<Real>::resolve_row(int y, std::span<float> row) const {
   }
 }
 
-template uint64_t film_bytes<float>(const PixelWindow&, const AovSet&, bool);
-template uint64_t film_bytes<double>(const PixelWindow&, const AovSet&, bool);
+template uint64_t film_bytes<float>(const PixelWindow&, const AovSet&, bool, bool);
+template uint64_t film_bytes<double>(const PixelWindow&, const AovSet&, bool, bool);
 template class Film<float>;
 template class Film<double>;
 

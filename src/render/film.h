@@ -16,12 +16,14 @@ namespace alhazen {
 
 /// Bytes that a film with these pixels and layers takes.
 template <class Real>
-uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted);
+uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted, bool for_denoising = false);
 
 template <class Real>
 class Film {
  public:
-  Film(const PixelWindow& window, const AovSet& aovs, bool weighted);
+  /// `weighted`: the weights of the pixel filter are summed. `for_denoising`: what a denoiser needs is summed, whether
+  /// it is among the layers or not.
+  Film(const PixelWindow& window, const AovSet& aovs, bool weighted, bool for_denoising = false);
   Film(const Film&) = delete;
   Film& operator=(const Film&) = delete;
 
