@@ -1,5 +1,5 @@
-// Lists all backends and denoisers, in the order in which they are displayed; of denoisers the best first. A new folder of src/backends is
-// registered by its name here.
+// Lists all backends and denoisers, in the order in which they are displayed; of denoisers the best first. A new folder
+// of src/backends is registered by its name here.
 
 #include "render/backend.h"
 #include "render/denoiser.h"

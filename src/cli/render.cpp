@@ -97,8 +97,8 @@ std::string text_statistics(const RenderStatistics& s) {
       "rays    {} and {} shadow rays ({:.3f} million per second)\nbounces {:.3f} segments per path\nmemory  {:.1f} MB "
       "at "
       "most, {:.1f} MB of it the scene\n",
-      s.load_seconds, s.build_seconds, s.render_seconds, s.denoise_seconds, s.camera_samples, s.msamples_per_second(), s.rays,
-      s.shadow_rays, s.mrays_per_second(), s.mean_segments(), static_cast<double>(s.peak_rss_bytes) * 1e-6,
+      s.load_seconds, s.build_seconds, s.render_seconds, s.denoise_seconds, s.camera_samples, s.msamples_per_second(),
+      s.rays, s.shadow_rays, s.mrays_per_second(), s.mean_segments(), static_cast<double>(s.peak_rss_bytes) * 1e-6,
       static_cast<double>(s.scene_sizes.bytes) * 1e-6);
   return counts_samples ? text + counter_table(s.counters) : text;
 }

@@ -24,6 +24,7 @@ struct NoisyImage {
   NoisyBuffer albedo;             ///< in [0, 1], at the first hit of camera rays
   NoisyBuffer normal;             ///< at the first hit, in world space
   NoisyBuffer depth;              ///< of the first hit, in scene units
+  std::vector<float> hits;        ///< the fraction of camera rays that hit a surface
   std::vector<float> variance;    ///< of the luminance of one sample, unbiased; 0 where there is only one
   std::vector<uint32_t> samples;  ///< of each pixel
 

@@ -29,6 +29,7 @@ NoisyImage make_noisy_image(const Film<Real>& film) {
   for (NoisyBuffer* buffer : {&image.radiance, &image.albedo, &image.normal, &image.depth})
     for (std::vector<float>* values : {&buffer->mean, &buffer->odd})
       values->resize((buffer == &image.depth ? 1 : 3) * pixels);
+  image.hits.resize(pixels);
   image.variance.resize(pixels);
   image.samples.assign(planes.samples, planes.samples + pixels);
   for (size_t i = 0; i < pixels; ++i) {
@@ -44,6 +45,7 @@ NoisyImage make_noisy_image(const Film<Real>& film) {
     put(image.normal.odd, i, planes.odd_normal[i], odd);
     put(image.depth.mean, i, planes.depth[i], count);
     put(image.depth.odd, i, planes.odd_depth[i], odd);
+    image.hits[i] = samples > 0 ? static_cast<float>(planes.hits[i]) / static_cast<float>(samples) : 0.0f;
     image.variance[i] = samples > 1 ? static_cast<float>(planes.luminance_m2[i] / (count - 1)) : 0.0f;
   }
   return image;

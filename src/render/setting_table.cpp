@@ -177,10 +177,11 @@ std::vector<SettingEntry> output_settings() {
                 "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance, "
                 "noisy (before denoising)",
                 layer_list(), true)),
-      with_implied("auto", entry(group, "denoise", "", "[NAME]",
-                                 "Denoise the image by optix (NVIDIA GPUs), oidn (if its library is here), builtin (any "
-                                 "machine), or none; without a name by the best that is here",
-                                 name(&Settings::denoiser))),
+      with_implied("auto",
+                   entry(group, "denoise", "", "[NAME]",
+                         "Denoise the image by optix (NVIDIA GPUs), oidn (if its library is here), builtin (any "
+                         "machine), or none; without a name by the best that is here",
+                         name(&Settings::denoiser))),
   };
 }
 

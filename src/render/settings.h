@@ -61,9 +61,9 @@ struct RenderSettings {
   PixelWindow window;
   uint32_t seed = 0;
   AovSet aovs;
-  std::string denoiser;         ///< empty: none
-  std::string denoiser_warning; ///< why a better one that is here was not taken; empty otherwise
-  uint64_t texture_budget = 0;  ///< bytes; 0: no limit
+  std::string denoiser;          ///< empty: none
+  std::string denoiser_warning;  ///< why a better one that is here was not taken; empty otherwise
+  uint64_t texture_budget = 0;   ///< bytes; 0: no limit
 };
 
 /// Replaces what settings replace in a scene: how much light its coats lose, and the pixel filter. Throws InputError

@@ -1,7 +1,7 @@
-// A library with the functions of Open Image Denoise that the denoiser `oidn` calls. It checks how it is called, and its
-// filters do what a test can tell: a filter of a feature adds 1 to it, and the one of colours adds both features to them.
-// With MOCK_OIDN_VERSION_1 it has the name that version 1 has for one function. The environment variable MOCK_OIDN_FAILS
-// makes filters fail.
+// A library with the functions of Open Image Denoise that the denoiser `oidn` calls. It checks how it is called, and
+// its filters do what a test can tell: a filter of a feature adds 1 to it, and the one of colours adds both features to
+// them. With MOCK_OIDN_VERSION_1 it has the name that version 1 has for one function. The environment variable
+// MOCK_OIDN_FAILS makes filters fail.
 
 #include <cmath>
 #include <cstdlib>

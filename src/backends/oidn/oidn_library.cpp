@@ -44,8 +44,8 @@ Library use(const std::string& path, void* handle) {
   Library library{path, {}, {}, true};
   if (const char* const lacking = find_functions(handle, library.functions)) {
     dlclose(handle);
-    library.problem = path + " is no library of Open Image Denoise: it lacks the function " + lacking + "; " +
-                      how_to_get;
+    library.problem =
+        path + " is no library of Open Image Denoise: it lacks the function " + lacking + "; " + how_to_get;
   }
   return library;
 }

@@ -25,7 +25,8 @@ Differences differences_at(const NoisyImage& noisy, const std::vector<float>& de
   float scale = 1e-12f;
   for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
     const float mean = noisy.radiance.mean[c], odd = noisy.radiance.odd[c];
-    // With halves a and b of fractions f and 1 - f, a - b has the variance s / f + s / (1 - f) if s is that of the mean.
+    // With halves a and b of fractions f and 1 - f, a - b has the variance s / f + s / (1 - f) if s is that of the
+    // mean.
     const float between_halves = (odd - mean) / (1 - odd_fraction);
     sums.of_noise += between_halves * between_halves * odd_fraction * (1 - odd_fraction);
     sums.of_images += (mean - denoised[c]) * (mean - denoised[c]);
@@ -37,19 +38,82 @@ Differences differences_at(const NoisyImage& noisy, const std::vector<float>& de
   return {sums.of_noise * weight, sums.of_images * weight};
 }
 
+/// The variance of a channel of the noisy mean, by its halves.
+float variance_at(const NoisyImage& noisy, size_t i, size_t channel) {
+  const uint32_t samples = noisy.samples[i], odd_samples = samples_in_odd_blocks(samples);
+  if (odd_samples == 0) return 0;
+  const float odd_fraction = static_cast<float>(odd_samples) / static_cast<float>(samples);
+  const float between_halves =
+      (noisy.radiance.odd[3 * i + channel] - noisy.radiance.mean[3 * i + channel]) / (1 - odd_fraction);
+  return between_halves * between_halves * odd_fraction * (1 - odd_fraction);
+}
+
+/// A denoiser that smooths too much changes means over a few pixels by more than the noise of such means. That part of
+/// the difference is given back, shrunk as James and Stein (1961) do.
+void restore_means(const NoisyImage& noisy, std::vector<float>& denoised, int threads) {
+  constexpr int radius = 2, pooling = 4;
+  constexpr float margin = 1.5f;
+  const int width = noisy.width, height = noisy.height;
+  const auto pixel = [&](int x, int y) {
+    return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
+  };
+  std::array<TilePlane, 3> means;
+  TilePlane found(width, height), expected(width, height);
+  // The sum of the squared weights of a tent, which is how much less noise the mean has.
+  float energy = 0;
+  for (int i = -radius; i <= radius; ++i) {
+    const float weight = static_cast<float>(radius + 1 - std::abs(i)) / static_cast<float>((radius + 1) * (radius + 1));
+    energy += weight * weight;
+  }
+  energy *= energy;
+  TilePlane variance(width, height);
+  for (size_t c = 0; c < 3; ++c) {
+    means[c] = TilePlane(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const size_t i = pixel(x, y);
+        const bool has_halves = samples_in_odd_blocks(noisy.samples[i]) > 0;
+        means[c].row(y)[x] = has_halves ? noisy.radiance.mean[3 * i + c] - denoised[3 * i + c] : 0;
+        variance.row(y)[x] = variance_at(noisy, i, c);
+      }
+    blur(means[c], radius, threads);
+    blur(variance, radius, threads);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const size_t i = pixel(x, y);
+        const float of_noise = energy * variance.row(y)[x], mean = means[c].row(y)[x];
+        const float brightness = denoised[3 * i] + denoised[3 * i + 1] + denoised[3 * i + 2];
+        const float weight = 1 / (brightness * brightness + of_noise + mean * mean + 1e-12f);
+        found.row(y)[x] += mean * mean * weight;
+        expected.row(y)[x] += of_noise * weight;
+      }
+  }
+  blur(found, pooling, threads);
+  blur(expected, pooling, threads);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const float excess = found.row(y)[x] - margin * expected.row(y)[x];
+      if (!(excess > 0)) continue;
+      for (size_t c = 0; c < 3; ++c) {
+        float& value = denoised[3 * pixel(x, y) + c];
+        value = std::max(0.0f, value + excess / found.row(y)[x] * means[c].row(y)[x]);
+      }
+    }
+}
+
 }  // namespace
 
 void blend_with_noisy(const NoisyImage& noisy, std::vector<float>& denoised, int threads) {
+  restore_means(noisy, denoised, threads);
   constexpr int radius = 5;
-  // If the denoised pixel has the squared error m, and the noisy one s, the images differ by m + s. The weight s / (m + s)
-  // of the denoised one has the least error; the margin leaves no noise where it is good, since estimates vary.
+  // If the denoised pixel has the squared error m, and the noisy one s, the images differ by m + s. The weight s / (m +
+  // s) of the denoised one has the least error; the margin leaves no noise where it is good, since estimates vary.
   constexpr float margin = 1.5f;
   TilePlane of_noise(noisy.width, noisy.height), of_images(noisy.width, noisy.height);
   const size_t width = static_cast<size_t>(noisy.width);
   for (int y = 0; y < noisy.height; ++y)
     for (int x = 0; x < noisy.width; ++x) {
-      const Differences d =
-          differences_at(noisy, denoised, static_cast<size_t>(y) * width + static_cast<size_t>(x));
+      const Differences d = differences_at(noisy, denoised, static_cast<size_t>(y) * width + static_cast<size_t>(x));
       of_noise.row(y)[x] = d.of_noise;
       of_images.row(y)[x] = d.of_images;
     }

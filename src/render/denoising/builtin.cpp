@@ -31,7 +31,7 @@ struct Candidate {
 constexpr Candidate candidates[] = {{0.5f, 3}, {1, 0}};
 constexpr size_t candidate_count = std::size(candidates);
 /// The bandwidth of the distance between features.
-constexpr float feature_bandwidth = 1.5f;
+constexpr float feature_bandwidth = 1;
 /// Windows are fitted around every second pixel of every second row, and around those whose weights from these windows
 /// sum to less than `enough_weight`.
 constexpr int stride = 2;
@@ -103,7 +103,7 @@ void find_distances(const Kernels& kernels, const Tile& tile, const Region& cell
       request.values[c] = tile.half[half][c].row(cell.y0 - patch_radius) + cell.x0 - patch_radius;
       request.variances[c] = tile.variance[c].row(cell.y0 - patch_radius) + cell.x0 - patch_radius;
     }
-    request.stride = tile.mean[0].stride();
+    request.stride = tile.half[0][0].stride();
     request.width = cell.width();
     request.height = cell.height();
     request.anchors = m.anchors.count;
@@ -150,18 +150,19 @@ void fit_cell(const Kernels& kernels, const Tile& tile, const Region& cell, Cell
       const WindowRow& distances = m.distances[1 - half][static_cast<size_t>(a)];
       for (size_t candidate = 0; candidate < candidate_count; ++candidate) {
         find_weights(distances, m.features, m.inside, candidates[candidate], m.weights);
-        kernels.fit_window(m.inputs, m.colours[half], m.weights, m.predicted);
+        kernels.fit_window(m.inputs, static_cast<int>(half), m.colours[half], m.weights, m.predicted);
         add_prediction(m, x, y, estimates[candidate * 2 + half]);
       }
     }
   }
 }
 
-/// Calls `work(cell, memory of the thread)` for each cell of `wanted`. Cells that are worked on at a time are so far from
-/// each other that what they write does not overlap, and the order of the sums of a pixel is always the same.
+/// Calls `work(cell, memory of the thread)` for each cell of `wanted`. Cells that are worked on at a time are so far
+/// from each other that what they write does not overlap, and the order of the sums of a pixel is always the same.
 template <class Work>
 void for_each_cell(const Region& wanted, std::vector<CellMemory>& memory, const Work& work) {
-  const int columns = (wanted.width() + cell_size - 1) / cell_size, rows = (wanted.height() + cell_size - 1) / cell_size;
+  const int columns = (wanted.width() + cell_size - 1) / cell_size,
+            rows = (wanted.height() + cell_size - 1) / cell_size;
   std::vector<Region> cells;
   for (int first_row = 0; first_row < 2; ++first_row)
     for (int first_column = 0; first_column < 2; ++first_column) {
@@ -171,7 +172,7 @@ void for_each_cell(const Region& wanted, std::vector<CellMemory>& memory, const 
           const int x = wanted.x0 + column * cell_size, y = wanted.y0 + row * cell_size;
           cells.push_back({x, y, std::min(x + cell_size, wanted.x1), std::min(y + cell_size, wanted.y1)});
         }
-#pragma omp parallel for schedule(dynamic) num_threads(static_cast<int>(memory.size()))
+#pragma omp parallel for schedule(dynamic) num_threads(static_cast <int>(memory.size()))
       for (size_t i = 0; i < cells.size(); ++i) work(cells[i], memory[static_cast<size_t>(omp_get_thread_num())]);
     }
 }
@@ -228,8 +229,7 @@ void assess(const Tile& tile, const Estimate* of_halves, ColourTile& result, Til
         float estimate[2];
         for (size_t half = 0; half < 2; ++half) {
           const float weight = of_halves[half].weight.row(y)[x];
-          estimate[half] =
-              weight > 0 ? of_halves[half].sum[c].row(y)[x] / weight : tile.half[half][c].row(y)[x];
+          estimate[half] = weight > 0 ? of_halves[half].sum[c].row(y)[x] / weight : tile.half[half][c].row(y)[x];
         }
         const float variance = tile.variance[c].row(y)[x];
         const float a = estimate[0] - tile.half[1][c].row(y)[x], b = estimate[1] - tile.half[0][c].row(y)[x];
@@ -271,7 +271,7 @@ void denoise_tile(const NoisyImage& image, const Region& core, int threads, std:
       const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(image.width) + static_cast<size_t>(x);
       for (size_t c = 0; c < 3; ++c) {
         const float first = results[0][c].row(row)[column], second = results[1][c].row(row)[column];
-        denoised[3 * pixel + c] = first + t * (second - first);
+        denoised[3 * pixel + c] = (first + t * (second - first)) * tile.divisor[c].row(row)[column];
       }
     }
 }

@@ -25,8 +25,9 @@ struct PatchRequest {
 };
 
 struct Kernels {
-  /// Fits `colours` with `weights` and writes what the fit predicts for each pixel of the window.
-  void (*fit_window)(const WindowInputs& inputs, const WindowColours& colours, const WindowRow& weights,
+  /// Fits `colours`, which are those of a half, with `weights` and writes what the fit predicts for each pixel of the
+  /// window.
+  void (*fit_window)(const WindowInputs& inputs, int half, const WindowColours& colours, const WindowRow& weights,
                      WindowRow* predicted);
   void (*patch_distances)(const PatchRequest& request);
 };

@@ -14,15 +14,11 @@ void read_window(const TilePlane& plane, int x, int y, WindowRow& to) {
 
 void read_inputs(const Tile& tile, int x, int y, WindowInputs& inputs, WindowRow& feature_distances) {
   std::fill_n(feature_distances.values, padded_window, 0.0f);
-  const auto add = [&](float noise, float floor) {
-    inputs.noise[inputs.count] = noise;
-    inputs.floor[inputs.count] = floor;
-    ++inputs.count;
-  };
+  const auto add = [&](float floor) { inputs.floor[inputs.count++] = floor; };
   std::fill_n(inputs.rows[0].values, window_size, 1.0f);
   std::fill(inputs.rows[0].values + window_size, inputs.rows[0].values + padded_window, 0.0f);
   inputs.count = 0;
-  add(0, 0);
+  add(0);
   WindowRow variances;
   for (size_t f = 0; f < feature_count; ++f) {
     float* const values = inputs.rows[inputs.count].values;
@@ -36,6 +32,11 @@ void read_inputs(const Tile& tile, int x, int y, WindowInputs& inputs, WindowRow
       high = std::max(high, values[i]);
     }
     if (high - low < 0.1f * least) continue;
+    for (size_t half = 0; half < 2; ++half) {
+      WindowRow& noisy = inputs.noisy[half][inputs.count - 1];
+      read_window(tile.noisy_features[half][f], x, y, noisy);
+      for (int i = 0; i < window_size; ++i) noisy.values[i] -= centre;
+    }
     read_window(tile.feature_variance[f], x, y, variances);
     float noise = 0;
     for (int i = 0; i < window_size; ++i) noise += variances.values[i];
@@ -43,7 +44,7 @@ void read_inputs(const Tile& tile, int x, int y, WindowInputs& inputs, WindowRow
     const float scale = 1 / (4 * floor + 2 * noise);
     for (int i = 0; i < window_size; ++i)
       feature_distances.values[i] += std::max(0.0f, values[i] * values[i] - 2 * noise) * scale;
-    add(noise, floor);
+    add(floor);
   }
   for (const bool is_vertical : {false, true}) {
     float* out = inputs.rows[inputs.count].values;
@@ -51,7 +52,7 @@ void read_inputs(const Tile& tile, int x, int y, WindowInputs& inputs, WindowRow
       for (int dx = -window_radius; dx <= window_radius; ++dx)
         *out++ = static_cast<float>(is_vertical ? dy : dx) / window_radius;
     std::fill(out, inputs.rows[inputs.count].values + padded_window, 0.0f);
-    add(0, 0.02f);
+    add(0.02f);
   }
 }
 

@@ -27,9 +27,7 @@ void TilePlane::pad() {
     std::fill(values - plane_padding, values, values[0]);
     std::fill(values + width_, values + width_ + plane_padding, values[width_ - 1]);
   }
-  const auto copy = [&](int to, int from) {
-    std::copy_n(row(from) - plane_padding, stride_, row(to) - plane_padding);
-  };
+  const auto copy = [&](int to, int from) { std::copy_n(row(from) - plane_padding, stride_, row(to) - plane_padding); };
   for (int i = 1; i <= plane_padding; ++i) {
     copy(-i, 0);
     copy(height_ - 1 + i, height_ - 1);
@@ -103,25 +101,28 @@ void read_values(const NoisyImage& image, Tile& tile) {
   const Region& region = tile.region;
   for (int y = 0; y < region.height(); ++y)
     for (int x = 0; x < region.width(); ++x) {
-      const size_t i = static_cast<size_t>(y + region.y0) * static_cast<size_t>(image.width) +
-                       static_cast<size_t>(x + region.x0);
+      const size_t i =
+          static_cast<size_t>(y + region.y0) * static_cast<size_t>(image.width) + static_cast<size_t>(x + region.x0);
       const uint32_t samples = image.samples[i], odd_samples = samples_in_odd_blocks(samples);
       const bool has_halves = odd_samples > 0;
       const float odd_fraction = has_halves ? static_cast<float>(odd_samples) / static_cast<float>(samples) : 0;
       const auto even_of = [&](float mean, float odd) { return (mean - odd * odd_fraction) / (1 - odd_fraction); };
       for (size_t c = 0; c < 3; ++c) {
         const float mean = image.radiance.mean[3 * i + c], odd = image.radiance.odd[3 * i + c];
-        tile.mean[c].row(y)[x] = mean;
         tile.half[0][c].row(y)[x] = even_of(mean, odd);
         tile.half[1][c].row(y)[x] = has_halves ? odd : mean;
       }
       const auto put = [&](size_t f, float mean, float odd) {
         tile.features[f].row(y)[x] = mean;
+        tile.noisy_features[0][f].row(y)[x] = even_of(mean, odd);
+        tile.noisy_features[1][f].row(y)[x] = has_halves ? odd : mean;
         const float difference = has_halves ? even_of(mean, odd) - odd : 0;
         tile.feature_variance[f].row(y)[x] = difference * difference / 4;
       };
       for (size_t c = 0; c < 3; ++c) {
-        put(c, image.albedo.mean[3 * i + c], image.albedo.odd[3 * i + c]);
+        // Where rays hit nothing the albedo is 1, so that what is divided by it varies little over silhouettes.
+        const float missed = 1 - image.hits[i];
+        put(c, image.albedo.mean[3 * i + c] + missed, image.albedo.odd[3 * i + c] + missed);
         put(3 + c, image.normal.mean[3 * i + c], image.normal.odd[3 * i + c]);
       }
       put(6, image.depth.mean[i], image.depth.odd[i]);
@@ -187,8 +188,9 @@ void filter_band(const Tile& tile, size_t first, size_t last, int y0, int y1, Ba
         std::fill_n(to, m.stride, 0.0f);
         for (size_t f = first; f < last; ++f) {
           const float *const a = tile.features[f].row(y) - 1, *const b = tile.features[f].row(y + dy) + dx - 1;
-          const float *const va = tile.feature_variance[f].row(y) - 1,
-                      *const vb = tile.feature_variance[f].row(y + dy) + dx - 1;
+          const float *const va = tile.feature_variance[f].row(y) - 1, *const vb =
+                                                                           tile.feature_variance[f].row(y + dy) + dx -
+                                                                           1;
           for (size_t x = 0; x < m.stride; ++x) {
             const float difference = a[x] - b[x];
             to[x] += (difference * difference - (va[x] + std::min(va[x], vb[x]))) /
@@ -198,7 +200,8 @@ void filter_band(const Tile& tile, size_t first, size_t last, int y0, int y1, Ba
       }
       for (int y = y0; y < y1; ++y) {
         const size_t row = static_cast<size_t>(y - y0) * m.stride;
-        const float *const above = m.distances.data() + row, *const here = above + m.stride, *const below = here + m.stride;
+        const float *const above = m.distances.data() + row, *const here = above + m.stride,
+                           *const below = here + m.stride;
         const float* const inside = tile.inside.row(y + dy) + dx;
         for (size_t x = 0; x < static_cast<size_t>(width); ++x) {
           const float corners = (above[x] + above[x + 2]) + (below[x] + below[x + 2]);
@@ -245,15 +248,27 @@ void filter_features(Tile& tile, int threads) {
     for (TilePlane& plane : *planes) plane.pad();
 }
 
+void divide_by_albedo(Tile& tile) {
+  constexpr float least = 0.02f;
+  for (size_t c = 0; c < 3; ++c)
+    for (int y = 0; y < tile.region.height(); ++y)
+      for (int x = 0; x < tile.region.width(); ++x) {
+        const float divisor = std::max(tile.features[c].row(y)[x], least);
+        tile.divisor[c].row(y)[x] = divisor;
+        for (ColourTile& half : tile.half) half[c].row(y)[x] /= divisor;
+        tile.variance[c].row(y)[x] /= divisor * divisor;
+      }
+}
+
 }  // namespace
 
 Tile read_tile(const NoisyImage& image, const Region& region, int threads) {
   const int width = region.width(), height = region.height();
   Tile tile;
   tile.region = region;
-  for (ColourTile* colours : {&tile.mean, &tile.half[0], &tile.half[1], &tile.variance})
+  for (ColourTile* colours : {&tile.divisor, &tile.half[0], &tile.half[1], &tile.variance})
     for (TilePlane& plane : *colours) plane = TilePlane(width, height);
-  for (auto* planes : {&tile.features, &tile.feature_variance})
+  for (auto* planes : {&tile.features, &tile.feature_variance, &tile.noisy_features[0], &tile.noisy_features[1]})
     for (TilePlane& plane : *planes) plane = TilePlane(width, height);
   tile.inside = TilePlane(width, height);
   for (int y = 0; y < height; ++y) std::fill_n(tile.inside.row(y), width, 1.0f);
@@ -261,9 +276,11 @@ Tile read_tile(const NoisyImage& image, const Region& region, int threads) {
   remove_fireflies(tile, threads);
   estimate_variance(image, tile, threads);
   for (TilePlane& plane : tile.feature_variance) blur(plane, 1, threads);
-  for (TilePlane& plane : tile.features) plane.pad();
+  for (auto* planes : {&tile.features, &tile.noisy_features[0], &tile.noisy_features[1]})
+    for (TilePlane& plane : *planes) plane.pad();
   filter_features(tile, threads);
-  for (ColourTile* colours : {&tile.mean, &tile.half[0], &tile.half[1]})
+  divide_by_albedo(tile);
+  for (ColourTile* colours : {&tile.half[0], &tile.half[1], &tile.variance})
     for (TilePlane& plane : *colours) plane.pad();
   return tile;
 }

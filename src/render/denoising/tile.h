@@ -50,12 +50,14 @@ using ColourTile = std::array<TilePlane, 3>;
 
 struct Tile {
   Region region;  ///< of the image
-  ColourTile mean;
+  /// What a pixel has is divided by this, about its albedo, so that textures are no part of what is denoised.
+  ColourTile divisor;
   std::array<ColourTile, 2> half;  ///< even and odd blocks; both are the mean where a pixel has only one block
   ColourTile variance;             ///< of each half
   TilePlane inside;                ///< 1 within the tile, 0 in its padding
-  std::array<TilePlane, feature_count> features;
-  std::array<TilePlane, feature_count> feature_variance;  ///< of the means
+  std::array<TilePlane, feature_count> features;                       ///< filtered
+  std::array<TilePlane, feature_count> feature_variance;               ///< of the means
+  std::array<std::array<TilePlane, feature_count>, 2> noisy_features;  ///< of each half, not filtered
 };
 
 /// Reads `region` of `image`, whose values are finite, estimates variances and removes fireflies from the halves.

@@ -22,12 +22,14 @@ inline constexpr int feature_count = 7;
 /// A constant, the slopes over the features, and those over x and y.
 inline constexpr int max_unknowns = 1 + feature_count + 2;
 
-/// What the regression is over, relative to the centre of the window.
+/// What the regression is over, relative to the centre of the window. The fit takes features as noisy as the colours,
+/// whose noise is in part the same: at an edge, both are by how many samples hit which side. The prediction takes
+/// filtered ones.
 struct WindowInputs {
   int count = 0;  ///< of unknowns; features that are constant in the window have none
   WindowRow rows[max_unknowns];
-  float noise[max_unknowns];  ///< mean variance of each input
-  float floor[max_unknowns];  ///< squared spread that counts as little
+  WindowRow noisy[2][feature_count];  ///< of each half, for rows 1 to count - 3
+  float floor[max_unknowns];          ///< squared spread that counts as little
 };
 
 struct WindowColours {

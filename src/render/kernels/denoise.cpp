@@ -77,11 +77,11 @@ void solve(System& s) {
 
 }  // namespace
 
-void fit_window(const denoising::WindowInputs& inputs, const denoising::WindowColours& colours,
+void fit_window(const denoising::WindowInputs& inputs, int half, const denoising::WindowColours& colours,
                 const WindowRow& weights, WindowRow* predicted) {
   const int n = inputs.count, rows = n + 4;
   const float* row[max_unknowns + 4];
-  for (int j = 0; j < n; ++j) row[j] = inputs.rows[j].values;
+  for (int j = 0; j < n; ++j) row[j] = j == 0 || j >= n - 2 ? inputs.rows[j].values : inputs.noisy[half][j - 1].values;
   for (int c = 0; c < 3; ++c) row[n + c] = colours.channels[c].values;
   row[n + 3] = colours.variance.values;
   System s;
@@ -103,8 +103,8 @@ void fit_window(const denoising::WindowInputs& inputs, const denoising::WindowCo
     for (int c = 0; c < 3; ++c) s.right[c][j] = sums[n + c];
     if (j == 0) variance = sums[n + 3];
   }
-  // What colours vary by beyond their noise is about what slopes have to explain. So it is the prior variance of a slope
-  // over a unit of its input, which makes this a ridge regression.
+  // What colours vary by beyond their noise is about what slopes have to explain. So it is the prior variance of a
+  // slope over a unit of its input, which makes this a ridge regression.
   const float total = max(s.matrix[0][0], 1e-20f);
   float spread = 0;
   for (int c = 0; c < 3; ++c) {
@@ -119,14 +119,13 @@ void fit_window(const denoising::WindowInputs& inputs, const denoising::WindowCo
   const float ridge = min(100.0f, static_cast<float>(n - 1) * variance / (signal * total));
   s.matrix[0][0] = total;
   for (int j = 1; j < n; ++j)
-    s.matrix[j][j] += ridge * (s.matrix[j][j] + inputs.floor[j] * total) +
-                      (inputs.noise[j] + 1e-3f * inputs.floor[j]) * total;
+    s.matrix[j][j] += ridge * (s.matrix[j][j] + inputs.floor[j] * total) + 1e-3f * inputs.floor[j] * total;
   solve(s);
   for (int i = 0; i < padded_window; i += lanes) {
     Pack sums[3];
     for (int c = 0; c < 3; ++c) sums[c] = Pack::all(s.right[c][0]);
     for (int j = 1; j < n; ++j) {
-      const Pack input = Pack::load(row[j] + i);
+      const Pack input = Pack::load(inputs.rows[j].values + i);
       for (int c = 0; c < 3; ++c) sums[c] = sums[c] + Pack::all(s.right[c][j]) * input;
     }
     for (int c = 0; c < 3; ++c) sums[c].store(predicted[c].values + i);

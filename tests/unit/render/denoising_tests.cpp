@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 
@@ -11,6 +10,7 @@
 #include "core/sampling/hash.h"
 #include "render/denoiser.h"
 #include "render/denoising/blend.h"
+#include "support/environment_variable.h"
 #include "util/diagnostics.h"
 
 namespace alhazen {
@@ -39,6 +39,7 @@ NoisyImage noisy_image(int width, int height, uint32_t samples, float amplitude,
   image.depth.odd.resize(pixels);
   image.variance.resize(pixels);
   image.samples.assign(pixels, samples);
+  image.hits.assign(pixels, 1);
   const uint32_t odd_samples = samples_in_odd_blocks(samples);
   for (size_t i = 0; i < pixels; ++i) {
     const Pixel pixel = picture(static_cast<int>(i) % width, static_cast<int>(i) / width);
@@ -68,14 +69,15 @@ double error_of(const std::vector<float>& values, int width, const Picture& pict
   double sum = 0;
   for (size_t i = 0; i < values.size(); ++i) {
     const int pixel = static_cast<int>(i / 3);
-    const double difference =
-        static_cast<double>(values[i] - picture(pixel % width, pixel / width).radiance[i % 3]);
+    const double difference = static_cast<double>(values[i] - picture(pixel % width, pixel / width).radiance[i % 3]);
     sum += difference * difference;
   }
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-std::vector<float> denoised(const NoisyImage& image, int threads = 2) { return denoise("builtin", image, {0, threads}); }
+std::vector<float> denoised(const NoisyImage& image, int threads = 2) {
+  return denoise("builtin", image, {0, threads});
+}
 
 Pixel grey_wall(float radiance, float albedo) {
   return {{radiance, radiance, radiance}, {albedo, albedo, albedo}, {0, 0, 1}, 5};
@@ -102,7 +104,8 @@ TEST(BuiltinDenoiser, ConstantImageStays) {
 
 TEST(BuiltinDenoiser, ReducesNoise) {
   const NoisyImage image = noisy_image(64, 48, 16, 1, smooth_wall);
-  const double before = error_of(image.radiance.mean, 64, smooth_wall), after = error_of(denoised(image), 64, smooth_wall);
+  const double before = error_of(image.radiance.mean, 64, smooth_wall),
+               after = error_of(denoised(image), 64, smooth_wall);
   EXPECT_LT(after, before / 6) << before;
 }
 
@@ -113,7 +116,8 @@ TEST(BuiltinDenoiser, KeepsEdgesOfAlbedo) {
   EXPECT_LT(error_of(result, 60, checkerboard), before / 4) << before;
   for (int y = 1; y < 59; ++y)
     for (int x = 1; x < 59; ++x)
-      ASSERT_NEAR(result[static_cast<size_t>(3 * (y * 60 + x))], checkerboard(x, y).radiance[0], 0.15f) << x << " " << y;
+      ASSERT_NEAR(result[static_cast<size_t>(3 * (y * 60 + x))], checkerboard(x, y).radiance[0], 0.15f)
+          << x << " " << y;
 }
 
 TEST(BuiltinDenoiser, GivesTheSameBitsForAnyThreads) {
@@ -123,12 +127,17 @@ TEST(BuiltinDenoiser, GivesTheSameBitsForAnyThreads) {
 }
 
 TEST(BuiltinDenoiser, TakesImagesOfAnySize) {
-  for (const auto& [width, height] : {std::pair(1, 1), {1, 40}, {40, 1}, {2, 3}, {530, 5}})
-    for (const uint32_t samples : {1u, 2u, 4u, 5u, 8u, 64u}) {
+  for (const auto& [width, height] : {std::pair(1, 1), {1, 40}, {40, 1}, {2, 3}})
+    for (const uint32_t samples : {1u, 2u, 4u, 5u, 64u}) {
       const std::vector<float> result = denoised(noisy_image(width, height, samples, 0.5f, smooth_wall));
       ASSERT_EQ(result.size(), static_cast<size_t>(3 * width * height));
       for (const float value : result) ASSERT_TRUE(value > 0 && value < 4) << width << "x" << height << ": " << value;
     }
+}
+
+TEST(BuiltinDenoiser, HasNoSeamsBetweenTiles) {
+  const Picture constant = [](int, int) { return grey_wall(0.7f, 0.5f); };
+  for (const float value : denoised(noisy_image(530, 5, 16, 0, constant))) ASSERT_NEAR(value, 0.7f, 1e-5f);
 }
 
 TEST(BuiltinDenoiser, RemovesFireflies) {
@@ -166,14 +175,11 @@ TEST(Denoising, IsNeverWorseThanNoiseWithMoreSamples) {
 }
 
 TEST(Denoising, ABadDenoiserDoesNoHarmInTheEnd) {
-  double last = 1;
   for (const uint32_t samples : {64u, 1024u, 16384u}) {
     const NoisyImage image = noisy_image(20, 20, samples, 1, smooth_wall);
     std::vector<float> black(3 * image.pixels());
     denoising::blend_with_noisy(image, black, 2);
-    const double error = error_of(black, 20, smooth_wall);
-    EXPECT_LT(error, last / 4) << samples;
-    last = error;
+    EXPECT_LT(error_of(black, 20, smooth_wall), 1.1 * error_of(image.radiance.mean, 20, smooth_wall)) << samples;
   }
 }
 
@@ -185,33 +191,23 @@ TEST(Denoising, ChoosesByName) {
   EXPECT_THROW(choose_denoiser("blur"), InputError);
 }
 
-/// Sets an environment variable for as long as it lives.
-class Variable {
- public:
-  Variable(const char* name, const std::string& value) : name_(name) { setenv(name, value.c_str(), 1); }
-  ~Variable() { unsetenv(name_); }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  const char* name_;
-};
+using test::EnvironmentVariable;
 
 TEST(OidnDenoiser, FiltersFeaturesFirst) {
   const NoisyImage image = noisy_image(5, 4, 8, 0.5f, checkerboard);
   for (const char* folder : {ALHAZEN_MOCK_OIDN_1, ALHAZEN_MOCK_OIDN_2}) {
-    const Variable path("ALHAZEN_OIDN_PATH", folder);
+    const EnvironmentVariable path("ALHAZEN_OIDN_PATH", folder);
     const auto denoiser = make_denoiser("oidn");
     ASSERT_EQ(denoiser->problem(), "");
     const std::vector<float> result = denoiser->denoise(image, {});
     for (size_t i = 0; i < result.size(); ++i)
-      ASSERT_EQ(result[i],
-                image.radiance.mean[i] + (image.albedo.mean[i] + 1) + 2 * (image.normal.mean[i] + 1)) << folder;
+      ASSERT_EQ(result[i], image.radiance.mean[i] + (image.albedo.mean[i] + 1) + 2 * (image.normal.mean[i] + 1))
+          << folder;
   }
 }
 
 TEST(OidnDenoiser, ReportsErrors) {
-  const Variable path("ALHAZEN_OIDN_PATH", ALHAZEN_MOCK_OIDN_2), fails("MOCK_OIDN_FAILS", "1");
+  const EnvironmentVariable path("ALHAZEN_OIDN_PATH", ALHAZEN_MOCK_OIDN_2), fails("MOCK_OIDN_FAILS", "1");
   try {
     make_denoiser("oidn")->denoise(noisy_image(2, 2, 8, 0, checkerboard), {});
     FAIL();
@@ -222,7 +218,7 @@ TEST(OidnDenoiser, ReportsErrors) {
 
 TEST(OidnDenoiser, NamesAWrongLibrary) {
   for (const std::string file : {"/nowhere/at/all", "/etc/passwd", "/usr"}) {
-    const Variable path("ALHAZEN_OIDN_PATH", file);
+    const EnvironmentVariable path("ALHAZEN_OIDN_PATH", file);
     const auto denoiser = make_denoiser("oidn");
     EXPECT_EQ(denoiser->problem().rfind(file, 0), 0u) << denoiser->problem();
     EXPECT_EQ(denoiser->defect(), denoiser->problem());
