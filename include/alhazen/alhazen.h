@@ -61,9 +61,11 @@ struct Settings {
   /// Part of the image to render: x0, x1, y0, y1 in [0, 1], or in pixels (half open). Give at most one of the two.
   std::optional<std::array<double, 4>> crop_window;
   std::optional<std::array<int64_t, 4>> pixel_bounds;
-  /// Additional layers: albedo, normal, depth, bounces, samples, variance.
+  /// Additional layers: albedo, normal, depth, bounces, samples, variance; noisy (before denoising).
   std::vector<std::string> aovs;
-  std::string denoiser;   ///< none or optix (runs on a GPU, with any backend; adds the layers albedo and normal)
+  /// none; optix (on an NVIDIA GPU, with any backend), oidn (if its library is here), builtin (any machine); auto: the
+  /// best of them that is here. Empty: none. R, G and B are then denoised.
+  std::string denoiser;
   double time_limit = 0;  ///< seconds of rendering; stops after the last complete pass within it; 0: none
   /// File in which to save the state, and from which `resume` continues. A failed save is a warning, and rendering
   /// continues.
@@ -89,7 +91,7 @@ struct Progress {
 using ProgressFunction = std::function<bool(const Progress&)>;
 
 /// Planes of linear values, rows from the top down: R, G, B (radiance, linear sRGB) and the requested layers (albedo.R,
-/// .G, .B; normal.X, .Y, .Z; depth.Z; bounces.Y; samples.Y; variance.Y).
+/// .G, .B; normal.X, .Y, .Z; depth.Z; bounces.Y; samples.Y; variance.Y; noisy.R, .G, .B).
 struct RenderedImage {
   int width = 0, height = 0;
   std::vector<std::string> channels;

@@ -1,11 +1,11 @@
-// Lists all backends and denoisers, in the order in which they are displayed. A new folder of src/backends is
-// registered by its name here.
+// Lists all backends and denoisers, in the order in which they are displayed; of denoisers the best first. A new folder
+// of src/backends is registered by its name here.
 
 #include "render/backend.h"
 #include "render/denoiser.h"
 
 #define ALHAZEN_BACKENDS(X) X(serial) X(openmp) X(embree) X(cuda) X(optix)
-#define ALHAZEN_DENOISERS(X) X(optix)
+#define ALHAZEN_DENOISERS(X) X(optix) X(oidn) X(builtin)
 
 namespace alhazen {
 

@@ -1,6 +1,8 @@
 #include "cli/command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -46,7 +48,36 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app) {
   return message;
 }
 
+/// The values of options that are given without one.
+std::map<std::string, std::string>& implied_values() {
+  static std::map<std::string, std::string> values;
+  return values;
+}
+
+/// The arguments without the program's name, with implied values written out.
+std::vector<std::string> complete_arguments(int argc, char** argv) {
+  std::vector<std::string> arguments;
+  for (int i = 1; i < argc; ++i) {
+    arguments.emplace_back(argv[i]);
+    if (arguments.back() == "--") {
+      arguments.insert(arguments.end(), argv + i + 1, argv + argc);
+      break;
+    }
+    const auto implied = implied_values().find(arguments.back());
+    if (implied == implied_values().end()) continue;
+    const std::string next = i + 1 < argc ? argv[i + 1] : "";
+    if (next.empty() || next[0] == '-' || next.find_first_of("./") != std::string::npos)
+      arguments.push_back(implied->second);
+  }
+  return arguments;
+}
+
 }  // namespace
+
+CommandOption& CommandOption::implied(const std::string& value) {
+  implied_values()["--" + option_->get_lnames().at(0)] = value;
+  return *this;
+}
 
 CommandOption& CommandOption::required() {
   option_->required();
@@ -151,7 +182,9 @@ int run_command_line(const ProgramText& text, const std::function<void(Command&)
   program.require_subcommand();
   add_subcommands(program);
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> arguments = complete_arguments(argc, argv);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    app.parse(std::move(arguments));
     return exit_done;
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);

@@ -29,6 +29,9 @@ class CommandOption {
   CommandOption& group(const std::string& heading);
   /// May be given more than once, with one value each.
   CommandOption& repeatable();
+  /// The value may be left out and is then `value`. A word that follows is its value unless it looks like an option or
+  /// a file, that is, has a dot or a slash or starts with a dash.
+  CommandOption& implied(const std::string& value);
   /// One value may hold several, with this character between them.
   CommandOption& separated_by(char separator);
   /// Inclusive limits, which appear in the error but not in the help. NaN is outside.

@@ -1,4 +1,4 @@
-// `alhazen devices`: lists the backends, and for unavailable ones why and what to do.
+// `alhazen devices`: lists the backends and denoisers, and for unavailable ones why and what to do.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +10,7 @@
 #include "cli/console.h"
 #include "cli/subcommands.h"
 #include "render/backend.h"
+#include "render/denoiser.h"
 #include "render/sample_kernel.h"
 #include "util/printable.h"
 
@@ -26,6 +27,11 @@ void print_table() {
     if (!traits.strategies.empty())
       print_out("{:<8} {:<14} {}\n", "", "strategies", fmt::join(traits.strategies, ", "));
     if (!status.module.empty()) print_out("{:<8} {:<14} {}\n", "", "module", printable(status.module));
+  }
+  for (const auto& denoiser : all_denoisers()) {
+    const std::string problem = denoiser->problem();
+    print_out("{:<8} {:<14} {}\n", "denoiser", denoiser->name(),
+              printable(problem.empty() ? denoiser->details() : "not available: " + problem));
   }
   std::vector<std::string> sets;
   for (const InstructionSet set : built_instruction_sets()) sets.push_back(to_string(set));
@@ -50,7 +56,7 @@ void print_json() {
 }  // namespace
 
 void register_devices(Command& program) {
-  Command command = program.add_subcommand("devices", "List the backends and their devices");
+  Command command = program.add_subcommand("devices", "List the backends, their devices, and the denoisers");
   auto json = std::make_shared<bool>(false);
   command.add_flag("--json", *json, "One JSON array instead of the table");
   command.on_run([json] { *json ? print_json() : print_table(); });

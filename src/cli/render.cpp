@@ -96,12 +96,12 @@ void print_start(const RenderStatistics& s) {
 
 std::string text_statistics(const RenderStatistics& s) {
   const std::string text = fmt::format(
-      "load    {:.3f} s\nbuild   {:.3f} s\nrender  {:.3f} s\nsamples {} ({:.3f} million per second)\n"
+      "load    {:.3f} s\nbuild   {:.3f} s\nrender  {:.3f} s\ndenoise {:.3f} s\nsamples {} ({:.3f} million per second)\n"
       "rays    {} and {} shadow rays ({:.3f} million per second)\nbounces {:.3f} segments per path\nmemory  {:.1f} MB "
       "at "
       "most, {:.1f} MB of it the scene\n",
-      s.load_seconds, s.build_seconds, s.render_seconds, s.camera_samples, s.msamples_per_second(), s.rays,
-      s.shadow_rays, s.mrays_per_second(), s.mean_segments(), static_cast<double>(s.peak_rss_bytes) * 1e-6,
+      s.load_seconds, s.build_seconds, s.render_seconds, s.denoise_seconds, s.camera_samples, s.msamples_per_second(),
+      s.rays, s.shadow_rays, s.mrays_per_second(), s.mean_segments(), static_cast<double>(s.peak_rss_bytes) * 1e-6,
       static_cast<double>(s.scene_sizes.bytes) * 1e-6);
   const std::string noise = s.settings.asked.noise > 0
                                 ? fmt::format(
@@ -124,6 +124,8 @@ void print_end(const RenderOptions& options, const OutputReport& outputs, const 
   for (const std::string& failure : outputs.failures) tell("alhazen: {}\n", failure);
   if (!options.quiet) {
     std::string line = samples_taken(statistics) + " in " + format_seconds(statistics.render_seconds);
+    if (!statistics.denoiser.empty())
+      line += fmt::format("; denoised with {} in {}", statistics.denoiser, format_seconds(statistics.denoise_seconds));
     for (const std::string& path : outputs.written)
       line += (&path == &outputs.written[0] ? "; wrote " : ", ") + printable(path);
     if (!options.exposure && options.output.how.exposure < 0)

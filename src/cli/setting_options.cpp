@@ -13,6 +13,7 @@ CommandOption add(Command& command, Settings& settings, const SettingEntry& entr
   const auto set = [&](const std::string& text) { entry.set(settings, text); };
   CommandOption option = entry.is_list ? command.add_repeatable_option(flags, set, entry.help)
                                        : command.add_option(flags, set, entry.help);
+  if (*entry.implied != '\0') option.implied(entry.implied);
   return option.value_name(entry.value_name);
 }
 

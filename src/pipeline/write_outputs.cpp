@@ -33,6 +33,7 @@ std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
       {"samples", std::to_string(s.samples_per_pixel)},
       {"seed", std::to_string(settings.seed)},
       {"seconds", fmt::format("{:.3f}", s.render_seconds)},
+      {"denoiser", s.denoiser.empty() ? "none" : s.denoiser},
       {"settings",
        fmt::format("--backend {}{}{} --precision {} --integrator {} --sampler {} --max-depth {} --threads {}",
                    settings.backend, strategy.empty() ? "" : " --strategy ", strategy, to_string(settings.precision),

@@ -12,35 +12,40 @@ void allocate_if(bool wanted, Vector& plane, size_t size) {
 }  // namespace
 
 template <class Real>
-uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted, bool has_noise_target) {
+uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, const FilmExtras& extras) {
   size_t pixel = sizeof(Vec3<Real>) + sizeof(uint32_t);
-  if (weighted) pixel += sizeof(Real);
-  if (aovs.albedo) pixel += sizeof(Vec3<Real>);
-  if (aovs.normal) pixel += sizeof(Vec3<Real>);
-  if (aovs.depth) pixel += sizeof(Real) + sizeof(uint32_t);
+  if (extras.weights) pixel += sizeof(Real);
+  if (aovs.albedo || extras.denoising) pixel += sizeof(Vec3<Real>);
+  if (aovs.normal || extras.denoising) pixel += sizeof(Vec3<Real>);
+  if (aovs.depth || extras.denoising) pixel += sizeof(Real) + sizeof(uint32_t);
   if (aovs.bounces) pixel += sizeof(uint32_t);
-  if (aovs.variance || has_noise_target) pixel += 2 * sizeof(Real);
-  if (has_noise_target) pixel += 2 * sizeof(Real) + sizeof(uint8_t);
+  if (aovs.variance || extras.denoising || extras.noise_target) pixel += 2 * sizeof(Real);
+  if (extras.denoising) pixel += 3 * sizeof(Vec3<Real>) + sizeof(Real);
+  if (extras.noise_target) pixel += 2 * sizeof(Real) + sizeof(uint8_t);
   return pixel * static_cast<uint64_t>(window.pixels());
 }
 
 template <class Real>
-Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, bool weighted, bool has_noise_target)
+Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, const FilmExtras& extras)
     : window_(window), aovs_(aovs) {
   const size_t pixels = static_cast<size_t>(window.pixels());
   radiance_.resize(pixels);
   samples_.resize(pixels);
-  allocate_if(weighted, weights_, pixels);
-  allocate_if(aovs.albedo, albedo_, pixels);
-  allocate_if(aovs.normal, normal_, pixels);
-  allocate_if(aovs.depth, depth_, pixels);
-  allocate_if(aovs.depth, hits_, pixels);
+  allocate_if(extras.weights, weights_, pixels);
+  allocate_if(aovs.albedo || extras.denoising, albedo_, pixels);
+  allocate_if(aovs.normal || extras.denoising, normal_, pixels);
+  allocate_if(aovs.depth || extras.denoising, depth_, pixels);
+  allocate_if(aovs.depth || extras.denoising, hits_, pixels);
   allocate_if(aovs.bounces, segments_, pixels);
-  allocate_if(aovs.variance || has_noise_target, luminance_m2_, pixels);
-  allocate_if(aovs.variance || has_noise_target, luminance_mean_, pixels);
-  allocate_if(has_noise_target, block_m2_, pixels);
-  allocate_if(has_noise_target, half_difference_, pixels);
-  allocate_if(has_noise_target, finished_, pixels);
+  allocate_if(aovs.variance || extras.denoising || extras.noise_target, luminance_m2_, pixels);
+  allocate_if(aovs.variance || extras.denoising || extras.noise_target, luminance_mean_, pixels);
+  allocate_if(extras.denoising, odd_radiance_, pixels);
+  allocate_if(extras.denoising, odd_albedo_, pixels);
+  allocate_if(extras.denoising, odd_normal_, pixels);
+  allocate_if(extras.denoising, odd_depth_, pixels);
+  allocate_if(extras.noise_target, block_m2_, pixels);
+  allocate_if(extras.noise_target, half_difference_, pixels);
+  allocate_if(extras.noise_target, finished_, pixels);
   const auto pointer = [](auto& plane) { return plane.empty() ? nullptr : plane.data(); };
 #define ALHAZEN_PLANE(type, name) view_.name = pointer(name##_);
   ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
@@ -107,8 +112,8 @@ void Film<Real>::resolve_row(int y, std::span<float> row) const {
   }
 }
 
-template uint64_t film_bytes<float>(const PixelWindow&, const AovSet&, bool, bool);
-template uint64_t film_bytes<double>(const PixelWindow&, const AovSet&, bool, bool);
+template uint64_t film_bytes<float>(const PixelWindow&, const AovSet&, const FilmExtras&);
+template uint64_t film_bytes<double>(const PixelWindow&, const AovSet&, const FilmExtras&);
 template class Film<float>;
 template class Film<double>;
 

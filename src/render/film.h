@@ -14,14 +14,20 @@
 
 namespace alhazen {
 
+/// What a film sums besides radiance and its layers: the weights of the pixel filter, and what a noise target and a
+/// denoiser need.
+struct FilmExtras {
+  bool weights = false, noise_target = false, denoising = false;
+};
+
 /// Bytes that a film with these pixels and layers takes.
 template <class Real>
-uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, bool weighted, bool has_noise_target = false);
+uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, const FilmExtras& extras = {});
 
 template <class Real>
 class Film {
  public:
-  Film(const PixelWindow& window, const AovSet& aovs, bool weighted, bool has_noise_target = false);
+  Film(const PixelWindow& window, const AovSet& aovs, const FilmExtras& extras = {});
   Film(const Film&) = delete;
   Film& operator=(const Film&) = delete;
 

@@ -17,6 +17,7 @@
 #include "render/checkpoint.h"
 #include "render/denoiser.h"
 #include "render/noise.h"
+#include "render/noisy_image.h"
 #include "render/sample_kernel.h"
 #include "util/thread_limit.h"
 
@@ -239,11 +240,11 @@ void check_memory(uint64_t bytes) {
 
 template <class Real>
 std::unique_ptr<Film<Real>> make_film(const RenderSettings& settings, bool weighted) {
-  const bool has_noise_target = settings.asked.noise > 0;
-  const uint64_t bytes = film_bytes<Real>(settings.window, settings.aovs, weighted, has_noise_target);
+  const FilmExtras extras{weighted, settings.asked.noise > 0, !settings.denoiser.empty()};
+  const uint64_t bytes = film_bytes<Real>(settings.window, settings.aovs, extras);
   check_memory(bytes);
   try {
-    return std::make_unique<Film<Real>>(settings.window, settings.aovs, weighted, has_noise_target);
+    return std::make_unique<Film<Real>>(settings.window, settings.aovs, extras);
   } catch (const std::bad_alloc&) {
     throw InputError("the image with its layers takes " + std::to_string(bytes >> 20) +
                      " MiB, more than is left beside the scene: render parts of it with --crop, or with fewer layers");
@@ -305,49 +306,44 @@ ImageSource Rendering::source() const {
                            [planes](int y, std::span<float> row) { planes->resolve_row(y, row); }};
       },
       film);
-  if (denoised.empty()) return source;
-  const size_t width = static_cast<size_t>(source.width);
-  source.fill_row = [this, width, noisy = source.fill_row](int y, std::span<float> row) {
-    noisy(y, row);
+  const size_t width = static_cast<size_t>(source.width), count = source.channels.size();
+  const bool keeps_noisy = statistics.settings.aovs.noisy;
+  if (keeps_noisy) source.channels.insert(source.channels.end(), {"noisy.R", "noisy.G", "noisy.B"});
+  if (denoised.empty() && !keeps_noisy) return source;
+  source.fill_row = [this, width, count, keeps_noisy, film_row = source.fill_row](int y, std::span<float> row) {
+    film_row(y, row);
+    if (keeps_noisy) std::copy_n(row.begin(), 3 * width, row.begin() + static_cast<std::ptrdiff_t>(count * width));
+    if (denoised.empty()) return;
     for (size_t i = 0; i < 3 * width; ++i)
       row[i % 3 * width + i / 3] = denoised[static_cast<size_t>(y) * 3 * width + i];
   };
   return source;
 }
 
-NoisyImage noisy_image(const ImageSource& source) {
-  const size_t width = static_cast<size_t>(source.width), height = static_cast<size_t>(source.height);
-  NoisyImage image{source.width, source.height, {}, {}, {}};
-  std::vector<float> row(width * source.channels.size());
-  // The offsets of three channels in a row of the source, and their destinations.
-  const auto channel = [&](const std::string& name) {
-    return static_cast<size_t>(std::find(source.channels.begin(), source.channels.end(), name) -
-                               source.channels.begin());
-  };
-  const std::pair<size_t, std::vector<float>*> planes[] = {
-      {channel("R"), &image.radiance}, {channel("albedo.R"), &image.albedo}, {channel("normal.X"), &image.normal}};
-  for (const auto& [first, plane] : planes) plane->reserve(3 * width * height);
-  for (int y = 0; y < source.height; ++y) {
-    source.fill_row(y, row);
-    for (const auto& [first, plane] : planes)
-      for (size_t i = 0; i < 3 * width; ++i) plane->push_back(row[(first + i % 3) * width + i / 3]);
-  }
-  return image;
+NoisyImage Rendering::noisy_image() const {
+  return std::visit([](const auto& any_film) { return make_noisy_image(*any_film); }, film);
 }
 
 namespace {
 
 /// The noisy image is kept if denoising fails, since it may have taken long to render.
 void denoise(Rendering& rendering, Diagnostics& diagnostics) {
-  const RenderSettings& settings = rendering.statistics.settings;
+  RenderStatistics& statistics = rendering.statistics;
+  const RenderSettings& settings = statistics.settings;
   const Clock::time_point start = Clock::now();
+  const auto keep_noisy = [&](const std::string& reason) {
+    diagnostics.warn({statistics.scene}, "the image was not denoised: " + reason);
+  };
   try {
-    const NoisyImage image = noisy_image(rendering.source());
-    rendering.denoised = make_denoiser(settings.denoiser)->denoise(image, std::max(0, settings.device));
+    const DenoiseOptions options{std::max(0, settings.device), settings.threads};
+    rendering.denoised = denoise(settings.denoiser, rendering.noisy_image(), options);
+    statistics.denoiser = settings.denoiser;
+  } catch (const std::bad_alloc&) {
+    keep_noisy("out of memory; this machine, or a limit set on it, allows no more");
   } catch (const std::exception& error) {
-    diagnostics.warn({rendering.statistics.scene}, std::string("the image was not denoised: ") + error.what());
+    keep_noisy(error.what());
   }
-  rendering.statistics.denoise_seconds = seconds_since(start);
+  statistics.denoise_seconds = seconds_since(start);
 }
 
 }  // namespace
@@ -359,11 +355,12 @@ Rendering render_scene(Scene&& scene, const RenderSettings& settings, double loa
       if (!light_traits(light.kind).has_size)
         diagnostics.warn(light.where, "rays cannot hit delta lights: the integrator '" +
                                           to_string(settings.integrator) + "' does not show them; 'path' does");
+  if (!settings.denoiser_warning.empty()) diagnostics.warn({scene.name}, settings.denoiser_warning);
   Rendering rendering =
       settings.precision == Precision::single
           ? render_in_precision<float>(std::move(scene), settings, load_seconds, events, diagnostics)
           : render_in_precision<double>(std::move(scene), settings, load_seconds, events, diagnostics);
-  if (!settings.denoiser.empty()) denoise(rendering, diagnostics);
+  if (!settings.denoiser.empty() && rendering.has_samples()) denoise(rendering, diagnostics);
   return rendering;
 }
 

@@ -37,10 +37,9 @@ class Rendering {
   bool has_samples() const;
   /// Rows of the image as means so far. It refers to this object.
   ImageSource source() const;
+  /// The input of denoisers, from a film that was made for denoising.
+  NoisyImage noisy_image() const;
 };
-
-/// Makes the denoiser's input from an image with the layers albedo and normal.
-NoisyImage noisy_image(const ImageSource& source);
 
 /// `load_seconds` is the time taken to read the scene, for the statistics. Throws InputError, RenderError,
 /// std::bad_alloc, and anything that `events` throws.

@@ -166,6 +166,12 @@ SettingEntry of_samples(std::function<std::string(const RenderSettings&)> text, 
   return entry;
 }
 
+/// An entry whose value may be left out.
+SettingEntry with_implied(const char* value, SettingEntry entry) {
+  entry.implied = value;
+  return entry;
+}
+
 std::string layer_names(const RenderSettings& s) {
   const std::pair<bool, const char*> layers[] = {{s.aovs.albedo, "albedo"},   {s.aovs.normal, "normal"},
                                                  {s.aovs.depth, "depth"},     {s.aovs.bounces, "bounces"},
@@ -173,6 +179,7 @@ std::string layer_names(const RenderSettings& s) {
   std::string names;
   for (const auto& [is_wanted, name] : layers)
     if (is_wanted) names += std::string(names.empty() ? "" : "+") + name;
+  if (!s.denoiser.empty()) names += std::string(names.empty() ? "" : "+") + "denoising";
   return names.empty() ? "none" : names;
 }
 
@@ -187,11 +194,14 @@ std::vector<SettingEntry> output_settings() {
       of_samples(
           layer_names,
           entry(group, "aov", "", "NAMES",
-                "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance",
+                "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance, "
+                "noisy (before denoising)",
                 layer_list(), true)),
-      entry(group, "denoise", "", "NAME",
-            "none, or optix: runs on a GPU, with any backend; adds the layers albedo and normal",
-            name(&Settings::denoiser)),
+      with_implied("auto",
+                   entry(group, "denoise", "", "[NAME]",
+                         "Denoise the image by optix (NVIDIA GPUs), oidn (if its library is here), builtin (any "
+                         "machine), or none; without a name by the best that is here",
+                         name(&Settings::denoiser))),
   };
 }
 

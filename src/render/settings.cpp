@@ -36,7 +36,8 @@ constexpr Named<ToneMap> tone_maps[] = {
     {"none", ToneMap::none}, {"reinhard", ToneMap::reinhard}, {"filmic", ToneMap::filmic}};
 constexpr Named<bool AovSet::*> layers[] = {{"albedo", &AovSet::albedo},   {"normal", &AovSet::normal},
                                             {"depth", &AovSet::depth},     {"bounces", &AovSet::bounces},
-                                            {"samples", &AovSet::samples}, {"variance", &AovSet::variance}};
+                                            {"samples", &AovSet::samples}, {"variance", &AovSet::variance},
+                                            {"noisy", &AovSet::noisy}};
 
 template <class Value, size_t count>
 Value by_name(const Named<Value> (&table)[count], const std::string& name, const std::string& what) {
@@ -122,11 +123,11 @@ void check_threads(int asked, RenderSettings& s) {
 
 /// Refuses an unavailable denoiser before the render.
 void resolve_denoiser(const std::string& name, RenderSettings& s) {
-  if (name.empty() || name == "none") return;
-  const std::string problem = make_denoiser(name)->problem();
-  if (!problem.empty()) throw InputError("the denoiser '" + name + "' is not available: " + problem);
-  s.denoiser = name;
-  s.aovs.albedo = s.aovs.normal = true;
+  const ChosenDenoiser chosen = choose_denoiser(name);
+  s.denoiser = chosen.name;
+  s.denoiser_warning = chosen.warning;
+  if (s.aovs.noisy && s.denoiser.empty())
+    throw InputError("the layer 'noisy' is the image before denoising: give --denoise as well");
 }
 
 void resolve_noise(const Settings& asked, RenderSettings& s) {

@@ -23,9 +23,9 @@ struct Schedule {
   int chunk = 0;  ///< 0: OpenMP's default
 };
 
-/// The layers other than radiance.
+/// The layers other than radiance. `noisy` is the radiance before denoising.
 struct AovSet {
-  bool albedo = false, normal = false, depth = false, bounces = false, samples = false, variance = false;
+  bool albedo = false, normal = false, depth = false, bounces = false, samples = false, variance = false, noisy = false;
 };
 
 /// Pixels x0 <= x < x1, y0 <= y < y1 of the whole image.
@@ -64,8 +64,9 @@ struct RenderSettings {
   PixelWindow window;
   uint32_t seed = 0;
   AovSet aovs;
-  std::string denoiser;         ///< empty: none
-  uint64_t texture_budget = 0;  ///< bytes; 0: no limit
+  std::string denoiser;          ///< empty: none
+  std::string denoiser_warning;  ///< why a better one that is here was not taken; empty otherwise
+  uint64_t texture_budget = 0;   ///< bytes; 0: no limit
 };
 
 /// Replaces what settings replace in a scene: how much light its coats lose, and the pixel filter. Throws InputError

@@ -82,6 +82,7 @@ std::string RenderStatistics::to_json() const {
   j["load_seconds"] = load_seconds;
   j["build_seconds"] = build_seconds;
   j["render_seconds"] = render_seconds;
+  j["denoiser"] = denoiser.empty() ? "none" : denoiser;
   if (!settings.denoiser.empty()) j["denoise_seconds"] = denoise_seconds;
   j["complete"] = complete;
   j["camera_samples"] = camera_samples;

@@ -20,6 +20,7 @@ struct RenderStatistics {
   double load_seconds = 0;         ///< reading, compiling and starting a GPU, without the BVH build
   double build_seconds = 0;        ///< BVH build
   double denoise_seconds = 0;      ///< 0 if no denoiser ran
+  std::string denoiser;            ///< the one that denoised the image; empty: none
   double render_seconds = 0;       ///< taking samples only
   uint32_t samples_per_pixel = 0;  ///< in complete passes
   NoiseState noise;                ///< zero without a noise target

@@ -60,11 +60,12 @@ TEST_F(CudaOptions, WhatCannotBeIsOneSentence) {
 TEST_F(CudaOptions, DenoisersAreRefusedBeforeTheRender) {
   const CommandResult unknown = render({"--denoise", "blur", "-o", "never.png"});
   EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_NE(unknown.err.find("unknown denoiser 'blur': it may be none, optix"), std::string::npos) << unknown.err;
+  EXPECT_NE(unknown.err.find("unknown denoiser 'blur': it may be none, auto, optix, oidn, builtin"), std::string::npos)
+      << unknown.err;
   EXPECT_FALSE(exists("never.png"));
   const CommandResult optix = render({"-q", "--spp", "1", "--denoise", "optix", "-o", "denoised.exr"});
   if (optix.exit_code == 0) {
-    EXPECT_GE(image("denoised.exr").channel("albedo.R"), 0);
+    EXPECT_EQ(image("denoised.exr").channels.size(), 3u) << "what it needs is not written";
     return;
   }
   EXPECT_EQ(optix.exit_code, 2);

@@ -281,7 +281,7 @@ Outcome render(const OptixFunctionTable& table, Scene scene, Settings asked) {
   Diagnostics diagnostics;
   const CompiledScene<float> flat =
       compile_scene<float>(std::move(scene), {settings.width, settings.height, 1, {}}, diagnostics);
-  auto film = std::make_unique<Film<float>>(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
+  auto film = std::make_unique<Film<float>>(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
   RenderControl control(1);
   {
     OptixExecutor<MockExecutor> executor(table, code);
@@ -436,14 +436,16 @@ TEST(OptixMock, DenoiserTakesAndGivesWholeImages) {
   Scene scene = parity_scene("spheres");
   Settings asked = settings_of("path");
   asked.aovs = {"depth", "normal", "albedo"};
+  asked.denoiser = "builtin";  // renders what denoisers need
   const RenderSettings settings = resolve_settings(asked, scene);
   Diagnostics diagnostics;
   Rendering rendering = render_scene(std::move(scene), settings, 0, {}, diagnostics);
+  rendering.denoised.clear();
   const Outcome noisy = outcome_of(rendering);
   {
     MockExecutor executor;
     const Context context(table);
-    rendering.denoised = Denoiser(table, context, executor).denoise(noisy_image(rendering.source()));
+    rendering.denoised = Denoiser(table, context, executor).denoise(rendering.noisy_image());
   }
   EXPECT_EQ(calls.made, calls.destroyed);
   const Outcome outcome = outcome_of(rendering);
@@ -471,7 +473,10 @@ TEST(OptixMock, DenoiserThatFails) {
   MockExecutor executor;
   const Context context(table);
   Denoiser denoiser(table, context, executor);
-  EXPECT_THROW(denoiser.denoise({1, 1, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}}), RenderError);
+  NoisyImage image;
+  image.width = image.height = 1;
+  for (NoisyBuffer* buffer : {&image.radiance, &image.albedo, &image.normal}) buffer->mean = {1, 2, 3};
+  EXPECT_THROW(denoiser.denoise(image), RenderError);
 }
 
 TEST(OptixLibraryFile, ThatIsMissingOrAnother) {

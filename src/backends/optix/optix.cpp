@@ -53,9 +53,10 @@ class OptixBackend final : public cuda::DeviceBackend {
 class OptixDenoiser final : public Denoiser {
  public:
   std::string name() const override { return "optix"; }
+  std::string details() const override { return "NVIDIA's denoiser of OptiX 9.0, on a GPU"; }
   std::string problem() const override { return alhazen::problem(); }
-  std::vector<float> denoise(const NoisyImage& image, int device) const override {
-    return functions().denoise(image, device);
+  std::vector<float> denoise(const NoisyImage& image, const DenoiseOptions& options) const override {
+    return functions().denoise(image, options.device);
   }
 };
 

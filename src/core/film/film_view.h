@@ -7,10 +7,13 @@
 namespace ALHAZEN_CORE {
 
 /// Lists every plane of the film once: PLANE(element type, name). All but the first two exist only on request:
-/// `weights` if the filter has negative weights, the last three for a noise target, the others for their layers.
-/// `block_m2` is the sum of squared deviations of the luminance of blocks from the pixel's mean, times their samples;
-/// `half_difference` the luminance of its first 2^k blocks less that of the others, for the largest k that leaves some;
-/// `finished` is 1 where no more samples are taken.
+/// `weights` if the filter has negative weights, those that start with `odd_` for denoising, the last three for a noise
+/// target, the others for their layers.
+///
+/// Planes that start with `odd_` are sums over every second block, the second, fourth, ... of a pixel, so that it has
+/// two means that are independent of each other. `block_m2` is the sum of squared deviations of the luminance of blocks
+/// from the pixel's mean, times their samples; `half_difference` the luminance of its first 2^k blocks less that of the
+/// others, for the largest k that leaves some; `finished` is 1 where no more samples are taken.
 #define ALHAZEN_FILM_PLANES(PLANE) \
   PLANE(Vec3<Real>, radiance)      \
   PLANE(uint32_t, samples)         \
@@ -22,9 +25,19 @@ namespace ALHAZEN_CORE {
   PLANE(uint32_t, segments)        \
   PLANE(Real, luminance_m2)        \
   PLANE(Real, luminance_mean)      \
+  PLANE(Vec3<Real>, odd_radiance)  \
+  PLANE(Vec3<Real>, odd_albedo)    \
+  PLANE(Vec3<Real>, odd_normal)    \
+  PLANE(Real, odd_depth)           \
   PLANE(Real, block_m2)            \
   PLANE(Real, half_difference)     \
   PLANE(uint8_t, finished)
+
+/// Returns how many of the first `samples` samples of a pixel are in its second, fourth, ... block.
+ALHAZEN_HD constexpr uint32_t samples_in_odd_blocks(uint32_t samples) {
+  const uint32_t pairs = samples / (2 * samples_per_block), rest = samples % (2 * samples_per_block);
+  return pairs * samples_per_block + (rest > samples_per_block ? rest - samples_per_block : 0);
+}
 
 /// Merges the moments of two sets of samples (Chan, Golub, LeVeque 1983).
 template <class Real>
@@ -54,6 +67,12 @@ struct FilmView {
     if (luminance_m2)
       merge_moments(luminance_mean[i], luminance_m2[i], samples[i], block.luminance_mean, block.luminance_m2,
                     block.samples);
+    if (odd_radiance && samples[i] / samples_per_block % 2 == 1) {
+      odd_radiance[i] += block.radiance;
+      odd_albedo[i] += block.albedo;
+      odd_normal[i] += block.normal;
+      odd_depth[i] += block.depth;
+    }
     radiance[i] += block.radiance;
     samples[i] += block.samples;
     if (weights) weights[i] += block.weight;

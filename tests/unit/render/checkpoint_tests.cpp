@@ -34,7 +34,7 @@ class CheckpointFiles : public ::testing::Test {
     CheckpointFile(settings_, scene).template save<Real>(film, 8);
   }
 
-  Film<Real> make_film() const { return Film<Real>(settings_.window, settings_.aovs, false); }
+  Film<Real> make_film() const { return Film<Real>(settings_.window, settings_.aovs); }
 
   /// Eight samples in every pixel, with different values.
   static void fill(Film<Real>& film) {
@@ -86,7 +86,7 @@ TYPED_TEST(CheckpointFiles, BringsBackTheFilm) {
 /// Identifies an image that was stopped before its first sample: it is black, and not worth writing.
 TYPED_TEST(CheckpointFiles, AnEmptyFilmIsToldFromOneWithSamples) {
   Rendering rendering;
-  rendering.film = std::make_unique<Film<TypeParam>>(this->settings_.window, this->settings_.aovs, false);
+  rendering.film = std::make_unique<Film<TypeParam>>(this->settings_.window, this->settings_.aovs);
   EXPECT_FALSE(rendering.has_samples());
   std::get<std::unique_ptr<Film<TypeParam>>>(rendering.film)->view().samples[5] = 4;
   EXPECT_TRUE(rendering.has_samples());

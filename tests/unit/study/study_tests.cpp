@@ -118,7 +118,7 @@ TEST(StudyWorkPerThread, HasThePixelsOfTheKernel) {
   const ThreadGrid grid = threads_of(std::vector<float>(size_t{19 * 14}, 1.0f), width, height, chunks_x, chunks_y);
   for (uint32_t y = 0; y < static_cast<uint32_t>(grid.height); ++y)
     for (uint32_t x = 0; x < static_cast<uint32_t>(grid.width); ++x) {
-      Film<float> rendered(settings.window, settings.aovs, false);
+      Film<float> rendered(settings.window, settings.aovs);
       cuda::Totals totals{};
       cuda::Launch<float> launch{flat.view, rendered.view(),   &totals,          0, 0, width,
                                  {},        {0, height, 0, 4}, settings.sampler, 0, 10};

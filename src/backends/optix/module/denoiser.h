@@ -41,17 +41,17 @@ class Denoiser {
                                       sizes.stateSizeInBytes, address(scratch_.data()),
                                       sizes.withoutOverlapScratchSizeInBytes));
     OptixDenoiserGuideLayer guides{};
-    guides.albedo = upload(albedo_, image.albedo, width, height);
-    guides.normal = upload(normal_, image.normal, width, height);
+    guides.albedo = upload(albedo_, image.albedo.mean, width, height);
+    guides.normal = upload(normal_, image.normal.mean, width, height);
     OptixDenoiserLayer layer{};
-    layer.input = upload(radiance_, image.radiance, width, height);
-    output_.reserve(image.radiance.size());
+    layer.input = upload(radiance_, image.radiance.mean, width, height);
+    output_.reserve(image.radiance.mean.size());
     layer.output = image_of(output_, width, height);
     const OptixDenoiserParams params{};  // without a given intensity, OptiX determines the exposure
     ask(functions_.optixDenoiserInvoke(denoiser_, executor_.stream(), &params, address(state_.data()),
                                        sizes.stateSizeInBytes, &guides, &layer, 1, 0, 0, address(scratch_.data()),
                                        sizes.withoutOverlapScratchSizeInBytes));
-    std::vector<float> denoised(image.radiance.size());
+    std::vector<float> denoised(image.radiance.mean.size());
     executor_.download(denoised.data(), output_.data(), denoised.size() * sizeof(float));
     return denoised;
   }

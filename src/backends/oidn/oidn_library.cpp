@@ -1,0 +1,90 @@
+#include "backends/oidn/oidn_library.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include "util/module.h"
+
+namespace alhazen::oidn {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* names[] = {"libOpenImageDenoise.so.2", "libOpenImageDenoise.so.1"};
+constexpr const char* how_to_get =
+    "install Intel Open Image Denoise, version 1.4 or later (https://www.openimagedenoise.org), or set "
+    "ALHAZEN_OIDN_PATH to its library or the folder that has it";
+
+/// Returns the name of the function that `handle` lacks, or null if it has all.
+const char* find_functions(void* handle, Functions& functions) {
+  const auto find = [&](auto& function, const char* name) {
+    function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(handle, name));
+    return function != nullptr;
+  };
+  if (!find(functions.new_device, "oidnNewDevice")) return "oidnNewDevice";
+  if (!find(functions.commit_device, "oidnCommitDevice")) return "oidnCommitDevice";
+  if (!find(functions.get_device_error, "oidnGetDeviceError")) return "oidnGetDeviceError";
+  if (!find(functions.release_device, "oidnReleaseDevice")) return "oidnReleaseDevice";
+  if (!find(functions.new_filter, "oidnNewFilter")) return "oidnNewFilter";
+  if (!find(functions.set_shared_filter_image, "oidnSetSharedFilterImage")) return "oidnSetSharedFilterImage";
+  // Version 1 calls it otherwise.
+  if (!find(functions.set_filter_bool, "oidnSetFilterBool") && !find(functions.set_filter_bool, "oidnSetFilter1b"))
+    return "oidnSetFilterBool";
+  if (!find(functions.commit_filter, "oidnCommitFilter")) return "oidnCommitFilter";
+  if (!find(functions.execute_filter, "oidnExecuteFilter")) return "oidnExecuteFilter";
+  if (!find(functions.release_filter, "oidnReleaseFilter")) return "oidnReleaseFilter";
+  return nullptr;
+}
+
+Library use(const std::string& path, void* handle) {
+  Library library{path, {}, {}, true};
+  if (const char* const lacking = find_functions(handle, library.functions)) {
+    dlclose(handle);
+    library.problem =
+        path + " is no library of Open Image Denoise: it lacks the function " + lacking + "; " + how_to_get;
+  }
+  return library;
+}
+
+Library refuse(const std::string& path, const std::string& reason) { return {path, {}, path + reason, true}; }
+
+Library open_file(const std::string& path) {
+  if (void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return use(path, handle);
+  const char* const text = dlerror();
+  return refuse(path, std::string(" cannot be loaded: ") + (text ? text : "no reason was given") + "; " + how_to_get);
+}
+
+/// Returns the library in `folder`, or an empty path.
+std::string library_in(const fs::path& folder) {
+  std::error_code error;
+  for (const char* const name : names)
+    if (fs::exists(folder / name, error)) return (folder / name).string();
+  return {};
+}
+
+}  // namespace
+
+Library open_library() {
+  std::error_code error;
+  if (const char* const asked = std::getenv("ALHAZEN_OIDN_PATH"); asked && *asked) {
+    if (!fs::exists(asked, error))
+      return refuse(asked, std::string(", which ALHAZEN_OIDN_PATH names, does not exist; ") + how_to_get);
+    if (!fs::is_directory(asked, error)) return open_file(asked);
+    const std::string path = library_in(asked);
+    if (!path.empty()) return open_file(path);
+    return refuse(asked, std::string(", which ALHAZEN_OIDN_PATH names, has no ") + names[0] + " or " + names[1] + "; " +
+                             how_to_get);
+  }
+  const fs::path modules = module_folder();
+  for (const fs::path& folder : {modules, modules.parent_path()})
+    if (const std::string path = library_in(folder); !path.empty()) return open_file(path);
+  for (const char* const name : names)
+    if (void* const handle = dlopen(name, RTLD_NOW | RTLD_LOCAL)) return use(name, handle);
+  return {{}, {}, std::string(names[0]) + " is not on this machine: " + how_to_get, false};
+}
+
+}  // namespace alhazen::oidn

@@ -1,0 +1,176 @@
+#include "render/denoising/blend.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "core/film/film_view.h"
+#include "render/denoising/tile.h"
+
+namespace alhazen::denoising {
+
+namespace {
+
+/// What the mean of a pixel is expected to differ from the truth by, squared, and by what it differs from the denoised
+/// one, relative to its brightness.
+struct Differences {
+  float of_noise = 0, of_images = 0;
+};
+
+Differences differences_at(const NoisyImage& noisy, const std::vector<float>& denoised, size_t i) {
+  const uint32_t samples = noisy.samples[i], odd_samples = samples_in_odd_blocks(samples);
+  const float odd_fraction = static_cast<float>(odd_samples) / static_cast<float>(std::max(1u, samples));
+  Differences sums;
+  float scale = 1e-12f;
+  for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
+    const float mean = noisy.radiance.mean[c], odd = noisy.radiance.odd[c];
+    // With halves a and b of fractions f and 1 - f, a - b has the variance s / f + s / (1 - f) if s is that of the
+    // mean.
+    const float between_halves = (odd - mean) / (1 - odd_fraction);
+    sums.of_noise += between_halves * between_halves * odd_fraction * (1 - odd_fraction);
+    sums.of_images += (mean - denoised[c]) * (mean - denoised[c]);
+    scale += denoised[c] * denoised[c];
+  }
+  if (odd_samples == 0) sums.of_noise = sums.of_images;
+  // A firefly must not decide for all pixels around it.
+  const float weight = 1 / (scale + sums.of_noise + sums.of_images);
+  return {sums.of_noise * weight, sums.of_images * weight};
+}
+
+/// The variance of a channel of the noisy mean, by its halves.
+float variance_at(const NoisyImage& noisy, size_t i, size_t channel) {
+  const uint32_t samples = noisy.samples[i], odd_samples = samples_in_odd_blocks(samples);
+  if (odd_samples == 0) return 0;
+  const float odd_fraction = static_cast<float>(odd_samples) / static_cast<float>(samples);
+  const float between_halves =
+      (noisy.radiance.odd[3 * i + channel] - noisy.radiance.mean[3 * i + channel]) / (1 - odd_fraction);
+  return between_halves * between_halves * odd_fraction * (1 - odd_fraction);
+}
+
+/// A denoiser that smooths too much changes means over a few pixels by more than the noise of such means. That part of
+/// the difference is given back, shrunk as James and Stein (1961) do.
+void restore_means(const NoisyImage& noisy, std::vector<float>& denoised, int threads) {
+  constexpr int radius = 2, pooling = 4;
+  constexpr float margin = 1.5f;
+  const int width = noisy.width, height = noisy.height;
+  const auto pixel = [&](int x, int y) {
+    return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
+  };
+  std::array<TilePlane, 3> means;
+  TilePlane found(width, height), expected(width, height);
+  // The sum of the squared weights of a tent, which is how much less noise the mean has.
+  float energy = 0;
+  for (int i = -radius; i <= radius; ++i) {
+    const float weight = static_cast<float>(radius + 1 - std::abs(i)) / static_cast<float>((radius + 1) * (radius + 1));
+    energy += weight * weight;
+  }
+  energy *= energy;
+  TilePlane variance(width, height);
+  for (size_t c = 0; c < 3; ++c) {
+    means[c] = TilePlane(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const size_t i = pixel(x, y);
+        const bool has_halves = samples_in_odd_blocks(noisy.samples[i]) > 0;
+        means[c].row(y)[x] = has_halves ? noisy.radiance.mean[3 * i + c] - denoised[3 * i + c] : 0;
+        variance.row(y)[x] = variance_at(noisy, i, c);
+      }
+    blur(means[c], radius, threads);
+    blur(variance, radius, threads);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const size_t i = pixel(x, y);
+        const float of_noise = energy * variance.row(y)[x], mean = means[c].row(y)[x];
+        const float brightness = denoised[3 * i] + denoised[3 * i + 1] + denoised[3 * i + 2];
+        const float weight = 1 / (brightness * brightness + of_noise + mean * mean + 1e-12f);
+        found.row(y)[x] += mean * mean * weight;
+        expected.row(y)[x] += of_noise * weight;
+      }
+  }
+  blur(found, pooling, threads);
+  blur(expected, pooling, threads);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const float excess = found.row(y)[x] - margin * expected.row(y)[x];
+      if (!(excess > 0)) continue;
+      for (size_t c = 0; c < 3; ++c) {
+        float& value = denoised[3 * pixel(x, y) + c];
+        value = std::max(0.0f, value + excess / found.row(y)[x] * means[c].row(y)[x]);
+      }
+    }
+}
+
+}  // namespace
+
+void blend_with_noisy(const NoisyImage& noisy, std::vector<float>& denoised, int threads) {
+  restore_means(noisy, denoised, threads);
+  constexpr int radius = 5;
+  // If the denoised pixel has the squared error m, and the noisy one s, the images differ by m + s. The weight s / (m +
+  // s) of the denoised one has the least error; the margin leaves no noise where it is good, since estimates vary.
+  constexpr float margin = 1.5f;
+  TilePlane of_noise(noisy.width, noisy.height), of_images(noisy.width, noisy.height);
+  const size_t width = static_cast<size_t>(noisy.width);
+  for (int y = 0; y < noisy.height; ++y)
+    for (int x = 0; x < noisy.width; ++x) {
+      const Differences d = differences_at(noisy, denoised, static_cast<size_t>(y) * width + static_cast<size_t>(x));
+      of_noise.row(y)[x] = d.of_noise;
+      of_images.row(y)[x] = d.of_images;
+    }
+  blur(of_noise, radius, threads);
+  blur(of_images, radius, threads);
+  for (int y = 0; y < noisy.height; ++y)
+    for (int x = 0; x < noisy.width; ++x) {
+      const float difference = of_images.row(y)[x];
+      if (!(difference > margin * of_noise.row(y)[x])) continue;
+      const float t = margin * of_noise.row(y)[x] / difference;
+      for (size_t c = 0; c < 3; ++c) {
+        float& to = denoised[3 * (static_cast<size_t>(y) * width + static_cast<size_t>(x)) + c];
+        const float from = noisy.radiance.mean[3 * (static_cast<size_t>(y) * width + static_cast<size_t>(x)) + c];
+        to = from + t * (to - from);
+      }
+    }
+}
+
+namespace {
+
+bool is_finite(std::span<const float> values) {
+  return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
+}
+
+/// Replaces the pixels of a buffer, which have `channels` values each.
+size_t repair(std::vector<float>& values, size_t channels, size_t width, size_t height) {
+  size_t count = 0;
+  const auto pixel = [&](size_t x, size_t y) {
+    return std::span<float>(values).subspan((y * width + x) * channels, channels);
+  };
+  for (size_t y = 0; y < height; ++y)
+    for (size_t x = 0; x < width; ++x) {
+      const std::span<float> broken = pixel(x, y);
+      if (is_finite(broken)) continue;
+      ++count;
+      std::array<float, 3> sum{};
+      float neighbours = 0;
+      for (size_t j = y > 0 ? y - 1 : 0; j <= y + 1 && j < height; ++j)
+        for (size_t i = x > 0 ? x - 1 : 0; i <= x + 1 && i < width; ++i)
+          if (const std::span<float> near = pixel(i, j); is_finite(near)) {
+            for (size_t c = 0; c < channels; ++c) sum[c] += near[c];
+            ++neighbours;
+          }
+      for (size_t c = 0; c < channels; ++c) broken[c] = neighbours > 0 ? sum[c] / neighbours : 0;
+    }
+  return count;
+}
+
+}  // namespace
+
+size_t repair(NoisyImage& image) {
+  const size_t width = static_cast<size_t>(image.width), height = static_cast<size_t>(image.height);
+  size_t count = 0;
+  for (NoisyBuffer* buffer : {&image.radiance, &image.albedo, &image.normal, &image.depth})
+    for (std::vector<float>* values : {&buffer->mean, &buffer->odd})
+      count += repair(*values, buffer == &image.depth ? 1 : 3, width, height);
+  return count + repair(image.variance, 1, width, height);
+}
+
+}  // namespace alhazen::denoising

@@ -1,0 +1,20 @@
+#pragma once
+
+// Mixes a denoised image with the noisy one.
+
+#include <vector>
+
+#include "render/denoiser.h"
+
+namespace alhazen::denoising {
+
+/// Moves pixels of `denoised` towards the noisy ones where they differ by more than noise explains, so that the image
+/// converges with more samples to what the render converges to, whatever the denoiser did. Pixels with too few samples
+/// to know their noise stay as they are. Throws std::bad_alloc.
+void blend_with_noisy(const NoisyImage& noisy, std::vector<float>& denoised, int threads);
+
+/// Replaces pixels of `image` that are not finite by the mean of their finite neighbours, or by black.
+/// Returns their number.
+size_t repair(NoisyImage& image);
+
+}  // namespace alhazen::denoising
