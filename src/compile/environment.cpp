@@ -11,9 +11,8 @@ namespace alhazen {
 
 namespace {
 
-/// Fraction of a row's probability, and of the rows', that is distributed evenly over all texels. It keeps the
-/// probability of a texel above what float resolves in maps of up to 2^14 texels a side, however bright a sun is in the
-/// row.
+/// Fraction of each distribution that is distributed evenly over all that is above 0. Without it the probabilities of
+/// what is beside a sun would be lost to rounding.
 constexpr double uniform_fraction = 1.0 / 256;
 
 SphereMapping mapping_of(const Light& light, const ImageTexels& map) {
@@ -79,7 +78,7 @@ void append_cdf(const double* weights, size_t count, std::vector<Real>& out) {
 /// Below this part of all light, what exceeds the mean is rounding, and the map is as good as constant.
 constexpr double min_excess = 1e-6;
 
-/// Number of cells along the longer side of a map. Their bounds are much finer than the groups of normals.
+/// Number of cells along each side of a map that has as many texels.
 constexpr uint32_t cells_per_side = 16;
 
 /// The light above the mean from a part of a cell: its direction, the sine of the angle about it that bounds the part,
@@ -90,22 +89,10 @@ struct CellPart {
   double irradiance;
 };
 
-/// A unit normal in the middle of a group.
-Vec3d normal_of_group(uint32_t group) {
-  const auto middle = [](uint32_t i) { return (2 * i + 1.0) / normal_groups_per_side - 1; };
-  const double u = middle(group % normal_groups_per_side), v = middle(group / normal_groups_per_side);
-  const double z = 1 - std::abs(u) - std::abs(v);
-  if (z >= 0) return normalize(Vec3d{u, v, z});
-  return normalize(Vec3d{std::copysign(1 - std::abs(v), u), std::copysign(1 - std::abs(u), v), z});
-}
-
-/// The sine of the largest angle between a normal and the middle of its group.
-constexpr double group_radius = 0.26;
-
 /// What a part sends to the surfaces of a group: the irradiance times the mean of the positive cosine, as if the cosine
 /// were uniform within what the sizes of the part and the group allow.
 double sent_to(const Vec3d& normal, const CellPart& part) {
-  const double cosine = dot(normal, part.direction), spread = part.radius + group_radius;
+  const double cosine = dot(normal, part.direction), spread = part.radius + normal_group_radius;
   if (cosine > spread) return part.irradiance * cosine;
   return part.irradiance * sqr(std::max(0.0, cosine + spread)) / (4 * spread);
 }
@@ -179,6 +166,16 @@ class ExcessLight {
   double part_of_all_ = 0;
 };
 
+/// Appends the distribution over the cells for one group of normals.
+template <class Real>
+void append_cell_distribution(const double* weights, const EnvironmentRecord<Real>& map, std::vector<Real>& out) {
+  std::vector<double> rows;
+  for (uint32_t y = 0; y < map.cell_rows; ++y)
+    rows.push_back(std::accumulate(weights + y * map.cell_columns, weights + (y + 1) * map.cell_columns, 0.0));
+  append_cdf(rows.data(), rows.size(), out);
+  for (uint32_t y = 0; y < map.cell_rows; ++y) append_cdf(weights + y * map.cell_columns, map.cell_columns, out);
+}
+
 /// Appends the distributions of the light above the mean: MIS compensation (Karlik, Sik, Vevoda, Skrivan, Krivanek
 /// 2019, "MIS Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling", section 5). Returns what
 /// part of the integral of the brightness that is; 0 if there is nothing to sample.
@@ -193,7 +190,7 @@ double append_distributions(const ImageTexels& map, const EnvironmentRecord<Real
   for (uint32_t y = 0; y < record.cell_rows; ++y)
     for (uint32_t x = 0; x < record.cell_columns; ++x) all_cells.push_back(environment_cell(cells, x, y));
   Vec3d normals[any_normal_group];
-  for (uint32_t group = 0; group < any_normal_group; ++group) normals[group] = normal_of_group(group);
+  for (uint32_t group = 0; group < any_normal_group; ++group) normals[group] = normal_of_group<double>(group);
   for (const EnvironmentCell& cell : all_cells) {
     const std::vector<CellPart> parts = light.parts(cell);
     for (uint32_t group = 0; group < any_normal_group; ++group) {
@@ -205,7 +202,7 @@ double append_distributions(const ImageTexels& map, const EnvironmentRecord<Real
     for (const CellPart& part : parts) weight += part.irradiance;
     weights[any_normal_group].push_back(weight);
   }
-  for (const std::vector<double>& of_group : weights) append_cdf(of_group.data(), of_group.size(), out);
+  for (const std::vector<double>& of_group : weights) append_cell_distribution(of_group.data(), record, out);
   for (const EnvironmentCell& cell : all_cells) {
     std::vector<double> rows;
     for (uint32_t y = cell.y; y < cell.y + cell.height; ++y) rows.push_back(light.of_row(cell, y));

@@ -141,7 +141,8 @@ TEST(CudaOnHostWideBvh, GivesAllButTheSameBits) {
       const CompiledScene<float> flat = compile_scene<float>(
           std::move(scene), {settings.width, settings.height, 1, {BvhLayout::bvh2, BvhLayout::cwbvh}}, diagnostics);
       ASSERT_GT(flat.view.cwbvh_nodes_count, 0u);
-      auto film = std::make_unique<Film<float>>(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
+      auto film =
+          std::make_unique<Film<float>>(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
       RenderControl control(1);
       cuda::HostExecutor executor;
       cuda::DeviceRender<cuda::HostExecutor, cuda::CwbvhTracing, float> render(executor, {});
@@ -168,7 +169,8 @@ TEST(CudaOnHostShares, AddUpToTheImage) {
     Diagnostics diagnostics;
     const CompiledScene<double> flat =
         compile_scene<double>(std::move(scene), {settings.width, settings.height, 1, {BvhLayout::bvh2}}, diagnostics);
-    auto film = std::make_unique<Film<double>>(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
+    auto film =
+        std::make_unique<Film<double>>(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
     RenderControl control(1);
     for (uint32_t device = 0; device < devices; ++device) {
       cuda::HostExecutor executor;

@@ -281,7 +281,8 @@ Outcome render(const OptixFunctionTable& table, Scene scene, Settings asked) {
   Diagnostics diagnostics;
   const CompiledScene<float> flat =
       compile_scene<float>(std::move(scene), {settings.width, settings.height, 1, {}}, diagnostics);
-  auto film = std::make_unique<Film<float>>(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
+  auto film =
+      std::make_unique<Film<float>>(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
   RenderControl control(1);
   {
     OptixExecutor<MockExecutor> executor(table, code);

@@ -49,7 +49,8 @@ Outcome render_in_passes(Scene scene, const Settings& asked, const std::vector<u
   const CompiledScene<Real> flat =
       compile_scene<Real>(std::move(scene), {settings.width, settings.height, 1, {BvhLayout::bvh8}}, diagnostics);
   Rendering rendering;
-  auto film = std::make_unique<Film<Real>>(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
+  auto film =
+      std::make_unique<Film<Real>>(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
   RenderControl control(settings.threads);
   const std::unique_ptr<Backend> backend = make_backend(settings.backend);
   backend->start(settings);

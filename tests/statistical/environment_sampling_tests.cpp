@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "core/lights/light.h"
 #include "support/direction_histogram.h"
 #include "support/effort.h"
@@ -26,7 +28,9 @@ std::vector<MapCase> map_cases() {
           {"equirectangular lamps", lamps_map(16, 8), map_askew()},
           {"octahedral sun", sun_map(16, 16, 1000), map_as_world},
           {"octahedral sun, askew", sun_map(16, 16, 1000), map_askew()},
-          {"octahedral lamps", lamps_map(16, 16), map_askew()}};
+          {"octahedral lamps", lamps_map(16, 16), map_askew()},
+          {"equirectangular with uneven cells", sun_map(100, 50, 20), map_askew()},
+          {"octahedral with uneven cells", sun_map(37, 37, 20), map_as_world}};
 }
 
 template <class Real>
@@ -65,23 +69,45 @@ TYPED_TEST(EnvironmentSampling, DirectionsFollowTheDensity) {
   }
 }
 
-/// Normals of one group are within 15 degrees of their mean.
 TEST(EnvironmentSampling, GroupsAreOfSimilarNormals) {
-  std::vector<Vec3d> of_group[normal_groups];
   Random random(6);
+  std::set<uint32_t> groups;
   for (int i = 0; i < 200'000; ++i) {
     const Vec3d n = sample_uniform_sphere(random.uniform_2d<double>());
-    ASSERT_LT(normal_group(n), any_normal_group);
-    of_group[normal_group(n)].push_back(n);
+    const uint32_t group = normal_group(n);
+    ASSERT_LT(group, any_normal_group);
+    groups.insert(group);
+    ASSERT_GT(dot(n, normal_of_group<double>(group)), 0) << group;
+    ASSERT_LE(length(cross(n, normal_of_group<double>(group))), normal_group_radius) << group;
   }
+  EXPECT_EQ(groups.size(), any_normal_group);
   for (uint32_t group = 0; group < any_normal_group; ++group) {
-    Vec3d mean{};
-    for (const Vec3d& n : of_group[group]) mean += n;
-    ASSERT_GT(length(mean), 0) << group;
-    for (const Vec3d& n : of_group[group]) ASSERT_GT(dot(n, normalize(mean)), std::cos(15 * pi<double> / 180)) << group;
+    EXPECT_EQ(normal_group(normal_of_group<double>(group)), group);
+    EXPECT_EQ(normal_group(normal_of_group<float>(group)), group);
   }
   EXPECT_EQ(normal_group(Vec3d{}), any_normal_group);
   EXPECT_EQ(normal_group(Vec3d{std::nan(""), 0, 1}), any_normal_group);
+}
+
+/// Cells cover the map, and the places of their distributions follow one another.
+TEST(EnvironmentSampling, CellsCoverTheMap) {
+  for (const auto& [width, height] : {std::pair{1u, 1u}, {2u, 1u}, {3u, 3u}, {34u, 17u}, {37u, 37u}, {100u, 50u}}) {
+    EnvironmentRecord<double> map{};
+    map.width = width, map.height = height;
+    map.cell_columns = std::min(width, 16u), map.cell_rows = std::min(height, 16u);
+    uint64_t next = uint64_t{normal_groups} * cell_distribution_size(map);
+    uint32_t texels = 0;
+    for (uint32_t row = 0; row < map.cell_rows; ++row)
+      for (uint32_t column = 0; column < map.cell_columns; ++column) {
+        const EnvironmentCell cell = environment_cell(map, column, row);
+        EXPECT_EQ(cell.first, next) << width << " " << column << " " << row;
+        next += cell.height + 1 + cell.height * (cell.width + 1);
+        texels += cell.width * cell.height;
+        for (uint32_t i = 0; i < cell.width; ++i) EXPECT_EQ(cell_of_texel(cell.x + i, width, map.cell_columns), column);
+        for (uint32_t i = 0; i < cell.height; ++i) EXPECT_EQ(cell_of_texel(cell.y + i, height, map.cell_rows), row);
+      }
+    EXPECT_EQ(texels, width * height);
+  }
 }
 
 /// Fewer samples arrive below the surface than of those for any normal, though some suns are just below; and what is
@@ -101,8 +127,9 @@ TYPED_TEST(EnvironmentSampling, SamplesArriveAboveTheSurface) {
         below += s.pdf > 0 && dot(s.direction, normal) < 0 ? 1 : 0;
         const EnvironmentSample<Real> other = sample_environment(scene.view, map, Vec3<Real>{}, u);
         below_of_any += dot(other.direction, normal) < 0 ? 1 : 0;
-        if (dot(other.direction, normal) > Real(0.05))
+        if (dot(other.direction, normal) > Real(0.05)) {
           ASSERT_GT(pdf_environment(scene.view, map, normal, other.direction), Real(0)) << c.name;
+        }
       }
     }
     EXPECT_LT(below, 0.6 * below_of_any) << c.name;

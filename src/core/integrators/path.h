@@ -36,17 +36,17 @@ ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, co
   // The constant light is not sampled, so its weight is 1.
   if (!is_zero(scene.background)) record.radiance += path.throughput * scene.background;
   if (scene.far_lights_count == 0) return;
+  Real at_infinity = 0;  // the probability that light sampling chooses one of these lights
+  if (!path.is_specular) {
+    const Vec3<Real> start = path.ray.origin - path.ray.direction * path.travelled;
+    at_infinity = 1 - light_tree_probability(scene, start, path.light_side);
+  }
   for (uint32_t i = 0; i < scene.far_lights_count; ++i) {
     const LightRecord<Real>& light = scene.lights[scene.far_lights[i]];
-    const EscapedLight<Real> found =
-        escaped_light(scene, light, path.light_side, path.ray.direction, !path.is_specular);
+    const Real pmf = light.pmf * at_infinity;
+    const EscapedLight<Real> found = escaped_light(scene, light, path.light_side, path.ray.direction, pmf > 0);
     if (is_zero(found.radiance)) continue;
-    Real light_pdf = 0;
-    if (!path.is_specular) {
-      const Vec3<Real> start = path.ray.origin - path.ray.direction * path.travelled;
-      light_pdf = light.pmf * (1 - light_tree_probability(scene, start, path.light_side)) * found.pdf;
-    }
-    record.radiance += path.throughput * found.radiance * bsdf_mis_weight(path, light_pdf);
+    record.radiance += path.throughput * found.radiance * bsdf_mis_weight(path, pmf > 0 ? pmf * found.pdf : Real(0));
   }
 }
 

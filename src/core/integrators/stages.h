@@ -88,7 +88,7 @@ ALHAZEN_HD ALHAZEN_HOT Vec3<Real> surface_emission(const SceneView<Real>& scene,
 /// the surface may transmit light.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT Vec3<Real> side_of_light(const ShadingPoint<Real>& point) {
-  if (!has_trait<&MaterialTraits::is_one_sided>(point.bsdf.kind)) return {};
+  if (!point.bsdf.is_one_sided()) return {};
   return face_forward(point.si.normal, point.wo);
 }
 

@@ -70,6 +70,19 @@ ALHAZEN_HD uint32_t normal_group(const Vec3<Real>& n) {
   return place(v) * normal_groups_per_side + place(u);
 }
 
+/// A unit normal in the middle of a group.
+template <class Real>
+ALHAZEN_HD Vec3<Real> normal_of_group(uint32_t group) {
+  const auto middle = [](uint32_t i) { return static_cast<Real>(2 * i + 1) / normal_groups_per_side - 1; };
+  const Real u = middle(group % normal_groups_per_side), v = middle(group / normal_groups_per_side);
+  const Real z = 1 - std::abs(u) - std::abs(v);
+  if (z >= 0) return normalize(Vec3<Real>{u, v, z});
+  return normalize(Vec3<Real>{std::copysign(1 - std::abs(v), u), std::copysign(1 - std::abs(u), v), z});
+}
+
+/// The sine of the largest angle between a normal and the middle of its group.
+inline constexpr double normal_group_radius = 0.2602;
+
 /// A rectangle of texels, and where its distributions begin in SceneView::environment_cdf: of its rows, and of the
 /// texels of each row.
 struct EnvironmentCell {
@@ -84,6 +97,13 @@ ALHAZEN_HD inline uint32_t cell_of_texel(uint32_t texel, uint32_t size, uint32_t
   return ((texel + 1) * cells - 1) / size;
 }
 
+/// Number of values in the distribution over the cells for one group of normals: cell_rows + 1 over the rows of cells,
+/// then cell_columns + 1 for each row.
+template <class Real>
+ALHAZEN_HD uint32_t cell_distribution_size(const EnvironmentRecord<Real>& map) {
+  return map.cell_rows + 1 + map.cell_rows * (map.cell_columns + 1);
+}
+
 template <class Real>
 ALHAZEN_HD EnvironmentCell environment_cell(const EnvironmentRecord<Real>& map, uint32_t column, uint32_t row) {
   EnvironmentCell c;
@@ -92,17 +112,18 @@ ALHAZEN_HD EnvironmentCell environment_cell(const EnvironmentRecord<Real>& map, 
   c.width = first_of_cell(column + 1, map.width, map.cell_columns) - c.x;
   c.height = first_of_cell(row + 1, map.height, map.cell_rows) - c.y;
   // A cell takes height + 1 values, and width + 1 for each of its rows.
-  const uint64_t of_groups = uint64_t{normal_groups} * (map.cell_columns * map.cell_rows + 1);
+  const uint64_t of_groups = uint64_t{normal_groups} * cell_distribution_size(map);
   const uint64_t of_rows = uint64_t{row} * map.cell_columns + c.y * (uint64_t{map.width} + 2 * map.cell_columns);
   c.first = map.first_cdf + of_groups + of_rows + column + c.height * (uint64_t{c.x} + 2 * column);
   return c;
 }
 
-/// The distribution over the cells for a group of normals.
+/// The distribution over the rows of cells for a group of normals; after its cell_rows + 1 values come those over the
+/// cells of each row.
 template <class Real>
 ALHAZEN_HD const Real* cell_distribution(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
                                          uint32_t group) {
-  return scene.environment_cdf + map.first_cdf + group * (map.cell_columns * map.cell_rows + 1);
+  return scene.environment_cdf + map.first_cdf + uint64_t{group} * cell_distribution_size(map);
 }
 
 /// Density over the unit square within texel (column, row), for surfaces whose normals are in `group`.
@@ -112,11 +133,13 @@ ALHAZEN_HD Real environment_square_pdf(const SceneView<Real>& scene, const Envir
   const uint32_t cell_column = cell_of_texel(column, map.width, map.cell_columns);
   const uint32_t cell_row = cell_of_texel(row, map.height, map.cell_rows);
   const EnvironmentCell cell = environment_cell(map, cell_column, cell_row);
-  const Real* cells = cell_distribution(scene, map, group) + (cell_row * map.cell_columns + cell_column);
+  const Real* all_rows = cell_distribution(scene, map, group);
+  const Real* cell_rows = all_rows + cell_row;
+  const Real* cells = all_rows + (map.cell_rows + 1) + cell_row * (map.cell_columns + 1) + cell_column;
   const Real* rows = scene.environment_cdf + cell.first + (row - cell.y);
   const Real* columns =
       scene.environment_cdf + cell.first + (cell.height + 1) + (row - cell.y) * (cell.width + 1) + (column - cell.x);
-  return (cells[1] - cells[0]) * ((rows[1] - rows[0]) * static_cast<Real>(map.height)) *
+  return (cell_rows[1] - cell_rows[0]) * (cells[1] - cells[0]) * ((rows[1] - rows[0]) * static_cast<Real>(map.height)) *
          ((columns[1] - columns[0]) * static_cast<Real>(map.width));
 }
 
@@ -126,26 +149,27 @@ template <class Real>
 ALHAZEN_HD EnvironmentSample<Real> sample_environment(const SceneView<Real>& scene, const EnvironmentRecord<Real>& map,
                                                       const Vec3<Real>& normal, const Vec2<Real>& u) {
   EnvironmentSample<Real> s;
-  const uint32_t count = map.cell_columns * map.cell_rows;
-  const Real* cells = cell_distribution(scene, map, normal_group(map.axes.to_local(normal)));
-  if (!(cells[count] > 0)) return s;
-  const uint32_t chosen = sample_cdf(cells, count, u.x);
-  const uint32_t cell_row = chosen / map.cell_columns;
-  const EnvironmentCell cell = environment_cell(map, chosen - cell_row * map.cell_columns, cell_row);
+  const Real* cell_rows = cell_distribution(scene, map, normal_group(map.axes.to_local(normal)));
+  if (!(cell_rows[map.cell_rows] > 0)) return s;
+  const uint32_t cell_row = sample_cdf(cell_rows, map.cell_rows, u.y);
+  const Real* cells = cell_rows + (map.cell_rows + 1) + cell_row * (map.cell_columns + 1);
+  const uint32_t cell_column = sample_cdf(cells, map.cell_columns, u.x);
+  const EnvironmentCell cell = environment_cell(map, cell_column, cell_row);
+  const Real u_row = position_within(cell_rows, cell_row, u.y), u_column = position_within(cells, cell_column, u.x);
   const Real* rows = scene.environment_cdf + cell.first;
-  const uint32_t row = sample_cdf(rows, cell.height, u.y);
+  const uint32_t row = sample_cdf(rows, cell.height, u_row);
   const Real* columns = rows + (cell.height + 1) + row * (cell.width + 1);
-  const Real u_column = position_within(cells, chosen, u.x);
   const uint32_t column = sample_cdf(columns, cell.width, u_column);
   const Vec2<Real> uv{
       (static_cast<Real>(cell.x + column) + position_within(columns, column, u_column)) / static_cast<Real>(map.width),
-      (static_cast<Real>(cell.y + row) + position_within(rows, row, u.y)) / static_cast<Real>(map.height)};
+      (static_cast<Real>(cell.y + row) + position_within(rows, row, u_row)) / static_cast<Real>(map.height)};
   const Vec3<Real> direction = direction_of_square(map.mapping, uv);
   const Real solid_angle = solid_angle_of_square(map.mapping, direction);
   if (!(solid_angle > 0)) return s;
   s.direction = map.axes.to_world(direction);
   s.radiance = lookup_environment(scene, map, uv);
-  s.pdf = (cells[chosen + 1] - cells[chosen]) * ((rows[row + 1] - rows[row]) * static_cast<Real>(map.height)) *
+  s.pdf = (cell_rows[cell_row + 1] - cell_rows[cell_row]) * (cells[cell_column + 1] - cells[cell_column]) *
+          ((rows[row + 1] - rows[row]) * static_cast<Real>(map.height)) *
           ((columns[column + 1] - columns[column]) * static_cast<Real>(map.width)) / solid_angle;
   return s;
 }

@@ -70,8 +70,9 @@ ALHAZEN_HD TriangleEmitter<Real> make_triangle_emitter(const SceneView<Real>& sc
   t.two_sided = light.two_sided;
   t.radiance = light.radiance;
   t.centre = (t.corner[0] + t.corner[1] + t.corner[2]) * (Real(1) / 3);
-  t.near_distance = 0;
-  for (int i = 0; i < 3; ++i) t.near_distance = max(t.near_distance, 4 * length_squared(t.corner[i] - t.centre));
+  t.near_distance_squared = 0;
+  for (int i = 0; i < 3; ++i)
+    t.near_distance_squared = max(t.near_distance_squared, 4 * length_squared(t.corner[i] - t.centre));
   return t;
 }
 
@@ -111,7 +112,7 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_far_triangle(const TriangleEmitt
 /// they send there.
 template <class Real>
 ALHAZEN_HD ALHAZEN_HOT bool is_near(const TriangleEmitter<Real>& t, const Vec3<Real>& reference) {
-  return length_squared(reference - t.centre) < t.near_distance;
+  return length_squared(reference - t.centre) < t.near_distance_squared;
 }
 
 /// Returns whether a near triangle is sampled by the solid angle that it subtends. One seen edge-on is sampled by area.

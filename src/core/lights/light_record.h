@@ -43,8 +43,8 @@ struct TriangleEmitter {
   uint32_t flip_normal;
   uint32_t two_sided;
   Vec3<Real> radiance;
-  Vec3<Real> centre;   ///< mean of the corners
-  Real near_distance;  ///< from the centre, squared: within it the triangle is sampled by solid angle
+  Vec3<Real> centre;           ///< mean of the corners
+  Real near_distance_squared;  ///< from the centre: within it the triangle is sampled by solid angle
 
   /// What sampling by area or solid angle uses.
   using Fields = FieldList<&TriangleEmitter::corner, &TriangleEmitter::outward, &TriangleEmitter::flip_normal,

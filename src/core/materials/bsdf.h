@@ -40,6 +40,20 @@ struct Bsdf {
         return false;
     }
   }
+
+  /// Returns whether the BSDF never transmits light.
+  ALHAZEN_HD ALHAZEN_HOT bool is_one_sided() const {
+    if (has_trait<&MaterialTraits::is_one_sided>(kind)) return true;
+    switch (kind) {
+#define ALHAZEN_KIND(name, Name) \
+  case MaterialKind::name:       \
+    return says_one_sided(name);
+      ALHAZEN_SCATTERING_MATERIALS(ALHAZEN_KIND)
+#undef ALHAZEN_KIND
+      default:
+        return false;
+    }
+  }
 };
 
 template <class Real>

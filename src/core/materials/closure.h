@@ -17,7 +17,7 @@ namespace ALHAZEN_CORE {
 /// Static properties of a kind of material, returned by a function in the file of that kind.
 struct MaterialTraits {
   bool has_lobes = true;       ///< uses a random number to select a lobe before it samples a direction
-  bool is_one_sided = false;   ///< never transmits light; false is always safe
+  bool is_one_sided = false;   ///< never transmits light; a closure may have a function of that name instead
   bool may_be_sharp = true;    ///< may scatter into a single direction, or nearly so
   bool is_bare_metal = false;  ///< is a conductor without a coat
 };
@@ -59,6 +59,15 @@ concept ClosureOf = requires(const Closure& closure, const Vec3<Real>& wo, const
   { closure.albedo() } -> std::same_as<Vec3<Real>>;
   { closure.is_specular() } -> std::same_as<bool>;
 };
+
+/// Returns whether the closure never transmits light, if it says so itself and not by the traits of its kind.
+template <class Closure>
+ALHAZEN_HD ALHAZEN_HOT bool says_one_sided(const Closure& closure) {
+  if constexpr (requires { closure.is_one_sided(); })
+    return closure.is_one_sided();
+  else
+    return false;
+}
 
 /// Returns the sample for `wi`, drawn from one of the lobes, with the weight and the pdf of all lobes together.
 template <class Real, ClosureOf<Real> Closure>

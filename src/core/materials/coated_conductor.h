@@ -11,7 +11,7 @@
 
 namespace ALHAZEN_CORE {
 
-ALHAZEN_HD constexpr MaterialTraits coated_conductor_traits() { return {}; }
+ALHAZEN_HD constexpr MaterialTraits coated_conductor_traits() { return {.is_one_sided = true}; }
 
 template <class Real>
 struct CoatedConductorRecord {

@@ -12,7 +12,7 @@
 
 namespace ALHAZEN_CORE {
 
-ALHAZEN_HD constexpr MaterialTraits coated_diffuse_traits() { return {}; }
+ALHAZEN_HD constexpr MaterialTraits coated_diffuse_traits() { return {.is_one_sided = true}; }
 
 /// Quantities in an AlbedoGrid of a coat: the albedo of its interface, and the fraction transmitted to the base.
 struct CoatGrid {

@@ -102,6 +102,7 @@ struct PrincipledBsdf {
   ALHAZEN_HD ALHAZEN_COLD BsdfValue<Real> evaluate(const Vec3<Real>& wo, const Vec3<Real>& wi) const;
   ALHAZEN_HD Vec3<Real> albedo() const;
   ALHAZEN_HD constexpr bool is_specular() const { return false; }
+  ALHAZEN_HD bool is_one_sided() const { return glass == 0 && is_zero(through) && is_zero(diffuse_through); }
 };
 
 /// Returns the index of refraction of a channel (KHR_materials_dispersion).
@@ -490,7 +491,7 @@ ALHAZEN_HD Vec3<Real> sample_lobe(const PrincipledBsdf<Real>& b, const Vec3<Real
   } else if (b.glass > 0 && lobes.through > 0) {
     const Real rest = (u_lobe - (1 - lobes.through)) / lobes.through;
     return sample_glass(b.refraction, wo, clamp(rest, Real(0), one_minus_epsilon<Real>), u);
-  } else {
+  } else if (lobes.through > 0) {
     wi = sample_ggx_reflection(o, b.through_alpha, u);
     if (wi.z < 0) return {};
     wi.z = -wi.z;
