@@ -55,7 +55,7 @@ void render(benchmark::State& state, const std::string& backend_name, const std:
   backend->start(settings);
   uint64_t rays = 0;
   for (auto _ : state) {
-    Film<Real> film(settings.window, settings.aovs, false);
+    Film<Real> film(settings.window, settings.aovs);
     RenderControl control(threads);
     backend->render_pass(RenderPass<Real>{scene.flat, kernel, settings, film, control, 0, samples});
     for (const ThreadStatistics& thread : control.threads()) rays += thread.rays + thread.shadow_rays;

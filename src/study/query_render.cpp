@@ -31,7 +31,7 @@ RenderStatistics render(Scene&& scene, const RenderSettings& settings, Queries q
   const auto select = ALHAZEN_KERNEL_OF(instruction_sets().back(), select_study_kernel);
   const SampleKernel<Real> kernel(select(queries == Queries::linear_scan, sizeof(Real) == sizeof(double)));
   const std::unique_ptr<Backend> backend = make_backend("serial");
-  Film<Real> film(settings.window, settings.aovs, flat.view.filter.has_negative != 0);
+  Film<Real> film(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
   RenderControl control(1);
   const auto start = std::chrono::steady_clock::now();
   const std::clock_t processor_start = std::clock();

@@ -225,7 +225,9 @@ TEST(NoiseTarget, DecidesAtFixedNumbersOfSamples) {
   for (uint32_t n = 16; n < 100000; n = next_decision(n)) {
     EXPECT_EQ(n % 8, 0u);
     EXPECT_EQ(next_decision(n - 1), n);
-    if (n >= 32) EXPECT_LE(next_decision(n), n + n / 4) << n;
+    if (n >= 32) {
+      EXPECT_LE(next_decision(n), n + n / 4) << n;
+    }
   }
 }
 

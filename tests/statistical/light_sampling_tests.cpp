@@ -156,6 +156,37 @@ TYPED_TEST(LightSampling, ALampDoesNotLightItself) {
   }
 }
 
+/// A lamp much larger than its distance is seen by shadow rays, however uncertain it is where they meet it.
+TYPED_TEST(LightSampling, LampsAreSeenWhateverTheirSize) {
+  using Real = TypeParam;
+  for (const double size : {1.0, 1e2, 1e3, 1e4, 1e6}) {
+    const std::string side = std::to_string(size);
+    const CompiledScene<Real> scene = compiled_scene_of<Real>(
+        "WorldBegin AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] Shape \"trianglemesh\" \"point3 P\" [-" + side +
+        " -" + side + " 10 " + side + " -" + side + " 10 " + side + " " + side + " 10 -" + side + " " + side +
+        " 10] \"integer indices\" [0 2 1 0 3 2]");
+    const BruteForceIntersector<Real> intersector(scene.view);
+    SurfaceInteraction<Real> si{};
+    si.position = {Real(0.3), Real(-0.2), 0};
+    si.position_error = splat(Real(0));
+    si.normal = si.shading_normal = {0, 0, 1};
+    Random random(5);
+    int hidden = 0;
+    Moments irradiance;
+    for (int i = 0; i < 20'000; ++i) {
+      const LightSample<Real> s = sample_light(scene.view, si.position, si.normal, Real(0), random.uniform_2d<Real>());
+      ASSERT_GT(s.pdf, Real(0)) << size;
+      if (!is_unoccluded(intersector, shadow_ray(si, s))) ++hidden;
+      irradiance.add(static_cast<double>(s.direction.z / s.pdf) / pi<double>);
+    }
+    EXPECT_EQ(hidden, 0) << size;
+    // By area, most samples of a huge lamp are far away: then BSDF sampling finds it.
+    if (size == 1e2 || size == 1e3) {
+      EXPECT_NEAR(irradiance.mean(), size == 1e2 ? 0.99 : 1, 0.03) << size;
+    }
+  }
+}
+
 /// Radiance times cosine over all directions is the irradiance that the file gives, also for a disk as small as the
 /// sun; and so is the weight by which the light is chosen.
 TYPED_TEST(LightSampling, SunHasTheIrradianceOfADistantLight) {

@@ -115,12 +115,21 @@ ALHAZEN_HD ALHAZEN_HOT bool is_near(const TriangleEmitter<Real>& t, const Vec3<R
   return length_squared(reference - t.centre) < t.near_distance_squared;
 }
 
+/// Bounds the length of the edges of a triangle and their distance from a point, up to a factor of 2.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Real extent_of(const SphericalTriangle<Real>& t) {
+  return max_component(abs(t.to_corner) + abs(t.edge1) + abs(t.edge2));
+}
+
 /// Returns whether a near triangle is sampled by the solid angle that it subtends. One seen edge-on is sampled by area.
 /// So is one that covers nearly a hemisphere: the point may lie on it, where no light arrives but rounding decides
-/// about that.
+/// about that. And so is one so large that rounding of its points is not small against the distance from its plane.
 template <class Real>
-ALHAZEN_HD ALHAZEN_HOT bool is_sampled_by_solid_angle(Real solid_angle) {
-  return solid_angle > Real(1e-3) && solid_angle < Real(6.2);
+ALHAZEN_HD ALHAZEN_HOT bool is_sampled_by_solid_angle(const SphericalTriangle<Real>& t) {
+  const Vec3<Real> n = cross(t.edge1, t.edge2);
+  const bool is_far_from_plane =
+      std::abs(dot(t.to_corner, n)) > length(n) * (extent_of(t) * rounding_bound<Real>(2048));
+  return is_far_from_plane & (t.solid_angle > Real(1e-3)) & (t.solid_angle < Real(6.2));
 }
 
 /// Samples a near triangle. `normal` is as for `choose_light`; `weights` receives those of the first two corners.
@@ -129,12 +138,14 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_near_triangle(const TriangleEmit
                                                               const Vec3<Real>& reference, const Vec3<Real>& normal,
                                                               const Vec2<Real>& u, Vec2<Real>& weights) {
   const SphericalTriangle<Real> seen = spherical_triangle(reference, t.corner[0], t.corner[1], t.corner[2]);
-  const bool by_angle = is_sampled_by_solid_angle(seen.solid_angle);
+  const bool by_angle = is_sampled_by_solid_angle(seen);
   const BilinearDensity<Real> density = cosine_density(seen, normal);
   const Vec2<Real> place = sample_bilinear(density, u);
   const Vec2<Real> by_solid_angle = sample_spherical_triangle(seen, place), by_area = sample_triangle(u);
   weights = {by_angle ? by_solid_angle.x : by_area.x, by_angle ? by_solid_angle.y : by_area.y};
   LightSample<Real> s = triangle_light_sample(t, reference, weights);
+  // Where a ray meets the triangle is uncertain by its size, not by the distance.
+  s.point_error += splat(extent_of(seen) * rounding_bound<Real>(8));
   if (by_angle && s.pdf > 0) s.pdf = density.pdf(place) / seen.solid_angle;
   return s;
 }
@@ -159,7 +170,7 @@ ALHAZEN_HD ALHAZEN_HOT Real pdf_triangle(const TriangleEmitter<Real>& t, const R
                                          const Vec3<Real>& front, const Vec3<Real>& normal) {
   if (is_near(t, ray.origin)) {
     const SphericalTriangle<Real> seen = spherical_triangle(ray.origin, t.corner[0], t.corner[1], t.corner[2]);
-    if (is_sampled_by_solid_angle(seen.solid_angle)) {
+    if (is_sampled_by_solid_angle(seen)) {
       const Vec2<Real> place = invert_spherical_triangle(seen, ray.direction);
       return cosine_density(seen, normal).pdf(place) / seen.solid_angle;
     }
