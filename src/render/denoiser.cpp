@@ -1,6 +1,7 @@
 #include "render/denoiser.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/denoising/blend.h"
 #include "util/diagnostics.h"
@@ -38,6 +39,8 @@ ChosenDenoiser choose_denoiser(const std::string& asked) {
 std::vector<float> denoise(const std::string& name, NoisyImage image, const DenoiseOptions& options) {
   denoising::repair(image);
   std::vector<float> denoised = make_denoiser(name)->denoise(image, options);
+  for (size_t i = 0; i < denoised.size(); ++i)
+    if (!std::isfinite(denoised[i])) denoised[i] = image.radiance.mean[i];
   denoising::blend_with_noisy(image, denoised, std::max(1, options.threads));
   return denoised;
 }

@@ -16,8 +16,9 @@ constexpr int window_radius = 3, tile_size = 8;
 /// The luminance to which errors are relative is at least this fraction of the image's mean luminance, for which the
 /// brightest hundredth of the pixels is left out.
 constexpr double dark_fraction = 0.1, bright_part = 0.01;
-/// Bounds the ratio of both estimates of the variance, which is noisy.
-constexpr double min_gain = 0.05;
+/// Bounds the ratio of both estimates of the variance, which is noisy. Where few pixels have most of it, this many of
+/// them in which the estimates agree are added.
+constexpr double min_gain = 0.05, agreeing_pixels = 10;
 /// The largest a for which the variance of n samples is taken to fall as 1 / n^(1 + a).
 constexpr double max_exponent = 0.25;
 
@@ -175,7 +176,8 @@ void NoiseEstimate<Real>::measure_pixels(const RenderSettings& settings) {
   const double darkest = settings.noise_curve ? 0 : darkest_luminance(film, pixels);
   for (size_t i = 0; i < pixels; ++i) {
     const PixelMean mean = pixel_mean(film, i);
-    if (!(mean.by_blocks > 0)) continue;
+    if (film.samples[i] < 2 * samples_per_block || !std::isfinite(mean.by_blocks)) errors_[i] = of_halves_[i] = 1;
+    if (!(mean.by_blocks > 0) || errors_[i] > 0) continue;
     double error = 0;
     if (settings.noise_curve) {
       error = settings.noise_curve->error(mean.luminance, std::sqrt(mean.by_blocks));
@@ -200,6 +202,7 @@ void NoiseEstimate<Real>::join_neighbours() {
   };
   const TileSums by_blocks = tiles([&](size_t i) { return static_cast<double>(errors_[i]); });
   const TileSums by_halves = tiles([&](size_t i) { return static_cast<double>(of_halves_[i]); });
+  const TileSums squares_by_blocks = tiles([&](size_t i) { return sqr(static_cast<double>(errors_[i])); });
   const TileSums counts = tiles([](size_t) { return 1.0; });
   const TileSums blocks = of_halves([](const Halves& halves, double) { return static_cast<double>(halves.blocks); });
   const TileSums of_first = of_halves([](const Halves& halves, double n) { return n / halves.first; });
@@ -209,7 +212,9 @@ void NoiseEstimate<Real>::join_neighbours() {
   for (int row = 0; row < counts.rows(); ++row)
     for (int column = 0; column < counts.columns(); ++column) {
       const double sum = by_blocks.around(column, row), pixels = counts.around(column, row);
-      const double measured = sum > 0 ? std::clamp(by_halves.around(column, row) / sum, min_gain, 1.0) : 1;
+      const double agreeing = sum > 0 ? agreeing_pixels * squares_by_blocks.around(column, row) / sum : 0;
+      const double halves = by_halves.around(column, row) + agreeing;
+      const double measured = sum > 0 ? std::clamp(halves / (sum + agreeing), min_gain, 1.0) : 1;
       const double gain =
           variance_ratio(measured, {blocks.around(column, row) / pixels, of_first.around(column, row) / pixels,
                                     of_second.around(column, row) / pixels});

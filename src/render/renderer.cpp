@@ -133,6 +133,7 @@ class PassLoop {
     statistics.render_seconds = elapsed_;
     statistics.samples_per_pixel = samples_done_;
     statistics.complete = is_done();
+    statistics.interrupted = control_.is_stopped() && !is_done();
     if (settings_.asked.noise > 0) statistics.noise = NoiseEstimate<Real>(settings_, film_).state();
     statistics.threads = control_.threads();
     for (const ThreadStatistics& thread : control_.threads()) {
@@ -334,8 +335,13 @@ void denoise(Rendering& rendering, Diagnostics& diagnostics) {
   const auto keep_noisy = [&](const std::string& reason) {
     diagnostics.warn({statistics.scene}, "the image was not denoised: " + reason);
   };
+  // Who interrupts a render waits for the image, and may not wait long.
+  if (statistics.interrupted) return keep_noisy("the render was interrupted");
   try {
-    const DenoiseOptions options{std::max(0, settings.device), settings.threads};
+    const int threads = settings.runs_on_device
+                            ? threads_available(static_cast<int>(std::thread::hardware_concurrency()))
+                            : settings.threads;
+    const DenoiseOptions options{std::max(0, settings.device), threads};
     rendering.denoised = denoise(settings.denoiser, rendering.noisy_image(), options);
     statistics.denoiser = settings.denoiser;
   } catch (const std::bad_alloc&) {
@@ -355,6 +361,10 @@ Rendering render_scene(Scene&& scene, const RenderSettings& settings, double loa
       if (!light_traits(light.kind).has_size)
         diagnostics.warn(light.where, "rays cannot hit delta lights: the integrator '" +
                                           to_string(settings.integrator) + "' does not show them; 'path' does");
+  if (settings.asked.noise > 0 && settings.samples_per_pixel <= next_decision(0))
+    diagnostics.warn({scene.name}, "the noise target has no effect: pixels take " + std::to_string(next_decision(0)) +
+                                       " samples before one is finished, and have at most " +
+                                       std::to_string(settings.samples_per_pixel) + "; ask for more by --spp");
   if (!settings.denoiser_warning.empty()) diagnostics.warn({scene.name}, settings.denoiser_warning);
   Rendering rendering =
       settings.precision == Precision::single

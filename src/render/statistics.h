@@ -25,6 +25,7 @@ struct RenderStatistics {
   uint32_t samples_per_pixel = 0;  ///< in complete passes
   NoiseState noise;                ///< zero without a noise target
   bool complete = false;
+  bool interrupted = false;  ///< stopped by the caller, not by a time limit
   uint64_t camera_samples = 0, rays = 0, shadow_rays = 0, nonfinite_samples = 0;
   uint64_t peak_rss_bytes = 0;  ///< peak of the process
   SampleCounters counters;      ///< of all threads; zero in builds that do not count
