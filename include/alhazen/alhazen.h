@@ -55,6 +55,10 @@ struct Settings {
   std::string noise_measure;
   double noise_exposure = 0;
   std::string noise_tone_map;
+  /// Path guiding, for the integrator path: off, on, or auto to stop it where it does not pay; empty: off. docs/guiding.md
+  /// says what it is good for.
+  std::string guiding;
+  int64_t guiding_memory = 256;  ///< MiB that it may take
   int64_t max_depth = -1;         ///< bounces: a path has at most max_depth + 1 segments
   int64_t width = 0, height = 0;  ///< pixels
   std::optional<uint32_t> seed;

@@ -19,6 +19,8 @@ struct SceneArrays {
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY
 
+  Bounds3<Real> bounds;  ///< of all surfaces; known once the trees are built
+
   /// A view of the arrays so far, for functions of the core; it is invalidated when arrays grow.
   SceneView<Real> view() const {
     SceneView<Real> view;
@@ -46,6 +48,7 @@ struct SceneArrays {
     scene.arena.reset(static_cast<std::byte*>(std::aligned_alloc(arena_alignment, bytes)));
     if (!scene.arena) throw std::bad_alloc();
     scene.statistics.bytes = bytes;
+    scene.view.bounds = bounds;
     std::byte* next = scene.arena.get();
     const auto move = [&](auto& array, auto& pointer, uint32_t& count) {
       const size_t size = array.size() * sizeof(array[0]);

@@ -96,6 +96,8 @@ class TreeBuilder {
     const BvhLayouts& layouts = options_.layouts;
     std::vector<Bounds3<Real>> boxes = primitive_boxes(first, counts);
     if (has_instances) add_instance_boxes(boxes);
+    if (first == 0)
+      for (const Bounds3<Real>& box : boxes) out_.bounds.extend(box);
     Bvh2<Real> tree;
     if (!layouts.empty()) {
       Bvh2Options options;

@@ -10,8 +10,10 @@
 #include "core/bvh/cwbvh/node.h"
 #include "core/cameras/camera.h"
 #include "core/cameras/filter.h"
+#include "core/guiding/guide.h"
 #include "core/lights/light_record.h"
 #include "core/materials/material_record.h"
+#include "core/math/bounds.h"
 #include "core/shapes/shape_records.h"
 #include "core/textures/texture_record.h"
 
@@ -77,6 +79,8 @@ struct SceneView {
   uint32_t lets_light_through = 0;    ///< 1 if a material lets shadow rays through
   uint32_t has_lobes = 0;             ///< 1 if a material chooses among lobes at random
   uint32_t has_narrow_triangles = 0;  ///< 1 if a triangle is much longer than wide (core/shapes/triangle.h)
+  Bounds3<Real> bounds{};             ///< of all surfaces
+  GuideView<Real> guide;              ///< what path guiding has learned; not part of the compiled scene
 };
 
 }  // namespace ALHAZEN_CORE

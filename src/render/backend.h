@@ -11,6 +11,7 @@
 #include "compile/compiled_scene.h"
 #include "render/control.h"
 #include "render/film.h"
+#include "render/guiding.h"
 #include "render/sample_kernel.h"
 #include "render/settings.h"
 
@@ -29,6 +30,8 @@ struct RenderPass {
   RenderControl& control;
   uint32_t first_sample;
   uint32_t sample_count;
+  IntegratorKind integrator;            ///< that of the settings, or with guiding that of this pass
+  Guiding<Real>* guiding = nullptr;     ///< where the scene's `guide` comes from, if there is one
   const ExternalTracer* tracer = nullptr;  ///< what the kernel traces rays by, where that is not the scene's own BVH
 };
 

@@ -148,6 +148,11 @@ void add_records(Hasher& h, const Record* records, uint32_t count) {
   }
 }
 
+uint64_t file_size(const std::string& path) {
+  struct stat file = {};
+  return ::stat(path.c_str(), &file) == 0 ? static_cast<uint64_t>(file.st_size) : 0;
+}
+
 template <class Real>
 uint64_t plane_bytes(Film<Real>& film) {
   uint64_t bytes = 0;
@@ -199,7 +204,7 @@ void check_checkpoint(const RenderSettings& settings) {
 }
 
 template <class Real>
-void CheckpointFile::save(Film<Real>& film, uint32_t samples_done) const {
+void CheckpointFile::save(Film<Real>& film, uint32_t samples_done, const Guiding<Real>* guiding) const {
   AtomicFile file(path_);
   const Header header = make_header(fingerprint_, samples_done, plane_bytes(film), settings_.size());
   uint32_t checksum = 0;
@@ -210,12 +215,18 @@ void CheckpointFile::save(Film<Real>& film, uint32_t samples_done) const {
   write(&header, sizeof(header));
   write(settings_.data(), settings_.size());
   film.visit_planes(write);
+  if (guiding) {
+    const std::vector<std::byte> learned = guiding->bytes();
+    const uint64_t size = learned.size();
+    write(&size, sizeof(size));
+    write(learned.data(), learned.size());
+  }
   file.write(&checksum, sizeof(checksum));
   file.commit();
 }
 
 template <class Real>
-uint32_t CheckpointFile::load(Film<Real>& film) const {
+uint32_t CheckpointFile::load(Film<Real>& film, Guiding<Real>* guiding) const {
   const InputError damaged({path_}, "the checkpoint is damaged: start anew with --overwrite instead of --resume");
   std::ifstream in(path_, std::ios::binary);
   if (!in) throw InputError({path_}, std::string("cannot open the checkpoint: ") + std::strerror(errno));
@@ -237,8 +248,18 @@ uint32_t CheckpointFile::load(Film<Real>& film) const {
     in.read(static_cast<char*>(data), static_cast<std::streamsize>(size));
     checksum = crc(checksum, data, size);
   });
+  std::vector<std::byte> learned;
+  if (guiding) {
+    uint64_t size = 0;
+    in.read(reinterpret_cast<char*>(&size), sizeof(size));
+    if (!in || size > file_size(path_)) throw damaged;
+    learned.resize(size);
+    in.read(reinterpret_cast<char*>(learned.data()), static_cast<std::streamsize>(size));
+    checksum = crc(crc(checksum, &size, sizeof(size)), learned.data(), learned.size());
+  }
   in.read(reinterpret_cast<char*>(&expected), sizeof(expected));
   if (!in || in.peek() != std::ifstream::traits_type::eof() || checksum != expected) throw damaged;
+  if (guiding && !guiding->restore(learned)) throw damaged;
   const uint32_t held = film.max_samples();
   if (header->samples_done > held || header->samples_done % samples_per_block != 0) throw damaged;
   if (held > samples_per_pixel_)
@@ -249,9 +270,9 @@ uint32_t CheckpointFile::load(Film<Real>& film) const {
 
 template uint64_t scene_fingerprint(const CompiledScene<float>&);
 template uint64_t scene_fingerprint(const CompiledScene<double>&);
-template void CheckpointFile::save(Film<float>&, uint32_t) const;
-template void CheckpointFile::save(Film<double>&, uint32_t) const;
-template uint32_t CheckpointFile::load(Film<float>&) const;
-template uint32_t CheckpointFile::load(Film<double>&) const;
+template void CheckpointFile::save(Film<float>&, uint32_t, const Guiding<float>*) const;
+template void CheckpointFile::save(Film<double>&, uint32_t, const Guiding<double>*) const;
+template uint32_t CheckpointFile::load(Film<float>&, Guiding<float>*) const;
+template uint32_t CheckpointFile::load(Film<double>&, Guiding<double>*) const;
 
 }  // namespace alhazen

@@ -7,6 +7,7 @@
 
 #include "compile/compiled_scene.h"
 #include "render/film.h"
+#include "render/guiding.h"
 #include "render/settings.h"
 
 namespace alhazen {
@@ -19,7 +20,8 @@ uint64_t scene_fingerprint(const CompiledScene<Real>& scene);
 /// is no checkpoint. Changes nothing. Throws InputError.
 void check_checkpoint(const RenderSettings& settings);
 
-/// The file consists of a header, the settings as text, the planes of the film and a CRC-32 of all. The header has a
+/// The file consists of a header, the settings as text, the planes of the film, with guiding what it has learned, and a
+/// CRC-32 of all. The header has a
 /// CRC-32 of its own, so that a damaged file is distinguished from a checkpoint of another render.
 class CheckpointFile {
  public:
@@ -28,12 +30,12 @@ class CheckpointFile {
   /// Writes the film completely or not at all. Every pixel holds complete blocks of samples, at least `samples_done`;
   /// more if a pass was stopped. Throws WriteError.
   template <class Real>
-  void save(Film<Real>& film, uint32_t samples_done) const;
+  void save(Film<Real>& film, uint32_t samples_done, const Guiding<Real>* guiding = nullptr) const;
 
   /// Reads the film and returns the number of samples that every pixel holds. Throws InputError if the file is missing,
   /// damaged, of another render, or holds more samples than the settings request.
   template <class Real>
-  uint32_t load(Film<Real>& film) const;
+  uint32_t load(Film<Real>& film, Guiding<Real>* guiding = nullptr) const;
 
  private:
   std::string path_;

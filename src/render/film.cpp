@@ -19,9 +19,11 @@ uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, const FilmExt
   if (aovs.normal || extras.denoising) pixel += sizeof(Vec3<Real>);
   if (aovs.depth || extras.denoising) pixel += sizeof(Real) + sizeof(uint32_t);
   if (aovs.bounces) pixel += sizeof(uint32_t);
-  if (aovs.variance || extras.denoising || extras.noise_target) pixel += 2 * sizeof(Real);
+  if (aovs.variance || extras.denoising || extras.noise_target || extras.guiding) pixel += 2 * sizeof(Real);
   if (extras.denoising) pixel += 3 * sizeof(Vec3<Real>) + sizeof(Real);
   if (extras.noise_target) pixel += 2 * sizeof(Real) + sizeof(uint8_t);
+  if (extras.guiding) pixel += sizeof(Vec3<Real>) + sizeof(Real) + sizeof(uint32_t);
+  if (extras.guiding && extras.denoising) pixel += sizeof(Vec3<Real>) + sizeof(Real);
   return pixel * static_cast<uint64_t>(window.pixels());
 }
 
@@ -37,8 +39,9 @@ Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, const FilmExtras
   allocate_if(aovs.depth || extras.denoising, depth_, pixels);
   allocate_if(aovs.depth || extras.denoising, hits_, pixels);
   allocate_if(aovs.bounces, segments_, pixels);
-  allocate_if(aovs.variance || extras.denoising || extras.noise_target, luminance_m2_, pixels);
-  allocate_if(aovs.variance || extras.denoising || extras.noise_target, luminance_mean_, pixels);
+  const bool wants_variance = aovs.variance || extras.denoising || extras.noise_target || extras.guiding;
+  allocate_if(wants_variance, luminance_m2_, pixels);
+  allocate_if(wants_variance, luminance_mean_, pixels);
   allocate_if(extras.denoising, odd_radiance_, pixels);
   allocate_if(extras.denoising, odd_albedo_, pixels);
   allocate_if(extras.denoising, odd_normal_, pixels);
@@ -46,6 +49,11 @@ Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, const FilmExtras
   allocate_if(extras.noise_target, block_m2_, pixels);
   allocate_if(extras.noise_target, half_difference_, pixels);
   allocate_if(extras.noise_target, finished_, pixels);
+  allocate_if(extras.guiding, earlier_radiance_, pixels);
+  allocate_if(extras.guiding && extras.denoising, earlier_odd_radiance_, pixels);
+  allocate_if(extras.guiding, earlier_weights_, pixels);
+  allocate_if(extras.guiding && extras.denoising, earlier_odd_weights_, pixels);
+  allocate_if(extras.guiding, earlier_samples_, pixels);
   const auto pointer = [](auto& plane) { return plane.empty() ? nullptr : plane.data(); };
 #define ALHAZEN_PLANE(type, name) view_.name = pointer(name##_);
   ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
@@ -68,6 +76,30 @@ uint64_t Film<Real>::total_samples(uint32_t limit) const {
   uint64_t total = 0;
   for (const uint32_t samples : samples_) total += std::min(samples, limit);
   return total;
+}
+
+template <class Real>
+void Film<Real>::end_iteration() {
+  const Real weight = view_.iteration_weight;
+  for (size_t i = 0; i < samples_.size(); ++i) {
+    earlier_radiance_[i] += radiance_[i] * weight;
+    earlier_weights_[i] += weights_[i] * weight;
+    if (!earlier_odd_radiance_.empty()) {
+      earlier_odd_radiance_[i] += odd_radiance_[i] * weight;
+      earlier_odd_weights_[i] += odd_weights_[i] * weight;
+    }
+    earlier_samples_[i] = samples_[i];
+  }
+  const auto clear = [](auto& plane) { std::fill(plane.begin(), plane.end(), typename std::decay_t<decltype(plane)>::value_type{}); };
+  clear(radiance_);
+  clear(weights_);
+  clear(odd_radiance_);
+  clear(odd_weights_);
+  clear(luminance_m2_);
+  clear(luminance_mean_);
+  clear(block_m2_);
+  clear(half_difference_);
+  ++generation_;
 }
 
 template <class Real>
@@ -102,13 +134,14 @@ void Film<Real>::resolve_row(int y, std::span<float> row) const {
     };
     const auto mean = [](const Vec3<Real>& sum, Real count) { return count != 0 ? sum / count : Vec3<Real>{}; };
     const Real n = static_cast<Real>(samples_[i]);
-    put3(mean(radiance_[i], weights_.empty() ? n : weights_[i]));
+    put3(view_.radiance_mean(i));
     if (aovs_.albedo) put3(mean(albedo_[i], n));
     if (aovs_.normal) put3(mean(normal_[i], n));
     if (aovs_.depth) put(hits_[i] > 0 ? depth_[i] / static_cast<Real>(hits_[i]) : Real(0));
     if (aovs_.bounces) put(n > 0 ? static_cast<Real>(segments_[i]) / n : Real(0));
     if (aovs_.samples) put(n);
-    if (aovs_.variance) put(n > 1 ? luminance_m2_[i] / (n - 1) : Real(0));
+    const Real current = static_cast<Real>(view_.current_samples(i));
+    if (aovs_.variance) put(current > 1 ? luminance_m2_[i] / (current - 1) : Real(0));
   }
 }
 

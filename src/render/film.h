@@ -14,10 +14,10 @@
 
 namespace alhazen {
 
-/// What a film sums besides radiance and its layers: the weights of the pixel filter, and what a noise target and a
-/// denoiser need.
+/// What a film sums besides radiance and its layers: the weights of the pixel filter, and what a noise target, a
+/// denoiser and path guiding need. Guiding needs the weights.
 struct FilmExtras {
-  bool weights = false, noise_target = false, denoising = false;
+  bool weights = false, noise_target = false, denoising = false, guiding = false;
 };
 
 /// Bytes that a film with these pixels and layers takes.
@@ -47,6 +47,11 @@ class Film {
   uint64_t total_samples(uint32_t limit) const;
   /// The largest number of samples in any pixel.
   uint32_t max_samples() const { return *std::max_element(samples_.begin(), samples_.end()); }
+  /// For guiding: by how much samples of the last iteration count, and that another one begins.
+  void set_weight(Real weight) { view_.iteration_weight = weight; }
+  void end_iteration();
+  /// Changes whenever sums change other than by add().
+  uint64_t generation() const { return generation_; }
   std::vector<std::string> channels() const;
   /// Computes row y (0 is the window's first) of all channels, one after the other: means over the samples so far.
   void resolve_row(int y, std::span<float> row) const;
@@ -73,6 +78,7 @@ class Film {
   ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
 #undef ALHAZEN_PLANE
   FilmView<Real> view_;
+  uint64_t generation_ = 0;
 };
 
 }  // namespace alhazen

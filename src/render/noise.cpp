@@ -90,7 +90,7 @@ struct PixelMean {
 
 template <class Real>
 PixelMean pixel_mean(const FilmView<Real>& film, size_t i) {
-  const uint32_t samples = film.samples[i];
+  const uint32_t samples = film.current_samples(i);
   if (samples < 2 * samples_per_block) return {};
   const double n = samples;
   const Halves halves(samples);
@@ -176,7 +176,7 @@ void NoiseEstimate<Real>::measure_pixels(const RenderSettings& settings) {
   const double darkest = settings.noise_curve ? 0 : darkest_luminance(film, pixels);
   for (size_t i = 0; i < pixels; ++i) {
     const PixelMean mean = pixel_mean(film, i);
-    if (film.samples[i] < 2 * samples_per_block || !std::isfinite(mean.by_blocks)) errors_[i] = of_halves_[i] = 1;
+    if (film.current_samples(i) < 2 * samples_per_block || !std::isfinite(mean.by_blocks)) errors_[i] = of_halves_[i] = 1;
     if (!(mean.by_blocks > 0) || errors_[i] > 0) continue;
     double error = 0;
     if (settings.noise_curve) {

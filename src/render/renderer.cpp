@@ -16,6 +16,7 @@
 #include "render/backend.h"
 #include "render/checkpoint.h"
 #include "render/denoiser.h"
+#include "render/guiding.h"
 #include "render/noise.h"
 #include "render/noisy_image.h"
 #include "render/sample_kernel.h"
@@ -106,7 +107,7 @@ uint32_t pass_size(const RenderSettings& settings, uint32_t max_size, uint32_t s
 template <class Real>
 class PassLoop {
  public:
-  PassLoop(Backend& backend, const CompiledScene<Real>& scene, const RenderSettings& settings, Film<Real>& film,
+  PassLoop(Backend& backend, CompiledScene<Real>& scene, const RenderSettings& settings, Film<Real>& film,
            const RenderEvents& events, Diagnostics& diagnostics)
       : backend_(backend),
         scene_(scene),
@@ -114,11 +115,13 @@ class PassLoop {
         film_(film),
         events_(events),
         diagnostics_(diagnostics),
-        control_(settings.threads) {}
+        control_(settings.threads) {
+    if (settings.guiding != GuidingMode::off) guiding_.emplace(settings, scene.view);
+  }
 
   void run(RenderStatistics& statistics) {
     if (!settings_.asked.checkpoint.empty()) checkpoint_.emplace(settings_, scene_fingerprint(scene_));
-    if (settings_.asked.resume) samples_done_ = checkpoint_->load(film_);
+    if (settings_.asked.resume) samples_done_ = checkpoint_->load(film_, guiding_ ? &*guiding_ : nullptr);
     control_.add_samples(film_.total_samples(samples_done_));
     set_total();
     std::exception_ptr problem;
@@ -130,6 +133,10 @@ class PassLoop {
     }
     save_checkpoint();
     if (problem) std::rethrow_exception(problem);
+    if (guiding_) {
+      guiding_->weigh_samples(film_);
+      statistics.guiding = guiding_->state();
+    }
     statistics.render_seconds = elapsed_;
     statistics.samples_per_pixel = samples_done_;
     statistics.complete = is_done();
@@ -147,12 +154,12 @@ class PassLoop {
 
  private:
   void take_passes() {
-    const SampleKernel<Real> kernel = select_sample_kernel<Real>(settings_.integrator, settings_.sampler);
     Clock::time_point saved = Clock::now();
     double last_pass_per_sample = 0;
     while (!is_done() && !control_.is_stopped()) {
-      const uint32_t size =
+      uint32_t size =
           pass_size(settings_, backend_.max_samples_per_pass(), samples_done_, elapsed_, seconds_per_sample());
+      if (guiding_) size = std::min(size, guiding_->iteration_end(samples_done_) - samples_done_);
       if (settings_.asked.time_limit > 0 && elapsed_ > 0 &&
           elapsed_ + last_pass_per_sample * size > settings_.asked.time_limit)
         return;
@@ -161,7 +168,11 @@ class PassLoop {
         in_whole_blocks_ = false;
       }
       const Clock::time_point start = Clock::now();
-      backend_.render_pass(RenderPass<Real>{scene_, kernel, settings_, film_, control_, samples_done_, size});
+      const IntegratorKind integrator = guiding_ ? guiding_->integrator() : settings_.integrator;
+      if (guiding_) scene_.view.guide = guiding_->view();
+      backend_.render_pass(RenderPass<Real>{scene_, select_sample_kernel<Real>(integrator, settings_.sampler),
+                                            settings_, film_, control_, samples_done_, size, integrator,
+                                            guiding_ ? &*guiding_ : nullptr});
       const double seconds = seconds_since(start);
       elapsed_ += seconds;
       if (control_.is_stopped()) return;
@@ -169,6 +180,7 @@ class PassLoop {
       samples_done_ += size;
       if (settings_.asked.noise > 0 && next_decision(samples_done_ - 1) == samples_done_)
         last_pass_per_sample *= finish_pixels();
+      if (guiding_) guiding_->end_iteration(film_, samples_done_);
       if (seconds_since(saved) >= settings_.asked.checkpoint_seconds) {
         save_checkpoint();
         saved = Clock::now();
@@ -187,6 +199,7 @@ class PassLoop {
 
   /// Returns the fraction of the pixels that are left of those that were not finished before.
   double finish_pixels() {
+    if (guiding_) guiding_->weigh_samples(film_);
     const NoiseEstimate<Real> estimate(settings_, film_);
     estimate.finish_pixels();
     const double before = static_cast<double>(unfinished_);
@@ -208,7 +221,7 @@ class PassLoop {
   void save_checkpoint() {
     if (!checkpoint_ || !in_whole_blocks_) return;
     try {
-      checkpoint_->save(film_, samples_done_);
+      checkpoint_->save(film_, samples_done_, guiding_ ? &*guiding_ : nullptr);
     } catch (const std::exception& failure) {
       const size_t before = diagnostics_.warnings().size();
       diagnostics_.warn({settings_.asked.checkpoint},
@@ -218,7 +231,8 @@ class PassLoop {
   }
 
   Backend& backend_;
-  const CompiledScene<Real>& scene_;
+  CompiledScene<Real>& scene_;
+  std::optional<Guiding<Real>> guiding_;
   const RenderSettings& settings_;
   Film<Real>& film_;
   const RenderEvents& events_;
@@ -241,7 +255,8 @@ void check_memory(uint64_t bytes) {
 
 template <class Real>
 std::unique_ptr<Film<Real>> make_film(const RenderSettings& settings, bool weighted) {
-  const FilmExtras extras{weighted, settings.asked.noise > 0, !settings.denoiser.empty()};
+  const bool guided = settings.guiding != GuidingMode::off;
+  const FilmExtras extras{weighted || guided, settings.asked.noise > 0, !settings.denoiser.empty(), guided};
   const uint64_t bytes = film_bytes<Real>(settings.window, settings.aovs, extras);
   check_memory(bytes);
   try {
@@ -274,7 +289,7 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   CompileOptions options{settings.width, settings.height, build_threads, backend->wanted_layouts(settings)};
   options.texture_budget = settings.texture_budget;
   options.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
-  const CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
+  CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
   started.get();
   statistics.scene_sizes = flat.statistics;
   statistics.load_seconds = load_seconds + seconds_since(start) - flat.statistics.build_seconds;

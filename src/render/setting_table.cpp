@@ -218,6 +218,12 @@ std::string noise_target(const RenderSettings& s) {
          (s.asked.noise_tone_map.empty() ? "none" : s.asked.noise_tone_map);
 }
 
+/// Empty without guiding, as in checkpoints of renders that have none.
+std::string guiding_of(const RenderSettings& s) {
+  if (s.guiding == GuidingMode::off) return {};
+  return to_string(s.guiding) + " with " + std::to_string(s.guiding_memory >> 20) + " MiB";
+}
+
 std::vector<SettingEntry> image_settings() {
   constexpr SettingGroup group = SettingGroup::image;
   return {
@@ -228,6 +234,13 @@ std::vector<SettingEntry> image_settings() {
                        "Take no more samples of pixels whose estimated error is below X: relative (0.05 is 5 percent; "
                        "the default), or of the displayed value from 0 to 1: 0.01,display",
                        noise())),
+      of_samples(guiding_of,
+                 entry(group, "guiding", "", "NAME",
+                       "Learn where light comes from while rendering, for indirect light and caustics: off, on, or auto "
+                       "to stop where it does not pay",
+                       name(&Settings::guiding))),
+      entry(group, "guiding-memory", "", "MIB", "What --guiding may take (256)",
+            number<int64_t>("guiding-memory", &Settings::guiding_memory, 256, 1, 1 << 20)),
       of_samples([](const RenderSettings& s) { return std::to_string(s.max_segments - 1); },
                  entry(group, "max-depth", "--maxdepth", "N", "Bounces: a path has at most N + 1 segments",
                        number<int64_t>("max-depth", &Settings::max_depth, -1, 0, max_bounces))),

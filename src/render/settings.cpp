@@ -34,6 +34,8 @@ constexpr Named<ScheduleKind> schedules[] = {
     {"static", ScheduleKind::static_}, {"dynamic", ScheduleKind::dynamic}, {"guided", ScheduleKind::guided}};
 constexpr Named<ToneMap> tone_maps[] = {
     {"none", ToneMap::none}, {"reinhard", ToneMap::reinhard}, {"filmic", ToneMap::filmic}};
+constexpr Named<GuidingMode> guiding_modes[] = {
+    {"off", GuidingMode::off}, {"on", GuidingMode::on}, {"auto", GuidingMode::automatic}};
 constexpr Named<bool AovSet::*> layers[] = {{"albedo", &AovSet::albedo},   {"normal", &AovSet::normal},
                                             {"depth", &AovSet::depth},     {"bounces", &AovSet::bounces},
                                             {"samples", &AovSet::samples}, {"variance", &AovSet::variance},
@@ -144,6 +146,15 @@ void resolve_noise(const Settings& asked, RenderSettings& s) {
                    asked.noise_tone_map.empty() ? ToneMap::none : by_name(tone_maps, asked.noise_tone_map, "tone map")};
 }
 
+void resolve_guiding(const Settings& asked, RenderSettings& s) {
+  s.guiding = asked.guiding.empty() ? GuidingMode::off : by_name(guiding_modes, asked.guiding, "mode of guiding");
+  s.guiding_memory = static_cast<uint64_t>(in_range(asked.guiding_memory, 1, 1 << 20, "the memory of guiding in MiB"))
+                     << 20;
+  if (s.guiding != GuidingMode::off && s.integrator != IntegratorKind::path)
+    throw InputError("guiding needs the integrator 'path', and this is '" + to_string(s.integrator) +
+                     "': leave out --guiding, or give --integrator path");
+}
+
 CoatModel parse_coats(const std::string& text) {
   if (text.empty() || text == "lossless") return CoatModel::lossless;
   if (text == "pbrt") return CoatModel::pbrt;
@@ -217,6 +228,7 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   if (!(asked.checkpoint_seconds >= 0) || !std::isfinite(asked.checkpoint_seconds))
     throw InputError("the time between checkpoints must be a finite number of seconds, not negative");
   resolve_noise(asked, s);
+  resolve_guiding(asked, s);
   s.texture_budget =
       static_cast<uint64_t>(in_range(asked.texture_budget, 0, int64_t{1} << 30, "the budget of textures")) << 20;
   if (asked.resume && asked.checkpoint.empty())
@@ -238,6 +250,7 @@ SampleSeed sample_seed(const RenderSettings& settings) {
 }
 
 std::string to_string(Precision precision) { return name_of(precisions, precision); }
+std::string to_string(GuidingMode mode) { return name_of(guiding_modes, mode); }
 std::string to_string(IntegratorKind integrator) { return name_of(integrators, integrator); }
 std::string to_string(SamplerType sampler) { return name_of(samplers, sampler); }
 std::string to_string(const Schedule& schedule) {

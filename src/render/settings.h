@@ -28,6 +28,9 @@ struct AovSet {
   bool albedo = false, normal = false, depth = false, bounces = false, samples = false, variance = false, noisy = false;
 };
 
+/// Whether paths are guided; `automatic`: while it pays.
+enum class GuidingMode { off, on, automatic };
+
 /// Pixels x0 <= x < x1, y0 <= y < y1 of the whole image.
 struct PixelWindow {
   int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
@@ -67,6 +70,8 @@ struct RenderSettings {
   std::string denoiser;          ///< empty: none
   std::string denoiser_warning;  ///< why a better one that is here was not taken; empty otherwise
   uint64_t texture_budget = 0;   ///< bytes; 0: no limit
+  GuidingMode guiding = GuidingMode::off;
+  uint64_t guiding_memory = 0;  ///< bytes
 };
 
 /// Replaces what settings replace in a scene: how much light its coats lose, and the pixel filter. Throws InputError
@@ -82,6 +87,7 @@ SampleSeed sample_seed(const RenderSettings& settings);
 std::string to_string(Precision precision);
 std::string to_string(IntegratorKind integrator);
 std::string to_string(SamplerType sampler);
+std::string to_string(GuidingMode mode);
 std::string to_string(const Schedule& schedule);
 
 /// Parses `static`, `dynamic,4`, ... Throws InputError.

@@ -8,6 +8,7 @@
 
 #include "compile/compiled_scene.h"
 #include "render/control.h"
+#include "render/guiding.h"
 #include "render/noise.h"
 #include "render/settings.h"
 
@@ -24,6 +25,7 @@ struct RenderStatistics {
   double render_seconds = 0;       ///< taking samples only
   uint32_t samples_per_pixel = 0;  ///< in complete passes
   NoiseState noise;                ///< zero without a noise target
+  GuidingState guiding;            ///< zero without guiding
   bool complete = false;
   bool interrupted = false;  ///< stopped by the caller, not by a time limit
   uint64_t camera_samples = 0, rays = 0, shadow_rays = 0, nonfinite_samples = 0;

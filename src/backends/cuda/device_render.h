@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "backends/cuda/executor.h"
 #include "backends/cuda/kernels/persistent.h"
@@ -51,6 +52,8 @@ class DeviceRender {
         totals_(executor),
         sums_(executor),
         slots_memory_(executor),
+        guide_(executor),
+        guide_sums_(executor),
         counter_(executor) {}
 
   /// Builds the acceleration structure of executors that have their own.
@@ -77,6 +80,7 @@ class DeviceRender {
     }
     items_ = plan.items();
     download(pass);
+    if (pass.guiding) download_guide(*pass.guiding);
     add_totals(statistics);
   }
 
@@ -89,10 +93,12 @@ class DeviceRender {
     if (scene_ != &pass.scene) upload_scene(pass.scene);
     totals_.reserve(1);
     counter_.reserve(1);
-    if (host_film_ != &pass.film) {
+    if (host_film_ != &pass.film || film_generation_ != pass.film.generation()) {
       host_film_ = &pass.film;
+      film_generation_ = pass.film.generation();
       upload_film(pass.film);
     }
+    if (pass.guiding) upload_guide(*pass.guiding);
     // The host finishes pixels between passes.
     const uint8_t* finished = pass.film.view().finished;
     if (finished) executor_.upload(film_view_.finished, finished, static_cast<size_t>(pass.film.window().pixels()));
@@ -118,6 +124,7 @@ class DeviceRender {
 #define ALHAZEN_ARRAY(type, name) shift(view.name);
     ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY
+    view.guide = guide_view_;
     return view;
   }
 
@@ -143,6 +150,46 @@ class DeviceRender {
   }
     ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
 #undef ALHAZEN_PLANE
+  }
+
+  /// Uploads what the host has learned, and clears the sums of this device.
+  void upload_guide(Guiding<Real>& guiding) {
+    const GuideView<Real> host = guiding.view();
+    guide_view_ = host;
+    size_t bytes = 0;
+    const auto place = [&](const auto* array, size_t count) {
+      const size_t at = bytes;
+      bytes += padded(count * sizeof(*array));
+      return at;
+    };
+    const size_t cells = place(host.cells, host.cells_count), regions = place(host.regions, host.regions_count),
+                 quads = place(host.quads, host.quads_count);
+    guide_.reserve(bytes);
+    const auto copy = [&](const auto*& pointer, const auto* array, size_t at, size_t count) {
+      pointer = reinterpret_cast<decltype(array)>(guide_.data() + at);
+      if (guide_generation_ != guiding.generation() || !has_guide_)
+        executor_.upload(guide_.data() + at, array, count * sizeof(*array));
+    };
+    copy(guide_view_.cells, host.cells, cells, host.cells_count);
+    copy(guide_view_.regions, host.regions, regions, host.regions_count);
+    copy(guide_view_.quads, host.quads, quads, host.quads_count);
+    has_guide_ = true;
+    guide_generation_ = guiding.generation();
+    const size_t light = padded(host.quads_count * 4 * sizeof(uint64_t)),
+                 tallies = host.regions_count * sizeof(GuideTally);
+    guide_sums_.reserve(light + tallies);
+    executor_.clear(guide_sums_.data(), light + tallies);
+    guide_view_.light = reinterpret_cast<uint64_t*>(guide_sums_.data());
+    guide_view_.tallies = reinterpret_cast<GuideTally*>(guide_sums_.data() + light);
+  }
+
+  void download_guide(Guiding<Real>& guiding) {
+    if (guiding.integrator() != IntegratorKind::guided_path) return;
+    std::vector<uint64_t> light(size_t{guide_view_.quads_count} * 4);
+    std::vector<GuideTally> tallies(guide_view_.regions_count);
+    executor_.download(light.data(), guide_view_.light, light.size() * sizeof(uint64_t));
+    executor_.download(tallies.data(), guide_view_.tallies, tallies.size() * sizeof(GuideTally));
+    guiding.add(light.data(), tallies.data());
   }
 
   /// Downloads the rows of this device; if it has all of them, whole planes.
@@ -217,8 +264,14 @@ class DeviceRender {
   }
 
   bool run_slice(const RenderPass<Real>& pass, const Launch<Real>& launch) {
-    return pass.settings.integrator == IntegratorKind::path ? run_slice<IntegratorKind::path>(pass, launch)
-                                                            : run_slice<IntegratorKind::iterative>(pass, launch);
+    switch (pass.integrator) {
+      case IntegratorKind::path:
+        return run_slice<IntegratorKind::path>(pass, launch);
+      case IntegratorKind::guided_path:
+        return run_slice<IntegratorKind::guided_path>(pass, launch);
+      default:
+        return run_slice<IntegratorKind::iterative>(pass, launch);
+    }
   }
 
   /// Returns false if the render was stopped within the slice; nothing of the slice is in the film then.
@@ -279,13 +332,14 @@ class DeviceRender {
         executor_.launch(ResetKernel<kind, Real>{stage}, {1}, {1});
         executor_.launch(IntersectKernel<Tracing, kind, Real>{stage}, threads, block);
         executor_.launch(ShadeKernel<kind, Real>{stage}, padded_threads, block);
-        if (kind == IntegratorKind::path) executor_.launch(ShadowKernel<Tracing, kind, Real>{stage}, threads, block);
+        if (samples_lights(kind)) executor_.launch(ShadowKernel<Tracing, kind, Real>{stage}, threads, block);
         stage.parity = 1 - stage.parity;
       }
       QueueCounts counts;
       executor_.download(&counts, stage.slots.counts, sizeof(counts));
       if (counts.rays[stage.parity] == 0 && counts.ended == 0) return true;
-      if (control.is_stopped()) return false;
+      // What was learned in a part of a slice could not be told from the rest.
+      if (control.is_stopped() && kind != IntegratorKind::guided_path) return false;
     }
   }
 
@@ -327,6 +381,10 @@ class DeviceRender {
   Buffer<Executor, Totals> totals_;
   Buffer<Executor, BlockSum<Real>> sums_;
   Buffer<Executor, std::byte> slots_memory_;
+  Buffer<Executor, std::byte> guide_, guide_sums_;
+  GuideView<Real> guide_view_;
+  bool has_guide_ = false;
+  uint64_t guide_generation_ = 0, film_generation_ = 0;
   Buffer<Executor, uint32_t> counter_;
   uint64_t items_ = Executor::first_items;
 };

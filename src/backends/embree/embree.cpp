@@ -28,9 +28,9 @@ class EmbreeBackend final : public Backend {
   void prepare(const CompiledScene<float>& scene) override { structures_ = functions().build(scene.view, threads_); }
 
   void render_pass(const RenderPass<float>& pass) override {
-    const SampleKernel<float> kernel(functions().select_kernel(pass.settings.integrator, pass.settings.sampler));
+    const SampleKernel<float> kernel(functions().select_kernel(pass.integrator, pass.settings.sampler));
     render_openmp(RenderPass<float>{pass.scene, kernel, pass.settings, pass.film, pass.control, pass.first_sample,
-                                    pass.sample_count, structures_->tracer_for_kernels()});
+                                    pass.sample_count, pass.integrator, pass.guiding, structures_->tracer_for_kernels()});
   }
   void render_pass(const RenderPass<double>&) override {}
 

@@ -14,6 +14,10 @@ namespace ALHAZEN_CORE {
 /// two means that are independent of each other. `block_m2` is the sum of squared deviations of the luminance of blocks
 /// from the pixel's mean, times their samples; `half_difference` the luminance of its first 2^k blocks less that of the
 /// others, for the largest k that leaves some; `finished` is 1 where no more samples are taken.
+///
+/// With guiding, samples are taken in iterations that count differently. `radiance`, `weights`, their odd halves and all
+/// that is said about variance are then of the last iteration. Those that start with `earlier_` are of the ones before:
+/// sums times the weights of iterations, sums of filter weights times them, and numbers of samples.
 #define ALHAZEN_FILM_PLANES(PLANE) \
   PLANE(Vec3<Real>, radiance)      \
   PLANE(uint32_t, samples)         \
@@ -31,7 +35,12 @@ namespace ALHAZEN_CORE {
   PLANE(Real, odd_depth)           \
   PLANE(Real, block_m2)            \
   PLANE(Real, half_difference)     \
-  PLANE(uint8_t, finished)
+  PLANE(uint8_t, finished)         \
+  PLANE(Vec3<Real>, earlier_radiance)     \
+  PLANE(Vec3<Real>, earlier_odd_radiance) \
+  PLANE(Real, earlier_weights)            \
+  PLANE(Real, earlier_odd_weights)        \
+  PLANE(uint32_t, earlier_samples)
 
 /// Returns how many of the first `samples` samples of a pixel are in its second, fourth, ... block.
 ALHAZEN_HD constexpr uint32_t samples_in_odd_blocks(uint32_t samples) {
@@ -55,17 +64,32 @@ struct FilmView {
 #define ALHAZEN_PLANE(type, name) type* name = nullptr;
   ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
 #undef ALHAZEN_PLANE
+  Real iteration_weight = 1;  ///< how much samples of the last iteration count, where there are iterations
 
   /// Returns whether anything about the first hit of camera rays is recorded besides radiance.
   ALHAZEN_HD bool wants_first_hit() const { return albedo || normal || depth; }
 
   ALHAZEN_HD bool is_finished(size_t i) const { return finished && finished[i]; }
 
+  /// The number of samples of the last iteration, or of all where there are no iterations.
+  ALHAZEN_HD uint32_t current_samples(size_t i) const { return samples[i] - (earlier_samples ? earlier_samples[i] : 0); }
+
+  /// The mean over all samples.
+  ALHAZEN_HD Vec3<Real> radiance_mean(size_t i) const {
+    Vec3<Real> sum = radiance[i];
+    Real weight = weights ? weights[i] : static_cast<Real>(samples[i]);
+    if (earlier_weights) {
+      sum = sum * iteration_weight + earlier_radiance[i];
+      weight = weight * iteration_weight + earlier_weights[i];
+    }
+    return weight != 0 ? sum / weight : Vec3<Real>{};
+  }
+
   /// Adds a block to pixel `i`. The blocks of a pixel must be added in the order of their samples.
   ALHAZEN_HD void add(size_t i, const BlockSum<Real>& block) const {
     if (block_m2) add_deviation(i, block);
     if (luminance_m2)
-      merge_moments(luminance_mean[i], luminance_m2[i], samples[i], block.luminance_mean, block.luminance_m2,
+      merge_moments(luminance_mean[i], luminance_m2[i], current_samples(i), block.luminance_mean, block.luminance_m2,
                     block.samples);
     if (odd_radiance && samples[i] / samples_per_block % 2 == 1) {
       odd_radiance[i] += block.radiance;
@@ -87,10 +111,10 @@ struct FilmView {
 
  private:
   ALHAZEN_HD void add_deviation(size_t i, const BlockSum<Real>& block) const {
-    const Real n = static_cast<Real>(samples[i]), m = static_cast<Real>(block.samples);
+    const Real n = static_cast<Real>(current_samples(i)), m = static_cast<Real>(block.samples);
     const Real delta = block.luminance_mean - luminance_mean[i];
     block_m2[i] += delta * delta * n * m / (n + m);
-    const uint32_t number = samples[i] / samples_per_block;
+    const uint32_t number = current_samples(i) / samples_per_block;
     if ((number & (number - 1)) == 0) half_difference[i] = luminance_mean[i] * n;
     half_difference[i] -= block.luminance_mean * m;
   }

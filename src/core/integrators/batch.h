@@ -55,6 +55,8 @@ class PathBatch {
   static constexpr uint32_t max_paths = 176;
 
  private:
+  static constexpr bool is_guided = kind == IntegratorKind::guided_path;
+
   /// An active path. It has cache lines of its own.
   struct alignas(64) Lane {
     Sampler sampler;
@@ -86,6 +88,7 @@ class PathBatch {
       lane.path = {};
       lane.path.ray = camera_.ray(scene_, i);
       lane.record.begin(wants_first_hit_);
+      if constexpr (is_guided) trails_[ended_[i]].begin();
       active_[live_++] = ended_[i];
     }
     next_ += count;
@@ -115,6 +118,7 @@ class PathBatch {
       const uint32_t index = active_[i];
       Lane& lane = lanes_[index];
       ++lane.record.segments;
+      if constexpr (is_guided) trails_[index].start_segment(luminance(lane.record.radiance));
       if (lane.has_hit) {
         numbers_.samplers[hits] = lane.sampler;
         numbers_.first_dimension[hits] = VertexDimensions(lane.path.vertex).base;
@@ -134,8 +138,8 @@ class PathBatch {
   /// Generates the random numbers that shading may use.
   void generate_random_numbers() {
     constexpr VertexDimensions d = VertexDimensions::from(0);
-    numbers_.draw(live_, 1u << d.bsdf_direction() | (scene_.has_lobes ? 1u << d.bsdf_lobe() : 0));
-    if (kind != IntegratorKind::path) return;
+    numbers_.draw(live_, 1u << d.bsdf_direction() | (scene_.has_lobes || is_guided ? 1u << d.bsdf_lobe() : 0));
+    if (!samples_lights(kind)) return;
     if (scene_.lights_count > 0) numbers_.draw(live_, 1u << d.light());
     numbers_.draw(continuing_, 1u << d.roulette());  // no path uses it at its first surface
   }
@@ -185,11 +189,11 @@ class PathBatch {
     const bool is_computed = hit_points_.accepts(lane.hit);
     const ShadingPoint<Real> point = is_computed ? hit_points_.shading_point(place, scene_, lane.path.ray, lane.hit)
                                                  : shading_point(scene_, lane.path.ray, lane.hit);
-    if constexpr (kind != IntegratorKind::path) {
+    if constexpr (!samples_lights(kind)) {
       continue_or_end(shade_at(scene_, numbers, max_segments_, lane.hit, point, lane.path, lane.record), index);
     } else if (!handle_hit(scene_, max_segments_, lane.hit, point, lane.path, lane.record)) {
       continue_or_end(false, index);
-    } else if (point.bsdf.kind == MaterialKind::diffuse) {
+    } else if (!is_guided && point.bsdf.kind == MaterialKind::diffuse) {
       if (!is_computed || point.material->features & MaterialFeatures::tangents) hit_points_.set(place, point);
       diffuse_.add(place, scene_, point, numbers, lane.path);
       diffuse_lanes_[place] = index;
@@ -197,7 +201,7 @@ class PathBatch {
       const auto light = [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
         add_shadow_ray(index, shadow, radiance);
       };
-      continue_or_end(light_and_scatter(scene_, numbers, point, lane.path, lane.record, light), index);
+      continue_or_end(light_and_scatter(scene_, numbers, point, lane.path, lane.record, light, trail_of(index)), index);
     }
   }
 
@@ -218,6 +222,8 @@ class PathBatch {
     }
     diffuse_.clear();
   }
+
+  TrailOf<kind, Real>& trail_of(uint32_t index) { return trails_[is_guided ? index : 0]; }
 
   const Ray<Real>& shadow_ray(uint32_t i) const { return shadow_rays_[i].shadow.ray; }
   Real shadow_limit(uint32_t i) const { return shadow_rays_[i].shadow.t_max; }
@@ -267,6 +273,7 @@ class PathBatch {
   void finish() {
     for (uint32_t i = 0; i < ended_count_; ++i) {
       const Lane& lane = lanes_[ended_[i]];
+      if constexpr (is_guided) learn_from_path(scene_, trails_[ended_[i]], lane.record.radiance);
       end_(lane.sample, lane.record, lane.filter_weight);
     }
   }
@@ -289,6 +296,7 @@ class PathBatch {
   HitPoints<Real, max_paths> hit_points_;
   DiffuseSurfaces<Real, max_paths> diffuse_;
   uint32_t diffuse_lanes_[max_paths];
+  TrailOf<kind, Real> trails_[is_guided ? max_paths : 1];  ///< of the lanes
 };
 
 /// Takes `count` samples. `end` is called once for each, in any order. Records keep the first hit if

@@ -5,9 +5,9 @@
 #include <type_traits>
 
 #include "core/integrators/branching.h"
+#include "core/integrators/guided.h"
 #include "core/integrators/integrator_kind.h"
 #include "core/integrators/iterative.h"
-#include "core/integrators/path.h"
 #include "core/integrators/recursive.h"
 #include "core/math/field_list.h"
 
@@ -52,14 +52,16 @@ ALHAZEN_HD ALHAZEN_HOT CameraSample<Real> sample_camera(const SceneView<Real>& s
 
 /// The state of an iterative integrator between two segments.
 template <IntegratorKind kind, class Real>
-using StateOf = std::conditional_t<kind == IntegratorKind::path, PathState<Real>, IterativeState<Real>>;
+using StateOf = std::conditional_t<samples_lights(kind), PathState<Real>, IterativeState<Real>>;
 
 /// Traces one segment of a path: intersects, adds emission and direct light, scatters. Returns false when the path has
 /// ended.
-template <class Real, RayIntersector<Real> Intersector, SamplerOf<Real> Sampler, class State, RecordOf<Real> Record>
+template <class Real, RayIntersector<Real> Intersector, SamplerOf<Real> Sampler, class State, RecordOf<Real> Record,
+          class Trail>
 ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& intersector, const Sampler& sampler,
-                             uint32_t max_segments, State& path, Record& record) {
+                             uint32_t max_segments, State& path, Record& record, Trail& trail) {
   ++record.segments;
+  trail.start_segment(luminance(record.radiance));
   Hit<Real> hit;
   if (!intersector.closest_hit(path.ray, infinity<Real>, hit)) {
     add_infinite_lights(scene, path, record);
@@ -71,7 +73,8 @@ ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& in
                  if (visibility > 0) record.radiance += radiance * visibility;
                  if constexpr (has_counters<Record>)
                    if (!(visibility > 0)) record.counters.count_blocked();
-               });
+               },
+               trail);
 }
 
 /// Radiance along `ray` by the integrator `kind`, over at most `max_segments` >= 1 segments.
@@ -79,11 +82,13 @@ template <IntegratorKind kind, class Real, RayIntersector<Real> Intersector, Sam
 ALHAZEN_HD SampleRecord<Real> integrate(const SceneView<Real>& scene, const Intersector& intersector,
                                         const Sampler& sampler, const Ray<Real>& ray, uint32_t max_segments) {
   SampleRecord<Real> record;
-  if constexpr (kind == IntegratorKind::path || kind == IntegratorKind::iterative) {
+  if constexpr (samples_lights(kind) || kind == IntegratorKind::iterative) {
     StateOf<kind, Real> path;
     path.ray = ray;
-    while (take_segment(scene, intersector, sampler, max_segments, path, record)) {
+    TrailOf<kind, Real> trail;
+    while (take_segment(scene, intersector, sampler, max_segments, path, record, trail)) {
     }
+    learn_from_path(scene, trail, record.radiance);
   } else if constexpr (kind == IntegratorKind::recursive) {
     record.radiance = cast_ray_recursive(scene, intersector, sampler, ray, max_segments, 0, record);
   } else {

@@ -73,12 +73,10 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
 /// hit a bright surface; a lower one costs more segments than it saves noise (docs/results/quality.md).
 inline constexpr double roulette_threshold = 0.25;
 
-/// Samples the next ray. Returns false if the path ends here.
+/// Continues in a sampled direction. Returns false if the path ends here.
 template <class Real, SamplerOf<Real> Sampler>
-ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingPoint<Real>& point,
-                                          PathState<Real>& path) {
-  const VertexDimensions dimensions(path.vertex);
-  const BsdfSample<Real> s = scatter(point, sampler, dimensions);
+ALHAZEN_HD ALHAZEN_HOT bool continue_along(const Sampler& sampler, const ShadingPoint<Real>& point,
+                                           const BsdfSample<Real>& s, PathState<Real>& path) {
   if (!(s.pdf > 0)) return false;
   path.throughput *= s.weight;
   path.bsdf_pdf = s.pdf;
@@ -89,9 +87,17 @@ ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingP
   const Real survival = max_component(path.throughput) * path.eta_scale * Real(1 / roulette_threshold);
   if (!(survival > 0)) return false;
   if (++path.vertex < 2 || survival >= 1) return true;
-  if (sampler.template get_1d<Real>(dimensions.roulette()) >= survival) return false;
+  if (sampler.template get_1d<Real>(VertexDimensions(path.vertex - 1).roulette()) >= survival) return false;
   path.throughput *= 1 / survival;
   return true;
+}
+
+/// Samples the next ray. Returns false if the path ends here.
+template <class Real, SamplerOf<Real> Sampler>
+ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingPoint<Real>& point,
+                                          PathState<Real>& path) {
+  const BsdfSample<Real> s = scatter(point, sampler, VertexDimensions(path.vertex));
+  return continue_along(sampler, point, s, path);
 }
 
 /// Handles a hit up to direct light: records it and adds emission. Returns false if the path ends there.

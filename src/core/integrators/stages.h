@@ -179,17 +179,24 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light_for(const SceneView<Real>&
   return sample_light(scene, point.si.position, side, point.si.time, u, point.light);
 }
 
-template <class Real>
-ALHAZEN_HD ALHAZEN_HOT DirectLight<Real> direct_light(const ShadingPoint<Real>& point, const LightSample<Real>& light) {
+/// `scattering_pdf` returns the density with which scattering finds the light, from that of sampling the BSDF.
+template <class Real, class ScatteringPdf>
+ALHAZEN_HD ALHAZEN_HOT DirectLight<Real> direct_light(const ShadingPoint<Real>& point, const LightSample<Real>& light,
+                                                      const ScatteringPdf& scattering_pdf) {
   DirectLight<Real> direct;
   if (!(light.pdf > 0) || is_zero(light.radiance) || !is_on_one_side(point, light.direction)) return direct;
   const BsdfValue<Real> f = evaluate_bsdf(point.bsdf, point.wo, light.direction);
   if (is_zero(f.value)) return direct;
-  const Real weight = light.is_delta ? Real(1) : power_heuristic(light.pdf, f.pdf);
+  const Real weight = light.is_delta ? Real(1) : power_heuristic(light.pdf, scattering_pdf(f.pdf));
   direct.radiance = f.value * light.radiance * (weight / light.pdf);
   direct.shadow = shadow_ray(point.si, light);
   direct.is_lit = true;
   return direct;
+}
+
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT DirectLight<Real> direct_light(const ShadingPoint<Real>& point, const LightSample<Real>& light) {
+  return direct_light(point, light, [](Real pdf_of_bsdf) { return pdf_of_bsdf; });
 }
 
 /// Counts a light sample by the kind of its light, which is chosen once more, and of the closure.

@@ -82,7 +82,7 @@ void take_blocks(const KernelRequest& request) {
   BlockSum<Real>* const sums = static_cast<BlockSum<Real>*>(request.sums);
   for (uint32_t b = 0; b < request.block_count; ++b) sums[b] = {};
   // Samples are counted where one is taken after the other, which gives the same bits.
-  if constexpr ((kind == IntegratorKind::path || kind == IntegratorKind::iterative) && !counts_samples)
+  if constexpr ((samples_lights(kind) || kind == IntegratorKind::iterative) && !counts_samples)
     take_blocks_together<kind, Sampler>(request, scene, intersector, sums);
   else
     take_blocks_singly<kind, Sampler>(request, scene, intersector, sums);
@@ -97,6 +97,8 @@ RawKernel select_by_integrator(IntegratorKind integrator) {
       return take_blocks<IntegratorKind::recursive, Sampler, Intersector, Real>;
     case IntegratorKind::iterative:
       return take_blocks<IntegratorKind::iterative, Sampler, Intersector, Real>;
+    case IntegratorKind::guided_path:
+      return take_blocks<IntegratorKind::guided_path, Sampler, Intersector, Real>;
     case IntegratorKind::path:
       break;
   }

@@ -21,6 +21,7 @@ struct PersistentKernel {
     AnySampler sampler(launch.sampler, 0, 0, 0, 0);
     SumRecord<Real> record(nullptr, launch.film);
     StateOf<kind, Real> path;
+    TrailOf<kind, Real> trail;
     Real filter_weight = 0;
     Item item{};
     uint32_t taken = 0, to_take = 0;  // samples of the item
@@ -42,10 +43,12 @@ struct PersistentKernel {
         filter_weight = camera.filter_weight;
         path = {};
         path.ray = camera.ray;
+        trail.begin();
         static_cast<PathRecord<Real>&>(record) = {};
       }
-      is_under_way = take_segment(launch.scene, intersector, sampler, launch.max_segments, path, record);
+      is_under_way = take_segment(launch.scene, intersector, sampler, launch.max_segments, path, record, trail);
       if (is_under_way) continue;
+      learn_from_path(launch.scene, trail, record.radiance);
       record.radiance *= launch.scene.exposure;
       record.sum->add_path(record, filter_weight);
       ++taken;

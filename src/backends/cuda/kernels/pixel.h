@@ -50,8 +50,10 @@ struct PixelKernel {
     SumRecord<Real> record(&sum, launch.film);
     StateOf<kind, Real> path;
     path.ray = camera.ray;
-    while (take_segment(launch.scene, intersector, sampler, launch.max_segments, path, record)) {
+    TrailOf<kind, Real> trail;
+    while (take_segment(launch.scene, intersector, sampler, launch.max_segments, path, record, trail)) {
     }
+    learn_from_path(launch.scene, trail, record.radiance);
     record.radiance *= launch.scene.exposure;
     sum.add_path(record, camera.filter_weight);
   }

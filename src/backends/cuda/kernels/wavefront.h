@@ -50,11 +50,17 @@ struct Slots {
   SoAView<SlotSample<Real>> samples;
   SoAView<Hit<Real>> hits;
   SoAView<SlotShadowRay<Real>> shadow_rays;
+  TrailOf<kind, Real>* trails = nullptr;  ///< for guiding: one per slot
   uint32_t* queues = nullptr;  ///< `count` entries each, one after another
   QueueCounts* counts = nullptr;
   uint32_t count = 0;
 
   static constexpr uint32_t queue_count = 4 + material_queues;
+
+  /// What the path of a slot keeps for guiding; `none` without guiding.
+  ALHAZEN_HD TrailOf<kind, Real>& trail(uint32_t slot, TrailOf<kind, Real>& none) const {
+    return kind == IntegratorKind::guided_path ? trails[slot] : none;
+  }
 
   ALHAZEN_HD uint32_t* ray_queue(uint32_t parity) const { return queue(parity); }
   ALHAZEN_HD uint32_t* ended_queue() const { return queue(2); }
@@ -70,6 +76,7 @@ struct Slots {
     samples.visit(one);
     hits.visit(one);
     shadow_rays.visit(one);
+    visit(trails, kind == IntegratorKind::guided_path ? 1u : 0u);
     visit(queues, queue_count);
   }
 
@@ -150,6 +157,7 @@ struct GenerateKernel {
     path.ray = camera.ray;
     slots.paths.set(slot, path);
     slots.records.set(slot, {});
+    if constexpr (kind == IntegratorKind::guided_path) slots.trails[slot].begin();
     element<&SlotSample<Real>::filter_weight>(slots.samples, slot) = camera.filter_weight;
     push(thread, slots.ray_queue(stage.parity), &slots.counts->rays[stage.parity], slot);
   }
@@ -157,6 +165,8 @@ struct GenerateKernel {
  private:
   ALHAZEN_HD void close_sample(uint32_t slot, const SlotSample<Real>& sample) const {
     PathRecord<Real> record = stage.slots.records[slot];
+    if constexpr (kind == IntegratorKind::guided_path)
+      learn_from_path(stage.launch.scene, stage.slots.trails[slot], record.radiance);
     record.radiance *= stage.launch.scene.exposure;
     stage.sums[sample.item].add_path(record, sample.filter_weight);
   }
@@ -187,6 +197,8 @@ struct IntersectKernel {
     if (thread.index() >= slots.counts->rays[stage.parity]) return;
     const uint32_t slot = slots.ray_queue(stage.parity)[thread.index()];
     ++element<&PathRecord<Real>::segments>(slots.records, slot);
+    if constexpr (kind == IntegratorKind::guided_path)
+      slots.trails[slot].start_segment(luminance(slots.records[slot].radiance));
     Hit<Real> hit;
     const auto intersector = Tracing::intersector(stage.launch.scene, thread.stacks());
     if (intersector.closest_hit(slots.paths[slot].ray, infinity<Real>, hit)) {
@@ -238,10 +250,12 @@ struct ShadeKernel {
     StateOf<kind, Real> path = slots.paths[slot];
     SumRecord<Real> record(&stage.sums[slots.samples[slot].item], stage.launch.film);
     slots.records.get(slot, record);
+    TrailOf<kind, Real> none;
     const bool goes_on = shade(stage.launch.scene, stage.sampler_of(slot), stage.launch.max_segments, slots.hits[slot],
                                path, record, [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
                                  queue_shadow(thread, slot, shadow, radiance);
-                               });
+                               },
+                               slots.trail(slot, none));
     slots.paths.set(slot, path);
     slots.records.set(slot, record);
     if (goes_on)

@@ -40,7 +40,7 @@ class OptixExecutor : public Base {
   void launch(const OptixKernel<kind>& kernel, cuda::Extent threads, cuda::Extent) {
     const OptixParams params{kernel.launch, kernel.sums, acceleration_.traversable(), acceleration_.sbt_offset()};
     this->upload(params_.data(), &params, sizeof(params));
-    const OptixShaderBindingTable table = binding_table(kind == IntegratorKind::path ? raygen_path : raygen_iterative);
+    const OptixShaderBindingTable table = binding_table(raygen_of(kind));
     check(functions_,
           functions_.optixLaunch(pipeline_->get(), this->stream(), address(params_.data()), sizeof(params), &table,
                                  threads.width, threads.height, 1),

@@ -46,13 +46,19 @@ inline constexpr unsigned first_instance_id = primitive_kinds;
 inline constexpr unsigned occlusion_words = 1;
 
 // The records of the shader binding table, which consist of their headers.
-enum RaygenRecord : unsigned { raygen_path, raygen_iterative };
+enum RaygenRecord : unsigned { raygen_path, raygen_iterative, raygen_guided_path };
+
+constexpr RaygenRecord raygen_of(IntegratorKind kind) {
+  return kind == IntegratorKind::path          ? raygen_path
+         : kind == IntegratorKind::guided_path ? raygen_guided_path
+                                               : raygen_iterative;
+}
 enum MissRecord : unsigned { miss_closest, miss_occlusion };
-inline constexpr unsigned raygen_records = 2, miss_records = 2;
+inline constexpr unsigned raygen_records = 3, miss_records = 2;
 inline constexpr unsigned hit_records = primitive_kinds;  ///< by PrimitiveKind
 
 inline constexpr const char* params_name = "params";
-inline constexpr const char* raygen_names[raygen_records] = {"__raygen__path", "__raygen__iterative"};
+inline constexpr const char* raygen_names[raygen_records] = {"__raygen__path", "__raygen__iterative", "__raygen__guided_path"};
 inline constexpr const char* miss_occlusion_name = "__miss__occlusion";
 inline constexpr const char* intersection_names[hit_records] = {  // of kinds that are not built in
 #define ALHAZEN_NAME(X, kind, Record, records, Block, blocks) "__intersection__" #kind,

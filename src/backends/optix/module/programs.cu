@@ -144,6 +144,8 @@ extern "C" __global__ void __raygen__path() { generate_rays<IntegratorKind::path
 
 extern "C" __global__ void __raygen__iterative() { generate_rays<IntegratorKind::iterative>(); }
 
+extern "C" __global__ void __raygen__guided_path() { generate_rays<IntegratorKind::guided_path>(); }
+
 extern "C" __global__ void __miss__occlusion() {
   optixSetPayloadTypes(OPTIX_PAYLOAD_TYPE_ID_1);
   optixSetPayload_0(0);

@@ -1,0 +1,415 @@
+#include "render/guiding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <mutex>
+
+namespace alhazen {
+
+namespace {
+
+constexpr uint32_t leaf_cell = GuideView<float>::leaf_cell;
+
+/// The first two iterations take about this many samples each, so that there is something to learn from.
+constexpr int64_t first_samples = int64_t{1} << 18;
+/// A region is halved when this many vertices, times the square root of 2^iteration, were in it.
+constexpr double vertices_per_region = 4000;
+/// A quarter of directions is divided when it has more than this part of the light of its region.
+constexpr double divided_part = 0.01;
+/// The share of the BSDF before it is learned, and its limits.
+constexpr float first_share = 0.5f, min_share = 0.1f, max_share = 0.95f;
+/// The share is learned from this many vertices at least.
+constexpr uint64_t min_vertices = 256;
+/// Levels of the tree of space.
+constexpr uint32_t max_region_depth = 60;
+/// Variances are relative to the luminance of tiles of this many pixels, plus a tenth of the mean.
+constexpr int tile_size = 8;
+constexpr double dark_fraction = 0.1;
+/// Guided samples take longer by about this factor.
+constexpr double cost_of_guiding = 1.3;
+
+/// Builds the arrays of the next iteration from those of the last.
+class TreeBuilder {
+ public:
+  TreeBuilder(const std::vector<uint32_t>& cells, const std::vector<GuideRegion>& regions,
+              const std::vector<GuideQuad>& quads, const std::vector<uint64_t>& light,
+              const std::vector<GuideTally>& tallies)
+      : old_cells_(cells), old_regions_(regions), old_quads_(quads), old_light_(light), old_tallies_(tallies) {
+    sums_.resize(quads.size());
+    for (size_t i = quads.size(); i-- > 0;)
+      for (uint32_t k = 0; k < 4; ++k) sums_[i] += value_of(static_cast<uint32_t>(i), k);
+  }
+
+  /// Returns false if there would be more than `max_quads` nodes.
+  bool build(double vertices, double part, uint64_t max_quads, bool learns_shares) {
+    vertices_per_region_ = vertices;
+    part_ = part;
+    max_quads_ = max_quads;
+    learns_shares_ = learns_shares;
+    cells.assign(1, 0);
+    regions.clear();
+    quads.assign(1, GuideQuad{});
+    light.assign(4, 0);
+    tallies.clear();
+    return copy_cell(0, 0, 0);
+  }
+
+  std::vector<uint32_t> cells;
+  std::vector<GuideRegion> regions;
+  std::vector<GuideQuad> quads;
+  std::vector<uint64_t> light;
+  std::vector<GuideTally> tallies;
+
+ private:
+  double value_of(uint32_t quad, uint32_t quarter) const {
+    const uint32_t child = old_quads_[quad].child[quarter];
+    return child ? sums_[child] : static_cast<double>(old_light_[size_t{quad} * 4 + quarter]);
+  }
+
+  bool copy_cell(uint32_t from, uint32_t to, uint32_t depth) {
+    const uint32_t node = old_cells_[from];
+    if (node & leaf_cell) {
+      const uint32_t region = node & ~leaf_cell;
+      return divide(region, to, depth, static_cast<double>(old_tallies_[region].vertices), 1);
+    }
+    const uint32_t children = add_children(to);
+    return copy_cell(node, children, depth + 1) && copy_cell(node + 1, children + 1, depth + 1);
+  }
+
+  uint32_t add_children(uint32_t cell) {
+    const uint32_t children = static_cast<uint32_t>(cells.size());
+    cells.resize(cells.size() + 2);
+    cells[cell] = children;
+    return children;
+  }
+
+  /// Halves a region while too many vertices are in it; they are taken to be divided evenly.
+  bool divide(uint32_t region, uint32_t cell, uint32_t depth, double vertices, double part) {
+    if (vertices > vertices_per_region_ && depth < max_region_depth) {
+      const uint32_t children = add_children(cell);
+      return divide(region, children, depth + 1, vertices / 2, part / 2) &&
+             divide(region, children + 1, depth + 1, vertices / 2, part / 2);
+    }
+    const GuideRegion& old = old_regions_[region];
+    cells[cell] = leaf_cell | static_cast<uint32_t>(regions.size());
+    GuideRegion made{static_cast<uint32_t>(quads.size()), share_of(region)};
+    total_ = sums_[old.quad];
+    // What was learned earlier fades.
+    kept_part_ = part / 2;
+    add_quad(old.quad, 0, 0);
+    regions.push_back(made);
+    tallies.push_back({});
+    return quads.size() <= max_quads_;
+  }
+
+  float share_of(uint32_t region) const {
+    const GuideRegion& old = old_regions_[region];
+    const GuideTally& tally = old_tallies_[region];
+    if (!(sums_[old.quad] > 0)) return 1;
+    if (old.bsdf_share == 1) return first_share;
+    if (!learns_shares_ || tally.vertices < min_vertices) return old.bsdf_share;
+    // The slopes fall from share to share, up to rounding: where they cross zero the share is best.
+    const auto slope = [&](uint32_t i) { return static_cast<float>(static_cast<int64_t>(tally.slopes[i])); };
+    if (slope(0) <= 0) return min_share;
+    for (uint32_t i = 1; i < tried_shares; ++i)
+      if (slope(i) <= 0)
+        return tried_share(i - 1) + (tried_share(i) - tried_share(i - 1)) * (slope(i - 1) / (slope(i - 1) - slope(i)));
+    return max_share;
+  }
+
+  /// Adds a node for the old one, or, if that is 0, for a quarter whose light is `even`, the same everywhere in it.
+  uint32_t add_quad(uint32_t old, double even, uint32_t depth) {
+    const uint32_t made = static_cast<uint32_t>(quads.size());
+    quads.push_back({});
+    light.resize(light.size() + 4);
+    double values[4], sum = 0;
+    for (uint32_t k = 0; k < 4; ++k) sum += values[k] = old ? value_of(old, k) : even / 4;
+    for (uint32_t k = 0; k < 4; ++k) {
+      quads[made].share[k] = sum > 0 ? static_cast<float>(values[k] / sum) : 0.25f;
+      if (values[k] > part_ * total_ && depth + 1 < max_quad_depth && quads.size() <= max_quads_) {
+        const uint32_t child = add_quad(old ? old_quads_[old].child[k] : 0, values[k], depth + 1);
+        quads[made].child[k] = child;
+      } else {
+        light[size_t{made} * 4 + k] = static_cast<uint64_t>(values[k] * kept_part_);
+      }
+    }
+    return made;
+  }
+
+  const std::vector<uint32_t>& old_cells_;
+  const std::vector<GuideRegion>& old_regions_;
+  const std::vector<GuideQuad>& old_quads_;
+  const std::vector<uint64_t>& old_light_;
+  const std::vector<GuideTally>& old_tallies_;
+  std::vector<double> sums_;  ///< of the old nodes
+  double vertices_per_region_ = 0, part_ = 0, total_ = 0, kept_part_ = 0;
+  uint64_t max_quads_ = 0;
+  bool learns_shares_ = false;
+};
+
+/// Calls visit(x, y, tile) for each pixel of a window.
+template <class Visit>
+void visit_tiles(int width, int height, const Visit& visit) {
+  const int columns = (width + tile_size - 1) / tile_size;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      visit(static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x),
+            static_cast<size_t>(y / tile_size * columns + x / tile_size));
+}
+
+size_t tile_count(int width, int height) {
+  return static_cast<size_t>((width + tile_size - 1) / tile_size) *
+         static_cast<size_t>((height + tile_size - 1) / tile_size);
+}
+
+}  // namespace
+
+template <class Real>
+Guiding<Real>::Guiding(const RenderSettings& settings, const SceneView<Real>& scene)
+    : decides_(settings.guiding == GuidingMode::automatic),
+      // A node takes 64 bytes with its sums, and twice that while the next trees are built.
+      max_quads_(std::min<uint64_t>(settings.guiding_memory / 128, 1u << 30)),
+      width_(settings.window.width()),
+      height_(settings.window.height()),
+      exposure_(static_cast<double>(scene.exposure)),
+      bounds_(scene.bounds) {
+  const int64_t pixels = settings.window.pixels();
+  const int64_t wanted = std::clamp<int64_t>((first_samples + pixels - 1) / pixels, 1, 256);
+  first_ = static_cast<uint32_t>((wanted + samples_per_block - 1) / samples_per_block * samples_per_block);
+  cells_.assign(1, leaf_cell);
+  regions_.assign(1, {1, 1});
+  quads_.assign(2, GuideQuad{{0.25f, 0.25f, 0.25f, 0.25f}, {0, 0, 0, 0}});
+  light_.assign(8, 0);
+  tallies_.assign(1, {});
+}
+
+template <class Real>
+uint32_t Guiding<Real>::iteration_end(uint32_t samples) const {
+  uint32_t end = first_;
+  while (end <= samples && end < (1u << 31)) end *= 2;
+  return end;
+}
+
+template <class Real>
+GuideView<Real> Guiding<Real>::view() {
+  GuideView<Real> view;
+  view.cells = cells_.data();
+  view.regions = regions_.data();
+  view.quads = quads_.data();
+  view.light = light_.data();
+  view.tallies = tallies_.data();
+  view.cells_count = static_cast<uint32_t>(cells_.size());
+  view.regions_count = static_cast<uint32_t>(regions_.size());
+  view.quads_count = static_cast<uint32_t>(quads_.size());
+  view.low = bounds_.low;
+  const auto inverse = [](Real extent) { return extent > 0 ? 1 / extent : Real(0); };
+  const Vec3<Real> extent = bounds_.diagonal();
+  view.scale = {inverse(extent.x), inverse(extent.y), inverse(extent.z)};
+  view.to_fixed = static_cast<Real>(to_fixed_);
+  return view;
+}
+
+template <class Real>
+void Guiding<Real>::add(const uint64_t* light, const GuideTally* tallies) {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  for (size_t i = 0; i < light_.size(); ++i) light_[i] += light[i];
+  for (size_t i = 0; i < tallies_.size(); ++i) {
+    tallies_[i].vertices += tallies[i].vertices;
+    for (uint32_t k = 0; k < tried_shares; ++k) tallies_[i].slopes[k] += tallies[i].slopes[k];
+  }
+}
+
+/// The mean over the pixels of the variance of the present iteration's samples, relative to the luminance of the image
+/// so far. `tiles` becomes the sums of the variances themselves. Pixels that are finished do not count.
+template <class Real>
+double Guiding<Real>::variance(const FilmView<Real>& film, std::vector<float>& tiles, double& plain) const {
+  const size_t count = tile_count(width_, height_);
+  std::vector<double> luminances(count), variances(count);
+  std::vector<uint32_t> pixels(count);
+  double mean = 0;
+  visit_tiles(width_, height_, [&](size_t i, size_t tile) {
+    const double value = static_cast<double>(luminance(film.radiance_mean(i)));
+    luminances[tile] += value;
+    mean += value;
+    ++pixels[tile];
+    const double n = film.current_samples(i);
+    if (n > 1 && !film.is_finished(i)) variances[tile] += static_cast<double>(film.luminance_m2[i]) / (n - 1);
+  });
+  mean /= static_cast<double>(width_) * height_;
+  double sum = 0;
+  tiles.resize(count);
+  plain = 0;
+  for (size_t t = 0; t < count; ++t) {
+    const double reference = std::max(luminances[t] / pixels[t], 0.0) + dark_fraction * mean;
+    const double inverse = reference > 0 ? 1 / (reference * reference) : 0;
+    sum += variances[t] * inverse;
+    tiles[t] = static_cast<float>(variances[t]);
+    if (!plain_variance_.empty()) plain += static_cast<double>(plain_variance_[t]) * inverse;
+  }
+  return sum;
+}
+
+template <class Real>
+void Guiding<Real>::weigh_samples(Film<Real>& film) const {
+  std::vector<float> tiles;
+  double plain;
+  const double noise = variance(film.view(), tiles, plain);
+  film.set_weight(noise > 0 && std::isfinite(noise) ? static_cast<Real>(1 / noise) : Real(1));
+}
+
+template <class Real>
+void Guiding<Real>::end_iteration(Film<Real>& film, uint32_t samples) {
+  if (samples != iteration_end(samples - 1)) return;
+  const bool was_learning = is_learning();
+  ++iteration_;
+  if (to_fixed_ == 0) {
+    double sum = 0;
+    visit_tiles(width_, height_, [&](size_t i, size_t) {
+      sum += static_cast<double>(luminance(film.view().radiance_mean(i))) / exposure_;
+    });
+    const double mean = sum / (static_cast<double>(width_) * height_);
+    // Where there is no light yet, there is nothing to learn; the next iteration may find some.
+    if (mean > 0 && std::isfinite(mean)) to_fixed_ = guide_units / mean;
+    return;
+  }
+  if (!is_on_) return;
+  const bool is_plain = plain_variance_.empty();
+  std::vector<float> tiles;
+  double plain;
+  const double noise = variance(film.view(), tiles, plain);
+  weigh_samples(film);
+  film.end_iteration();
+  if (is_plain) {
+    plain_variance_ = std::move(tiles);
+  } else {
+    gain_ = noise > 0 ? plain / noise : 0;
+    ++guided_;
+    if (decides_ && (guided_ == 1 ? gain_ < 0.7 : gain_ < cost_of_guiding)) is_on_ = false;
+  }
+  if (is_on_ && was_learning) learn();
+}
+
+template <class Real>
+void Guiding<Real>::learn() {
+  TreeBuilder builder(cells_, regions_, quads_, light_, tallies_);
+  double vertices = vertices_per_region * std::sqrt(std::exp2(iteration_ > 2 ? iteration_ - 2 : 0)), part = divided_part;
+  while (!builder.build(vertices, part, max_quads_, guided_ > 0)) {
+    vertices *= 2;
+    part *= 1.5;
+  }
+  cells_ = std::move(builder.cells);
+  regions_ = std::move(builder.regions);
+  quads_ = std::move(builder.quads);
+  light_ = std::move(builder.light);
+  tallies_ = std::move(builder.tallies);
+  ++generation_;
+}
+
+template <class Real>
+GuidingState Guiding<Real>::state() const {
+  GuidingState state;
+  state.is_used = is_on_ && guided_ > 0;
+  state.iterations = guided_;
+  state.regions = regions_.size();
+  state.bytes = quads_.size() * (sizeof(GuideQuad) + 4 * sizeof(uint64_t)) +
+                regions_.size() * (sizeof(GuideRegion) + sizeof(GuideTally)) + cells_.size() * sizeof(uint32_t);
+  state.gain = gain_;
+  return state;
+}
+
+namespace {
+
+class ByteWriter {
+ public:
+  template <class T>
+  void operator()(const std::vector<T>& values) {
+    const uint64_t count = values.size();
+    put(&count, sizeof(count));
+    put(values.data(), count * sizeof(T));
+  }
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void operator()(const T& value) { put(&value, sizeof(value)); }
+  std::vector<std::byte> bytes;
+
+ private:
+  void put(const void* data, size_t size) {
+    if (size == 0) return;
+    const std::byte* first = static_cast<const std::byte*>(data);
+    bytes.insert(bytes.end(), first, first + size);
+  }
+};
+
+class ByteReader {
+ public:
+  explicit ByteReader(const std::vector<std::byte>& bytes) : bytes_(bytes) {}
+  template <class T>
+  void operator()(std::vector<T>& values) {
+    uint64_t count = 0;
+    (*this)(count);
+    if (!is_good || count > (bytes_.size() - at_) / sizeof(T)) {
+      is_good = false;
+      return;
+    }
+    values.resize(count);
+    take(values.data(), count * sizeof(T));
+  }
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void operator()(T& value) { take(&value, sizeof(value)); }
+  bool is_at_end() const { return at_ == bytes_.size(); }
+  bool is_good = true;
+
+ private:
+  void take(void* data, size_t size) {
+    if (!is_good || size > bytes_.size() - at_) {
+      is_good = false;
+      return;
+    }
+    if (size > 0) std::memcpy(data, bytes_.data() + at_, size);
+    at_ += size;
+  }
+  const std::vector<std::byte>& bytes_;
+  size_t at_ = 0;
+};
+
+}  // namespace
+
+template <class Real>
+std::vector<std::byte> Guiding<Real>::bytes() const {
+  ByteWriter write;
+  const_cast<Guiding*>(this)->visit_state(write);
+  return std::move(write.bytes);
+}
+
+template <class Real>
+bool Guiding<Real>::restore(const std::vector<std::byte>& bytes) {
+  ByteReader read(bytes);
+  visit_state(read);
+  ++generation_;
+  return read.is_good && read.is_at_end() && light_.size() == 4 * quads_.size() && tallies_.size() == regions_.size();
+}
+
+template <class Real>
+template <class Visit>
+void Guiding<Real>::visit_state(Visit& visit) {
+  visit(is_on_);
+  visit(iteration_);
+  visit(guided_);
+  visit(to_fixed_);
+  visit(gain_);
+  visit(plain_variance_);
+  visit(cells_);
+  visit(regions_);
+  visit(quads_);
+  visit(light_);
+  visit(tallies_);
+}
+
+template class Guiding<float>;
+template class Guiding<double>;
+
+}  // namespace alhazen
