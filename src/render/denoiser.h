@@ -20,11 +20,14 @@ struct NoisyBuffer {
 /// nothing count as black, without normal, and with depth 0.
 struct NoisyImage {
   int width = 0, height = 0;
-  NoisyBuffer radiance;           ///< linear
-  NoisyBuffer albedo;             ///< in [0, 1], at the first hit of camera rays
-  NoisyBuffer normal;             ///< at the first hit, in world space
-  NoisyBuffer depth;              ///< of the first hit, in scene units
-  std::vector<float> hits;        ///< the fraction of camera rays that hit a surface
+  NoisyBuffer radiance;     ///< linear
+  NoisyBuffer albedo;       ///< in [0, 1], at the first hit of camera rays
+  NoisyBuffer normal;       ///< at the first hit, in world space
+  NoisyBuffer depth;        ///< of the first hit, in scene units
+  std::vector<float> hits;  ///< the fraction of camera rays that hit a surface
+  /// The part of the weights of a pixel that is in odd blocks, in (0, 1), or 0 if it has no two halves of positive
+  /// weight. The radiance of even blocks is (mean - odd_fraction odd) / (1 - odd_fraction).
+  std::vector<float> odd_fraction;
   std::vector<float> variance;    ///< of the luminance of one sample, unbiased; 0 where there is only one
   std::vector<uint32_t> samples;  ///< of each pixel
 

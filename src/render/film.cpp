@@ -21,6 +21,7 @@ uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, const FilmExt
   if (aovs.bounces) pixel += sizeof(uint32_t);
   if (aovs.variance || extras.denoising || extras.noise_target || extras.guiding) pixel += 2 * sizeof(Real);
   if (extras.denoising) pixel += 3 * sizeof(Vec3<Real>) + sizeof(Real);
+  if (extras.denoising && extras.weights) pixel += sizeof(Real);
   if (extras.noise_target) pixel += 2 * sizeof(Real) + sizeof(uint8_t);
   if (extras.guiding) pixel += sizeof(Vec3<Real>) + sizeof(Real) + sizeof(uint32_t);
   if (extras.guiding && extras.denoising) pixel += sizeof(Vec3<Real>) + sizeof(Real);
@@ -46,6 +47,7 @@ Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, const FilmExtras
   allocate_if(extras.denoising, odd_albedo_, pixels);
   allocate_if(extras.denoising, odd_normal_, pixels);
   allocate_if(extras.denoising, odd_depth_, pixels);
+  allocate_if(extras.denoising && extras.weights, odd_weights_, pixels);
   allocate_if(extras.noise_target, block_m2_, pixels);
   allocate_if(extras.noise_target, half_difference_, pixels);
   allocate_if(extras.noise_target, finished_, pixels);

@@ -30,15 +30,18 @@ NoisyImage make_noisy_image(const Film<Real>& film) {
     for (std::vector<float>* values : {&buffer->mean, &buffer->odd})
       values->resize((buffer == &image.depth ? 1 : 3) * pixels);
   image.hits.resize(pixels);
+  image.odd_fraction.resize(pixels);
   image.variance.resize(pixels);
   image.samples.assign(planes.samples, planes.samples + pixels);
   for (size_t i = 0; i < pixels; ++i) {
     const uint32_t samples = planes.samples[i], odd_samples = samples_in_odd_blocks(samples);
     const Real count = static_cast<Real>(samples), odd = static_cast<Real>(odd_samples);
-    // Negative filter weights are few, so each half has about its fraction of their sum.
-    const Real weight = planes.weights ? planes.weights[i] : count;
+    const Real weight = planes.weights ? planes.weights[i] : count,
+               odd_weight = planes.odd_weights ? planes.odd_weights[i] : odd;
     put(image.radiance.mean, i, planes.radiance[i], weight);
-    put(image.radiance.odd, i, planes.odd_radiance[i], samples > 0 ? weight * (odd / count) : Real(0));
+    put(image.radiance.odd, i, planes.odd_radiance[i], odd_weight);
+    const bool has_halves = odd_weight > 0 && weight > odd_weight;
+    image.odd_fraction[i] = has_halves ? static_cast<float>(odd_weight / weight) : 0.0f;
     put(image.albedo.mean, i, planes.albedo[i], count);
     put(image.albedo.odd, i, planes.odd_albedo[i], odd);
     put(image.normal.mean, i, planes.normal[i], count);

@@ -7,8 +7,8 @@
 namespace ALHAZEN_CORE {
 
 /// Lists every plane of the film once: PLANE(element type, name). All but the first two exist only on request:
-/// `weights` if the filter has negative weights, those that start with `odd_` for denoising, the last three for a noise
-/// target, the others for their layers.
+/// `weights` if the filter has negative weights, those that start with `odd_` for denoising (`odd_weights` only beside
+/// `weights`), the last three for a noise target, the others for their layers.
 ///
 /// Planes that start with `odd_` are sums over every second block, the second, fourth, ... of a pixel, so that it has
 /// two means that are independent of each other. `block_m2` is the sum of squared deviations of the luminance of blocks
@@ -33,6 +33,7 @@ namespace ALHAZEN_CORE {
   PLANE(Vec3<Real>, odd_albedo)    \
   PLANE(Vec3<Real>, odd_normal)    \
   PLANE(Real, odd_depth)           \
+  PLANE(Real, odd_weights)         \
   PLANE(Real, block_m2)            \
   PLANE(Real, half_difference)     \
   PLANE(uint8_t, finished)         \
@@ -96,6 +97,7 @@ struct FilmView {
       odd_albedo[i] += block.albedo;
       odd_normal[i] += block.normal;
       odd_depth[i] += block.depth;
+      if (odd_weights) odd_weights[i] += block.weight;
     }
     radiance[i] += block.radiance;
     samples[i] += block.samples;

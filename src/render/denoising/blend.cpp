@@ -5,7 +5,6 @@
 #include <cmath>
 #include <span>
 
-#include "core/film/film_view.h"
 #include "render/denoising/tile.h"
 
 namespace alhazen::denoising {
@@ -19,8 +18,7 @@ struct Differences {
 };
 
 Differences differences_at(const NoisyImage& noisy, const std::vector<float>& denoised, size_t i) {
-  const uint32_t samples = noisy.samples[i], odd_samples = samples_in_odd_blocks(samples);
-  const float odd_fraction = static_cast<float>(odd_samples) / static_cast<float>(std::max(1u, samples));
+  const float odd_fraction = noisy.odd_fraction[i];
   Differences sums;
   float scale = 1e-12f;
   for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
@@ -32,7 +30,7 @@ Differences differences_at(const NoisyImage& noisy, const std::vector<float>& de
     sums.of_images += (mean - denoised[c]) * (mean - denoised[c]);
     scale += denoised[c] * denoised[c];
   }
-  if (odd_samples == 0) sums.of_noise = sums.of_images;
+  if (odd_fraction == 0) sums.of_noise = sums.of_images;
   // A firefly must not decide for all pixels around it.
   const float weight = 1 / (scale + sums.of_noise + sums.of_images);
   return {sums.of_noise * weight, sums.of_images * weight};
@@ -40,9 +38,8 @@ Differences differences_at(const NoisyImage& noisy, const std::vector<float>& de
 
 /// The variance of a channel of the noisy mean, by its halves.
 float variance_at(const NoisyImage& noisy, size_t i, size_t channel) {
-  const uint32_t samples = noisy.samples[i], odd_samples = samples_in_odd_blocks(samples);
-  if (odd_samples == 0) return 0;
-  const float odd_fraction = static_cast<float>(odd_samples) / static_cast<float>(samples);
+  const float odd_fraction = noisy.odd_fraction[i];
+  if (odd_fraction == 0) return 0;
   const float between_halves =
       (noisy.radiance.odd[3 * i + channel] - noisy.radiance.mean[3 * i + channel]) / (1 - odd_fraction);
   return between_halves * between_halves * odd_fraction * (1 - odd_fraction);
@@ -72,7 +69,7 @@ void restore_means(const NoisyImage& noisy, std::vector<float>& denoised, int th
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
         const size_t i = pixel(x, y);
-        const bool has_halves = samples_in_odd_blocks(noisy.samples[i]) > 0;
+        const bool has_halves = noisy.odd_fraction[i] > 0;
         means[c].row(y)[x] = has_halves ? noisy.radiance.mean[3 * i + c] - denoised[3 * i + c] : 0;
         variance.row(y)[x] = variance_at(noisy, i, c);
       }

@@ -104,14 +104,16 @@ void read_values(const NoisyImage& image, Tile& tile) {
       const size_t i =
           static_cast<size_t>(y + region.y0) * static_cast<size_t>(image.width) + static_cast<size_t>(x + region.x0);
       const uint32_t samples = image.samples[i], odd_samples = samples_in_odd_blocks(samples);
-      const bool has_halves = odd_samples > 0;
-      const float odd_fraction = has_halves ? static_cast<float>(odd_samples) / static_cast<float>(samples) : 0;
-      const auto even_of = [&](float mean, float odd) { return (mean - odd * odd_fraction) / (1 - odd_fraction); };
+      const float fraction = image.odd_fraction[i];
+      const bool has_halves = fraction > 0;
       for (size_t c = 0; c < 3; ++c) {
         const float mean = image.radiance.mean[3 * i + c], odd = image.radiance.odd[3 * i + c];
-        tile.half[0][c].row(y)[x] = even_of(mean, odd);
+        tile.half[0][c].row(y)[x] = (mean - odd * fraction) / (1 - fraction);
         tile.half[1][c].row(y)[x] = has_halves ? odd : mean;
       }
+      // Features are not weighted by the pixel filter.
+      const float odd_fraction = has_halves ? static_cast<float>(odd_samples) / static_cast<float>(samples) : 0;
+      const auto even_of = [&](float mean, float odd) { return (mean - odd * odd_fraction) / (1 - odd_fraction); };
       const auto put = [&](size_t f, float mean, float odd) {
         tile.features[f].row(y)[x] = mean;
         tile.noisy_features[0][f].row(y)[x] = even_of(mean, odd);
@@ -140,7 +142,7 @@ void estimate_variance(const NoisyImage& image, Tile& tile, int threads) {
                        static_cast<size_t>(x + tile.region.x0);
       const float of_mean = image.variance[i] / static_cast<float>(std::max(1u, image.samples[i]));
       of_samples.row(y)[x] = smooth.row(y)[x] = of_mean;
-      const bool has_halves = samples_in_odd_blocks(image.samples[i]) > 0;
+      const bool has_halves = image.odd_fraction[i] > 0;
       for (size_t c = 0; c < 3; ++c) {
         const float difference = tile.half[0][c].row(y)[x] - tile.half[1][c].row(y)[x];
         tile.variance[c].row(y)[x] = has_halves ? difference * difference / 2 : of_mean;

@@ -10,6 +10,7 @@
 #include "core/sampling/hash.h"
 #include "render/denoiser.h"
 #include "render/denoising/blend.h"
+#include "render/noisy_image.h"
 #include "support/environment_variable.h"
 #include "util/diagnostics.h"
 
@@ -41,6 +42,7 @@ NoisyImage noisy_image(int width, int height, uint32_t samples, float amplitude,
   image.samples.assign(pixels, samples);
   image.hits.assign(pixels, 1);
   const uint32_t odd_samples = samples_in_odd_blocks(samples);
+  image.odd_fraction.assign(pixels, static_cast<float>(odd_samples) / static_cast<float>(samples));
   for (size_t i = 0; i < pixels; ++i) {
     const Pixel pixel = picture(static_cast<int>(i) % width, static_cast<int>(i) / width);
     double sum = 0, odd_sum = 0, squares = 0;
@@ -180,6 +182,30 @@ TEST(Denoising, ABadDenoiserDoesNoHarmInTheEnd) {
     std::vector<float> black(3 * image.pixels());
     denoising::blend_with_noisy(image, black, 2);
     EXPECT_LT(error_of(black, 20, smooth_wall), 1.1 * error_of(image.radiance.mean, 20, smooth_wall)) << samples;
+  }
+}
+
+/// Two blocks in one pixel whose filter weights, of four samples each, sum to these.
+NoisyImage two_blocks(float even_weight, float odd_weight) {
+  Film<float> film({0, 1, 0, 1}, {}, {true, false, true});
+  for (const float weight : {even_weight, odd_weight}) {
+    BlockSum<float> block;
+    block.samples = 4;
+    block.weight = weight;
+    block.radiance = Vec3<float>{1, 2, 3} * (weight * (weight == odd_weight ? 2.0f : 1.0f));
+    film.add(0, 0, block);
+  }
+  return make_noisy_image(film);
+}
+
+TEST(Denoising, HalvesHaveTheirOwnFilterWeights) {
+  const NoisyImage image = two_blocks(4, 2);
+  EXPECT_FLOAT_EQ(image.odd_fraction[0], 1.0f / 3);
+  EXPECT_FLOAT_EQ(image.radiance.odd[2], 6);
+  EXPECT_FLOAT_EQ(image.radiance.mean[2], 4);
+  for (const float none : {0.0f, -2.0f}) {
+    EXPECT_EQ(two_blocks(4, none).odd_fraction[0], 0);
+    EXPECT_EQ(two_blocks(none, 4).odd_fraction[0], 0);
   }
 }
 
