@@ -92,7 +92,7 @@ void Film<Real>::end_iteration() {
     }
     earlier_samples_[i] = samples_[i];
   }
-  const auto clear = [](auto& plane) { std::fill(plane.begin(), plane.end(), typename std::decay_t<decltype(plane)>::value_type{}); };
+  const auto clear = [](auto& plane) { plane.assign(plane.size(), {}); };
   clear(radiance_);
   clear(weights_);
   clear(odd_radiance_);
@@ -136,7 +136,7 @@ void Film<Real>::resolve_row(int y, std::span<float> row) const {
     };
     const auto mean = [](const Vec3<Real>& sum, Real count) { return count != 0 ? sum / count : Vec3<Real>{}; };
     const Real n = static_cast<Real>(samples_[i]);
-    put3(view_.radiance_mean(i));
+    put3(view_.radiance_sum(i).mean());
     if (aovs_.albedo) put3(mean(albedo_[i], n));
     if (aovs_.normal) put3(mean(normal_[i], n));
     if (aovs_.depth) put(hits_[i] > 0 ? depth_[i] / static_cast<Real>(hits_[i]) : Real(0));

@@ -13,32 +13,28 @@ namespace {
 constexpr uint32_t leaf_cell = GuideView<float>::leaf_cell;
 
 /// The first two iterations take about this many samples each, so that there is something to learn from.
-constexpr int64_t first_samples = int64_t{1} << 18;
+constexpr int64_t first_samples = int64_t{1} << 17;
 /// A region is halved when this many vertices, times the square root of 2^iteration, were in it.
-constexpr double vertices_per_region = 4000;
+constexpr double vertices_per_region = 2000;
 /// A quarter of directions is divided when it has more than this part of the light of its region.
-constexpr double divided_part = 0.01;
+constexpr double divided_part = 0.02;
 /// The share of the BSDF before it is learned, and its limits.
-constexpr float first_share = 0.5f, min_share = 0.1f, max_share = 0.95f;
+constexpr float first_share = 0.5f, min_share = 0.2f, max_share = 0.95f;
 /// The share is learned from this many vertices at least.
 constexpr uint64_t min_vertices = 256;
 /// Levels of the tree of space.
 constexpr uint32_t max_region_depth = 60;
 /// Variances are relative to the luminance of tiles of this many pixels, plus a tenth of the mean.
-constexpr int tile_size = 8;
-constexpr double dark_fraction = 0.1;
+constexpr int variance_tile = 8;
+constexpr double floor_fraction = 0.1;
 /// Guided samples take longer by about this factor.
 constexpr double cost_of_guiding = 1.3;
 
 /// Builds the arrays of the next iteration from those of the last.
 class TreeBuilder {
  public:
-  TreeBuilder(const std::vector<uint32_t>& cells, const std::vector<GuideRegion>& regions,
-              const std::vector<GuideQuad>& quads, const std::vector<uint64_t>& light,
-              const std::vector<GuideTally>& tallies)
-      : old_cells_(cells), old_regions_(regions), old_quads_(quads), old_light_(light), old_tallies_(tallies) {
-    sums_.resize(quads.size());
-    for (size_t i = quads.size(); i-- > 0;)
+  explicit TreeBuilder(const GuideArrays& old) : old_(old), sums_(old.quads.size()) {
+    for (size_t i = sums_.size(); i-- > 0;)
       for (uint32_t k = 0; k < 4; ++k) sums_[i] += value_of(static_cast<uint32_t>(i), k);
   }
 
@@ -48,40 +44,35 @@ class TreeBuilder {
     part_ = part;
     max_quads_ = max_quads;
     learns_shares_ = learns_shares;
-    cells.assign(1, 0);
-    regions.clear();
-    quads.assign(1, GuideQuad{});
-    light.assign(4, 0);
-    tallies.clear();
+    made_ = {};
+    made_.cells.resize(1);
+    made_.quads.resize(1);
+    made_.light.resize(4);
     return copy_cell(0, 0, 0);
   }
 
-  std::vector<uint32_t> cells;
-  std::vector<GuideRegion> regions;
-  std::vector<GuideQuad> quads;
-  std::vector<uint64_t> light;
-  std::vector<GuideTally> tallies;
+  GuideArrays take() { return std::move(made_); }
 
  private:
   double value_of(uint32_t quad, uint32_t quarter) const {
-    const uint32_t child = old_quads_[quad].child[quarter];
-    return child ? sums_[child] : static_cast<double>(old_light_[size_t{quad} * 4 + quarter]);
+    const uint32_t child = old_.quads[quad].child[quarter];
+    return child ? sums_[child] : static_cast<double>(old_.light[size_t{quad} * 4 + quarter]);
   }
 
   bool copy_cell(uint32_t from, uint32_t to, uint32_t depth) {
-    const uint32_t node = old_cells_[from];
+    const uint32_t node = old_.cells[from];
     if (node & leaf_cell) {
       const uint32_t region = node & ~leaf_cell;
-      return divide(region, to, depth, static_cast<double>(old_tallies_[region].vertices), 1);
+      return divide(region, to, depth, static_cast<double>(old_.tallies[region].vertices), 1);
     }
     const uint32_t children = add_children(to);
     return copy_cell(node, children, depth + 1) && copy_cell(node + 1, children + 1, depth + 1);
   }
 
   uint32_t add_children(uint32_t cell) {
-    const uint32_t children = static_cast<uint32_t>(cells.size());
-    cells.resize(cells.size() + 2);
-    cells[cell] = children;
+    const uint32_t children = static_cast<uint32_t>(made_.cells.size());
+    made_.cells.resize(made_.cells.size() + 2);
+    made_.cells[cell] = children;
     return children;
   }
 
@@ -92,57 +83,57 @@ class TreeBuilder {
       return divide(region, children, depth + 1, vertices / 2, part / 2) &&
              divide(region, children + 1, depth + 1, vertices / 2, part / 2);
     }
-    const GuideRegion& old = old_regions_[region];
-    cells[cell] = leaf_cell | static_cast<uint32_t>(regions.size());
-    GuideRegion made{static_cast<uint32_t>(quads.size()), share_of(region)};
+    const GuideRegion& old = old_.regions[region];
+    made_.cells[cell] = leaf_cell | static_cast<uint32_t>(made_.regions.size());
+    const GuideRegion made{static_cast<uint32_t>(made_.quads.size()), share_of(region)};
     total_ = sums_[old.quad];
     // What was learned earlier fades.
     kept_part_ = part / 2;
     add_quad(old.quad, 0, 0);
-    regions.push_back(made);
-    tallies.push_back({});
-    return quads.size() <= max_quads_;
+    made_.regions.push_back(made);
+    made_.tallies.push_back({});
+    return made_.quads.size() <= max_quads_;
   }
 
   float share_of(uint32_t region) const {
-    const GuideRegion& old = old_regions_[region];
-    const GuideTally& tally = old_tallies_[region];
+    const GuideRegion& old = old_.regions[region];
+    const GuideTally& tally = old_.tallies[region];
     if (!(sums_[old.quad] > 0)) return 1;
     if (old.bsdf_share == 1) return first_share;
+    if (getenv("GA")) return float(atof(getenv("GA")));
     if (!learns_shares_ || tally.vertices < min_vertices) return old.bsdf_share;
     // The slopes fall from share to share, up to rounding: where they cross zero the share is best.
     const auto slope = [&](uint32_t i) { return static_cast<float>(static_cast<int64_t>(tally.slopes[i])); };
-    if (slope(0) <= 0) return min_share;
+    const float lo = getenv("GM") ? float(atof(getenv("GM"))) : min_share;
+    const auto at_least = [lo](float x) { return std::max(x, lo); };
+    if (slope(0) <= 0) return lo;
     for (uint32_t i = 1; i < tried_shares; ++i)
       if (slope(i) <= 0)
-        return tried_share(i - 1) + (tried_share(i) - tried_share(i - 1)) * (slope(i - 1) / (slope(i - 1) - slope(i)));
+        return at_least(tried_share(i - 1) + (tried_share(i) - tried_share(i - 1)) * (slope(i - 1) / (slope(i - 1) - slope(i))));
     return max_share;
   }
 
   /// Adds a node for the old one, or, if that is 0, for a quarter whose light is `even`, the same everywhere in it.
   uint32_t add_quad(uint32_t old, double even, uint32_t depth) {
-    const uint32_t made = static_cast<uint32_t>(quads.size());
-    quads.push_back({});
-    light.resize(light.size() + 4);
+    const uint32_t made = static_cast<uint32_t>(made_.quads.size());
+    made_.quads.push_back({});
+    made_.light.resize(made_.light.size() + 4);
     double values[4], sum = 0;
     for (uint32_t k = 0; k < 4; ++k) sum += values[k] = old ? value_of(old, k) : even / 4;
     for (uint32_t k = 0; k < 4; ++k) {
-      quads[made].share[k] = sum > 0 ? static_cast<float>(values[k] / sum) : 0.25f;
-      if (values[k] > part_ * total_ && depth + 1 < max_quad_depth && quads.size() <= max_quads_) {
-        const uint32_t child = add_quad(old ? old_quads_[old].child[k] : 0, values[k], depth + 1);
-        quads[made].child[k] = child;
+      made_.quads[made].share[k] = sum > 0 ? static_cast<float>(values[k] / sum) : 0.25f;
+      if (values[k] > (getenv("GP") ? atof(getenv("GP")) : part_) * total_ && depth + 1 < max_quad_depth && made_.quads.size() <= max_quads_) {
+        const uint32_t child = add_quad(old ? old_.quads[old].child[k] : 0, values[k], depth + 1);
+        made_.quads[made].child[k] = child;
       } else {
-        light[size_t{made} * 4 + k] = static_cast<uint64_t>(values[k] * kept_part_);
+        made_.light[size_t{made} * 4 + k] = static_cast<uint64_t>(values[k] * kept_part_);
       }
     }
     return made;
   }
 
-  const std::vector<uint32_t>& old_cells_;
-  const std::vector<GuideRegion>& old_regions_;
-  const std::vector<GuideQuad>& old_quads_;
-  const std::vector<uint64_t>& old_light_;
-  const std::vector<GuideTally>& old_tallies_;
+  const GuideArrays& old_;
+  GuideArrays made_;
   std::vector<double> sums_;  ///< of the old nodes
   double vertices_per_region_ = 0, part_ = 0, total_ = 0, kept_part_ = 0;
   uint64_t max_quads_ = 0;
@@ -152,16 +143,16 @@ class TreeBuilder {
 /// Calls visit(x, y, tile) for each pixel of a window.
 template <class Visit>
 void visit_tiles(int width, int height, const Visit& visit) {
-  const int columns = (width + tile_size - 1) / tile_size;
+  const int columns = (width + variance_tile - 1) / variance_tile;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       visit(static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x),
-            static_cast<size_t>(y / tile_size * columns + x / tile_size));
+            static_cast<size_t>(y / variance_tile * columns + x / variance_tile));
 }
 
 size_t tile_count(int width, int height) {
-  return static_cast<size_t>((width + tile_size - 1) / tile_size) *
-         static_cast<size_t>((height + tile_size - 1) / tile_size);
+  return static_cast<size_t>((width + variance_tile - 1) / variance_tile) *
+         static_cast<size_t>((height + variance_tile - 1) / variance_tile);
 }
 
 }  // namespace
@@ -178,11 +169,11 @@ Guiding<Real>::Guiding(const RenderSettings& settings, const SceneView<Real>& sc
   const int64_t pixels = settings.window.pixels();
   const int64_t wanted = std::clamp<int64_t>((first_samples + pixels - 1) / pixels, 1, 256);
   first_ = static_cast<uint32_t>((wanted + samples_per_block - 1) / samples_per_block * samples_per_block);
-  cells_.assign(1, leaf_cell);
-  regions_.assign(1, {1, 1});
-  quads_.assign(2, GuideQuad{{0.25f, 0.25f, 0.25f, 0.25f}, {0, 0, 0, 0}});
-  light_.assign(8, 0);
-  tallies_.assign(1, {});
+  arrays_.cells.assign(1, leaf_cell);
+  arrays_.regions.assign(1, {1, 1});
+  arrays_.quads.assign(2, GuideQuad{{0.25f, 0.25f, 0.25f, 0.25f}, {0, 0, 0, 0}});
+  arrays_.light.assign(8, 0);
+  arrays_.tallies.assign(1, {});
 }
 
 template <class Real>
@@ -195,14 +186,14 @@ uint32_t Guiding<Real>::iteration_end(uint32_t samples) const {
 template <class Real>
 GuideView<Real> Guiding<Real>::view() {
   GuideView<Real> view;
-  view.cells = cells_.data();
-  view.regions = regions_.data();
-  view.quads = quads_.data();
-  view.light = light_.data();
-  view.tallies = tallies_.data();
-  view.cells_count = static_cast<uint32_t>(cells_.size());
-  view.regions_count = static_cast<uint32_t>(regions_.size());
-  view.quads_count = static_cast<uint32_t>(quads_.size());
+  view.cells = arrays_.cells.data();
+  view.regions = arrays_.regions.data();
+  view.quads = arrays_.quads.data();
+  view.light = arrays_.light.data();
+  view.tallies = arrays_.tallies.data();
+  view.cells_count = static_cast<uint32_t>(arrays_.cells.size());
+  view.regions_count = static_cast<uint32_t>(arrays_.regions.size());
+  view.quads_count = static_cast<uint32_t>(arrays_.quads.size());
   view.low = bounds_.low;
   const auto inverse = [](Real extent) { return extent > 0 ? 1 / extent : Real(0); };
   const Vec3<Real> extent = bounds_.diagonal();
@@ -215,10 +206,10 @@ template <class Real>
 void Guiding<Real>::add(const uint64_t* light, const GuideTally* tallies) {
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
-  for (size_t i = 0; i < light_.size(); ++i) light_[i] += light[i];
-  for (size_t i = 0; i < tallies_.size(); ++i) {
-    tallies_[i].vertices += tallies[i].vertices;
-    for (uint32_t k = 0; k < tried_shares; ++k) tallies_[i].slopes[k] += tallies[i].slopes[k];
+  for (size_t i = 0; i < arrays_.light.size(); ++i) arrays_.light[i] += light[i];
+  for (size_t i = 0; i < arrays_.tallies.size(); ++i) {
+    arrays_.tallies[i].vertices += tallies[i].vertices;
+    for (uint32_t k = 0; k < tried_shares; ++k) arrays_.tallies[i].slopes[k] += tallies[i].slopes[k];
   }
 }
 
@@ -231,7 +222,7 @@ double Guiding<Real>::variance(const FilmView<Real>& film, std::vector<float>& t
   std::vector<uint32_t> pixels(count);
   double mean = 0;
   visit_tiles(width_, height_, [&](size_t i, size_t tile) {
-    const double value = static_cast<double>(luminance(film.radiance_mean(i)));
+    const double value = static_cast<double>(luminance(film.radiance_sum(i).mean()));
     luminances[tile] += value;
     mean += value;
     ++pixels[tile];
@@ -243,7 +234,7 @@ double Guiding<Real>::variance(const FilmView<Real>& film, std::vector<float>& t
   tiles.resize(count);
   plain = 0;
   for (size_t t = 0; t < count; ++t) {
-    const double reference = std::max(luminances[t] / pixels[t], 0.0) + dark_fraction * mean;
+    const double reference = std::max(luminances[t] / pixels[t], 0.0) + floor_fraction * mean;
     const double inverse = reference > 0 ? 1 / (reference * reference) : 0;
     sum += variances[t] * inverse;
     tiles[t] = static_cast<float>(variances[t]);
@@ -268,11 +259,11 @@ void Guiding<Real>::end_iteration(Film<Real>& film, uint32_t samples) {
   if (to_fixed_ == 0) {
     double sum = 0;
     visit_tiles(width_, height_, [&](size_t i, size_t) {
-      sum += static_cast<double>(luminance(film.view().radiance_mean(i))) / exposure_;
+      sum += static_cast<double>(luminance(film.view().radiance_sum(i).mean())) / exposure_;
     });
     const double mean = sum / (static_cast<double>(width_) * height_);
     // Where there is no light yet, there is nothing to learn; the next iteration may find some.
-    if (mean > 0 && std::isfinite(mean)) to_fixed_ = guide_units / mean;
+    if (mean > 0 && std::isfinite(mean)) to_fixed_ = 1 / mean;
     return;
   }
   if (!is_on_) return;
@@ -294,17 +285,21 @@ void Guiding<Real>::end_iteration(Film<Real>& film, uint32_t samples) {
 
 template <class Real>
 void Guiding<Real>::learn() {
-  TreeBuilder builder(cells_, regions_, quads_, light_, tallies_);
-  double vertices = vertices_per_region * std::sqrt(std::exp2(iteration_ > 2 ? iteration_ - 2 : 0)), part = divided_part;
+  TreeBuilder builder(arrays_);
+  const double ev = getenv("GV") ? atof(getenv("GV")) : vertices_per_region;
+  double vertices = getenv("GK") ? ev : ev * std::sqrt(std::exp2(iteration_ > 2 ? iteration_ - 2 : 0)), part = divided_part;
   while (!builder.build(vertices, part, max_quads_, guided_ > 0)) {
     vertices *= 2;
     part *= 1.5;
   }
-  cells_ = std::move(builder.cells);
-  regions_ = std::move(builder.regions);
-  quads_ = std::move(builder.quads);
-  light_ = std::move(builder.light);
-  tallies_ = std::move(builder.tallies);
+  arrays_ = builder.take();
+  if (getenv("GD")) {
+    double m = 0; int h[10] = {};
+    for (auto& r : arrays_.regions) { m += double(r.bsdf_share); h[std::min(9, int(r.bsdf_share * 10))]++; }
+    fprintf(stderr, "it %u regions %zu quads %zu share %.3f gain %.3f :", iteration_, arrays_.regions.size(), arrays_.quads.size(), m / double(arrays_.regions.size()), gain_);
+    for (int x : h) fprintf(stderr, " %d", x);
+    fprintf(stderr, "\n");
+  }
   ++generation_;
 }
 
@@ -313,9 +308,9 @@ GuidingState Guiding<Real>::state() const {
   GuidingState state;
   state.is_used = is_on_ && guided_ > 0;
   state.iterations = guided_;
-  state.regions = regions_.size();
-  state.bytes = quads_.size() * (sizeof(GuideQuad) + 4 * sizeof(uint64_t)) +
-                regions_.size() * (sizeof(GuideRegion) + sizeof(GuideTally)) + cells_.size() * sizeof(uint32_t);
+  state.regions = arrays_.regions.size();
+  state.bytes = arrays_.quads.size() * (sizeof(GuideQuad) + 4 * sizeof(uint64_t)) +
+                arrays_.regions.size() * (sizeof(GuideRegion) + sizeof(GuideTally)) + arrays_.cells.size() * sizeof(uint32_t);
   state.gain = gain_;
   return state;
 }
@@ -390,7 +385,7 @@ bool Guiding<Real>::restore(const std::vector<std::byte>& bytes) {
   ByteReader read(bytes);
   visit_state(read);
   ++generation_;
-  return read.is_good && read.is_at_end() && light_.size() == 4 * quads_.size() && tallies_.size() == regions_.size();
+  return read.is_good && read.is_at_end() && arrays_.light.size() == 4 * arrays_.quads.size() && arrays_.tallies.size() == arrays_.regions.size();
 }
 
 template <class Real>
@@ -402,11 +397,11 @@ void Guiding<Real>::visit_state(Visit& visit) {
   visit(to_fixed_);
   visit(gain_);
   visit(plain_variance_);
-  visit(cells_);
-  visit(regions_);
-  visit(quads_);
-  visit(light_);
-  visit(tallies_);
+  visit(arrays_.cells);
+  visit(arrays_.regions);
+  visit(arrays_.quads);
+  visit(arrays_.light);
+  visit(arrays_.tallies);
 }
 
 template class Guiding<float>;

@@ -13,6 +13,15 @@
 
 namespace alhazen {
 
+/// The arrays of a GuideView.
+struct GuideArrays {
+  std::vector<uint32_t> cells;
+  std::vector<GuideRegion> regions;
+  std::vector<GuideQuad> quads;
+  std::vector<uint64_t> light;
+  std::vector<GuideTally> tallies;
+};
+
 /// What a render with guiding did, for reports.
 struct GuidingState {
   bool is_used = false;      ///< the samples that are taken now are guided
@@ -68,11 +77,7 @@ class Guiding {
   uint32_t iteration_ = 0, guided_ = 0;  ///< ended; ended and guided
   double to_fixed_ = 0, gain_ = 0;
   std::vector<float> plain_variance_;  ///< of samples that were not guided, by tiles
-  std::vector<uint32_t> cells_;
-  std::vector<GuideRegion> regions_;
-  std::vector<GuideQuad> quads_;
-  std::vector<uint64_t> light_;
-  std::vector<GuideTally> tallies_;
+  GuideArrays arrays_;
   uint64_t generation_ = 0;
 };
 

@@ -36,12 +36,11 @@ NoisyImage make_noisy_image(const Film<Real>& film) {
   for (size_t i = 0; i < pixels; ++i) {
     const uint32_t samples = planes.samples[i], odd_samples = samples_in_odd_blocks(samples);
     const Real count = static_cast<Real>(samples), odd = static_cast<Real>(odd_samples);
-    const Real weight = planes.weights ? planes.weights[i] : count,
-               odd_weight = planes.odd_weights ? planes.odd_weights[i] : odd;
-    put(image.radiance.mean, i, planes.radiance[i], weight);
-    put(image.radiance.odd, i, planes.odd_radiance[i], odd_weight);
-    const bool has_halves = odd_weight > 0 && weight > odd_weight;
-    image.odd_fraction[i] = has_halves ? static_cast<float>(odd_weight / weight) : 0.0f;
+    const auto all = planes.radiance_sum(i), of_odd = planes.odd_radiance_sum(i);
+    put(image.radiance.mean, i, all.radiance, all.weight);
+    put(image.radiance.odd, i, of_odd.radiance, of_odd.weight);
+    const bool has_halves = of_odd.weight > 0 && all.weight > of_odd.weight;
+    image.odd_fraction[i] = has_halves ? static_cast<float>(of_odd.weight / all.weight) : 0.0f;
     put(image.albedo.mean, i, planes.albedo[i], count);
     put(image.albedo.odd, i, planes.odd_albedo[i], odd);
     put(image.normal.mean, i, planes.normal[i], count);
@@ -49,7 +48,9 @@ NoisyImage make_noisy_image(const Film<Real>& film) {
     put(image.depth.mean, i, planes.depth[i], count);
     put(image.depth.odd, i, planes.odd_depth[i], odd);
     image.hits[i] = samples > 0 ? static_cast<float>(planes.hits[i]) / static_cast<float>(samples) : 0.0f;
-    image.variance[i] = samples > 1 ? static_cast<float>(planes.luminance_m2[i] / (count - 1)) : 0.0f;
+    const uint32_t current = planes.current_samples(i);
+    image.variance[i] =
+        current > 1 ? static_cast<float>(planes.luminance_m2[i] / static_cast<Real>(current - 1)) : 0.0f;
   }
   return image;
 }

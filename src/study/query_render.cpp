@@ -37,7 +37,8 @@ RenderStatistics render(Scene&& scene, const RenderSettings& settings, Queries q
   const std::clock_t processor_start = std::clock();
   while (statistics.samples_per_pixel < settings.samples_per_pixel && go_on()) {
     const uint32_t count = std::min(pass_samples, settings.samples_per_pixel - statistics.samples_per_pixel);
-    backend->render_pass(RenderPass<Real>{flat, kernel, settings, film, control, statistics.samples_per_pixel, count});
+    backend->render_pass(RenderPass<Real>{flat, kernel, settings, film, control, statistics.samples_per_pixel, count,
+                                          settings.integrator});
     statistics.samples_per_pixel += count;
   }
   statistics.render_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

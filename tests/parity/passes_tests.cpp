@@ -57,7 +57,7 @@ Outcome render_in_passes(Scene scene, const Settings& asked, const std::vector<u
   uint32_t first = 0;
   for (const uint32_t size : sizes) {
     backend->render_pass(RenderPass<Real>{flat, select_sample_kernel<Real>(settings.integrator, settings.sampler),
-                                          settings, *film, control, first, size});
+                                          settings, *film, control, first, size, settings.integrator});
     first += size;
   }
   rendering.film = std::move(film);

@@ -75,15 +75,27 @@ struct FilmView {
   /// The number of samples of the last iteration, or of all where there are no iterations.
   ALHAZEN_HD uint32_t current_samples(size_t i) const { return samples[i] - (earlier_samples ? earlier_samples[i] : 0); }
 
-  /// The mean over all samples.
-  ALHAZEN_HD Vec3<Real> radiance_mean(size_t i) const {
-    Vec3<Real> sum = radiance[i];
-    Real weight = weights ? weights[i] : static_cast<Real>(samples[i]);
-    if (earlier_weights) {
-      sum = sum * iteration_weight + earlier_radiance[i];
-      weight = weight * iteration_weight + earlier_weights[i];
-    }
-    return weight != 0 ? sum / weight : Vec3<Real>{};
+  /// A sum of radiance over samples, and of their weights.
+  struct RadianceSum {
+    Vec3<Real> radiance;
+    Real weight;
+
+    ALHAZEN_HD Vec3<Real> mean() const { return weight != 0 ? radiance / weight : Vec3<Real>{}; }
+  };
+
+  /// Over all samples.
+  ALHAZEN_HD RadianceSum radiance_sum(size_t i) const {
+    const Real weight = weights ? weights[i] : static_cast<Real>(samples[i]);
+    if (!earlier_weights) return {radiance[i], weight};
+    return {radiance[i] * iteration_weight + earlier_radiance[i], weight * iteration_weight + earlier_weights[i]};
+  }
+
+  /// Over the samples of every second block.
+  ALHAZEN_HD RadianceSum odd_radiance_sum(size_t i) const {
+    const Real weight = odd_weights ? odd_weights[i] : static_cast<Real>(samples_in_odd_blocks(samples[i]));
+    if (!earlier_odd_weights) return {odd_radiance[i], weight};
+    return {odd_radiance[i] * iteration_weight + earlier_odd_radiance[i],
+            weight * iteration_weight + earlier_odd_weights[i]};
   }
 
   /// Adds a block to pixel `i`. The blocks of a pixel must be added in the order of their samples.

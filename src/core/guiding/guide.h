@@ -44,17 +44,19 @@ struct GuideView {
   const uint32_t* cells = nullptr;  ///< nodes of the tree of space: the first of two children, or leaf_cell | region
   const GuideRegion* regions = nullptr;
   const GuideQuad* quads = nullptr;
-  uint64_t* light = nullptr;  ///< four sums per node of `quads`, in fixed point, of its quarters that are not divided
+  uint64_t* light = nullptr;  ///< four sums per node of `quads`, of its quarters that are not divided
   GuideTally* tallies = nullptr;  ///< one per region
   uint32_t cells_count = 0, regions_count = 0, quads_count = 0;
   Vec3<Real> low{}, scale{};  ///< (p - low) * scale is in the unit cube for points of the scene
-  Real to_fixed = 0;          ///< units per radiance of the sums; 0 where nothing is summed up
+  Real to_fixed = 0;          ///< 1 / (mean radiance of the image); 0 where nothing is summed up
 
   static constexpr uint32_t leaf_cell = 0x80000000u;
 };
 
-/// Units of the mean radiance of the image, and the limit of what one vertex adds: 2^24 times this can be summed up.
-inline constexpr double guide_units = 1 << 20, guide_limit = 68719476736.0;
+/// Units of the sums per mean radiance of the image, and the limit of what one vertex adds, as a multiple of that
+/// radiance: 2^27 times the limit can be summed up.
+inline constexpr double guide_units = 1 << 20, guide_limit = 1 << 16,
+                        guide_limit_of_squares = 1 << 16;
 
 /// The first 32 bits of a number of [0, 1) after the binary point; numbers beyond are clamped, NaN is 0.
 template <class Real>
@@ -158,7 +160,8 @@ ALHAZEN_HD inline GuideSample<Real> sample_guide(const GuideView<Real>& guide, u
     s.square.y += static_cast<Real>(is_lower) * size;
     quad = node.child[quarter];
   } while (quad != 0);
-  s.square = {s.square.x + u.x * size, s.square.y + u.y * size};
+  s.square = {min(s.square.x + u.x * size, one_minus_epsilon<Real>),
+              min(s.square.y + u.y * size, one_minus_epsilon<Real>)};
   return s;
 }
 
@@ -204,10 +207,12 @@ ALHAZEN_HD inline void add_to_sum(uint64_t* sum, uint64_t value) {
 template <class Real>
 struct GuideVertex {
   Vec3<Real> position;
+  uint32_t region;               ///< that holds it
   Vec2<Real> square;             ///< of the direction
   Real throughput;               ///< luminance, before scattering
   Real radiance;                 ///< luminance that the path had gathered before its next vertex; negative: not known yet
   Real pdf_of_bsdf, pdf_of_guide;  ///< of the direction, with respect to solid angle
+  Real share;                      ///< of the BSDF in what was sampled
 };
 
 /// The vertices of a path, until its end tells what they are worth.
@@ -230,6 +235,10 @@ struct GuideTrail {
 template <class Real>
 ALHAZEN_HD inline void learn_from_vertex(const GuideView<Real>& guide, const GuideVertex<Real>& vertex, Real gathered,
                                          uint32_t hash) {
+  add_to_sum(&guide.tallies[vertex.region].vertices, 1);
+  const Real unlimited = gathered / vertex.throughput * guide.to_fixed;
+  if (!(unlimited * Real(guide_units) >= 1)) return;
+  const Real weight = min(unlimited, Real(guide_limit));
   GuidePlace place = guide_place(guide, vertex.position);
   uint32_t depth;
   guide_region(guide, place, depth);
@@ -245,25 +254,26 @@ ALHAZEN_HD inline void learn_from_vertex(const GuideView<Real>& guide, const Gui
   }
   const uint32_t region = guide_region(guide, place, depth);
   GuideTally& tally = guide.tallies[region];
-  add_to_sum(&tally.vertices, 1);
-  const Real units = gathered / vertex.throughput * guide.to_fixed;
-  if (!(units >= Real(0.5))) return;
-  const Real value = min(units, Real(guide_limit));
   uint32_t x = bits_of_fraction(vertex.square.x), y = bits_of_fraction(vertex.square.y);
   uint32_t quad = guide.regions[region].quad;
   for (;;) {
     const uint32_t quarter = take_quarter(x, y), child = guide.quads[quad].child[quarter];
     if (child == 0) {
-      add_to_sum(guide.light + (static_cast<size_t>(quad) * 4 + quarter), static_cast<uint64_t>(value + Real(0.5)));
+      add_to_sum(guide.light + (static_cast<size_t>(quad) * 4 + quarter),
+                 static_cast<uint64_t>(weight * Real(guide_units) + Real(0.5)));
       break;
     }
     quad = child;
   }
-  const Real difference = vertex.pdf_of_bsdf - vertex.pdf_of_guide;
+  // The derivative of the second moment of w by the share, but for its sign, at each of the shares that are tried.
+  const Real pdf = vertex.share * vertex.pdf_of_bsdf + (1 - vertex.share) * vertex.pdf_of_guide;
+  const Real squared = weight * min(weight, Real(guide_limit_of_squares) / weight);
   for (uint32_t i = 0; i < tried_shares; ++i) {
     const Real share = static_cast<Real>(tried_share(i));
-    const Real slope = difference / (share * vertex.pdf_of_bsdf + (1 - share) * vertex.pdf_of_guide);
-    if (std::abs(slope) < 16) add_to_sum(&tally.slopes[i], static_cast<uint64_t>(static_cast<int64_t>(value * slope)));
+    const Real tried = share * vertex.pdf_of_bsdf + (1 - share) * vertex.pdf_of_guide;
+    const Real slope = squared * (pdf / tried) * ((vertex.pdf_of_bsdf - vertex.pdf_of_guide) / tried);
+    if (std::abs(slope) < Real(guide_limit_of_squares) * 64)
+      add_to_sum(&tally.slopes[i], static_cast<uint64_t>(static_cast<int64_t>(slope * Real(guide_units))));
   }
 }
 

@@ -138,7 +138,7 @@ class PathBatch {
   /// Generates the random numbers that shading may use.
   void generate_random_numbers() {
     constexpr VertexDimensions d = VertexDimensions::from(0);
-    numbers_.draw(live_, 1u << d.bsdf_direction() | (scene_.has_lobes || is_guided ? 1u << d.bsdf_lobe() : 0));
+    numbers_.draw(live_, 1u << d.bsdf_direction() | (scene_.has_lobes ? 1u << d.bsdf_lobe() : 0));
     if (!samples_lights(kind)) return;
     if (scene_.lights_count > 0) numbers_.draw(live_, 1u << d.light());
     numbers_.draw(continuing_, 1u << d.roulette());  // no path uses it at its first surface
@@ -155,6 +155,16 @@ class PathBatch {
       if (hit_points_.accepts(lane.hit)) hit_points_.add_triangle(i, scene_, lane.path.ray, lane.hit);
     }
     hit_points_.compute(live_);
+    if constexpr (is_guided) find_regions();
+  }
+
+  /// Finds the regions of the points that are computed. Lookups of several paths wait for memory at the same time.
+  void find_regions() {
+    for (uint32_t i = 0; i < live_; ++i)
+      if (hit_points_.accepts(lanes_[active_[i]].hit)) regions_[i] = region_at(scene_, hit_points_.position(i));
+    for (uint32_t i = 0; i < live_; ++i)
+      if (hit_points_.accepts(lanes_[active_[i]].hit))
+        __builtin_prefetch(scene_.guide.quads + scene_.guide.regions[regions_[i]].quad);
   }
 
   void shade_all() {
@@ -201,6 +211,11 @@ class PathBatch {
       const auto light = [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
         add_shadow_ray(index, shadow, radiance);
       };
+      if constexpr (is_guided)
+        if (is_computed && !point.bsdf.is_specular())
+          return continue_or_end(light_and_scatter(scene_, numbers, point, lane.path, lane.record, light,
+                                                   trails_[index], regions_[place]),
+                                 index);
       continue_or_end(light_and_scatter(scene_, numbers, point, lane.path, lane.record, light, trail_of(index)), index);
     }
   }
@@ -297,6 +312,7 @@ class PathBatch {
   DiffuseSurfaces<Real, max_paths> diffuse_;
   uint32_t diffuse_lanes_[max_paths];
   TrailOf<kind, Real> trails_[is_guided ? max_paths : 1];  ///< of the lanes
+  uint32_t regions_[is_guided ? max_paths : 1];            ///< of the guide, in the order of `active_`
 };
 
 /// Takes `count` samples. `end` is called once for each, in any order. Records keep the first hit if

@@ -37,16 +37,21 @@ ALHAZEN_HD void learn_from_path(const SceneView<Real>& scene, const GuideTrail<R
   }
 }
 
+template <class Real>
+ALHAZEN_HD uint32_t region_at(const SceneView<Real>& scene, const Vec3<Real>& position) {
+  uint32_t depth;
+  return guide_region(scene.guide, guide_place(scene.guide, position), depth);
+}
+
 /// The distribution of directions at a surface.
 template <class Real>
 struct GuidedDirections {
-  uint32_t quad;
+  uint32_t number;  ///< of the region
+  uint32_t quad;    ///< root of its tree of directions
   Real bsdf_share;  ///< 1 where the BSDF alone is sampled
 
-  ALHAZEN_HD GuidedDirections(const SceneView<Real>& scene, const Vec3<Real>& position) {
-    uint32_t depth;
-    const GuideRegion& region =
-        scene.guide.regions[guide_region(scene.guide, guide_place(scene.guide, position), depth)];
+  ALHAZEN_HD GuidedDirections(const SceneView<Real>& scene, uint32_t region_number) : number(region_number) {
+    const GuideRegion& region = scene.guide.regions[number];
     quad = region.quad;
     bsdf_share = static_cast<Real>(region.bsdf_share);
   }
@@ -66,12 +71,17 @@ template <class Real, SamplerOf<Real> Sampler>
 ALHAZEN_HD BsdfSample<Real> scatter_guided(const SceneView<Real>& scene, const ShadingPoint<Real>& point,
                                            const GuidedDirections<Real>& directions, const Sampler& sampler,
                                            const VertexDimensions& dimensions, GuideVertex<Real>& vertex) {
-  const Real u_choice = sampler.template get_1d<Real>(dimensions.bsdf_lobe());
-  const Vec2<Real> u = sampler.template get_2d<Real>(dimensions.bsdf_direction());
+  // Which of both is sampled is decided by a number of the direction: what it leaves of the points is as well
+  // distributed as all of them.
+  Vec2<Real> u = sampler.template get_2d<Real>(dimensions.bsdf_direction());
   const Real share = directions.bsdf_share;
+  const bool by_bsdf = u.x < share;
+  u.x = min(by_bsdf ? u.x / share : (u.x - share) / (1 - share), one_minus_epsilon<Real>);
   BsdfSample<Real> s;
-  if (u_choice < share) {
-    s = sample_bsdf(point.bsdf, point.wo, min(u_choice / share, one_minus_epsilon<Real>), u);
+  if (by_bsdf) {
+    const bool has_lobes = has_trait<&MaterialTraits::has_lobes>(point.bsdf.kind);
+    const Real u_lobe = has_lobes ? sampler.template get_1d<Real>(dimensions.bsdf_lobe()) : Real(0);
+    s = sample_bsdf(point.bsdf, point.wo, u_lobe, u);
     if (!(s.pdf > 0)) return s;
     if (s.specular) {
       s.weight *= 1 / share;
@@ -104,14 +114,13 @@ ALHAZEN_HD BsdfSample<Real> scatter_guided(const SceneView<Real>& scene, const S
   return s;
 }
 
-/// Does what `light_and_scatter` of path.h does, with guiding.
+/// Does what `light_and_scatter` of path.h does, with guiding, in a region of the guide.
 template <class Real, SamplerOf<Real> Sampler, RecordOf<Real> Record, ShadowRayReceiver<Real> Light>
 ALHAZEN_HD bool light_and_scatter(const SceneView<Real>& scene, const Sampler& sampler,
                                   const ShadingPoint<Real>& point, PathState<Real>& path, Record& record,
-                                  const Light& light, GuideTrail<Real>& trail) {
-  if (point.bsdf.is_specular()) return light_and_scatter(scene, sampler, point, path, record, light);
+                                  const Light& light, GuideTrail<Real>& trail, uint32_t region) {
   const VertexDimensions dimensions(path.vertex);
-  const GuidedDirections<Real> directions(scene, point.si.position);
+  const GuidedDirections<Real> directions(scene, region);
   const LightSample<Real> sample = sample_light_for(scene, sampler, dimensions, point);
   const DirectLight<Real> direct = direct_light(point, sample, [&](Real pdf_of_bsdf) {
     return directions.mixed(pdf_of_bsdf, directions.pdf_of_guide(scene, sample.direction, guide_square(sample.direction)));
@@ -134,9 +143,19 @@ ALHAZEN_HD bool light_and_scatter(const SceneView<Real>& scene, const Sampler& s
   if (vertex.throughput > 0 && trail.count < GuideTrail<Real>::max_vertices) {
     vertex.position = point.si.position;
     vertex.radiance = -1;
+    vertex.region = directions.number;
+    vertex.share = directions.bsdf_share;
     trail.vertices[trail.count++] = vertex;
   }
   return true;
+}
+
+template <class Real, SamplerOf<Real> Sampler, RecordOf<Real> Record, ShadowRayReceiver<Real> Light>
+ALHAZEN_HD bool light_and_scatter(const SceneView<Real>& scene, const Sampler& sampler,
+                                  const ShadingPoint<Real>& point, PathState<Real>& path, Record& record,
+                                  const Light& light, GuideTrail<Real>& trail) {
+  if (point.bsdf.is_specular()) return light_and_scatter(scene, sampler, point, path, record, light);
+  return light_and_scatter(scene, sampler, point, path, record, light, trail, region_at(scene, point.si.position));
 }
 
 template <class Real, SamplerOf<Real> Sampler, RecordOf<Real> Record, ShadowRayReceiver<Real> Light>
