@@ -100,16 +100,14 @@ class TreeBuilder {
     const GuideTally& tally = old_.tallies[region];
     if (!(sums_[old.quad] > 0)) return 1;
     if (old.bsdf_share == 1) return first_share;
-    if (getenv("GA")) return float(atof(getenv("GA")));
     if (!learns_shares_ || tally.vertices < min_vertices) return old.bsdf_share;
     // The slopes fall from share to share, up to rounding: where they cross zero the share is best.
     const auto slope = [&](uint32_t i) { return static_cast<float>(static_cast<int64_t>(tally.slopes[i])); };
-    const float lo = getenv("GM") ? float(atof(getenv("GM"))) : min_share;
-    const auto at_least = [lo](float x) { return std::max(x, lo); };
-    if (slope(0) <= 0) return lo;
+    if (slope(0) <= 0) return min_share;
     for (uint32_t i = 1; i < tried_shares; ++i)
       if (slope(i) <= 0)
-        return at_least(tried_share(i - 1) + (tried_share(i) - tried_share(i - 1)) * (slope(i - 1) / (slope(i - 1) - slope(i))));
+        return std::max(min_share, tried_share(i - 1) + (tried_share(i) - tried_share(i - 1)) *
+                                                            (slope(i - 1) / (slope(i - 1) - slope(i))));
     return max_share;
   }
 
@@ -122,7 +120,7 @@ class TreeBuilder {
     for (uint32_t k = 0; k < 4; ++k) sum += values[k] = old ? value_of(old, k) : even / 4;
     for (uint32_t k = 0; k < 4; ++k) {
       made_.quads[made].share[k] = sum > 0 ? static_cast<float>(values[k] / sum) : 0.25f;
-      if (values[k] > (getenv("GP") ? atof(getenv("GP")) : part_) * total_ && depth + 1 < max_quad_depth && made_.quads.size() <= max_quads_) {
+      if (values[k] > part_ * total_ && depth + 1 < max_quad_depth && made_.quads.size() <= max_quads_) {
         const uint32_t child = add_quad(old ? old_.quads[old].child[k] : 0, values[k], depth + 1);
         made_.quads[made].child[k] = child;
       } else {
@@ -286,20 +284,12 @@ void Guiding<Real>::end_iteration(Film<Real>& film, uint32_t samples) {
 template <class Real>
 void Guiding<Real>::learn() {
   TreeBuilder builder(arrays_);
-  const double ev = getenv("GV") ? atof(getenv("GV")) : vertices_per_region;
-  double vertices = getenv("GK") ? ev : ev * std::sqrt(std::exp2(iteration_ > 2 ? iteration_ - 2 : 0)), part = divided_part;
+  double vertices = vertices_per_region * std::sqrt(std::exp2(iteration_ > 2 ? iteration_ - 2 : 0)), part = divided_part;
   while (!builder.build(vertices, part, max_quads_, guided_ > 0)) {
     vertices *= 2;
     part *= 1.5;
   }
   arrays_ = builder.take();
-  if (getenv("GD")) {
-    double m = 0; int h[10] = {};
-    for (auto& r : arrays_.regions) { m += double(r.bsdf_share); h[std::min(9, int(r.bsdf_share * 10))]++; }
-    fprintf(stderr, "it %u regions %zu quads %zu share %.3f gain %.3f :", iteration_, arrays_.regions.size(), arrays_.quads.size(), m / double(arrays_.regions.size()), gain_);
-    for (int x : h) fprintf(stderr, " %d", x);
-    fprintf(stderr, "\n");
-  }
   ++generation_;
 }
 

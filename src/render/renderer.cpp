@@ -290,6 +290,8 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   options.texture_budget = settings.texture_budget;
   options.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
   CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
+  if (settings.asked.clamp_indirect > 0)
+    flat.view.indirect_limit = static_cast<Real>(settings.asked.clamp_indirect) / flat.view.exposure;
   started.get();
   statistics.scene_sizes = flat.statistics;
   statistics.load_seconds = load_seconds + seconds_since(start) - flat.statistics.build_seconds;

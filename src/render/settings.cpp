@@ -155,6 +155,14 @@ void resolve_guiding(const Settings& asked, RenderSettings& s) {
                      "': leave out --guiding, or give --integrator path");
 }
 
+void check_clamp(const Settings& asked, const RenderSettings& s) {
+  if (!(asked.clamp_indirect >= 0) || !std::isfinite(asked.clamp_indirect))
+    throw InputError("the limit of indirect light must be a finite number, not negative; 0 for none");
+  if (asked.clamp_indirect > 0 && s.integrator != IntegratorKind::path)
+    throw InputError("a limit of indirect light needs the integrator 'path', and this is '" + to_string(s.integrator) +
+                     "': leave out --clamp-indirect, or give --integrator path");
+}
+
 CoatModel parse_coats(const std::string& text) {
   if (text.empty() || text == "lossless") return CoatModel::lossless;
   if (text == "pbrt") return CoatModel::pbrt;
@@ -229,6 +237,7 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
     throw InputError("the time between checkpoints must be a finite number of seconds, not negative");
   resolve_noise(asked, s);
   resolve_guiding(asked, s);
+  check_clamp(asked, s);
   s.texture_budget =
       static_cast<uint64_t>(in_range(asked.texture_budget, 0, int64_t{1} << 30, "the budget of textures")) << 20;
   if (asked.resume && asked.checkpoint.empty())

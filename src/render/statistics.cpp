@@ -72,6 +72,7 @@ std::string RenderStatistics::to_json() const {
     j["noise"] = {{"target", settings.asked.noise}, {"measure", settings.noise_curve ? "display" : "relative"},
                   {"reached", noise.noise},         {"pixels_below", noise.below},
                   {"mean_spp", noise.mean_samples}, {"most_spp", settings.samples_per_pixel}};
+  if (settings.asked.clamp_indirect > 0) j["clamp_indirect"] = settings.asked.clamp_indirect;
   if (settings.guiding != GuidingMode::off)
     j["guiding"] = {{"mode", to_string(settings.guiding)}, {"used", guiding.is_used},     {"iterations", guiding.iterations},
                     {"regions", guiding.regions},         {"bytes", guiding.bytes}, {"variance_ratio", guiding.gain}};

@@ -230,7 +230,7 @@ class PathBatch {
       const DirectLight<Real> direct = diffuse_.direct(place, lane.hit, lane.path.ray.time);
       if (direct.is_lit) {
         ++lane.record.shadow_rays;
-        add_shadow_ray(index, direct.shadow, direct.radiance);
+        add_shadow_ray(index, direct.shadow, limited(scene_, direct.radiance, lane.path.vertex >= 1));
       }
       diffuse_.take_over(place, lane.hit, lane.path);
       continue_or_end(diffuse_.goes_on(place), index);

@@ -30,11 +30,19 @@ ALHAZEN_HD ALHAZEN_HOT Real bsdf_mis_weight(const PathState<Real>& path, Real li
   return path.is_specular ? Real(1) : power_heuristic(path.bsdf_pdf, light_pdf);
 }
 
+/// Returns a contribution of a path, limited if it is indirect light: then the image is darker than it should be.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> limited(const SceneView<Real>& scene, const Vec3<Real>& radiance, bool is_indirect) {
+  if (!is_indirect || !(max_component(radiance) > scene.indirect_limit)) return radiance;
+  return radiance * (scene.indirect_limit / max_component(radiance));
+}
+
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, const PathState<Real>& path,
                                                 Record& record) {
   // The constant light is not sampled, so its weight is 1.
-  if (!is_zero(scene.background)) record.radiance += path.throughput * scene.background;
+  const bool is_indirect = path.vertex >= 2;
+  if (!is_zero(scene.background)) record.radiance += limited(scene, path.throughput * scene.background, is_indirect);
   if (scene.far_lights_count == 0) return;
   Real at_infinity = 0;  // the probability that light sampling chooses one of these lights
   if (!path.is_specular) {
@@ -46,7 +54,8 @@ ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, co
     const Real pmf = light.pmf * at_infinity;
     const EscapedLight<Real> found = escaped_light(scene, light, path.light_side, path.ray.direction, pmf > 0);
     if (is_zero(found.radiance)) continue;
-    record.radiance += path.throughput * found.radiance * bsdf_mis_weight(path, pmf > 0 ? pmf * found.pdf : Real(0));
+    const Real weight = bsdf_mis_weight(path, pmf > 0 ? pmf * found.pdf : Real(0));
+    record.radiance += limited(scene, path.throughput * found.radiance * weight, is_indirect);
   }
 }
 
@@ -66,7 +75,7 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
       light_pdf = pdf_light(scene, scene.lights[point.light], path.ray, hit, point.si, path.light_side);
     }
   }
-  record.radiance += path.throughput * emission * bsdf_mis_weight(path, light_pdf);
+  record.radiance += limited(scene, path.throughput * emission * bsdf_mis_weight(path, light_pdf), path.vertex >= 2);
 }
 
 /// Russian roulette ends paths whose throughput is below this. With a higher threshold more paths end that would have
@@ -123,7 +132,7 @@ ALHAZEN_HD ALHAZEN_HOT bool light_and_scatter(const SceneView<Real>& scene, cons
   if constexpr (has_counters<Record>) count_light_sample(scene, sampler, dimensions, point, sample, direct, record);
   if (direct.is_lit) {
     ++record.shadow_rays;
-    light(direct.shadow, path.throughput * direct.radiance);
+    light(direct.shadow, limited(scene, path.throughput * direct.radiance, path.vertex >= 1));
   }
   if (samples_by_side(scene)) path.light_side = side_of_light(point);
   const uint32_t vertex = path.vertex;
