@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "images/display/fitting_exposure.h"
 #include "render/power_bisection.h"
 
 namespace alhazen {
@@ -133,6 +135,20 @@ double darkest_luminance(const FilmView<Real>& film, size_t pixels) {
   return dark_fraction * sum / static_cast<double>(pixels);
 }
 
+/// The exposure of the image so far, as it would be displayed.
+template <class Real>
+double exposure_of(const FilmView<Real>& film, size_t pixels) {
+  std::vector<float> brightness;
+  brightness.reserve(pixels);
+  for (size_t i = 0; i < pixels; ++i) {
+    const double count = film.weights ? static_cast<double>(film.weights[i]) : film.samples[i];
+    const Vec3<Real>& sum = film.radiance[i];
+    const float value = static_cast<float>(static_cast<double>(std::max({sum.x, sum.y, sum.z})) / count);
+    if (value > 0 && std::isfinite(value)) brightness.push_back(value);
+  }
+  return fitting_exposure(std::move(brightness));
+}
+
 /// What the samples of some pixels are like, in the mean.
 struct Division {
   double blocks, of_first, of_second;  ///< number of blocks; all samples over those of each half
@@ -201,14 +217,16 @@ void NoiseEstimate<Real>::measure_pixels(const RenderSettings& settings) {
   errors_.resize(pixels);
   of_halves_.resize(pixels);
   const double darkest = settings.noise_curve ? 0 : darkest_luminance(film, pixels);
+  std::optional<DisplayCurve> curve = settings.noise_curve;
+  if (settings.noise_fits_exposure) curve->scale = portable_exp2(exposure_of(film, pixels));
   for (size_t i = 0; i < pixels; ++i) {
     const PixelMean mean = pixel_mean(film, i);
     if (film.samples[i] < 2 * samples_per_block || !std::isfinite(mean.by_blocks) || !std::isfinite(mean.luminance))
       errors_[i] = of_halves_[i] = 1;
     if (!(mean.by_blocks > 0) || errors_[i] > 0) continue;
     double error = 0;
-    if (settings.noise_curve) {
-      error = settings.noise_curve->error(mean.luminance, std::sqrt(mean.by_blocks));
+    if (curve) {
+      error = curve->error(mean.luminance, std::sqrt(mean.by_blocks));
       error *= error;
     } else {
       const double reference = std::max(mean.luminance, darkest);
