@@ -112,7 +112,9 @@ TEST_F(QualityOption, OfGltfFilesIsGoodUnlessSamplesNoiseOrDenoiserAreGiven) {
     EXPECT_EQ(j["quality"], "none");
     EXPECT_EQ(j.contains("noise"), options[1] == "0.5");
     EXPECT_EQ(j["denoiser"], options[1] == "builtin" ? "builtin" : "none");
-    if (options[0] != "--spp" && options[1] != "0.5") EXPECT_EQ(j["spp"], 64);
+    if (options[0] != "--spp" && options[1] != "0.5") {
+      EXPECT_EQ(j["spp"], 64);
+    }
   }
   EXPECT_EQ(statistics("scene.gltf", {"--quality", "draft"})["quality"], "draft");
   EXPECT_EQ(statistics("scene.gltf", {"--seed", "3", "--max-depth", "2"})["quality"], "good");
