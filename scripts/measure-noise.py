@@ -2,6 +2,7 @@
 """How well a noise target is met (docs/noise.md): target, measured error, samples and time, and FLIP at equal samples.
 
   measure-noise.py [--program BIN] [--targets "0.1 0.02,display"] [--only NAMES]
+  measure-noise.py --oracle 128 [--program BIN] [--only NAMES]
 
 Every scene of the repository is rendered with each target by several seeds, and compared with a reference: the mean of
 uniform renders by other seeds, together `--reference` samples per pixel. The error of a pixel is that of its luminance,
@@ -11,7 +12,13 @@ subtracted, which the spread of the reference's parts gives. Pixels that got the
 of `decided`: there the target decided nothing.
 
 FLIP is the 95th percentile, over pixels, of the FLIP error of uniform renders that take as many samples as the others
-in the mean, over that of the others. Needs numpy.
+in the mean, over that of the others.
+
+`--oracle N` asks instead how much FLIP could gain at all by sending N samples per pixel, in the mean, to where the
+noise is. The noise is simulated: normally distributed, with the variance of the samples of each pixel of the reference.
+So the number of samples is chosen by a variance that is known, which no estimate can be better than: in proportion to
+it ("equal errors", as a target does), and to its 0.7th power, each as displayed and averaged over 3 x 3 pixels or over
+25 x 25, from 16 to --spp. Needs numpy.
 """
 
 import argparse
@@ -132,6 +139,47 @@ def read_pfm(path: pathlib.Path) -> numpy.ndarray:
     return numpy.frombuffer(values, "<f4").reshape(height, width, -1 if kind == b"PF" else 1)[..., 0]
 
 
+def box_means(values: numpy.ndarray, radius: int) -> numpy.ndarray:
+    padded = numpy.pad(values, radius, mode="edge")
+    windows = numpy.lib.stride_tricks.sliding_window_view(padded, (2 * radius + 1, 2 * radius + 1))
+    return windows.mean((2, 3))
+
+
+def allotted(weights: numpy.ndarray, mean: float, most: int) -> numpy.ndarray:
+    """Samples in proportion to `weights`, from FEWEST to `most`, that have this mean."""
+    low, high = -60.0, 60.0
+    for _ in range(100):
+        middle = (low + high) / 2
+        too_many = numpy.clip(weights * math.exp(middle), FEWEST, most).mean() > mean
+        low, high = (low, middle) if too_many else (middle, high)
+    return numpy.clip(weights * math.exp(low), FEWEST, most)
+
+
+def simulate(renders: Renders, scene: str) -> None:
+    options, mean = renders.options, renders.options.oracle
+    parts = [renders.render(scene, 1000 + i, options.reference // options.parts, "--aov", "variance")[0]
+             for i in range(options.parts)]  # fmt: skip
+    whole = {channel: numpy.mean([part[channel] for part in parts], 0) for channel in LUMINANCE}
+    reference = luminance(whole)
+    deviation = numpy.sqrt(box_means(numpy.mean([part["variance.Y"] for part in parts], 0), 1))
+    error = deviation / math.sqrt(mean)
+    shown = ((displayed(reference + error) - displayed(numpy.maximum(reference - error, 0))) / 2) ** 2
+    random = numpy.random.default_rng(1)
+
+    def flip(samples: numpy.ndarray) -> float:
+        images = []
+        for _ in range(options.seeds):
+            noise = random.standard_normal(reference.shape) * deviation / numpy.sqrt(samples)
+            factor = 1 + noise / numpy.maximum(reference, 1e-9)
+            images.append(renders.flip({c: numpy.maximum(whole[c] * factor, 0) for c in LUMINANCE}, whole))
+        return float(numpy.percentile(images, 95))
+
+    uniform = flip(numpy.full(reference.shape, float(mean)))
+    weights = [box_means(shown, 1), box_means(shown, 12), box_means(shown, 1) ** 0.7]
+    gains = [uniform / flip(allotted(weight + 1e-12, mean, options.spp)) for weight in weights]
+    print(f"| {scene} | {mean} | {uniform:.3f} | {gains[0]:.2f} | {gains[1]:.2f} | {gains[2]:.2f} |", flush=True)
+
+
 def measure(renders: Renders, scene: str, targets: list[str]) -> None:
     options = renders.options
     parts = [renders.render(scene, 1000 + i, options.reference // options.parts)[0] for i in range(options.parts)]
@@ -167,11 +215,19 @@ def main() -> None:
     parser.add_argument("--reference", type=int, default=4096, help="samples per pixel of the reference")
     parser.add_argument("--parts", type=int, default=4, help="renders of which the reference is the mean")
     parser.add_argument("--pixels", type=int, default=160 * 90, help="about how many each image has")
+    parser.add_argument("--oracle", type=int, metavar="N", help="simulate the best distribution of N samples per pixel")
     parser.add_argument("--render", default="", metavar="OPTIONS", help="more options of `alhazen render`")
     options = parser.parse_args()
     names = options.only.split(",") if options.only else list(SCENES)
     if unknown := set(names) - set(SCENES):
         sys.exit(f"measure-noise: no scene {', '.join(sorted(unknown))}; there are {', '.join(SCENES)}")
+    if options.oracle:
+        print("| scene | mean spp | uniform FLIP | equal errors | over 25 x 25 | to the power 0.7 |")
+        print("|---" * 6 + "|")
+        with tempfile.TemporaryDirectory() as folder:
+            for name in names:
+                simulate(Renders(options, pathlib.Path(folder)), name)
+        return
     print("| scene | target | error, decided | error, all | reached | decided | at most | mean spp | s | FLIP | uniform / it |")
     print("|---" * 11 + "|")
     with tempfile.TemporaryDirectory() as folder:

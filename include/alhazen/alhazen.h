@@ -45,15 +45,19 @@ struct Settings {
   std::string variant;    ///< glTF: a name or a number of KHR_materials_variants; empty: none
   std::string animation;  ///< glTF: a name or a number; empty: the first if `animation_time` is given
   std::optional<double> animation_time;  ///< glTF: seconds; absent: no animation is applied
-  int64_t samples_per_pixel = 0;         ///< with a noise target, the most that a pixel gets
-  /// Noise target: a pixel gets no more samples once its estimated error is below it; above 0 and at most 1; 0: none.
-  /// docs/noise.md says how the error is estimated.
+  /// draft, good or final: sets those of `samples_per_pixel`, `noise` and `denoiser` that are left open
+  /// (docs/noise.md has the values). Empty: good for a glTF file if all three are left open, otherwise none of them.
+  std::string quality;
+  int64_t samples_per_pixel = 0;  ///< with a noise target, the most that a pixel gets (max samples)
+  /// Noise target (noise threshold): a pixel gets no more samples once its estimated error is below it; above 0 and at
+  /// most 1; 0: none. docs/noise.md says how the error is estimated.
   double noise = 0;
   /// What the noise target is of: relative (to the pixel's luminance; the default), or display: of the sRGB value from
   /// 0 to 1 that is shown at the exposure `noise_exposure` in stops, by the tone map `noise_tone_map` (none, reinhard
-  /// or filmic; empty: none).
+  /// or filmic; empty: none). Without an exposure it is 0, or, for a glTF file with lights, the one by which its image
+  /// so far is not overexposed. none, with `noise` 0: no target, also if `quality` has one.
   std::string noise_measure;
-  double noise_exposure = 0;
+  std::optional<double> noise_exposure;
   std::string noise_tone_map;
   /// Path guiding, for the integrator path: off, on, or auto to stop it where it does not pay; empty: off. docs/guiding.md
   /// says what it is good for.
@@ -97,6 +101,13 @@ struct Progress {
 /// file, the function is not called again, and `render` rethrows the exception to its caller.
 using ProgressFunction = std::function<bool(const Progress&)>;
 
+/// What a render with a noise target (adaptive sampling) reached.
+struct ReachedNoise {
+  double noise = 0;         ///< root mean square of the estimated errors of all pixels, in what the target measures
+  double below = 0;         ///< fraction of the pixels whose estimated error is below the target
+  double mean_samples = 0;  ///< per pixel
+};
+
 /// Planes of linear values, rows from the top down: R, G, B (radiance, linear sRGB) and the requested layers (albedo.R,
 /// .G, .B; normal.X, .Y, .Z; depth.Z; bounces.Y; samples.Y; variance.Y; noisy.R, .G, .B).
 struct RenderedImage {
@@ -104,6 +115,9 @@ struct RenderedImage {
   std::vector<std::string> channels;
   std::vector<std::vector<float>> planes;
   bool complete = true;  ///< false if stopped before all samples were taken or the noise target was reached
+  std::optional<ReachedNoise> noise;  ///< present if there was a noise target
+  std::string denoiser;               ///< the one that denoised R, G and B; empty: they are not denoised
+  std::string quality;                ///< the one that was rendered; empty: none
   std::vector<std::string> warnings;  ///< of the scene reader and the renderer
 
   /// The width * height values of a channel, or null.

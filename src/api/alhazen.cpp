@@ -25,7 +25,12 @@ RenderedImage render(const std::string& scene_file, const Settings& settings, co
   image.height = means.height;
   image.channels = std::move(means.channels);
   image.planes = std::move(means.planes);
-  image.complete = rendering.statistics.complete;
+  const RenderStatistics& statistics = rendering.statistics;
+  image.complete = statistics.complete;
+  image.denoiser = statistics.denoiser;
+  image.quality = statistics.settings.asked.quality;
+  if (statistics.settings.asked.noise > 0)
+    image.noise = ReachedNoise{statistics.noise.noise, statistics.noise.below, statistics.noise.mean_samples};
   for (const Diagnostics::Warning& warning : diagnostics.warnings()) image.warnings.push_back(warning.to_string());
   return image;
 }

@@ -49,6 +49,7 @@ void show(const InfoOptions& options) {
   nlohmann::ordered_json j{{"scene", options.scene},
                            {"width", settings.window.width()},
                            {"height", settings.window.height()},
+                           {"quality", settings.asked.quality.empty() ? "none" : settings.asked.quality},
                            {"spp", settings.samples_per_pixel},
                            {"max_depth", settings.max_segments - 1},
                            {"integrator", to_string(settings.integrator)},

@@ -49,7 +49,7 @@ void parse_output_options(RenderOptions& o) {
   o.output.how.tone_map = o.tone_map == "none"       ? ToneMap::none
                           : o.tone_map == "reinhard" ? ToneMap::reinhard
                                                      : ToneMap::filmic;
-  o.settings.noise_exposure = o.output.how.exposure;
+  o.settings.noise_exposure = o.exposure;
   o.settings.noise_tone_map = o.tone_map;
   if (!o.stats.empty() && o.stats != "text" && o.stats != "json")
     throw InputError("unknown statistics '" + o.stats + "': it may be text, json");
@@ -123,7 +123,9 @@ std::string samples_taken(const RenderStatistics& s) {
 void print_end(const RenderOptions& options, const OutputReport& outputs, const RenderStatistics& statistics) {
   for (const std::string& failure : outputs.failures) tell("alhazen: {}\n", failure);
   if (!options.quiet) {
-    std::string line = samples_taken(statistics) + " in " + format_seconds(statistics.render_seconds);
+    const std::string& quality = statistics.settings.asked.quality;
+    std::string line = (quality.empty() ? "" : "quality " + quality + ": ") + samples_taken(statistics) + " in " +
+                       format_seconds(statistics.render_seconds);
     if (!statistics.denoiser.empty())
       line += fmt::format("; denoised with {} in {}", statistics.denoiser, format_seconds(statistics.denoise_seconds));
     for (const std::string& path : outputs.written)
@@ -169,10 +171,6 @@ int run(RenderOptions& options) {
               {{options.scene, "the scene"}, {options.settings.environment, "the environment map"}}, *loaded.inputs);
 
   const bool fits_exposure = scene.film.fits_exposure && !options.exposure;
-  if (fits_exposure && settings.noise_curve)
-    throw InputError(
-        "the exposure of this scene is chosen once it is rendered: to take samples by what is displayed, "
-        "give --exposure");
   WarningPrinter warnings(diagnostics, printer);
   RenderEvents events;
   events.progress = [&](const Progress& progress) {

@@ -8,7 +8,9 @@
 
 #include "files/atomic_file.h"
 #include "files/file_identity.h"
+#include "images/display/fitting_exposure.h"
 #include "render/backend.h"
+#include "render/quality.h"
 #include "render/setting_table.h"
 
 namespace alhazen {
@@ -39,6 +41,8 @@ std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
                    settings.backend, strategy.empty() ? "" : " --strategy ", strategy, to_string(settings.precision),
                    to_string(settings.integrator), to_string(settings.sampler), settings.max_segments - 1,
                    settings.threads)}};
+  if (!settings.asked.quality.empty())
+    metadata["quality"] = settings.asked.quality + ": " + quality_options(settings.asked);
   if (settings.asked.noise > 0)
     metadata["noise"] =
         fmt::format("target {}; reached {:.3g}, {:.4g} % of the pixels; {:.5g} samples per pixel",
@@ -81,11 +85,7 @@ double fitting_exposure(const ImageSource& source) {
       if (value > 0 && std::isfinite(value)) brightness.push_back(value);
     }
   }
-  if (brightness.empty()) return 0;
-  const auto middle = brightness.begin() + static_cast<std::ptrdiff_t>(brightness.size() / 2);
-  std::nth_element(brightness.begin(), middle, brightness.end());
-  const double median = static_cast<double>(*middle);
-  return median > 3 ? -std::round(std::log2(median / 0.6)) : 0;
+  return fitting_exposure(std::move(brightness));
 }
 
 void check_files(const std::vector<std::string>& outputs, const std::string& checkpoint,

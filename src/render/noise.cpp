@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <utility>
+
+#include "images/display/fitting_exposure.h"
+#include "render/power_bisection.h"
 
 namespace alhazen {
 
@@ -19,8 +23,9 @@ constexpr double dark_fraction = 0.1, bright_part = 0.01;
 /// Bounds the ratio of both estimates of the variance, which is noisy. Where few pixels have most of it, this many of
 /// them in which the estimates agree are added.
 constexpr double min_gain = 0.05, agreeing_pixels = 10;
-/// The largest a for which the variance of n samples is taken to fall as 1 / n^(1 + a).
-constexpr double max_exponent = 0.25;
+/// The variance of n samples is taken to fall as 1 / n^(1 + a) for an a below 1/4, of this many binary digits after its
+/// first, 1/8.
+constexpr int exponent_digits = 12;
 
 /// The mean of `values` over the square of this radius around every pixel, or what of it is in the image.
 std::vector<float> window_means(const std::vector<float>& values, int width, int height, int radius) {
@@ -116,7 +121,10 @@ PixelMean pixel_mean(const FilmView<Real>& film, size_t i) {
 template <class Real>
 double darkest_luminance(const FilmView<Real>& film, size_t pixels) {
   std::vector<float> values(pixels);
-  for (size_t i = 0; i < pixels; ++i) values[i] = static_cast<float>(film.luminance_mean[i]);
+  for (size_t i = 0; i < pixels; ++i) {
+    const float value = static_cast<float>(film.luminance_mean[i]);
+    values[i] = std::isfinite(value) ? value : 0;  // NaN has no order
+  }
   const size_t counted = pixels - static_cast<size_t>(bright_part * static_cast<double>(pixels));
   std::vector<float> sorted = values;
   const auto limit = sorted.begin() + static_cast<std::ptrdiff_t>(counted - 1);
@@ -125,6 +133,20 @@ double darkest_luminance(const FilmView<Real>& film, size_t pixels) {
   double sum = 0;
   for (const float value : values) sum += static_cast<double>(std::min(value, *limit));
   return dark_fraction * sum / static_cast<double>(pixels);
+}
+
+/// The exposure of the image so far, as it would be displayed.
+template <class Real>
+double exposure_of(const FilmView<Real>& film, size_t pixels) {
+  std::vector<float> brightness;
+  brightness.reserve(pixels);
+  for (size_t i = 0; i < pixels; ++i) {
+    const double count = film.weights ? static_cast<double>(film.weights[i]) : film.samples[i];
+    const Vec3<Real>& sum = film.radiance[i];
+    const float value = static_cast<float>(static_cast<double>(std::max({sum.x, sum.y, sum.z})) / count);
+    if (value > 0 && std::isfinite(value)) brightness.push_back(value);
+  }
+  return fitting_exposure(std::move(brightness));
 }
 
 /// What the samples of some pixels are like, in the mean.
@@ -136,14 +158,16 @@ struct Division {
 /// multiple. With V(n) = c / n^(1 + a), errors within n samples cancel in part, so blocks see (B^(1 + a) - 1) / (B - 1)
 /// times V(n), and halves of p and q samples (n / p)^a + (n / q)^a - 1 times. Their quotient gives a.
 double variance_ratio(double measured, const Division& division) {
-  const auto of_halves = [&](double a) { return std::pow(division.of_first, a) + std::pow(division.of_second, a) - 1; };
-  const auto of_blocks = [&](double a) { return (std::pow(division.blocks, 1 + a) - 1) / (division.blocks - 1); };
-  double low = 0, high = max_exponent;
-  for (int i = 0; i < 12; ++i) {
-    const double a = (low + high) / 2;
-    (of_halves(a) > measured * of_blocks(a) ? low : high) = a;
+  PowerBisection first(division.of_first), second(division.of_second), blocks(division.blocks);
+  for (int i = 0; i < exponent_digits; ++i) {
+    const double of_halves = first.next() + second.next() - 1;
+    const double of_blocks = (division.blocks * blocks.next() - 1) / (division.blocks - 1);
+    const bool is_low = of_halves > measured * of_blocks;
+    first.step(is_low);
+    second.step(is_low);
+    blocks.step(is_low);
   }
-  return measured / of_halves(low);
+  return measured / (first.power() + second.power() - 1);
 }
 
 float finite_square(double value) { return static_cast<float>(std::min(value, 1e30)); }
@@ -155,6 +179,25 @@ uint32_t next_decision(uint32_t samples) {
   while (decision <= samples) decision += std::max(decision_step, std::bit_floor(decision) / 4);
   return decision;
 }
+
+template <class Real>
+NoiseState unknown_noise(const Film<Real>& film) {
+  const FilmView<Real> planes = film.view();
+  const size_t pixels = static_cast<size_t>(film.window().pixels());
+  uint64_t samples = 0, finished = 0;
+  for (size_t i = 0; i < pixels; ++i) {
+    samples += planes.samples[i];
+    finished += planes.finished[i] ? 1 : 0;
+  }
+  NoiseState state;
+  state.noise = 1;
+  state.below = static_cast<double>(finished) / static_cast<double>(pixels);
+  state.mean_samples = static_cast<double>(samples) / static_cast<double>(pixels);
+  return state;
+}
+
+template NoiseState unknown_noise(const Film<float>&);
+template NoiseState unknown_noise(const Film<double>&);
 
 template <class Real>
 NoiseEstimate<Real>::NoiseEstimate(const RenderSettings& settings, const Film<Real>& film)
@@ -174,13 +217,16 @@ void NoiseEstimate<Real>::measure_pixels(const RenderSettings& settings) {
   errors_.resize(pixels);
   of_halves_.resize(pixels);
   const double darkest = settings.noise_curve ? 0 : darkest_luminance(film, pixels);
+  std::optional<DisplayCurve> curve = settings.noise_curve;
+  if (settings.noise_fits_exposure) curve->scale = portable_exp2(exposure_of(film, pixels));
   for (size_t i = 0; i < pixels; ++i) {
     const PixelMean mean = pixel_mean(film, i);
-    if (film.current_samples(i) < 2 * samples_per_block || !std::isfinite(mean.by_blocks)) errors_[i] = of_halves_[i] = 1;
+    if (film.current_samples(i) < 2 * samples_per_block || !std::isfinite(mean.by_blocks) || !std::isfinite(mean.luminance))
+      errors_[i] = of_halves_[i] = 1;
     if (!(mean.by_blocks > 0) || errors_[i] > 0) continue;
     double error = 0;
-    if (settings.noise_curve) {
-      error = settings.noise_curve->error(mean.luminance, std::sqrt(mean.by_blocks));
+    if (curve) {
+      error = curve->error(mean.luminance, std::sqrt(mean.by_blocks));
       error *= error;
     } else {
       const double reference = std::max(mean.luminance, darkest);

@@ -31,6 +31,12 @@ struct NoiseState {
 /// lead to the same.
 uint32_t next_decision(uint32_t samples);
 
+/// The state of a film whose errors are not known: their root mean square counts as 1, and only finished pixels as
+/// below the target. `expected_samples` is 0.
+template <class Real>
+NoiseState unknown_noise(const Film<Real>& film);
+
+/// Throws std::bad_alloc.
 template <class Real>
 class NoiseEstimate {
  public:
@@ -39,8 +45,6 @@ class NoiseEstimate {
   /// Finishes the pixels whose estimate is below the target. A pixel that is finished remains so.
   void finish_pixels() const;
   NoiseState state() const;
-  /// The squared estimated error of each pixel of the window, as it is compared with the square of the target.
-  const std::vector<float>& squared_errors() const { return errors_; }
 
  private:
   void measure_pixels(const RenderSettings& settings);

@@ -86,7 +86,8 @@ class ProgressReporter {
 
 /// The number of samples of the next pass: whole blocks, enough to make the cost of a pass's end negligible, few enough
 /// for the image to grow evenly and for a time limit to be kept; at the end the remainder that is no whole block. With
-/// a noise target, a pass ends where pixels are decided on. `per_sample` is the time of one sample of every pixel.
+/// a noise target, a pass ends where pixels are decided on. `per_sample` is the time of one sample of every pixel, 0
+/// before the first pass, also of a render that is resumed.
 uint32_t pass_size(const RenderSettings& settings, uint32_t max_size, uint32_t samples_done, double elapsed,
                    double per_sample) {
   uint32_t left = settings.samples_per_pixel - samples_done;
@@ -94,7 +95,7 @@ uint32_t pass_size(const RenderSettings& settings, uint32_t max_size, uint32_t s
   uint32_t size = std::clamp(settings.samples_per_pixel / 16, max_size / 4, max_size);
   if (settings.asked.time_limit > 0) {
     size = samples_per_block;
-    if (samples_done > 0) {
+    if (per_sample > 0) {
       size = static_cast<uint32_t>(std::clamp((settings.asked.time_limit - elapsed) / 8 / std::max(per_sample, 1e-9),
                                               1.0, static_cast<double>(max_size)));
     }
@@ -122,7 +123,8 @@ class PassLoop {
   void run(RenderStatistics& statistics) {
     if (!settings_.asked.checkpoint.empty()) checkpoint_.emplace(settings_, scene_fingerprint(scene_));
     if (settings_.asked.resume) samples_done_ = checkpoint_->load(film_, guiding_ ? &*guiding_ : nullptr);
-    control_.add_samples(film_.total_samples(samples_done_));
+    samples_loaded_ = film_.total_samples(samples_done_);
+    control_.add_samples(samples_loaded_);
     set_total();
     std::exception_ptr problem;
     {
@@ -137,11 +139,11 @@ class PassLoop {
       guiding_->weigh_samples(film_);
       statistics.guiding = guiding_->state();
     }
+    if (settings_.asked.noise > 0) statistics.noise = noise_state();
     statistics.render_seconds = elapsed_;
     statistics.samples_per_pixel = samples_done_;
     statistics.complete = is_done();
     statistics.interrupted = control_.is_stopped() && !is_done();
-    if (settings_.asked.noise > 0) statistics.noise = NoiseEstimate<Real>(settings_, film_).state();
     statistics.threads = control_.threads();
     for (const ThreadStatistics& thread : control_.threads()) {
       statistics.camera_samples += thread.samples;
@@ -160,8 +162,8 @@ class PassLoop {
       uint32_t size =
           pass_size(settings_, backend_.max_samples_per_pass(), samples_done_, elapsed_, seconds_per_sample());
       if (guiding_) size = std::min(size, guiding_->iteration_end(samples_done_) - samples_done_);
-      if (settings_.asked.time_limit > 0 && elapsed_ > 0 &&
-          elapsed_ + last_pass_per_sample * size > settings_.asked.time_limit)
+      if (settings_.asked.time_limit > 0 && last_pass_per_sample > 0 &&
+          elapsed_ + last_pass_per_sample * size + estimate_seconds_ > settings_.asked.time_limit)
         return;
       if (size % samples_per_block != 0) {
         save_checkpoint();
@@ -175,6 +177,7 @@ class PassLoop {
                                             guiding_ ? &*guiding_ : nullptr});
       const double seconds = seconds_since(start);
       elapsed_ += seconds;
+      has_current_state_ = false;
       if (control_.is_stopped()) return;
       last_pass_per_sample = seconds / size;
       samples_done_ += size;
@@ -190,30 +193,53 @@ class PassLoop {
 
   bool is_done() const { return samples_done_ == settings_.samples_per_pixel || unfinished_ == 0; }
 
-  /// How long one sample of every pixel took so far, or would take of those that are not finished.
+  /// How long one sample of every pixel that is not finished takes, by the samples taken so far; 0 if none were.
   double seconds_per_sample() const {
-    if (settings_.asked.noise == 0) return samples_done_ > 0 ? elapsed_ / samples_done_ : 0;
-    const double taken = static_cast<double>(control_.samples_done());
-    return taken > 0 ? elapsed_ / taken * static_cast<double>(unfinished_) : 0;
+    const uint64_t taken = control_.samples_done() - samples_loaded_;
+    return taken > 0 ? elapsed_ / static_cast<double>(taken) * static_cast<double>(unfinished_) : 0;
+  }
+
+  /// Estimates the error of the film as it is, finishes pixels if `finishes`, and returns whether there was memory to
+  /// do so. Rendering goes on without: every pixel that is not finished then takes more samples.
+  bool estimate_noise(bool finishes) {
+    const Clock::time_point start = Clock::now();
+    bool is_known = true;
+    try {
+      const NoiseEstimate<Real> estimate(settings_, film_);
+      if (finishes) estimate.finish_pixels();
+      state_ = estimate.state();
+    } catch (const std::bad_alloc&) {
+      is_known = false;
+      state_ = unknown_noise(film_);
+      warn({}, "no memory was left to estimate the noise: no pixels are finished by it, and the render continues");
+    }
+    has_current_state_ = true;
+    estimate_seconds_ = seconds_since(start);
+    elapsed_ += estimate_seconds_;
+    return is_known;
   }
 
   /// Returns the fraction of the pixels that are left of those that were not finished before.
   double finish_pixels() {
     if (guiding_) guiding_->weigh_samples(film_);
-    const NoiseEstimate<Real> estimate(settings_, film_);
-    estimate.finish_pixels();
+    if (!estimate_noise(true)) return 1;
     const double before = static_cast<double>(unfinished_);
     unfinished_ = film_.unfinished();
-    control_.set_total(static_cast<uint64_t>(estimate.state().expected_samples));
+    control_.set_total(static_cast<uint64_t>(state_.expected_samples));
     return static_cast<double>(unfinished_) / before;
+  }
+
+  const NoiseState& noise_state() {
+    if (!has_current_state_) estimate_noise(false);
+    return state_;
   }
 
   void set_total() {
     const uint64_t pixels = static_cast<uint64_t>(settings_.window.pixels());
     unfinished_ = film_.unfinished();
-    control_.set_total(settings_.asked.noise > 0 && samples_done_ >= next_decision(0)
-                           ? static_cast<uint64_t>(NoiseEstimate<Real>(settings_, film_).state().expected_samples)
-                           : pixels * settings_.samples_per_pixel);
+    const bool is_estimated = settings_.asked.noise > 0 && samples_done_ >= next_decision(0) && estimate_noise(false);
+    control_.set_total(is_estimated ? static_cast<uint64_t>(state_.expected_samples)
+                                    : pixels * settings_.samples_per_pixel);
   }
 
   /// Nothing is saved once the film contains a partial block: the sums of a longer render would be rounded differently.
@@ -223,11 +249,15 @@ class PassLoop {
     try {
       checkpoint_->save(film_, samples_done_, guiding_ ? &*guiding_ : nullptr);
     } catch (const std::exception& failure) {
-      const size_t before = diagnostics_.warnings().size();
-      diagnostics_.warn({settings_.asked.checkpoint},
-                        std::string("the checkpoint was not saved, and the render continues: ") + failure.what());
-      if (events_.warned && diagnostics_.warnings().size() > before) events_.warned();
+      warn({settings_.asked.checkpoint},
+           std::string("the checkpoint was not saved, and the render continues: ") + failure.what());
     }
+  }
+
+  void warn(const SourceLocation& where, const std::string& message) {
+    const size_t before = diagnostics_.warnings().size();
+    diagnostics_.warn(where, message);
+    if (events_.warned && diagnostics_.warnings().size() > before) events_.warned();
   }
 
   Backend& backend_;
@@ -242,7 +272,11 @@ class PassLoop {
   uint32_t samples_done_ = 0;  ///< in every pixel
   uint64_t unfinished_ = 0;    ///< pixels
   bool in_whole_blocks_ = true;
-  double elapsed_ = 0;
+  double elapsed_ = 0;              ///< seconds of taking samples and of deciding on pixels, in this run
+  uint64_t samples_loaded_ = 0;     ///< of all pixels together, from the checkpoint
+  NoiseState state_;                ///< of the last estimate
+  bool has_current_state_ = false;  ///< whether no samples were taken since
+  double estimate_seconds_ = 0;     ///< what the last estimate took
 };
 
 /// Refuses a film that exceeds the machine's memory before rendering.

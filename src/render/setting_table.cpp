@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "render/engine_help.h"
+#include "render/quality.h"
 #include "scene/limits.h"
 #include "util/diagnostics.h"
 #include "util/parse_numbers.h"
@@ -123,10 +124,15 @@ Codec checkpoint() {
 /// A number, and optionally a comma and what it measures.
 Codec noise() {
   return {[](const Settings& s) {
-            if (s.noise == 0) return std::string();
+            if (s.noise == 0) return std::string(s.noise_measure == "none" ? "none" : "");
             return text_of(s.noise) + (s.noise_measure.empty() ? "" : "," + s.noise_measure);
           },
           [](Settings& s, const std::string& text) {
+            if (text == "none") {
+              s.noise = 0;
+              s.noise_measure = "none";
+              return;
+            }
             const size_t comma = text.find(',');
             std::array<double, 1> value;
             const bool has_measure = comma != std::string::npos;
@@ -134,9 +140,22 @@ Codec noise() {
             if (!parse_numbers(text.substr(0, comma), ' ', value) || !(value[0] > 0 && value[0] <= 1) ||
                 (has_measure && measure != "relative" && measure != "display"))
               refuse("noise", text,
-                     "a number above 0 and at most 1, or such a number with ',relative' or ',display' after it");
+                     "a number above 0 and at most 1, or such a number with ',relative' or ',display' after it, or "
+                     "none");
             s.noise = value[0];
             s.noise_measure = measure;
+          }};
+}
+
+Codec quality() {
+  return {[](const Settings& s) { return s.quality; },
+          [](Settings& s, const std::string& text) {
+            std::string names;
+            for (const Quality& each : qualities()) {
+              if (text == each.name) s.quality = text;
+              names += (names.empty() ? "" : ", ") + std::string(each.name);
+            }
+            if (s.quality != text || text.empty()) refuse("quality", text, "one of " + names);
           }};
 }
 
@@ -214,8 +233,20 @@ std::string order_of_samples(const RenderSettings& s) {
 std::string noise_target(const RenderSettings& s) {
   if (s.asked.noise == 0) return {};
   if (!s.noise_curve) return text_of(s.asked.noise) + " relative";
-  return text_of(s.asked.noise) + " displayed at exposure " + text_of(s.asked.noise_exposure) + " by tone map " +
-         (s.asked.noise_tone_map.empty() ? "none" : s.asked.noise_tone_map);
+  return text_of(s.asked.noise) + " displayed at " +
+         (s.noise_fits_exposure ? "the image's exposure" : "exposure " + text_of(s.asked.noise_exposure.value_or(0))) +
+         " by tone map " + (s.asked.noise_tone_map.empty() ? "none" : s.asked.noise_tone_map);
+}
+
+std::string quality_help() {
+  std::string text;
+  for (const Quality& quality : qualities()) {
+    text += (text.empty() ? "" : "; ") + std::string(quality.name) + " (" + quality.help + "): --spp " +
+            std::to_string(quality.samples_per_pixel) +
+            (quality.noise > 0 ? " --noise " + text_of(quality.noise) + ",display" : "") + " --denoise " +
+            quality.denoiser;
+  }
+  return text + ". Options beside it count. glTF: good, unless --spp, --noise or --denoise is given";
 }
 
 /// Empty without guiding, as in checkpoints of renders that have none.
@@ -227,12 +258,14 @@ std::string guiding_of(const RenderSettings& s) {
 std::vector<SettingEntry> image_settings() {
   constexpr SettingGroup group = SettingGroup::image;
   return {
-      entry(group, "spp", "", "N", "Samples per pixel; with --noise, the most",
+      entry(group, "quality", "", "NAME", quality_help(), quality()),
+      entry(group, "spp", "", "N", "Samples per pixel; with --noise, the most (max samples)",
             number<int64_t>("spp", &Settings::samples_per_pixel, 0, 1, max_samples_per_pixel)),
       of_samples(noise_target,
                  entry(group, "noise", "", "X[,MEASURE]",
-                       "Take no more samples of pixels whose estimated error is below X: relative (0.05 is 5 percent; "
-                       "the default), or of the displayed value from 0 to 1: 0.01,display",
+                       "Noise threshold (adaptive sampling): take no more samples of pixels whose estimated error is "
+                       "below X: relative (0.05 is 5 percent; the default), or of the displayed value from 0 to 1: "
+                       "0.01,display; none for no threshold",
                        noise())),
       of_samples(guiding_of,
                  entry(group, "guiding", "", "NAME",

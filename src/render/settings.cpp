@@ -9,6 +9,7 @@
 #include "render/backend.h"
 #include "render/checkpoint.h"
 #include "render/denoiser.h"
+#include "render/quality.h"
 #include "scene/filters.h"
 #include "scene/limits.h"
 #include "util/thread_limit.h"
@@ -132,18 +133,21 @@ void resolve_denoiser(const std::string& name, RenderSettings& s) {
     throw InputError("the layer 'noisy' is the image before denoising: give --denoise as well");
 }
 
-void resolve_noise(const Settings& asked, RenderSettings& s) {
+void resolve_noise(const Settings& asked, const Scene& scene, RenderSettings& s) {
   if (!(asked.noise >= 0 && asked.noise <= 1))
     throw InputError("the noise target must be a number above 0 and at most 1, for example 0.05; 0 for none");
-  const bool is_displayed = asked.noise_measure == "display";
-  if (!is_displayed && !asked.noise_measure.empty() && asked.noise_measure != "relative")
-    throw InputError("unknown measure of noise '" + asked.noise_measure + "': it may be relative, display");
+  const bool is_displayed = asked.noise_measure == "display", is_none = asked.noise_measure == "none";
+  if (!is_displayed && !is_none && !asked.noise_measure.empty() && asked.noise_measure != "relative")
+    throw InputError("unknown measure of noise '" + asked.noise_measure + "': it may be relative, display, none");
+  if (is_none && asked.noise > 0) throw InputError("give a noise target, or 'none' for none, not both");
   if (asked.noise == 0 || !is_displayed) return;
-  if (!(std::abs(asked.noise_exposure) <= 100))
+  const double exposure = asked.noise_exposure.value_or(0);
+  if (!(std::abs(exposure) <= 100))
     throw InputError("the exposure at which noise is seen must be a number of stops from -100 to 100");
   s.noise_curve =
-      DisplayCurve{std::exp2(asked.noise_exposure),
+      DisplayCurve{portable_exp2(exposure),
                    asked.noise_tone_map.empty() ? ToneMap::none : by_name(tone_maps, asked.noise_tone_map, "tone map")};
+  s.noise_fits_exposure = !asked.noise_exposure && scene.film.fits_exposure;
 }
 
 void resolve_guiding(const Settings& asked, RenderSettings& s) {
@@ -211,9 +215,10 @@ Schedule parse_schedule(const std::string& text) {
   return schedule;
 }
 
-RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
+RenderSettings resolve_settings(const Settings& user, const Scene& scene) {
   RenderSettings s;
-  s.asked = asked;
+  s.asked = with_quality(user, scene);
+  const Settings& asked = s.asked;
   resolve_image(asked, scene, s);
   s.precision = by_name(precisions, asked.precision, "precision");
   s.integrator = asked.integrator.empty() ? scene.integrator : by_name(integrators, asked.integrator, "integrator");
@@ -235,7 +240,7 @@ RenderSettings resolve_settings(const Settings& asked, const Scene& scene) {
   if (asked.time_limit < 0 || !std::isfinite(asked.time_limit)) throw InputError("the time limit must not be negative");
   if (!(asked.checkpoint_seconds >= 0) || !std::isfinite(asked.checkpoint_seconds))
     throw InputError("the time between checkpoints must be a finite number of seconds, not negative");
-  resolve_noise(asked, s);
+  resolve_noise(asked, scene, s);
   resolve_guiding(asked, s);
   check_clamp(asked, s);
   s.texture_budget =

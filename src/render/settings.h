@@ -48,7 +48,8 @@ inline constexpr int all_devices = -1, host_device = -2;
 
 /// What was asked, and what follows from it and from the scene.
 struct RenderSettings {
-  Settings asked;  ///< checked; what is resolved has a member of its own below, which counts
+  /// Checked, and with what its quality sets; what is resolved has a member of its own below, which counts.
+  Settings asked;
   std::string backend;
   uint32_t strategy = 0;        ///< value of the backend's own enum
   bool runs_on_device = false;  ///< a GPU's backend
@@ -62,6 +63,7 @@ struct RenderSettings {
   int threads = 1;
   uint32_t samples_per_pixel = 16;          ///< with a noise target, the most
   std::optional<DisplayCurve> noise_curve;  ///< present: the noise target is of what is displayed
+  bool noise_fits_exposure = false;         ///< its scale is then chosen by the film (fitting_exposure)
   uint32_t max_segments = 6;                ///< D, bounces + 1
   int width = 0, height = 0;
   PixelWindow window;

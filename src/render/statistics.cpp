@@ -67,6 +67,7 @@ std::string RenderStatistics::to_json() const {
   j["seed"] = settings.seed;
   j["width"] = settings.window.width();
   j["height"] = settings.window.height();
+  j["quality"] = settings.asked.quality.empty() ? "none" : settings.asked.quality;
   j["spp"] = samples_per_pixel;
   if (settings.asked.noise > 0)
     j["noise"] = {{"target", settings.asked.noise}, {"measure", settings.noise_curve ? "display" : "relative"},

@@ -22,7 +22,7 @@ struct RenderStatistics {
   double build_seconds = 0;        ///< BVH build
   double denoise_seconds = 0;      ///< 0 if no denoiser ran
   std::string denoiser;            ///< the one that denoised the image; empty: none
-  double render_seconds = 0;       ///< taking samples only
+  double render_seconds = 0;       ///< taking samples, and deciding which pixels are finished
   uint32_t samples_per_pixel = 0;  ///< in complete passes
   NoiseState noise;                ///< zero without a noise target
   GuidingState guiding;            ///< zero without guiding

@@ -279,6 +279,7 @@ struct Scene {
   Filter filter;
   SamplerType sampler = SamplerType::sobol;
   int64_t samples_per_pixel = 16;
+  std::string quality;  ///< by which to render where samples, noise and denoiser are left open; empty: none
   uint32_t seed = 0;
   IntegratorKind integrator = IntegratorKind::path;
   /// The integrator in the file if `path` replaces one that simulates more; else empty.

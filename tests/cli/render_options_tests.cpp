@@ -45,6 +45,8 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--backend", "--strategy", "--schedule", "--threads", "--nthreads", "--precision", "--progress", "--quiet",
       "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--overwrite", "--device", "--block",
       "--chunk", "--denoise", "--environment", "--texture-budget", "--coats", "--filter", "--noise",
+      // Tested in quality_tests.cpp:
+      "--quality",
       // Tested in gltf_tests.cpp:
       "--camera", "--time", "--animation", "--variant", "--list",
       // Tested in hostile_input_tests.cpp:

@@ -113,9 +113,14 @@ TEST_P(Noise, ResumesAfterBeingStopped) {
   Settings settings = noise_settings(precision(), 0.02, most);
   const Outcome expected = render_bits(scene(), settings);
   settings.checkpoint = folder.file("state");
-  for (const int calls_before_stop : {1, 2, 3}) {
-    int calls = 0;
-    render_bits(scene(), settings, [&](const Progress&) { return ++calls < calls_before_stop; });
+  double noise = 2;
+  for (int stop = 0; stop < 3; ++stop) {
+    const Outcome part = render_bits(scene(), settings, [](const Progress&) { return false; });
+    ASSERT_TRUE(part.statistics.interrupted);
+    ASSERT_FALSE(part.statistics.complete);
+    EXPECT_LT(part.statistics.samples_per_pixel, most);
+    EXPECT_LT(part.statistics.noise.noise, noise);
+    noise = part.statistics.noise.noise;
     settings.resume = true;
   }
   EXPECT_TRUE(same_bits(render_bits(scene(), settings), expected));
@@ -175,6 +180,59 @@ TEST_P(Noise, OfOnePixelAndOfAPart) {
   settings.backend = "openmp";
   settings.threads = 2;
   EXPECT_TRUE(same_bits(part, render_bits(scene(), settings)));
+}
+
+/// A denoiser changes what is shown, and neither which pixels get samples nor what they are.
+TEST_P(Noise, TogetherWithADenoiser) {
+  Settings settings = noise_settings(precision(), 0.15, 99);
+  const Outcome noisy = render_bits(scene(), settings);
+  settings.denoiser = "builtin";
+  settings.aovs = {"samples", "noisy"};
+  const Outcome denoised = render_bits(scene(), settings);
+  EXPECT_EQ(denoised.statistics.denoiser, "builtin");
+  EXPECT_EQ(plane_of(denoised, "samples.Y"), plane_of(noisy, "samples.Y"));
+  EXPECT_EQ(plane_of(denoised, "noisy.G"), plane_of(noisy, "G"));
+  EXPECT_NE(plane_of(denoised, "G"), plane_of(noisy, "G"));
+  EXPECT_EQ(denoised.statistics.noise.noise, noisy.statistics.noise.noise);
+
+  Settings other = settings;
+  other.backend = "openmp";
+  other.threads = 2;
+  EXPECT_TRUE(same_bits(denoised, render_bits(scene(), other)));
+
+  const TemporaryFolder folder;
+  other.checkpoint = folder.file("state");
+  other.samples_per_pixel = 32;
+  render_bits(scene(), other);
+  other.resume = true;
+  other.samples_per_pixel = 99;
+  EXPECT_TRUE(same_bits(denoised, render_bits(scene(), other)));
+}
+
+/// Too few samples for an estimate: the error of every pixel counts as 1, and none is below the target.
+TEST_P(Noise, OfFourSamplesIsNotKnown) {
+  const Outcome outcome = render_bits(scene(), noise_settings(precision(), 0.5, 4));
+  EXPECT_TRUE(outcome.statistics.complete);
+  EXPECT_EQ(outcome.statistics.noise.noise, 1);
+  EXPECT_EQ(outcome.statistics.noise.below, 0);
+  EXPECT_EQ(outcome.statistics.noise.mean_samples, 4);
+}
+
+/// The first pass of a render with a time limit is one block, whose time tells how large the next may be; also of one
+/// that is resumed.
+TEST_P(Noise, ResumesWithASmallPassWhereTimeIsLimited) {
+  const TemporaryFolder folder;
+  for (const double noise : {0.0, 1e-9}) {
+    Settings settings = noise_settings(precision(), noise, 64);
+    settings.checkpoint = folder.file("state");
+    settings.overwrite = true;
+    render_bits(scene(), settings);
+    settings.overwrite = false;
+    settings.resume = true;
+    settings.samples_per_pixel = 4096;
+    settings.time_limit = 1e-9;
+    EXPECT_EQ(render_bits(scene(), settings).statistics.samples_per_pixel, 64 + samples_per_block) << noise;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Parity, Noise,
@@ -237,6 +295,41 @@ TEST(NoiseTarget, MustBeAPositiveNumber) {
   Settings settings = noise_settings("float", 0.1, 16);
   settings.noise_measure = "absolute";
   EXPECT_THROW(render_bits(half_black(), settings), InputError);
+}
+
+/// A pixel alone has only its own samples to decide by. Where they miss what is rare it stops too early, and where they
+/// happen to be bright its relative error looks small; both within bounds.
+TEST(NoiseTarget, StopsASinglePixelAboutWhereItShould) {
+  constexpr int seeds = 400;
+  struct OfSeeds {
+    double mean = 0, variance = 0, samples = 0;
+  };
+  const auto of_seeds = [&](double noise, int64_t samples) {
+    Settings settings = noise_settings("float", noise, samples);
+    settings.sampler = "independent";
+    settings.pixel_bounds = {{18, 19, 20, 21}};
+    OfSeeds of;
+    double squares = 0;
+    for (uint32_t seed = 0; seed < seeds; ++seed) {
+      settings.seed = seed + (noise > 0 ? 0 : 100000);
+      const Outcome outcome = render_bits(parity_scene("cornell"), settings);
+      const double value = mean_of(plane_of(outcome, "G"));
+      of.mean += value / seeds;
+      squares += value * value / seeds;
+      of.samples += static_cast<double>(plane_of(outcome, "samples.Y")[0]) / seeds;
+    }
+    of.variance = squares - of.mean * of.mean;
+    return of;
+  };
+  constexpr double target = 0.2;
+  const OfSeeds adaptive = of_seeds(target, 512), uniform = of_seeds(0, 64);
+  const double expected = 64 * uniform.variance / (uniform.mean * uniform.mean) / (target * target);
+  EXPECT_NEAR(adaptive.mean / uniform.mean, 1, target);
+  EXPECT_GT(adaptive.samples / expected, 0.5) << "expected " << expected;
+  EXPECT_LT(adaptive.samples / expected, 1.3) << "expected " << expected;
+  RecordProperty("bias", std::to_string(adaptive.mean / uniform.mean - 1));
+  RecordProperty("samples_over_expected", std::to_string(adaptive.samples / expected));
+  RecordProperty("error", std::to_string(std::sqrt(adaptive.variance) / uniform.mean));
 }
 
 /// The mean over 64 seeds, for tiles of the image and all of it, against many samples of every pixel. A mean that is
