@@ -38,6 +38,7 @@ ChosenDenoiser choose_denoiser(const std::string& asked) {
 
 std::vector<float> denoise(const std::string& name, NoisyImage image, const DenoiseOptions& options) {
   denoising::repair(image);
+  denoising::fill_gaps(image);
   std::vector<float> denoised = make_denoiser(name)->denoise(image, options);
   for (size_t i = 0; i < denoised.size(); ++i)
     if (!std::isfinite(denoised[i])) denoised[i] = image.radiance.mean[i];

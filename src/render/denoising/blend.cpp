@@ -19,6 +19,8 @@ struct Differences {
 
 Differences differences_at(const NoisyImage& noisy, const std::vector<float>& denoised, size_t i) {
   const float odd_fraction = noisy.odd_fraction[i];
+  // Whose noise is not known does not count.
+  if (odd_fraction == 0) return {};
   Differences sums;
   float scale = 1e-12f;
   for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
@@ -30,7 +32,6 @@ Differences differences_at(const NoisyImage& noisy, const std::vector<float>& de
     sums.of_images += (mean - denoised[c]) * (mean - denoised[c]);
     scale += denoised[c] * denoised[c];
   }
-  if (odd_fraction == 0) sums.of_noise = sums.of_images;
   // A firefly must not decide for all pixels around it.
   const float weight = 1 / (scale + sums.of_noise + sums.of_images);
   return {sums.of_noise * weight, sums.of_images * weight};
@@ -120,6 +121,7 @@ void blend_with_noisy(const NoisyImage& noisy, std::vector<float>& denoised, int
     for (int x = 0; x < noisy.width; ++x) {
       const float difference = of_images.row(y)[x];
       if (!(difference > margin * of_noise.row(y)[x])) continue;
+      if (noisy.samples[static_cast<size_t>(y) * width + static_cast<size_t>(x)] == 0) continue;
       const float t = margin * of_noise.row(y)[x] / difference;
       for (size_t c = 0; c < 3; ++c) {
         float& to = denoised[3 * (static_cast<size_t>(y) * width + static_cast<size_t>(x)) + c];
@@ -160,6 +162,45 @@ size_t repair(std::vector<float>& values, size_t channels, size_t width, size_t 
 }
 
 }  // namespace
+
+void fill_gaps(NoisyImage& image) {
+  const int width = image.width, height = image.height;
+  std::vector<size_t> missing, filled;
+  std::vector<bool> is_known(image.pixels());
+  for (size_t i = 0; i < is_known.size(); ++i) {
+    is_known[i] = image.samples[i] > 0;
+    if (!is_known[i]) missing.push_back(i);
+  }
+  const auto fill = [&](std::vector<float>& values, size_t channels, size_t i, const std::vector<size_t>& from) {
+    for (size_t c = 0; c < channels; ++c) {
+      float sum = 0;
+      for (const size_t near : from) sum += values[channels * near + c];
+      values[channels * i + c] = sum / static_cast<float>(from.size());
+    }
+  };
+  std::vector<size_t> around;
+  do {
+    filled.clear();
+    for (const size_t i : missing) {
+      const int x = static_cast<int>(i % static_cast<size_t>(width)),
+                y = static_cast<int>(i / static_cast<size_t>(width));
+      around.clear();
+      for (int v = std::max(0, y - 1); v <= std::min(height - 1, y + 1); ++v)
+        for (int u = std::max(0, x - 1); u <= std::min(width - 1, x + 1); ++u)
+          if (const size_t near = static_cast<size_t>(v) * static_cast<size_t>(width) + static_cast<size_t>(u);
+              is_known[near])
+            around.push_back(near);
+      if (around.empty()) continue;
+      for (NoisyBuffer* buffer : {&image.radiance, &image.albedo, &image.normal, &image.depth})
+        for (std::vector<float>* values : {&buffer->mean, &buffer->odd})
+          fill(*values, buffer == &image.depth ? 1 : 3, i, around);
+      fill(image.hits, 1, i, around);
+      filled.push_back(i);
+    }
+    for (const size_t i : filled) is_known[i] = true;
+    std::erase_if(missing, [&](size_t i) { return is_known[i]; });
+  } while (!filled.empty() && !missing.empty());
+}
 
 size_t repair(NoisyImage& image) {
   const size_t width = static_cast<size_t>(image.width), height = static_cast<size_t>(image.height);

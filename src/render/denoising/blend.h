@@ -13,6 +13,10 @@ namespace alhazen::denoising {
 /// to know their noise stay as they are. Throws std::bad_alloc.
 void blend_with_noisy(const NoisyImage& noisy, std::vector<float>& denoised, int threads);
 
+/// Gives pixels without samples the mean of their neighbours, from those that have samples inwards. The number of their
+/// samples stays 0.
+void fill_gaps(NoisyImage& image);
+
 /// Replaces pixels of `image` that are not finite by the mean of their finite neighbours, or by black.
 /// Returns their number.
 size_t repair(NoisyImage& image);

@@ -101,7 +101,7 @@ void find_distances(const Kernels& kernels, const Tile& tile, const Region& cell
     PatchRequest request{};
     for (size_t c = 0; c < 3; ++c) {
       request.values[c] = tile.half[half][c].row(cell.y0 - patch_radius) + cell.x0 - patch_radius;
-      request.variances[c] = tile.variance[c].row(cell.y0 - patch_radius) + cell.x0 - patch_radius;
+      request.variances[c] = tile.variance[half][c].row(cell.y0 - patch_radius) + cell.x0 - patch_radius;
     }
     request.stride = tile.half[0][0].stride();
     request.width = cell.width();
@@ -140,8 +140,8 @@ void fit_cell(const Kernels& kernels, const Tile& tile, const Region& cell, Cell
     read_window(tile.inside, x, y, m.inside);
     for (WindowColours& colours : m.colours) std::fill_n(colours.variance.values, padded_window, 0.0f);
     for (size_t c = 0; c < 3; ++c) {
-      read_window(tile.variance[c], x, y, m.variance);
       for (size_t half = 0; half < 2; ++half) {
+        read_window(tile.variance[half][c], x, y, m.variance);
         read_window(tile.half[half][c], x, y, m.colours[half].channels[c]);
         for (int i = 0; i < padded_window; ++i) m.colours[half].variance.values[i] += m.variance.values[i];
       }
@@ -218,27 +218,31 @@ void fit_tile(const Tile& tile, const Region& wanted, int threads, Estimates& es
   });
 }
 
-/// The mean of both halves' estimates of one candidate, and its estimated squared error, relative to brightness and
-/// noise. A half's estimate is compared with the other half of the samples, which it does not depend on.
+/// The mean of both halves' estimates of one candidate, weighted by their parts of the samples, and its estimated
+/// squared error, relative to brightness and noise. A half's estimate is compared with the other half of the samples,
+/// which it does not depend on.
 void assess(const Tile& tile, const Estimate* of_halves, ColourTile& result, TilePlane& error) {
   const int width = tile.region.width(), height = tile.region.height();
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       float sum = 0, scale = 1e-10f;
+      const float odd_fraction = tile.odd_fraction.row(y)[x], even_fraction = 1 - odd_fraction;
       for (size_t c = 0; c < 3; ++c) {
         float estimate[2];
         for (size_t half = 0; half < 2; ++half) {
           const float weight = of_halves[half].weight.row(y)[x];
           estimate[half] = weight > 0 ? of_halves[half].sum[c].row(y)[x] / weight : tile.half[half][c].row(y)[x];
         }
-        const float variance = tile.variance[c].row(y)[x];
+        const float even_variance = tile.variance[0][c].row(y)[x], odd_variance = tile.variance[1][c].row(y)[x];
         const float a = estimate[0] - tile.half[1][c].row(y)[x], b = estimate[1] - tile.half[0][c].row(y)[x];
-        const float between = estimate[0] - estimate[1], mean = 0.5f * (estimate[0] + estimate[1]);
-        sum += 0.5f * (a * a + b * b) - variance - 0.25f * between * between;
-        scale += variance + 0.01f * mean * mean;
+        const float between = estimate[0] - estimate[1],
+                    mean = even_fraction * estimate[0] + odd_fraction * estimate[1];
+        sum += even_fraction * (a * a - odd_variance) + odd_fraction * (b * b - even_variance) -
+               even_fraction * odd_fraction * between * between;
+        scale += 0.5f * (even_variance + odd_variance) + 0.01f * mean * mean;
         result[c].row(y)[x] = std::max(0.0f, mean);
       }
-      error.row(y)[x] = sum / scale;
+      error.row(y)[x] = sum / scale * tile.inside.row(y)[x];
     }
 }
 

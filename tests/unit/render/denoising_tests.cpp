@@ -168,6 +168,36 @@ TEST(BuiltinDenoiser, ReplacesWhatIsNotFinite) {
   for (const float value : broken.radiance.mean) EXPECT_EQ(value, 0);
 }
 
+TEST(BuiltinDenoiser, MixesHalvesByTheirSamples) {
+  NoisyImage image = noisy_image(30, 30, 16, 0, [](int, int) { return grey_wall(1, 0.5f); });
+  image.odd_fraction.assign(image.pixels(), 0.25f);
+  std::fill(image.radiance.mean.begin(), image.radiance.mean.end(), 1.25f);
+  std::fill(image.radiance.odd.begin(), image.radiance.odd.end(), 2.0f);  // the even half is 1
+  for (const float value : make_denoiser("builtin")->denoise(image, {0, 2})) ASSERT_NEAR(value, 1.25f, 1e-4f);
+}
+
+TEST(Denoising, PixelsWithoutSamplesDoNotCount) {
+  NoisyImage image = noisy_image(40, 40, 16, 0.3f, smooth_wall);
+  for (int y = 10; y < 16; ++y)
+    for (int x = 12; x < 17; ++x) {
+      const size_t i = static_cast<size_t>(y * 40 + x);
+      image.samples[i] = 0;
+      image.hits[i] = image.variance[i] = image.odd_fraction[i] = 0;
+      for (NoisyBuffer* buffer : {&image.radiance, &image.albedo, &image.normal, &image.depth})
+        for (std::vector<float>* values : {&buffer->mean, &buffer->odd}) {
+          const size_t channels = buffer == &image.depth ? 1 : 3;
+          std::fill_n(values->begin() + static_cast<std::ptrdiff_t>(channels * i), channels, 0.0f);
+        }
+    }
+  const std::vector<float> result = denoised(image);
+  for (int y = 5; y < 21; ++y)
+    for (int x = 7; x < 22; ++x)
+      ASSERT_NEAR(result[static_cast<size_t>(3 * (y * 40 + x))], smooth_wall(x, y).radiance[0], 0.05f) << x << " " << y;
+  std::fill(image.samples.begin(), image.samples.end(), 0u);
+  std::fill(image.odd_fraction.begin(), image.odd_fraction.end(), 0.0f);
+  for (const float value : denoised(image)) ASSERT_TRUE(std::isfinite(value));
+}
+
 TEST(Denoising, IsNeverWorseThanNoiseWithMoreSamples) {
   for (const uint32_t samples : {8u, 64u, 512u, 4096u}) {
     const NoisyImage image = noisy_image(48, 48, samples, 1, striped_light);
