@@ -34,6 +34,11 @@ struct NoisyImage {
   size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
 };
 
+/// Bytes that denoise() takes at most for an image of this many pixels: 96 a pixel for a NoisyImage, 12 for the result,
+/// and 28 to mix both. Denoisers take more on their own: `builtin` some 130 MB for a tile, whatever the image's size;
+/// `oidn` three more copies of colours (36 bytes a pixel), and what its library takes.
+constexpr uint64_t denoising_bytes(uint64_t pixels) { return 136 * pixels; }
+
 /// How and where denoisers run.
 struct DenoiseOptions {
   int device = 0;   ///< number of the GPU

@@ -231,11 +231,11 @@ class PassLoop {
   double elapsed_ = 0;
 };
 
-/// Refuses a film that exceeds the machine's memory before rendering.
-void check_memory(uint64_t bytes) {
+/// Refuses what exceeds the machine's memory before rendering.
+void check_memory(uint64_t bytes, const std::string& what) {
   const uint64_t memory = static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
   if (bytes > memory / 10 * 9)
-    throw InputError("the image with its layers takes " + std::to_string(bytes >> 30) + " GiB, and this machine has " +
+    throw InputError(what + " takes " + std::to_string(bytes >> 30) + " GiB, and this machine has " +
                      std::to_string(memory >> 30) + ": render parts of it with --crop, or with fewer layers");
 }
 
@@ -243,7 +243,11 @@ template <class Real>
 std::unique_ptr<Film<Real>> make_film(const RenderSettings& settings, bool weighted) {
   const FilmExtras extras{weighted, settings.asked.noise > 0, !settings.denoiser.empty()};
   const uint64_t bytes = film_bytes<Real>(settings.window, settings.aovs, extras);
-  check_memory(bytes);
+  if (settings.denoiser.empty())
+    check_memory(bytes, "the image with its layers");
+  else
+    check_memory(bytes + denoising_bytes(static_cast<uint64_t>(settings.window.pixels())),
+                 "the image with its layers, and with denoising,");
   try {
     return std::make_unique<Film<Real>>(settings.window, settings.aovs, extras);
   } catch (const std::bad_alloc&) {
@@ -350,6 +354,7 @@ void denoise(Rendering& rendering, Diagnostics& diagnostics) {
     keep_noisy(error.what());
   }
   statistics.denoise_seconds = seconds_since(start);
+  statistics.peak_rss_bytes = peak_rss_bytes();
 }
 
 }  // namespace

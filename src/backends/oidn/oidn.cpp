@@ -23,12 +23,13 @@ class OidnDenoiser final : public Denoiser {
   std::string problem() const override { return library_.problem; }
   std::string defect() const override { return library_.is_here ? library_.problem : std::string(); }
 
-  std::vector<float> denoise(const NoisyImage& image, const DenoiseOptions&) const override {
+  std::vector<float> denoise(const NoisyImage& image, const DenoiseOptions& options) const override {
     if (!library_.problem.empty()) throw InputError(library_.problem);
     const Functions& f = library_.functions;
     const std::unique_ptr<DeviceHandle, void (*)(DeviceHandle*)> device(f.new_device(device_type_cpu),
                                                                         f.release_device);
     if (!device) fail(nullptr, "starting");
+    f.set_device_int(device.get(), "numThreads", options.threads);
     f.commit_device(device.get());
     check(device.get(), "starting");
     std::vector<float> radiance = image.radiance.mean, albedo = image.albedo.mean, normal = image.normal.mean;

@@ -26,12 +26,14 @@ const char* find_functions(void* handle, Functions& functions) {
     return function != nullptr;
   };
   if (!find(functions.new_device, "oidnNewDevice")) return "oidnNewDevice";
+  // Version 1 calls this one, and the other below, otherwise.
+  if (!find(functions.set_device_int, "oidnSetDeviceInt") && !find(functions.set_device_int, "oidnSetDevice1i"))
+    return "oidnSetDeviceInt";
   if (!find(functions.commit_device, "oidnCommitDevice")) return "oidnCommitDevice";
   if (!find(functions.get_device_error, "oidnGetDeviceError")) return "oidnGetDeviceError";
   if (!find(functions.release_device, "oidnReleaseDevice")) return "oidnReleaseDevice";
   if (!find(functions.new_filter, "oidnNewFilter")) return "oidnNewFilter";
   if (!find(functions.set_shared_filter_image, "oidnSetSharedFilterImage")) return "oidnSetSharedFilterImage";
-  // Version 1 calls it otherwise.
   if (!find(functions.set_filter_bool, "oidnSetFilterBool") && !find(functions.set_filter_bool, "oidnSetFilter1b"))
     return "oidnSetFilterBool";
   if (!find(functions.commit_filter, "oidnCommitFilter")) return "oidnCommitFilter";

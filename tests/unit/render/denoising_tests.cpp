@@ -262,6 +262,16 @@ TEST(OidnDenoiser, FiltersFeaturesFirst) {
   }
 }
 
+TEST(OidnDenoiser, RunsOnTheThreadsAskedFor) {
+  const EnvironmentVariable wanted("MOCK_OIDN_WANTS_THREADS", "3");
+  for (const std::string folder : {ALHAZEN_MOCK_OIDN_1, ALHAZEN_MOCK_OIDN_2}) {
+    const EnvironmentVariable path("ALHAZEN_OIDN_PATH", folder);
+    const NoisyImage image = noisy_image(2, 2, 8, 0, checkerboard);
+    EXPECT_NO_THROW(make_denoiser("oidn")->denoise(image, {0, 3})) << folder;
+    EXPECT_THROW(make_denoiser("oidn")->denoise(image, {0, 2}), RenderError) << folder;
+  }
+}
+
 TEST(OidnDenoiser, ReportsErrors) {
   const EnvironmentVariable path("ALHAZEN_OIDN_PATH", ALHAZEN_MOCK_OIDN_2), fails("MOCK_OIDN_FAILS", "1");
   try {
