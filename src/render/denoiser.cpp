@@ -36,6 +36,15 @@ ChosenDenoiser choose_denoiser(const std::string& asked) {
   return chosen;
 }
 
+std::string next_denoiser(const std::string& name) {
+  bool is_after = false;
+  for (const std::unique_ptr<Denoiser>& denoiser : all_denoisers()) {
+    if (is_after && denoiser->problem().empty()) return denoiser->name();
+    is_after = is_after || denoiser->name() == name;
+  }
+  return {};
+}
+
 std::vector<float> denoise(const std::string& name, NoisyImage image, const DenoiseOptions& options) {
   denoising::repair(image);
   denoising::fill_gaps(image);

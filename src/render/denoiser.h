@@ -74,6 +74,9 @@ struct ChosenDenoiser {
 /// InputError if there is none of that name, or if it cannot be used here.
 ChosenDenoiser choose_denoiser(const std::string& asked);
 
+/// The name of the best denoiser after the one called `name` that can be used here; empty if there is none.
+std::string next_denoiser(const std::string& name);
+
 /// Denoises with the one called `name` and mixes the result with the noisy image by their estimated errors, so that it
 /// converges to what the render converges to (render/denoising/blend.h). Pixels that are not finite are replaced by the
 /// mean of their neighbours before. Throws as Denoiser::denoise.

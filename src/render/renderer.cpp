@@ -331,7 +331,8 @@ NoisyImage Rendering::noisy_image() const {
 
 namespace {
 
-/// The noisy image is kept if denoising fails, since it may have taken long to render.
+/// Tries the chosen denoiser and, if the choice was left to this program, the next ones until one works. The noisy
+/// image is kept if all fail, since it may have taken long to render.
 void denoise(Rendering& rendering, Diagnostics& diagnostics) {
   RenderStatistics& statistics = rendering.statistics;
   const RenderSettings& settings = statistics.settings;
@@ -341,17 +342,26 @@ void denoise(Rendering& rendering, Diagnostics& diagnostics) {
   };
   // Who interrupts a render waits for the image, and may not wait long.
   if (statistics.interrupted) return keep_noisy("the render was interrupted");
-  try {
-    const int threads = settings.runs_on_device
-                            ? threads_available(static_cast<int>(std::thread::hardware_concurrency()))
-                            : settings.threads;
-    const DenoiseOptions options{std::max(0, settings.device), threads};
-    rendering.denoised = denoise(settings.denoiser, rendering.noisy_image(), options);
-    statistics.denoiser = settings.denoiser;
-  } catch (const std::bad_alloc&) {
-    keep_noisy("out of memory; this machine, or a limit set on it, allows no more");
-  } catch (const std::exception& error) {
-    keep_noisy(error.what());
+  const int threads = settings.runs_on_device ? threads_available(static_cast<int>(std::thread::hardware_concurrency()))
+                                              : settings.threads;
+  const DenoiseOptions options{std::max(0, settings.device), threads};
+  const bool may_change = settings.asked.denoiser == "auto";
+  for (std::string name = settings.denoiser; !name.empty() && statistics.denoiser.empty();) {
+    std::string reason;
+    try {
+      rendering.denoised = denoise(name, rendering.noisy_image(), options);
+      statistics.denoiser = name;
+    } catch (const std::bad_alloc&) {
+      reason = "out of memory; this machine, or a limit set on it, allows no more";
+    } catch (const std::exception& error) {
+      reason = error.what();
+    }
+    const std::string next = reason.empty() || !may_change ? "" : next_denoiser(name);
+    if (!next.empty())
+      diagnostics.warn({statistics.scene}, "the denoiser '" + name + "' failed, so '" + next + "' is tried: " + reason);
+    else if (!reason.empty())
+      keep_noisy(reason);
+    name = next;
   }
   statistics.denoise_seconds = seconds_since(start);
   statistics.peak_rss_bytes = peak_rss_bytes();

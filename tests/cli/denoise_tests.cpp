@@ -78,7 +78,10 @@ TEST_F(Denoise, ACheckpointRemembersHalves) {
       render({"-q", "--spp", "16", "--denoise", "builtin", "--checkpoint", "c", "--resume", "-o", "b.exr"}).exit_code,
       0);
   EXPECT_EQ(plane("a.exr", "R"), plane("b.exr", "R"));
-  EXPECT_EQ(render({"-q", "--spp", "16", "--checkpoint", "c", "--resume", "-o", "never.exr"}).exit_code, 2);
+  const CommandResult without = render({"-q", "--spp", "16", "--checkpoint", "c", "--resume", "-o", "never.exr"});
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_NE(without.err.find("it was written with denoising on, and this render has none of that"), std::string::npos)
+      << without.err;
 }
 
 TEST_F(Denoise, NeedsMemoryBesideTheFilm) {
@@ -110,6 +113,28 @@ TEST_F(Denoise, AFailureKeepsTheNoisyImage) {
       std::string::npos)
       << result.err;
   EXPECT_EQ(plane("a.exr", "R"), plane("noisy.exr", "R"));
+}
+
+TEST_F(Denoise, AutoGoesOnToTheNext) {
+  ASSERT_EQ(render({"-q", "--spp", "8", "--denoise", "builtin", "-o", "builtin.exr"}).exit_code, 0);
+  const EnvironmentVariable path("ALHAZEN_OIDN_PATH", ALHAZEN_MOCK_OIDN_2), fails("MOCK_OIDN_FAILS", "1");
+  const CommandResult result = render({"--spp", "8", "-o", "a.exr", "--denoise"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  if (result.err.find("denoised with optix") != std::string::npos) return;
+  EXPECT_NE(result.err.find("the denoiser 'oidn' failed, so 'builtin' is tried: Open Image Denoise failed while "),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("; denoised with builtin in "), std::string::npos) << result.err;
+  EXPECT_EQ(plane("a.exr", "R"), plane("builtin.exr", "R"));
+}
+
+TEST_F(Denoise, AMissingDependencyIsNamed) {
+  const EnvironmentVariable path("LD_LIBRARY_PATH", ALHAZEN_LACKING_OIDN);
+  const CommandResult result = render({"-q", "--denoise", "oidn", "-o", "never.exr"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("libOpenImageDenoise.so.2 cannot be loaded: libalhazen_absent.so"), std::string::npos)
+      << result.err;
+  EXPECT_EQ(result.err.find("not on this machine"), std::string::npos) << result.err;
 }
 
 TEST_F(Denoise, AWrongLibraryIsNamed) {
