@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "render/denoiser.h"
+#include "render/denoising/builtin.h"
 #include "render/denoising/kernels.h"
 #include "render/denoising/read_window.h"
 #include "render/denoising/tile.h"
@@ -39,7 +40,7 @@ constexpr float enough_weight = 2;
 /// Errors of candidates are averaged this far, and then the choice between them.
 constexpr int error_radius = 6, choice_radius = 3;
 
-constexpr int tile_size = 512, max_threads = 64;
+constexpr int max_threads = 64;
 /// So far outside of a tile are windows that contribute to it, and pixels that contribute to these.
 constexpr int anchor_margin = window_radius + error_radius + choice_radius,
               tile_margin = anchor_margin + window_radius + patch_radius + 8;
@@ -195,9 +196,8 @@ void fit_selected(const Kernels& kernels, const Tile& tile, const Region& cell, 
   fit();
 }
 
-void fit_tile(const Tile& tile, const Region& wanted, int threads, Estimates& estimates) {
+void fit_tile(const Kernels& kernels, const Tile& tile, const Region& wanted, int threads, Estimates& estimates) {
   static_assert(cell_size >= 2 * window_radius + 1);
-  const Kernels kernels = select_kernels();
   std::vector<CellMemory> memory(static_cast<size_t>(threads));
   for_each_cell(wanted, memory, [&](const Region& cell, CellMemory& m) {
     const auto is_on_lattice = [&](int x, int y) {
@@ -246,15 +246,16 @@ void assess(const Tile& tile, const Estimate* of_halves, ColourTile& result, Til
     }
 }
 
-void denoise_tile(const NoisyImage& image, const Region& core, int threads, std::vector<float>& denoised) {
+void denoise_tile(const Kernels& kernels, const NoisyImage& image, const Region& core, int threads,
+                  std::vector<float>& denoised) {
   const Region bounds{0, 0, image.width, image.height};
   const Region region = core.grown(tile_margin, bounds), wanted = core.grown(anchor_margin, bounds);
   const Tile tile = read_tile(image, region, threads);
   const int width = region.width(), height = region.height();
   Estimates estimates;
   for (size_t i = 0; i < 2 * candidate_count; ++i) estimates.emplace_back(width, height);
-  fit_tile(tile, {wanted.x0 - region.x0, wanted.y0 - region.y0, wanted.x1 - region.x0, wanted.y1 - region.y0}, threads,
-           estimates);
+  fit_tile(kernels, tile, {wanted.x0 - region.x0, wanted.y0 - region.y0, wanted.x1 - region.x0, wanted.y1 - region.y0},
+           threads, estimates);
   std::array<ColourTile, candidate_count> results;
   std::array<TilePlane, candidate_count> errors;
   for (size_t i = 0; i < candidate_count; ++i) {
@@ -286,17 +287,20 @@ class BuiltinDenoiser final : public Denoiser {
   std::string details() const override { return "regression on albedo, normal and depth, on any CPU"; }
   std::string problem() const override { return {}; }
   std::vector<float> denoise(const NoisyImage& image, const DenoiseOptions& options) const override {
-    const int threads = std::clamp(options.threads, 1, max_threads);
-    std::vector<float> denoised(3 * image.pixels());
-    for (int y = 0; y < image.height; y += tile_size)
-      for (int x = 0; x < image.width; x += tile_size)
-        denoise_tile(image, {x, y, std::min(x + tile_size, image.width), std::min(y + tile_size, image.height)},
-                     threads, denoised);
-    return denoised;
+    return denoise_in_tiles(image, default_tile_size, select_kernels(), std::clamp(options.threads, 1, max_threads));
   }
 };
 
 }  // namespace
+
+std::vector<float> denoise_in_tiles(const NoisyImage& image, int tile_size, const Kernels& kernels, int threads) {
+  std::vector<float> denoised(3 * image.pixels());
+  for (int y = 0; y < image.height; y += tile_size)
+    for (int x = 0; x < image.width; x += tile_size)
+      denoise_tile(kernels, image, {x, y, std::min(x + tile_size, image.width), std::min(y + tile_size, image.height)},
+                   threads, denoised);
+  return denoised;
+}
 
 }  // namespace alhazen::denoising
 

@@ -10,6 +10,7 @@
 #include "core/sampling/hash.h"
 #include "render/denoiser.h"
 #include "render/denoising/blend.h"
+#include "render/denoising/builtin.h"
 #include "render/noisy_image.h"
 #include "support/environment_variable.h"
 #include "util/diagnostics.h"
@@ -140,6 +141,51 @@ TEST(BuiltinDenoiser, TakesImagesOfAnySize) {
 TEST(BuiltinDenoiser, HasNoSeamsBetweenTiles) {
   const Picture constant = [](int, int) { return grey_wall(0.7f, 0.5f); };
   for (const float value : denoised(noisy_image(530, 5, 16, 0, constant))) ASSERT_NEAR(value, 0.7f, 1e-5f);
+}
+
+/// Edges of albedo and of light, and a normal that turns, over the whole image.
+Pixel varied_wall(int x, int y) {
+  Pixel pixel = checkerboard(x, y);
+  const float light = ((x + y) / 17 % 2 == 0 ? 0.4f : 1.6f) + 0.01f * static_cast<float>(x);
+  for (float& channel : pixel.radiance) channel *= light;
+  pixel.normal[0] = 0.02f * static_cast<float>(x);
+  pixel.depth = 5 + 0.1f * static_cast<float>(y);
+  return pixel;
+}
+
+TEST(BuiltinDenoiser, TilesGiveWhatOneTileGives) {
+  const NoisyImage image = noisy_image(150, 70, 16, 1, varied_wall);
+  const denoising::Kernels kernels = denoising::select_kernels();
+  const std::vector<float> whole = denoising::denoise_in_tiles(image, 512, kernels, 2);
+  EXPECT_LT(error_of(whole, 150, varied_wall), error_of(image.radiance.mean, 150, varied_wall) / 2);
+  for (const int size : {64, 61}) {
+    const std::vector<float> tiled = denoising::denoise_in_tiles(image, size, kernels, 2);
+    for (size_t i = 0; i < whole.size(); ++i)
+      ASSERT_NEAR(tiled[i], whole[i], 1e-4f) << "pixel " << i / 3 % 150 << " " << i / 3 / 150;
+  }
+}
+
+TEST(BuiltinDenoiser, InstructionSetsGiveTheSameBits) {
+  const std::vector<denoising::Kernels> kernels = denoising::all_kernels();
+  if (kernels.size() < 2) GTEST_SKIP() << "one instruction set is here";
+  const NoisyImage image = noisy_image(70, 50, 16, 1, varied_wall);
+  const std::vector<float> best = denoising::denoise_in_tiles(image, 512, kernels.back(), 2);
+  for (const denoising::Kernels& others : kernels) EXPECT_EQ(denoising::denoise_in_tiles(image, 512, others, 2), best);
+}
+
+TEST(Denoising, ScaleOfTheRadianceDoesNotMatter) {
+  const NoisyImage image = noisy_image(60, 50, 16, 1, varied_wall);
+  const std::vector<float> result = denoised(image);
+  for (const float scale : {1e-3f, 1e3f, 1e-9f, 0x1p10f, 0x1p-10f}) {
+    NoisyImage scaled = image;
+    for (std::vector<float>* values : {&scaled.radiance.mean, &scaled.radiance.odd})
+      for (float& value : *values) value *= scale;
+    for (float& value : scaled.variance) value *= scale * scale;
+    const std::vector<float> of_scaled = denoised(scaled);
+    const float error = scale == 0x1p10f || scale == 0x1p-10f ? 0.0f : 1e-4f;
+    for (size_t i = 0; i < result.size(); ++i)
+      ASSERT_NEAR(of_scaled[i] / scale, result[i], error) << scale << " times, pixel " << i / 3;
+  }
 }
 
 TEST(BuiltinDenoiser, RemovesFireflies) {
