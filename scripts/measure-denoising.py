@@ -3,13 +3,13 @@
 
   measure-denoising.py [--program BIN] [--denoiser builtin] [--samples 16,128] [--only NAMES] [--shared DIR] [--work DIR]
 
-Scenes of the repository, and of the folder `--shared` as far as they are there, are rendered in a quarter of a megapixel
-or less. The reference has many samples of another seed. `ratio` is the noisy image's mean FLIP over the denoised one's:
+Scenes of the repository, and of the folder `--shared` as far as they are there, are rendered small. The reference has many samples of another seed. `ratio` is the noisy image's mean FLIP over the denoised one's:
 above 1 denoising is a gain. References, and checkpoints of the noisy renders, are kept in `--work`, so that another run
-only denoises; what they were made with must not change.
+only denoises; what they were made with must not change. Needs numpy.
 """
 
 import argparse
+import importlib.util
 import json
 import pathlib
 import statistics
@@ -17,15 +17,29 @@ import subprocess
 import sys
 import tempfile
 
+import numpy
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Name: file, size, samples of the reference.
-SCENES = {"cornell": ("cornell.pbrt", "300x300", 2048), "cornell-glass": ("cornell-glass.pbrt", "300x300", 4096),
-          "spheres": ("spheres.pbrt", "300x300", 2048), "mesh": ("mesh.pbrt", "360x240", 2048),
-          "window": ("window.pbrt", "320x180", 4096), "panel": ("panel.pbrt", "320x180", 2048),
-          "weekend": ("weekend.pbrt", "320x180", 2048), "studio": ("studio.glb", "320x180", 2048)}  # fmt: skip
-SHARED = {"coffee": ("pbrt/coffee/scene-v4.pbrt", "240x300", 2048),
-          "staircase2": ("pbrt/staircase2/staircase2.pbrt", "256x256", 2048),
-          "kitchen": ("pbrt/kitchen/scene-v4.pbrt", "320x180", 2048)}  # fmt: skip
+SCENES = {"cornell": ("cornell.pbrt", "240x240", 1024), "cornell-glass": ("cornell-glass.pbrt", "240x240", 1024),
+          "weekend": ("weekend.pbrt", "320x180", 2048), "studio": ("studio.glb", "320x180", 1024)}  # fmt: skip
+SHARED = {"veach-mis": ("pbrt/veach-mis/scene-v4.pbrt", "320x180", 2048),
+          "FlightHelmet": ("gltf/FlightHelmet/FlightHelmet.gltf", "240x240", 2048)}  # fmt: skip
+
+
+def load_script(name: str):
+    spec = importlib.util.spec_from_file_location("script", ROOT / "scripts" / name)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+read_exr = load_script("measure-noise.py").read_exr
+
+
+def write_pfm(path: pathlib.Path, image: numpy.ndarray) -> None:
+    height, width = image.shape[:2]
+    path.write_bytes(f"PF\n{width} {height}\n-1\n".encode() + image[::-1].astype("<f4").tobytes())
 
 
 class Study:
@@ -46,18 +60,19 @@ class Study:
     def reference(self, name: str, scene: pathlib.Path, size: str, samples: int) -> pathlib.Path:
         image = self.work / f"{name}-{samples}-reference.exr"
         if not image.exists():
-            self.render(scene, image, size, samples, "--seed", "1000", "-o", str(image.with_suffix(".png")))
+            self.render(scene, image, size, samples, "--seed", "777", "-o", str(image.with_suffix(".png")))
         return image
 
     def row(self, name: str, scene: pathlib.Path, size: str, samples: int, of_reference: int) -> float:
         reference = self.reference(name, scene, size, of_reference)
         stem = f"{name}-{samples}"
-        state, noisy = self.work / f"{stem}.state", self.work / f"{stem}-noisy.exr"
+        state, noisy = self.work / f"{stem}.state", self.work / f"{stem}-noisy.pfm"
         denoised = self.work / f"{stem}-{self.options.denoiser}.exr"
-        self.render(scene, denoised, size, samples, "--denoise", self.options.denoiser, "--checkpoint", str(state),
-                    *(["--resume"] if state.exists() else []), "-o", str(denoised.with_suffix(".png")))  # fmt: skip
-        if not noisy.exists():
-            self.render(scene, noisy, size, samples, "-o", str(noisy.with_suffix(".png")))
+        self.render(scene, denoised, size, samples, "--denoise", self.options.denoiser, "--aov", "noisy",
+                    "--checkpoint", str(state), *(["--resume"] if state.exists() else []),
+                    "-o", str(denoised.with_suffix(".png")))  # fmt: skip
+        layers = read_exr(denoised)
+        write_pfm(noisy, numpy.stack([layers[f"noisy.{channel}"] for channel in "RGB"], axis=-1))
         before, after = self.compare(noisy, reference), self.compare(denoised, reference)
         ratio = before["flip"] / after["flip"]
         print(f"| {name} | {samples} | {before['flip']:.4f} | {after['flip']:.4f} | {ratio:.2f} "

@@ -35,9 +35,9 @@ struct NoisyImage {
 };
 
 /// Bytes that denoise() takes at most for an image of this many pixels: 96 a pixel for a NoisyImage, 12 for the result,
-/// and 28 to mix both. Denoisers take more on their own: `builtin` some 130 MB for a tile, whatever the image's size;
+/// and 32 to mix both. Denoisers take more on their own: `builtin` some 130 MB for a tile, whatever the image's size;
 /// `oidn` three more copies of colours (36 bytes a pixel), and what its library takes.
-constexpr uint64_t denoising_bytes(uint64_t pixels) { return 136 * pixels; }
+constexpr uint64_t denoising_bytes(uint64_t pixels) { return 140 * pixels; }
 
 /// How and where denoisers run.
 struct DenoiseOptions {

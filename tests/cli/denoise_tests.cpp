@@ -85,7 +85,7 @@ TEST_F(Denoise, ACheckpointRemembersHalves) {
 }
 
 TEST_F(Denoise, NeedsMemoryBesideTheFilm) {
-  // The film takes 96 bytes a pixel, and denoising 136. The machine has 160.
+  // The film takes 96 bytes a pixel, and denoising 140. The machine has 160.
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   const double side = std::sqrt(memory / 160);
   if (side > 31000) GTEST_SKIP() << "images of this size are refused anyway";

@@ -148,8 +148,9 @@ Pixel varied_wall(int x, int y) {
   Pixel pixel = checkerboard(x, y);
   const float light = ((x + y) / 17 % 2 == 0 ? 0.4f : 1.6f) + 0.01f * static_cast<float>(x);
   for (float& channel : pixel.radiance) channel *= light;
-  pixel.normal[0] = 0.02f * static_cast<float>(x);
-  pixel.depth = 5 + 0.1f * static_cast<float>(y);
+  // Not linear in x and y, with which the regression would have no single solution.
+  pixel.normal[0] = 0.5f * std::sin(0.13f * static_cast<float>(x));
+  pixel.depth = 5 + 0.5f * std::cos(0.09f * static_cast<float>(y));
   return pixel;
 }
 
@@ -182,7 +183,8 @@ TEST(Denoising, ScaleOfTheRadianceDoesNotMatter) {
       for (float& value : *values) value *= scale;
     for (float& value : scaled.variance) value *= scale * scale;
     const std::vector<float> of_scaled = denoised(scaled);
-    const float error = scale == 0x1p10f || scale == 0x1p-10f ? 0.0f : 1e-4f;
+    // Rounding may change which of two estimates is better, where both are as good.
+    const float error = scale == 0x1p10f || scale == 0x1p-10f ? 0.0f : 1e-3f;
     for (size_t i = 0; i < result.size(); ++i)
       ASSERT_NEAR(of_scaled[i] / scale, result[i], error) << scale << " times, pixel " << i / 3;
   }
