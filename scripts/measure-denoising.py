@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """What denoising gains (docs/denoising.md): FLIP and relMSE of noisy and denoised images against references.
 
-  measure-denoising.py [--program BIN] [--denoiser builtin] [--samples 16,128] [--only NAMES] [--shared DIR] [--work DIR]
+  measure-denoising.py [--program BIN] [--denoiser builtin] [--samples 16,128] [--only NAMES] [--shared DIR]
+                       [--work DIR]
 
-Scenes of the repository, and of the folder `--shared` as far as they are there, are rendered small. The reference has many samples of another seed. `ratio` is the noisy image's mean FLIP over the denoised one's:
-above 1 denoising is a gain. References, and checkpoints of the noisy renders, are kept in `--work`, so that another run
-only denoises; what they were made with must not change. Needs numpy.
+Scenes of the repository, and of the folder `--shared` as far as they are there, are rendered small. The reference has
+many samples of another seed. `ratio` is the noisy image's mean FLIP over the denoised one's: above 1 denoising is a
+gain. References, and checkpoints of the noisy renders, are kept in `--work`, so that another run only denoises; what
+they were made with must not change. Needs numpy.
 """
 
 import argparse
