@@ -39,18 +39,25 @@ void print_table() {
 }
 
 void print_json() {
-  auto list = nlohmann::ordered_json::array();
+  auto backends = nlohmann::ordered_json::array(), denoisers = nlohmann::ordered_json::array();
   for (const auto& backend : all_backends()) {
     const BackendTraits traits = backend->traits();
     const BackendStatus status = backend->status();
-    list.push_back({{"name", traits.name},
-                    {"available", status.available},
-                    {"details", status.details},
-                    {"devices", status.devices},
-                    {"strategies", traits.strategies},
-                    {"module", status.module}});
+    backends.push_back({{"name", traits.name},
+                        {"available", status.available},
+                        {"details", status.details},
+                        {"devices", status.devices},
+                        {"strategies", traits.strategies},
+                        {"module", status.module}});
   }
-  print_out("{}\n", list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  for (const auto& denoiser : all_denoisers()) {
+    const std::string problem = denoiser->problem();
+    denoisers.push_back({{"name", denoiser->name()},
+                         {"available", problem.empty()},
+                         {"details", problem.empty() ? denoiser->details() : problem}});
+  }
+  const nlohmann::ordered_json listing{{"backends", backends}, {"denoisers", denoisers}};
+  print_out("{}\n", listing.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace
@@ -58,7 +65,7 @@ void print_json() {
 void register_devices(Command& program) {
   Command command = program.add_subcommand("devices", "List the backends, their devices, and the denoisers");
   auto json = std::make_shared<bool>(false);
-  command.add_flag("--json", *json, "One JSON array instead of the table");
+  command.add_flag("--json", *json, "One JSON object instead of the table");
   command.on_run([json] { *json ? print_json() : print_table(); });
 }
 

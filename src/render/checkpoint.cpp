@@ -97,7 +97,8 @@ std::string settings_text(const RenderSettings& s) {
   std::string text;
   for (const SettingEntry& entry : setting_table()) {
     const std::string value = entry.of_samples ? entry.of_samples(s) : "";
-    if (!value.empty()) text += entry.name + (" " + value) + "\n";
+    const char* const name = *entry.of_samples_name ? entry.of_samples_name : entry.name;
+    if (!value.empty()) text += name + (" " + value) + "\n";
   }
   return text;
 }

@@ -34,6 +34,11 @@ struct NoisyImage {
   size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
 };
 
+/// Bytes that denoise() takes at most for an image of this many pixels: 96 a pixel for a NoisyImage, 12 for the result,
+/// and 32 to mix both. Denoisers take more on their own: `builtin` some 130 MB for a tile, whatever the image's size;
+/// `oidn` three more copies of colours (36 bytes a pixel), and what its library takes.
+constexpr uint64_t denoising_bytes(uint64_t pixels) { return 140 * pixels; }
+
 /// How and where denoisers run.
 struct DenoiseOptions {
   int device = 0;   ///< number of the GPU
@@ -68,6 +73,9 @@ struct ChosenDenoiser {
 /// Chooses by what was asked: a name, `auto` for the best that can be used here, `none` or an empty string. Throws
 /// InputError if there is none of that name, or if it cannot be used here.
 ChosenDenoiser choose_denoiser(const std::string& asked);
+
+/// The name of the best denoiser after the one called `name` that can be used here; empty if there is none.
+std::string next_denoiser(const std::string& name);
 
 /// Denoises with the one called `name` and mixes the result with the noisy image by their estimated errors, so that it
 /// converges to what the render converges to (render/denoising/blend.h). Pixels that are not finite are replaced by the

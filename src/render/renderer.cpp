@@ -279,11 +279,11 @@ class PassLoop {
   double estimate_seconds_ = 0;     ///< what the last estimate took
 };
 
-/// Refuses a film that exceeds the machine's memory before rendering.
-void check_memory(uint64_t bytes) {
+/// Refuses what exceeds the machine's memory before rendering.
+void check_memory(uint64_t bytes, const std::string& what) {
   const uint64_t memory = static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
   if (bytes > memory / 10 * 9)
-    throw InputError("the image with its layers takes " + std::to_string(bytes >> 30) + " GiB, and this machine has " +
+    throw InputError(what + " takes " + std::to_string(bytes >> 30) + " GiB, and this machine has " +
                      std::to_string(memory >> 30) + ": render parts of it with --crop, or with fewer layers");
 }
 
@@ -292,7 +292,11 @@ std::unique_ptr<Film<Real>> make_film(const RenderSettings& settings, bool weigh
   const bool guided = settings.guiding != GuidingMode::off;
   const FilmExtras extras{weighted || guided, settings.asked.noise > 0, !settings.denoiser.empty(), guided};
   const uint64_t bytes = film_bytes<Real>(settings.window, settings.aovs, extras);
-  check_memory(bytes);
+  if (settings.denoiser.empty())
+    check_memory(bytes, "the image with its layers");
+  else
+    check_memory(bytes + denoising_bytes(static_cast<uint64_t>(settings.window.pixels())),
+                 "the image with its layers, and with denoising,");
   try {
     return std::make_unique<Film<Real>>(settings.window, settings.aovs, extras);
   } catch (const std::bad_alloc&) {
@@ -378,7 +382,8 @@ NoisyImage Rendering::noisy_image() const {
 
 namespace {
 
-/// The noisy image is kept if denoising fails, since it may have taken long to render.
+/// Tries the chosen denoiser and, if the choice was left to this program, the next ones until one works. The noisy
+/// image is kept if all fail, since it may have taken long to render.
 void denoise(Rendering& rendering, Diagnostics& diagnostics) {
   RenderStatistics& statistics = rendering.statistics;
   const RenderSettings& settings = statistics.settings;
@@ -388,19 +393,29 @@ void denoise(Rendering& rendering, Diagnostics& diagnostics) {
   };
   // Who interrupts a render waits for the image, and may not wait long.
   if (statistics.interrupted) return keep_noisy("the render was interrupted");
-  try {
-    const int threads = settings.runs_on_device
-                            ? threads_available(static_cast<int>(std::thread::hardware_concurrency()))
-                            : settings.threads;
-    const DenoiseOptions options{std::max(0, settings.device), threads};
-    rendering.denoised = denoise(settings.denoiser, rendering.noisy_image(), options);
-    statistics.denoiser = settings.denoiser;
-  } catch (const std::bad_alloc&) {
-    keep_noisy("out of memory; this machine, or a limit set on it, allows no more");
-  } catch (const std::exception& error) {
-    keep_noisy(error.what());
+  const int threads = settings.runs_on_device ? threads_available(static_cast<int>(std::thread::hardware_concurrency()))
+                                              : settings.threads;
+  const DenoiseOptions options{std::max(0, settings.device), threads};
+  const bool may_change = settings.asked.denoiser == "auto";
+  for (std::string name = settings.denoiser; !name.empty() && statistics.denoiser.empty();) {
+    std::string reason;
+    try {
+      rendering.denoised = denoise(name, rendering.noisy_image(), options);
+      statistics.denoiser = name;
+    } catch (const std::bad_alloc&) {
+      reason = "out of memory; this machine, or a limit set on it, allows no more";
+    } catch (const std::exception& error) {
+      reason = error.what();
+    }
+    const std::string next = reason.empty() || !may_change ? "" : next_denoiser(name);
+    if (!next.empty())
+      diagnostics.warn({statistics.scene}, "the denoiser '" + name + "' failed, so '" + next + "' is tried: " + reason);
+    else if (!reason.empty())
+      keep_noisy(reason);
+    name = next;
   }
   statistics.denoise_seconds = seconds_since(start);
+  statistics.peak_rss_bytes = peak_rss_bytes();
 }
 
 }  // namespace

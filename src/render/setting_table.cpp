@@ -180,8 +180,10 @@ SettingEntry entry(SettingGroup group, const char* name, const char* other_flags
 }
 
 /// An entry whose value changes the samples.
-SettingEntry of_samples(std::function<std::string(const RenderSettings&)> text, SettingEntry entry) {
+SettingEntry of_samples(std::function<std::string(const RenderSettings&)> text, SettingEntry entry,
+                        const char* name = "") {
   entry.of_samples = std::move(text);
+  entry.of_samples_name = name;
   return entry;
 }
 
@@ -198,9 +200,11 @@ std::string layer_names(const RenderSettings& s) {
   std::string names;
   for (const auto& [is_wanted, name] : layers)
     if (is_wanted) names += std::string(names.empty() ? "" : "+") + name;
-  if (!s.denoiser.empty()) names += std::string(names.empty() ? "" : "+") + "denoising";
   return names.empty() ? "none" : names;
 }
+
+/// Any denoiser wants the same sums. Empty without one, as in checkpoints of renders that have none.
+std::string denoising(const RenderSettings& s) { return s.denoiser.empty() ? "" : "on"; }
 
 std::string window_bounds(const RenderSettings& s) {
   const auto range = [](int from, int to) { return std::to_string(from) + " to " + std::to_string(to); };
@@ -216,11 +220,14 @@ std::vector<SettingEntry> output_settings() {
                 "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance, "
                 "noisy (before denoising)",
                 layer_list(), true)),
-      with_implied("auto",
-                   entry(group, "denoise", "", "[NAME]",
-                         "Denoise the image by optix (NVIDIA GPUs), oidn (if its library is here), builtin (any "
-                         "machine), or none; without a name by the best that is here",
-                         name(&Settings::denoiser))),
+      with_implied(
+          "auto",
+          of_samples(denoising,
+                     entry(group, "denoise", "", "[NAME]",
+                           "Denoise the image by optix (NVIDIA GPUs), oidn (if its library is here), builtin (any "
+                           "machine), or none; without a name by the best that is here",
+                           name(&Settings::denoiser)),
+                     "denoising")),
   };
 }
 

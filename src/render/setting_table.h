@@ -29,7 +29,8 @@ struct SettingEntry {
   /// Of settings that change the values of samples: the value that a render uses, as text. A checkpoint is resumed only
   /// with equal values.
   std::function<std::string(const RenderSettings&)> of_samples = {};
-  const char* implied = "";  ///< what the option means without a value; empty: it needs one
+  const char* of_samples_name = "";  ///< what a checkpoint calls it; empty: `name`
+  const char* implied = "";          ///< what the option means without a value; empty: it needs one
 };
 
 const std::vector<SettingEntry>& setting_table();

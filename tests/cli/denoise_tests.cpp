@@ -1,6 +1,7 @@
 // `alhazen render --denoise`: how denoisers are chosen, what is written, and what goes wrong.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 
@@ -77,7 +78,22 @@ TEST_F(Denoise, ACheckpointRemembersHalves) {
       render({"-q", "--spp", "16", "--denoise", "builtin", "--checkpoint", "c", "--resume", "-o", "b.exr"}).exit_code,
       0);
   EXPECT_EQ(plane("a.exr", "R"), plane("b.exr", "R"));
-  EXPECT_EQ(render({"-q", "--spp", "16", "--checkpoint", "c", "--resume", "-o", "never.exr"}).exit_code, 2);
+  const CommandResult without = render({"-q", "--spp", "16", "--checkpoint", "c", "--resume", "-o", "never.exr"});
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_NE(without.err.find("it was written with denoising on, and this render has none of that"), std::string::npos)
+      << without.err;
+}
+
+TEST_F(Denoise, NeedsMemoryBesideTheFilm) {
+  // The film takes 96 bytes a pixel, and denoising 140. The machine has 160.
+  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double side = std::sqrt(memory / 160);
+  if (side > 31000) GTEST_SKIP() << "images of this size are refused anyway";
+  const std::string size = std::to_string(static_cast<int>(side)) + "x" + std::to_string(static_cast<int>(side));
+  const CommandResult result = render({"--spp", "8", "--denoise", "builtin", "--size", size, "-o", "never.exr"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("with denoising, takes "), std::string::npos) << result.err;
+  EXPECT_FALSE(exists("never.exr"));
 }
 
 TEST_F(Denoise, OidnIsTheMock) {
@@ -97,6 +113,28 @@ TEST_F(Denoise, AFailureKeepsTheNoisyImage) {
       std::string::npos)
       << result.err;
   EXPECT_EQ(plane("a.exr", "R"), plane("noisy.exr", "R"));
+}
+
+TEST_F(Denoise, AutoGoesOnToTheNext) {
+  ASSERT_EQ(render({"-q", "--spp", "8", "--denoise", "builtin", "-o", "builtin.exr"}).exit_code, 0);
+  const EnvironmentVariable path("ALHAZEN_OIDN_PATH", ALHAZEN_MOCK_OIDN_2), fails("MOCK_OIDN_FAILS", "1");
+  const CommandResult result = render({"--spp", "8", "-o", "a.exr", "--denoise"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  if (result.err.find("denoised with optix") != std::string::npos) return;
+  EXPECT_NE(result.err.find("the denoiser 'oidn' failed, so 'builtin' is tried: Open Image Denoise failed while "),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("; denoised with builtin in "), std::string::npos) << result.err;
+  EXPECT_EQ(plane("a.exr", "R"), plane("builtin.exr", "R"));
+}
+
+TEST_F(Denoise, AMissingDependencyIsNamed) {
+  const EnvironmentVariable path("LD_LIBRARY_PATH", ALHAZEN_LACKING_OIDN);
+  const CommandResult result = render({"-q", "--denoise", "oidn", "-o", "never.exr"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("libOpenImageDenoise.so.2 cannot be loaded: libalhazen_absent.so"), std::string::npos)
+      << result.err;
+  EXPECT_EQ(result.err.find("not on this machine"), std::string::npos) << result.err;
 }
 
 TEST_F(Denoise, AWrongLibraryIsNamed) {

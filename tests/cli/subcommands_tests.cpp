@@ -106,14 +106,18 @@ TEST_F(Subcommands, DevicesListsTheBackends) {
   EXPECT_EQ(table.exit_code, 0);
   for (const char* word : {"serial", "openmp", "rows+reduction"})
     EXPECT_NE(table.out.find(word), std::string::npos) << word;
-  const nlohmann::json list = only_json(run({"devices", "--json"}).out);
-  ASSERT_GE(list.size(), 2u);
-  for (const auto& device : list) {
+  const nlohmann::json listing = only_json(run({"devices", "--json"}).out);
+  ASSERT_GE(listing["backends"].size(), 2u);
+  for (const auto& device : listing["backends"]) {
     EXPECT_TRUE(device["name"].is_string());
     EXPECT_TRUE(device["available"].is_boolean());
     EXPECT_FALSE(device["details"].get<std::string>().empty());
     EXPECT_TRUE(device["strategies"].is_array());
   }
+  ASSERT_EQ(listing["denoisers"].size(), 3u);
+  for (const auto& denoiser : listing["denoisers"]) EXPECT_FALSE(denoiser["details"].get<std::string>().empty());
+  EXPECT_EQ(listing["denoisers"][2]["name"], "builtin");
+  EXPECT_EQ(listing["denoisers"][2]["available"], true);
 }
 
 TEST_F(Subcommands, InfoSaysWhatASceneHolds) {

@@ -1,7 +1,7 @@
 // A library with the functions of Open Image Denoise that the denoiser `oidn` calls. It checks how it is called, and
 // its filters do what a test can tell: a filter of a feature adds 1 to it, and the one of colours adds both features to
-// them. With MOCK_OIDN_VERSION_1 it has the name that version 1 has for one function. The environment variable
-// MOCK_OIDN_FAILS makes filters fail.
+// them. With MOCK_OIDN_VERSION_1 it has the names that version 1 has for two functions. The environment variable
+// MOCK_OIDN_FAILS makes filters fail, and MOCK_OIDN_WANTS_THREADS those that run on another number of threads.
 
 #include <cmath>
 #include <cstdlib>
@@ -12,7 +12,8 @@
 namespace {
 
 std::string error;
-int devices = 0, filters = 0;
+int devices = 0, filters = 0, threads = 0;
+bool is_device_committed = false;
 
 struct Image {
   float* data;
@@ -28,8 +29,10 @@ struct Filter {
 }  // namespace
 
 #if defined(MOCK_OIDN_VERSION_1)
+#define SET_DEVICE_INT oidnSetDevice1i
 #define SET_FILTER_BOOL oidnSetFilter1b
 #else
+#define SET_DEVICE_INT oidnSetDeviceInt
 #define SET_FILTER_BOOL oidnSetFilterBool
 #endif
 
@@ -40,7 +43,11 @@ void* oidnNewDevice(int type) {
   if (type != 1) error = "not a device for the memory of the host";
   return &devices;
 }
-void oidnCommitDevice(void*) {}
+void SET_DEVICE_INT(void*, const char* name, int value) {
+  if (std::strcmp(name, "numThreads") != 0 || value < 1 || is_device_committed) error = "not a number of threads";
+  threads = value;
+}
+void oidnCommitDevice(void*) { is_device_committed = true; }
 int oidnGetDeviceError(void*, const char** message) {
   static std::string reported;
   reported = error;
@@ -49,6 +56,7 @@ int oidnGetDeviceError(void*, const char** message) {
   return reported.empty() ? 0 : 1;
 }
 void oidnReleaseDevice(void*) {
+  is_device_committed = false;
   if (--devices != 0 || filters != 0) std::abort();
 }
 void* oidnNewFilter(void*, const char* type) {
@@ -66,7 +74,9 @@ void oidnCommitFilter(void* filter) { static_cast<Filter*>(filter)->is_committed
 void oidnExecuteFilter(void* pointer) {
   Filter& filter = *static_cast<Filter*>(pointer);
   if (std::getenv("MOCK_OIDN_FAILS")) error = "the mock fails";
-  if (!filter.is_committed || filter.images.count("output") == 0) error = "not ready";
+  const char* const wanted = std::getenv("MOCK_OIDN_WANTS_THREADS");
+  if (wanted && std::to_string(threads) != wanted) error = "runs on " + std::to_string(threads) + " threads";
+  if (!filter.is_committed || !is_device_committed || filter.images.count("output") == 0) error = "not ready";
   if (!error.empty()) return;
   const Image& output = filter.images["output"];
   const size_t count = 3 * output.width * output.height;

@@ -1,6 +1,7 @@
 // The denoiser `oidn`: Intel Open Image Denoise, if its library is on this machine.
 
 #include <memory>
+#include <optional>
 
 #include "backends/oidn/oidn_library.h"
 #include "render/denoiser.h"
@@ -14,21 +15,20 @@ using namespace oidn;
 
 class OidnDenoiser final : public Denoiser {
  public:
-  OidnDenoiser() : library_(open_library()) {}
-
   std::string name() const override { return "oidn"; }
   std::string details() const override {
-    return "Intel Open Image Denoise, on the CPU" + (library_.path.empty() ? "" : ": " + library_.path);
+    return "Intel Open Image Denoise, on the CPU" + (library().path.empty() ? "" : ": " + library().path);
   }
-  std::string problem() const override { return library_.problem; }
-  std::string defect() const override { return library_.is_here ? library_.problem : std::string(); }
+  std::string problem() const override { return library().problem; }
+  std::string defect() const override { return library().is_here ? library().problem : std::string(); }
 
-  std::vector<float> denoise(const NoisyImage& image, const DenoiseOptions&) const override {
-    if (!library_.problem.empty()) throw InputError(library_.problem);
-    const Functions& f = library_.functions;
+  std::vector<float> denoise(const NoisyImage& image, const DenoiseOptions& options) const override {
+    if (!library().problem.empty()) throw InputError(library().problem);
+    const Functions& f = library().functions;
     const std::unique_ptr<DeviceHandle, void (*)(DeviceHandle*)> device(f.new_device(device_type_cpu),
                                                                         f.release_device);
     if (!device) fail(nullptr, "starting");
+    f.set_device_int(device.get(), "numThreads", options.threads);
     f.commit_device(device.get());
     check(device.get(), "starting");
     std::vector<float> radiance = image.radiance.mean, albedo = image.albedo.mean, normal = image.normal.mean;
@@ -50,7 +50,7 @@ class OidnDenoiser final : public Denoiser {
   /// Runs one filter. A filter of a feature alone may write over its input.
   void run(DeviceHandle* device, const NoisyImage& image, const std::vector<Input>& inputs, std::vector<float>& output,
            const char* doing) const {
-    const Functions& f = library_.functions;
+    const Functions& f = library().functions;
     const std::unique_ptr<FilterHandle, void (*)(FilterHandle*)> filter(f.new_filter(device, "RT"), f.release_filter);
     if (!filter) fail(device, doing);
     const auto set = [&](const char* name, std::vector<float>& values) {
@@ -71,13 +71,13 @@ class OidnDenoiser final : public Denoiser {
 
   void check(DeviceHandle* device, const char* doing) const {
     const char* message = nullptr;
-    if (library_.functions.get_device_error(device, &message) != error_none) refuse(doing, message);
+    if (library().functions.get_device_error(device, &message) != error_none) refuse(doing, message);
   }
 
   /// A null handle is an error of its own, even if none is reported.
   [[noreturn]] void fail(DeviceHandle* device, const char* doing) const {
     const char* message = nullptr;
-    library_.functions.get_device_error(device, &message);
+    library().functions.get_device_error(device, &message);
     refuse(doing, message);
   }
 
@@ -86,7 +86,13 @@ class OidnDenoiser final : public Denoiser {
                       (message && *message ? message : "no reason was given"));
   }
 
-  Library library_;
+  /// Opens the library when it is first asked about, since the list of denoisers is also made for their names alone.
+  const Library& library() const {
+    if (!library_) library_ = open_library();
+    return *library_;
+  }
+
+  mutable std::optional<Library> library_;
 };
 
 }  // namespace

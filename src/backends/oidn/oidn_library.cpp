@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "util/module.h"
@@ -26,12 +27,14 @@ const char* find_functions(void* handle, Functions& functions) {
     return function != nullptr;
   };
   if (!find(functions.new_device, "oidnNewDevice")) return "oidnNewDevice";
+  // Version 1 calls this one, and the other below, otherwise.
+  if (!find(functions.set_device_int, "oidnSetDeviceInt") && !find(functions.set_device_int, "oidnSetDevice1i"))
+    return "oidnSetDeviceInt";
   if (!find(functions.commit_device, "oidnCommitDevice")) return "oidnCommitDevice";
   if (!find(functions.get_device_error, "oidnGetDeviceError")) return "oidnGetDeviceError";
   if (!find(functions.release_device, "oidnReleaseDevice")) return "oidnReleaseDevice";
   if (!find(functions.new_filter, "oidnNewFilter")) return "oidnNewFilter";
   if (!find(functions.set_shared_filter_image, "oidnSetSharedFilterImage")) return "oidnSetSharedFilterImage";
-  // Version 1 calls it otherwise.
   if (!find(functions.set_filter_bool, "oidnSetFilterBool") && !find(functions.set_filter_bool, "oidnSetFilter1b"))
     return "oidnSetFilterBool";
   if (!find(functions.commit_filter, "oidnCommitFilter")) return "oidnCommitFilter";
@@ -52,10 +55,27 @@ Library use(const std::string& path, void* handle) {
 
 Library refuse(const std::string& path, const std::string& reason) { return {path, {}, path + reason, true}; }
 
+Library cannot_be_loaded(const std::string& path, const std::string& reason) {
+  return refuse(path, " cannot be loaded: " + (reason.empty() ? "no reason was given" : reason) + "; " + how_to_get);
+}
+
+std::string loader_error() {
+  const char* const text = dlerror();
+  return text ? text : "";
+}
+
 Library open_file(const std::string& path) {
   if (void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return use(path, handle);
-  const char* const text = dlerror();
-  return refuse(path, std::string(" cannot be loaded: ") + (text ? text : "no reason was given") + "; " + how_to_get);
+  return cannot_be_loaded(path, loader_error());
+}
+
+/// Opens what the dynamic linker finds. Its error begins with the name of the file that it did not find; where that is
+/// another one, such as a library that this one needs, or where it found a file that it cannot load, this one is here.
+std::optional<Library> open_installed(const std::string& name) {
+  if (void* const handle = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL)) return use(name, handle);
+  const std::string error = loader_error();
+  if (error.rfind(name + ": cannot open shared object file: No such file", 0) == 0) return std::nullopt;
+  return cannot_be_loaded(name, error);
 }
 
 /// Returns the library in `folder`, or an empty path.
@@ -83,7 +103,7 @@ Library open_library() {
   for (const fs::path& folder : {modules, modules.parent_path()})
     if (const std::string path = library_in(folder); !path.empty()) return open_file(path);
   for (const char* const name : names)
-    if (void* const handle = dlopen(name, RTLD_NOW | RTLD_LOCAL)) return use(name, handle);
+    if (const std::optional<Library> library = open_installed(name)) return *library;
   return {{}, {}, std::string(names[0]) + " is not on this machine: " + how_to_get, false};
 }
 

@@ -2,7 +2,7 @@
 
 // The few functions of Intel Open Image Denoise that the denoiser `oidn` calls, looked up in its library at run time.
 // They are declared after the manual of its C interface (https://www.openimagedenoise.org/documentation.html), which
-// versions 1 and 2 share but for one name.
+// versions 1 and 2 share but for two names.
 
 #include <cstddef>
 #include <string>
@@ -16,6 +16,7 @@ inline constexpr int device_type_cpu = 1, format_float3 = 3, error_none = 0;
 
 struct Functions {
   DeviceHandle* (*new_device)(int type);
+  void (*set_device_int)(DeviceHandle*, const char* name, int value);
   void (*commit_device)(DeviceHandle*);
   int (*get_device_error)(DeviceHandle*, const char** message);
   void (*release_device)(DeviceHandle*);

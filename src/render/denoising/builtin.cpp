@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "render/denoiser.h"
+#include "render/denoising/builtin.h"
 #include "render/denoising/kernels.h"
 #include "render/denoising/read_window.h"
 #include "render/denoising/tile.h"
@@ -39,7 +40,7 @@ constexpr float enough_weight = 2;
 /// Errors of candidates are averaged this far, and then the choice between them.
 constexpr int error_radius = 6, choice_radius = 3;
 
-constexpr int tile_size = 512, max_threads = 64;
+constexpr int max_threads = 64;
 /// So far outside of a tile are windows that contribute to it, and pixels that contribute to these.
 constexpr int anchor_margin = window_radius + error_radius + choice_radius,
               tile_margin = anchor_margin + window_radius + patch_radius + 8;
@@ -101,7 +102,7 @@ void find_distances(const Kernels& kernels, const Tile& tile, const Region& cell
     PatchRequest request{};
     for (size_t c = 0; c < 3; ++c) {
       request.values[c] = tile.half[half][c].row(cell.y0 - patch_radius) + cell.x0 - patch_radius;
-      request.variances[c] = tile.variance[c].row(cell.y0 - patch_radius) + cell.x0 - patch_radius;
+      request.variances[c] = tile.variance[half][c].row(cell.y0 - patch_radius) + cell.x0 - patch_radius;
     }
     request.stride = tile.half[0][0].stride();
     request.width = cell.width();
@@ -140,8 +141,8 @@ void fit_cell(const Kernels& kernels, const Tile& tile, const Region& cell, Cell
     read_window(tile.inside, x, y, m.inside);
     for (WindowColours& colours : m.colours) std::fill_n(colours.variance.values, padded_window, 0.0f);
     for (size_t c = 0; c < 3; ++c) {
-      read_window(tile.variance[c], x, y, m.variance);
       for (size_t half = 0; half < 2; ++half) {
+        read_window(tile.variance[half][c], x, y, m.variance);
         read_window(tile.half[half][c], x, y, m.colours[half].channels[c]);
         for (int i = 0; i < padded_window; ++i) m.colours[half].variance.values[i] += m.variance.values[i];
       }
@@ -195,9 +196,8 @@ void fit_selected(const Kernels& kernels, const Tile& tile, const Region& cell, 
   fit();
 }
 
-void fit_tile(const Tile& tile, const Region& wanted, int threads, Estimates& estimates) {
+void fit_tile(const Kernels& kernels, const Tile& tile, const Region& wanted, int threads, Estimates& estimates) {
   static_assert(cell_size >= 2 * window_radius + 1);
-  const Kernels kernels = select_kernels();
   std::vector<CellMemory> memory(static_cast<size_t>(threads));
   for_each_cell(wanted, memory, [&](const Region& cell, CellMemory& m) {
     const auto is_on_lattice = [&](int x, int y) {
@@ -218,39 +218,44 @@ void fit_tile(const Tile& tile, const Region& wanted, int threads, Estimates& es
   });
 }
 
-/// The mean of both halves' estimates of one candidate, and its estimated squared error, relative to brightness and
-/// noise. A half's estimate is compared with the other half of the samples, which it does not depend on.
+/// The mean of both halves' estimates of one candidate, weighted by their parts of the samples, and its estimated
+/// squared error, relative to brightness and noise. A half's estimate is compared with the other half of the samples,
+/// which it does not depend on.
 void assess(const Tile& tile, const Estimate* of_halves, ColourTile& result, TilePlane& error) {
   const int width = tile.region.width(), height = tile.region.height();
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       float sum = 0, scale = 1e-10f;
+      const float odd_fraction = tile.odd_fraction.row(y)[x], even_fraction = 1 - odd_fraction;
       for (size_t c = 0; c < 3; ++c) {
         float estimate[2];
         for (size_t half = 0; half < 2; ++half) {
           const float weight = of_halves[half].weight.row(y)[x];
           estimate[half] = weight > 0 ? of_halves[half].sum[c].row(y)[x] / weight : tile.half[half][c].row(y)[x];
         }
-        const float variance = tile.variance[c].row(y)[x];
+        const float even_variance = tile.variance[0][c].row(y)[x], odd_variance = tile.variance[1][c].row(y)[x];
         const float a = estimate[0] - tile.half[1][c].row(y)[x], b = estimate[1] - tile.half[0][c].row(y)[x];
-        const float between = estimate[0] - estimate[1], mean = 0.5f * (estimate[0] + estimate[1]);
-        sum += 0.5f * (a * a + b * b) - variance - 0.25f * between * between;
-        scale += variance + 0.01f * mean * mean;
+        const float between = estimate[0] - estimate[1],
+                    mean = even_fraction * estimate[0] + odd_fraction * estimate[1];
+        sum += even_fraction * (a * a - odd_variance) + odd_fraction * (b * b - even_variance) -
+               even_fraction * odd_fraction * between * between;
+        scale += 0.5f * (even_variance + odd_variance) + 0.01f * mean * mean;
         result[c].row(y)[x] = std::max(0.0f, mean);
       }
-      error.row(y)[x] = sum / scale;
+      error.row(y)[x] = sum / scale * tile.inside.row(y)[x];
     }
 }
 
-void denoise_tile(const NoisyImage& image, const Region& core, int threads, std::vector<float>& denoised) {
+void denoise_tile(const Kernels& kernels, const NoisyImage& image, const Region& core, int threads,
+                  std::vector<float>& denoised) {
   const Region bounds{0, 0, image.width, image.height};
   const Region region = core.grown(tile_margin, bounds), wanted = core.grown(anchor_margin, bounds);
   const Tile tile = read_tile(image, region, threads);
   const int width = region.width(), height = region.height();
   Estimates estimates;
   for (size_t i = 0; i < 2 * candidate_count; ++i) estimates.emplace_back(width, height);
-  fit_tile(tile, {wanted.x0 - region.x0, wanted.y0 - region.y0, wanted.x1 - region.x0, wanted.y1 - region.y0}, threads,
-           estimates);
+  fit_tile(kernels, tile, {wanted.x0 - region.x0, wanted.y0 - region.y0, wanted.x1 - region.x0, wanted.y1 - region.y0},
+           threads, estimates);
   std::array<ColourTile, candidate_count> results;
   std::array<TilePlane, candidate_count> errors;
   for (size_t i = 0; i < candidate_count; ++i) {
@@ -282,17 +287,20 @@ class BuiltinDenoiser final : public Denoiser {
   std::string details() const override { return "regression on albedo, normal and depth, on any CPU"; }
   std::string problem() const override { return {}; }
   std::vector<float> denoise(const NoisyImage& image, const DenoiseOptions& options) const override {
-    const int threads = std::clamp(options.threads, 1, max_threads);
-    std::vector<float> denoised(3 * image.pixels());
-    for (int y = 0; y < image.height; y += tile_size)
-      for (int x = 0; x < image.width; x += tile_size)
-        denoise_tile(image, {x, y, std::min(x + tile_size, image.width), std::min(y + tile_size, image.height)},
-                     threads, denoised);
-    return denoised;
+    return denoise_in_tiles(image, default_tile_size, select_kernels(), std::clamp(options.threads, 1, max_threads));
   }
 };
 
 }  // namespace
+
+std::vector<float> denoise_in_tiles(const NoisyImage& image, int tile_size, const Kernels& kernels, int threads) {
+  std::vector<float> denoised(3 * image.pixels());
+  for (int y = 0; y < image.height; y += tile_size)
+    for (int x = 0; x < image.width; x += tile_size)
+      denoise_tile(kernels, image, {x, y, std::min(x + tile_size, image.width), std::min(y + tile_size, image.height)},
+                   threads, denoised);
+  return denoised;
+}
 
 }  // namespace alhazen::denoising
 

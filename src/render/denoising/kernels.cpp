@@ -8,7 +8,11 @@ ALHAZEN_DECLARE_KERNEL(denoising::Kernels denoising_kernels())
 
 namespace denoising {
 
-Kernels select_kernels() { return ALHAZEN_KERNEL_OF(instruction_sets().back(), denoising_kernels)(); }
+std::vector<Kernels> all_kernels() {
+  std::vector<Kernels> kernels;
+  for (const InstructionSet set : instruction_sets()) kernels.push_back(ALHAZEN_KERNEL_OF(set, denoising_kernels)());
+  return kernels;
+}
 
 }  // namespace denoising
 

@@ -3,6 +3,7 @@
 // The loops of the built-in denoiser that are compiled once per instruction set (render/kernels/denoise.cpp).
 
 #include <cstddef>
+#include <vector>
 
 #include "render/denoising/window.h"
 
@@ -32,7 +33,8 @@ struct Kernels {
   void (*patch_distances)(const PatchRequest& request);
 };
 
-/// The kernels for the best instruction set of this processor. Every set gives the same bits.
-Kernels select_kernels();
+/// The kernels for the instruction sets of this processor, the best last. Every set gives the same bits.
+std::vector<Kernels> all_kernels();
+inline Kernels select_kernels() { return all_kernels().back(); }
 
 }  // namespace alhazen::denoising

@@ -111,6 +111,8 @@ void read_values(const NoisyImage& image, Tile& tile) {
         tile.half[0][c].row(y)[x] = (mean - odd * fraction) / (1 - fraction);
         tile.half[1][c].row(y)[x] = has_halves ? odd : mean;
       }
+      tile.odd_fraction.row(y)[x] = has_halves ? fraction : 0.5f;
+      tile.inside.row(y)[x] = samples > 0 ? 1.0f : 0.0f;
       // Features are not weighted by the pixel filter.
       const float odd_fraction = has_halves ? static_cast<float>(odd_samples) / static_cast<float>(samples) : 0;
       const auto even_of = [&](float mean, float odd) { return (mean - odd * odd_fraction) / (1 - odd_fraction); };
@@ -135,30 +137,44 @@ void read_values(const NoisyImage& image, Tile& tile) {
 /// evenly samples are distributed, the right size (Rousselle, Manzi, Zwicker 2013, section 4).
 void estimate_variance(const NoisyImage& image, Tile& tile, int threads) {
   const int width = tile.region.width(), height = tile.region.height();
-  TilePlane of_samples(width, height), smooth(width, height);
+  TilePlane of_samples(width, height), smooth(width, height), coverage = tile.inside;
+  const auto index_of = [&](int x, int y) {
+    return static_cast<size_t>(y + tile.region.y0) * static_cast<size_t>(image.width) +
+           static_cast<size_t>(x + tile.region.x0);
+  };
+  const auto has_halves_at = [&](int x, int y) { return image.odd_fraction[index_of(x, y)] > 0; };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const size_t i = static_cast<size_t>(y + tile.region.y0) * static_cast<size_t>(image.width) +
-                       static_cast<size_t>(x + tile.region.x0);
+      const size_t i = index_of(x, y);
       const float of_mean = image.variance[i] / static_cast<float>(std::max(1u, image.samples[i]));
       of_samples.row(y)[x] = smooth.row(y)[x] = of_mean;
-      const bool has_halves = image.odd_fraction[i] > 0;
+      const bool has_halves = has_halves_at(x, y);
       for (size_t c = 0; c < 3; ++c) {
-        const float difference = tile.half[0][c].row(y)[x] - tile.half[1][c].row(y)[x];
-        tile.variance[c].row(y)[x] = has_halves ? difference * difference / 2 : of_mean;
+        // With halves a and b of fractions f and 1 - f, a - b has the variance s / f + s / (1 - f) if s is that of the
+        // mean.
+        const float difference = tile.half[0][c].row(y)[x] - tile.half[1][c].row(y)[x], odd = image.odd_fraction[i];
+        tile.variance[0][c].row(y)[x] = has_halves ? difference * difference * odd * (1 - odd) : of_mean;
       }
     }
   constexpr int radius = 5;
   blur(smooth, radius, threads);
-  for (TilePlane& variance : tile.variance) {
-    blur(variance, radius, threads);
+  // Pixels without samples have no variance, and do not count.
+  blur(coverage, radius, threads);
+  for (size_t c = 0; c < 3; ++c) {
+    TilePlane& even = tile.variance[0][c];
+    TilePlane& odd = tile.variance[1][c];
+    blur(even, radius, threads);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
-        const float around = smooth.row(y)[x];
-        const float shape = around > 0 ? std::min(of_samples.row(y)[x] / around, 8.0f) : 1.0f;
-        variance.row(y)[x] *= 0.25f + 0.75f * shape;
+        const float covered = std::max(coverage.row(y)[x], 1e-6f), around = smooth.row(y)[x] / covered;
+        const bool is_known = around > 0 && tile.inside.row(y)[x] > 0;
+        const float shape = is_known ? std::min(of_samples.row(y)[x] / around, 8.0f) : 1.0f;
+        const float of_mean = even.row(y)[x] / covered * (0.25f + 0.75f * shape);
+        const bool has_halves = has_halves_at(x, y);
+        const float fraction = tile.odd_fraction.row(y)[x];
+        even.row(y)[x] = has_halves ? of_mean / (1 - fraction) : of_mean;
+        odd.row(y)[x] = has_halves ? of_mean / fraction : of_mean;
       }
-    variance.pad();
   }
 }
 
@@ -222,8 +238,10 @@ void filter_band(const Tile& tile, size_t first, size_t last, int y0, int y1, Ba
     for (int x = 0; x < width; ++x) {
       const size_t i = static_cast<size_t>(y - y0) * m.stride + static_cast<size_t>(x);
       for (size_t f = first; f < last; ++f) {
-        filtered[f].row(y)[x] = m.sums[f - first][i] / m.weights[i];
-        variance[f].row(y)[x] = tile.feature_variance[f].row(y)[x] * m.squares[i] / (m.weights[i] * m.weights[i]);
+        const bool has_any = m.weights[i] > 0;
+        filtered[f].row(y)[x] = has_any ? m.sums[f - first][i] / m.weights[i] : tile.features[f].row(y)[x];
+        variance[f].row(y)[x] =
+            tile.feature_variance[f].row(y)[x] * (has_any ? m.squares[i] / (m.weights[i] * m.weights[i]) : 1.0f);
       }
     }
 }
@@ -258,7 +276,7 @@ void divide_by_albedo(Tile& tile) {
         const float divisor = std::max(tile.features[c].row(y)[x], least);
         tile.divisor[c].row(y)[x] = divisor;
         for (ColourTile& half : tile.half) half[c].row(y)[x] /= divisor;
-        tile.variance[c].row(y)[x] /= divisor * divisor;
+        for (ColourTile& variance : tile.variance) variance[c].row(y)[x] /= divisor * divisor;
       }
 }
 
@@ -268,12 +286,11 @@ Tile read_tile(const NoisyImage& image, const Region& region, int threads) {
   const int width = region.width(), height = region.height();
   Tile tile;
   tile.region = region;
-  for (ColourTile* colours : {&tile.divisor, &tile.half[0], &tile.half[1], &tile.variance})
+  for (ColourTile* colours : {&tile.divisor, &tile.half[0], &tile.half[1], &tile.variance[0], &tile.variance[1]})
     for (TilePlane& plane : *colours) plane = TilePlane(width, height);
   for (auto* planes : {&tile.features, &tile.feature_variance, &tile.noisy_features[0], &tile.noisy_features[1]})
     for (TilePlane& plane : *planes) plane = TilePlane(width, height);
-  tile.inside = TilePlane(width, height);
-  for (int y = 0; y < height; ++y) std::fill_n(tile.inside.row(y), width, 1.0f);
+  tile.odd_fraction = tile.inside = TilePlane(width, height);
   read_values(image, tile);
   remove_fireflies(tile, threads);
   estimate_variance(image, tile, threads);
@@ -282,7 +299,7 @@ Tile read_tile(const NoisyImage& image, const Region& region, int threads) {
     for (TilePlane& plane : *planes) plane.pad();
   filter_features(tile, threads);
   divide_by_albedo(tile);
-  for (ColourTile* colours : {&tile.half[0], &tile.half[1], &tile.variance})
+  for (ColourTile* colours : {&tile.half[0], &tile.half[1], &tile.variance[0], &tile.variance[1]})
     for (TilePlane& plane : *colours) plane.pad();
   return tile;
 }

@@ -52,9 +52,10 @@ struct Tile {
   Region region;  ///< of the image
   /// What a pixel has is divided by this, about its albedo, so that textures are no part of what is denoised.
   ColourTile divisor;
-  std::array<ColourTile, 2> half;  ///< even and odd blocks; both are the mean where a pixel has only one block
-  ColourTile variance;             ///< of each half
-  TilePlane inside;                ///< 1 within the tile, 0 in its padding
+  std::array<ColourTile, 2> half;      ///< even and odd blocks; both are the mean where a pixel has only one block
+  std::array<ColourTile, 2> variance;  ///< of the halves
+  TilePlane odd_fraction;              ///< of the weights of a pixel; 1/2 where it has only one block
+  TilePlane inside;                    ///< 1 within the tile where a pixel has samples, 0 elsewhere
   std::array<TilePlane, feature_count> features;                       ///< filtered
   std::array<TilePlane, feature_count> feature_variance;               ///< of the means
   std::array<std::array<TilePlane, feature_count>, 2> noisy_features;  ///< of each half, not filtered

@@ -10,6 +10,7 @@
 #include "core/sampling/hash.h"
 #include "render/denoiser.h"
 #include "render/denoising/blend.h"
+#include "render/denoising/builtin.h"
 #include "render/noisy_image.h"
 #include "support/environment_variable.h"
 #include "util/diagnostics.h"
@@ -142,6 +143,53 @@ TEST(BuiltinDenoiser, HasNoSeamsBetweenTiles) {
   for (const float value : denoised(noisy_image(530, 5, 16, 0, constant))) ASSERT_NEAR(value, 0.7f, 1e-5f);
 }
 
+/// Edges of albedo and of light, and a normal that turns, over the whole image.
+Pixel varied_wall(int x, int y) {
+  Pixel pixel = checkerboard(x, y);
+  const float light = ((x + y) / 17 % 2 == 0 ? 0.4f : 1.6f) + 0.01f * static_cast<float>(x);
+  for (float& channel : pixel.radiance) channel *= light;
+  // Not linear in x and y, with which the regression would have no single solution.
+  pixel.normal[0] = 0.5f * std::sin(0.13f * static_cast<float>(x));
+  pixel.depth = 5 + 0.5f * std::cos(0.09f * static_cast<float>(y));
+  return pixel;
+}
+
+TEST(BuiltinDenoiser, TilesGiveWhatOneTileGives) {
+  const NoisyImage image = noisy_image(150, 70, 16, 1, varied_wall);
+  const denoising::Kernels kernels = denoising::select_kernels();
+  const std::vector<float> whole = denoising::denoise_in_tiles(image, 512, kernels, 2);
+  EXPECT_LT(error_of(whole, 150, varied_wall), error_of(image.radiance.mean, 150, varied_wall) / 1.5);
+  for (const int size : {64, 61}) {
+    const std::vector<float> tiled = denoising::denoise_in_tiles(image, size, kernels, 2);
+    for (size_t i = 0; i < whole.size(); ++i)
+      ASSERT_NEAR(tiled[i], whole[i], 1e-4f) << "pixel " << i / 3 % 150 << " " << i / 3 / 150;
+  }
+}
+
+TEST(BuiltinDenoiser, InstructionSetsGiveTheSameBits) {
+  const std::vector<denoising::Kernels> kernels = denoising::all_kernels();
+  if (kernels.size() < 2) GTEST_SKIP() << "one instruction set is here";
+  const NoisyImage image = noisy_image(70, 50, 16, 1, varied_wall);
+  const std::vector<float> best = denoising::denoise_in_tiles(image, 512, kernels.back(), 2);
+  for (const denoising::Kernels& others : kernels) EXPECT_EQ(denoising::denoise_in_tiles(image, 512, others, 2), best);
+}
+
+TEST(Denoising, ScaleOfTheRadianceDoesNotMatter) {
+  const NoisyImage image = noisy_image(60, 50, 16, 1, varied_wall);
+  const std::vector<float> result = denoised(image);
+  for (const float scale : {1e-3f, 1e3f, 1e-9f, 0x1p10f, 0x1p-10f}) {
+    NoisyImage scaled = image;
+    for (std::vector<float>* values : {&scaled.radiance.mean, &scaled.radiance.odd})
+      for (float& value : *values) value *= scale;
+    for (float& value : scaled.variance) value *= scale * scale;
+    const std::vector<float> of_scaled = denoised(scaled);
+    // Rounding may change which of two estimates is better, where both are as good.
+    const float error = scale == 0x1p10f || scale == 0x1p-10f ? 0.0f : 1e-3f;
+    for (size_t i = 0; i < result.size(); ++i)
+      ASSERT_NEAR(of_scaled[i] / scale, result[i], error) << scale << " times, pixel " << i / 3;
+  }
+}
+
 TEST(BuiltinDenoiser, RemovesFireflies) {
   NoisyImage image = noisy_image(41, 41, 16, 0.5f, smooth_wall);
   const size_t pixel = 20 * 41 + 20;
@@ -166,6 +214,36 @@ TEST(BuiltinDenoiser, ReplacesWhatIsNotFinite) {
   for (float& value : broken.radiance.mean) value = nan;
   EXPECT_EQ(denoising::repair(broken), 9u);
   for (const float value : broken.radiance.mean) EXPECT_EQ(value, 0);
+}
+
+TEST(BuiltinDenoiser, MixesHalvesByTheirSamples) {
+  NoisyImage image = noisy_image(30, 30, 16, 0, [](int, int) { return grey_wall(1, 0.5f); });
+  image.odd_fraction.assign(image.pixels(), 0.25f);
+  std::fill(image.radiance.mean.begin(), image.radiance.mean.end(), 1.25f);
+  std::fill(image.radiance.odd.begin(), image.radiance.odd.end(), 2.0f);  // the even half is 1
+  for (const float value : make_denoiser("builtin")->denoise(image, {0, 2})) ASSERT_NEAR(value, 1.25f, 1e-4f);
+}
+
+TEST(Denoising, PixelsWithoutSamplesDoNotCount) {
+  NoisyImage image = noisy_image(40, 40, 16, 0.3f, smooth_wall);
+  for (int y = 10; y < 16; ++y)
+    for (int x = 12; x < 17; ++x) {
+      const size_t i = static_cast<size_t>(y * 40 + x);
+      image.samples[i] = 0;
+      image.hits[i] = image.variance[i] = image.odd_fraction[i] = 0;
+      for (NoisyBuffer* buffer : {&image.radiance, &image.albedo, &image.normal, &image.depth})
+        for (std::vector<float>* values : {&buffer->mean, &buffer->odd}) {
+          const size_t channels = buffer == &image.depth ? 1 : 3;
+          std::fill_n(values->begin() + static_cast<std::ptrdiff_t>(channels * i), channels, 0.0f);
+        }
+    }
+  const std::vector<float> result = denoised(image);
+  for (int y = 5; y < 21; ++y)
+    for (int x = 7; x < 22; ++x)
+      ASSERT_NEAR(result[static_cast<size_t>(3 * (y * 40 + x))], smooth_wall(x, y).radiance[0], 0.05f) << x << " " << y;
+  std::fill(image.samples.begin(), image.samples.end(), 0u);
+  std::fill(image.odd_fraction.begin(), image.odd_fraction.end(), 0.0f);
+  for (const float value : denoised(image)) ASSERT_TRUE(std::isfinite(value));
 }
 
 TEST(Denoising, IsNeverWorseThanNoiseWithMoreSamples) {
@@ -229,6 +307,16 @@ TEST(OidnDenoiser, FiltersFeaturesFirst) {
     for (size_t i = 0; i < result.size(); ++i)
       ASSERT_EQ(result[i], image.radiance.mean[i] + (image.albedo.mean[i] + 1) + 2 * (image.normal.mean[i] + 1))
           << folder;
+  }
+}
+
+TEST(OidnDenoiser, RunsOnTheThreadsAskedFor) {
+  const EnvironmentVariable wanted("MOCK_OIDN_WANTS_THREADS", "3");
+  for (const std::string folder : {ALHAZEN_MOCK_OIDN_1, ALHAZEN_MOCK_OIDN_2}) {
+    const EnvironmentVariable path("ALHAZEN_OIDN_PATH", folder);
+    const NoisyImage image = noisy_image(2, 2, 8, 0, checkerboard);
+    EXPECT_NO_THROW(make_denoiser("oidn")->denoise(image, {0, 3})) << folder;
+    EXPECT_THROW(make_denoiser("oidn")->denoise(image, {0, 2}), RenderError) << folder;
   }
 }
 
