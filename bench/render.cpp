@@ -57,8 +57,8 @@ void render(benchmark::State& state, const std::string& backend_name, const std:
   for (auto _ : state) {
     Film<Real> film(settings.window, settings.aovs);
     RenderControl control(threads);
-    backend->render_pass(RenderPass<Real>{scene.flat, kernel, settings, film, control, 0, samples,
-                                          settings.integrator});
+    backend->render_pass(
+        RenderPass<Real>{scene.flat, kernel, settings, film, control, 0, samples, settings.integrator});
     for (const ThreadStatistics& thread : control.threads()) rays += thread.rays + thread.shadow_rays;
   }
   state.counters["rays"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);

@@ -59,12 +59,12 @@ struct Settings {
   std::string noise_measure;
   std::optional<double> noise_exposure;
   std::string noise_tone_map;
-  /// Path guiding, for the integrator path: off, on, or auto to stop it where it does not pay; empty: off. docs/guiding.md
-  /// says what it is good for.
+  /// Path guiding, for the integrator path: off, on, or auto to stop it where it does not pay; empty: off.
+  /// docs/guiding.md says what it is good for.
   std::string guiding;
   int64_t guiding_memory = 256;  ///< MiB that it may take
-  /// Most that one path may add of light that was scattered more than once, in any channel: bright dots disappear, and so
-  /// does a part of caustics and reflections. 0: no limit, the right image. For the integrator path.
+  /// Most that one path may add of light that was scattered more than once, in any channel: bright dots disappear, and
+  /// so does a part of caustics and reflections. 0: no limit, the right image. For the integrator path.
   double clamp_indirect = 0;
   int64_t max_depth = -1;         ///< bounces: a path has at most max_depth + 1 segments
   int64_t width = 0, height = 0;  ///< pixels

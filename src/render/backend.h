@@ -30,8 +30,8 @@ struct RenderPass {
   RenderControl& control;
   uint32_t first_sample;
   uint32_t sample_count;
-  IntegratorKind integrator;            ///< that of the settings, or with guiding that of this pass
-  Guiding<Real>* guiding = nullptr;     ///< where the scene's `guide` comes from, if there is one
+  IntegratorKind integrator;               ///< that of the settings, or with guiding that of this pass
+  Guiding<Real>* guiding = nullptr;        ///< where the scene's `guide` comes from, if there is one
   const ExternalTracer* tracer = nullptr;  ///< what the kernel traces rays by, where that is not the scene's own BVH
 };
 

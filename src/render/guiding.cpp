@@ -27,8 +27,11 @@ constexpr uint32_t max_region_depth = 60;
 /// Variances are relative to the luminance of tiles of this many pixels, plus a tenth of the mean.
 constexpr int variance_tile = 8;
 constexpr double floor_fraction = 0.1;
-/// Guided samples take longer by about this factor.
-constexpr double cost_of_guiding = 1.3;
+/// Guided samples take longer by about this factor; after the first guided iteration, which has learned little, guiding
+/// may still be worse than none by this other.
+constexpr double cost_of_guiding = 1.5, early_gain = 0.7;
+/// Renders with fewer iterations are not guided where that is to be decided.
+constexpr uint32_t min_iterations = 4;
 
 /// Builds the arrays of the next iteration from those of the last.
 class TreeBuilder {
@@ -167,6 +170,7 @@ Guiding<Real>::Guiding(const RenderSettings& settings, const SceneView<Real>& sc
   const int64_t pixels = settings.window.pixels();
   const int64_t wanted = std::clamp<int64_t>((first_samples + pixels - 1) / pixels, 1, 256);
   first_ = static_cast<uint32_t>((wanted + samples_per_block - 1) / samples_per_block * samples_per_block);
+  if (decides_ && settings.samples_per_pixel < first_ << min_iterations) is_on_ = false;
   arrays_.cells.assign(1, leaf_cell);
   arrays_.regions.assign(1, {1, 1});
   arrays_.quads.assign(2, GuideQuad{{0.25f, 0.25f, 0.25f, 0.25f}, {0, 0, 0, 0}});
@@ -276,7 +280,7 @@ void Guiding<Real>::end_iteration(Film<Real>& film, uint32_t samples) {
   } else {
     gain_ = noise > 0 ? plain / noise : 0;
     ++guided_;
-    if (decides_ && (guided_ == 1 ? gain_ < 0.7 : gain_ < cost_of_guiding)) is_on_ = false;
+    if (decides_ && gain_ < (guided_ == 1 ? early_gain : cost_of_guiding)) is_on_ = false;
   }
   if (is_on_ && was_learning) learn();
 }
@@ -284,7 +288,8 @@ void Guiding<Real>::end_iteration(Film<Real>& film, uint32_t samples) {
 template <class Real>
 void Guiding<Real>::learn() {
   TreeBuilder builder(arrays_);
-  double vertices = vertices_per_region * std::sqrt(std::exp2(iteration_ > 2 ? iteration_ - 2 : 0)), part = divided_part;
+  double vertices = vertices_per_region * std::sqrt(std::exp2(iteration_ > 2 ? iteration_ - 2 : 0)),
+         part = divided_part;
   while (!builder.build(vertices, part, max_quads_, guided_ > 0)) {
     vertices *= 2;
     part *= 1.5;
@@ -300,7 +305,8 @@ GuidingState Guiding<Real>::state() const {
   state.iterations = guided_;
   state.regions = arrays_.regions.size();
   state.bytes = arrays_.quads.size() * (sizeof(GuideQuad) + 4 * sizeof(uint64_t)) +
-                arrays_.regions.size() * (sizeof(GuideRegion) + sizeof(GuideTally)) + arrays_.cells.size() * sizeof(uint32_t);
+                arrays_.regions.size() * (sizeof(GuideRegion) + sizeof(GuideTally)) +
+                arrays_.cells.size() * sizeof(uint32_t);
   state.gain = gain_;
   return state;
 }
@@ -375,7 +381,8 @@ bool Guiding<Real>::restore(const std::vector<std::byte>& bytes) {
   ByteReader read(bytes);
   visit_state(read);
   ++generation_;
-  return read.is_good && read.is_at_end() && arrays_.light.size() == 4 * arrays_.quads.size() && arrays_.tallies.size() == arrays_.regions.size();
+  return read.is_good && read.is_at_end() && arrays_.light.size() == 4 * arrays_.quads.size() &&
+         arrays_.tallies.size() == arrays_.regions.size();
 }
 
 template <class Real>

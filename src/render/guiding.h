@@ -24,10 +24,10 @@ struct GuideArrays {
 
 /// What a render with guiding did, for reports.
 struct GuidingState {
-  bool is_used = false;      ///< the samples that are taken now are guided
-  uint32_t iterations = 0;   ///< that were learned from
+  bool is_used = false;     ///< the samples that are taken now are guided
+  uint32_t iterations = 0;  ///< that were learned from
   uint64_t regions = 0, bytes = 0;
-  double gain = 0;           ///< variance without guiding over that with it, as last measured; 0: not measured
+  double gain = 0;  ///< variance without guiding over that with it, as last measured; 0: not measured
 };
 
 /// Iterations end at 2^k times a first number of samples per pixel. In the first, paths are not guided and nothing is
@@ -49,8 +49,8 @@ class Guiding {
   /// Changes whenever the arrays of view() do.
   uint64_t generation() const { return generation_; }
 
-  /// Ends an iteration: measures the variance of its samples and adds them to those of earlier ones, learns, and decides
-  /// whether guiding goes on. Does nothing if `samples` per pixel do not end one.
+  /// Ends an iteration: measures the variance of its samples and adds them to those of earlier ones, learns, and
+  /// decides whether guiding goes on. Does nothing if `samples` per pixel do not end one.
   void end_iteration(Film<Real>& film, uint32_t samples);
   /// Weighs the samples of the present iteration in the image.
   void weigh_samples(Film<Real>& film) const;

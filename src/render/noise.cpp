@@ -114,6 +114,13 @@ PixelMean pixel_mean(const FilmView<Real>& film, size_t i) {
     mean.by_blocks *= n * n / (weight * weight);
     mean.by_halves *= n * n / (weight * weight);
   }
+  if (film.earlier_weights) {
+    // Iterations weigh by the inverse of their variance, so all of them have this part of the variance of the last.
+    const double current = static_cast<double>(film.weights[i]) * static_cast<double>(film.iteration_weight);
+    const double part = std::clamp(current / (current + static_cast<double>(film.earlier_weights[i])), 0.0, 1.0);
+    mean.by_blocks *= part;
+    mean.by_halves *= part;
+  }
   return mean;
 }
 
@@ -221,8 +228,9 @@ void NoiseEstimate<Real>::measure_pixels(const RenderSettings& settings) {
   if (settings.noise_fits_exposure) curve->scale = portable_exp2(exposure_of(film, pixels));
   for (size_t i = 0; i < pixels; ++i) {
     const PixelMean mean = pixel_mean(film, i);
-    if (film.current_samples(i) < 2 * samples_per_block || !std::isfinite(mean.by_blocks) || !std::isfinite(mean.luminance))
-      errors_[i] = of_halves_[i] = 1;
+    if (film.current_samples(i) < 2 * samples_per_block || !std::isfinite(mean.by_blocks) ||
+        !std::isfinite(mean.luminance))
+      errors_[i] = of_halves_[i] = film.is_finished(i) ? finite_square(target_ * target_) : 1;
     if (!(mean.by_blocks > 0) || errors_[i] > 0) continue;
     double error = 0;
     if (curve) {
@@ -240,11 +248,13 @@ void NoiseEstimate<Real>::measure_pixels(const RenderSettings& settings) {
 
 template <class Real>
 void NoiseEstimate<Real>::join_neighbours() {
-  const uint32_t* samples = film_.view().samples;
+  const FilmView<Real> film = film_.view();
   const auto tiles = [&](const auto& value) { return TileSums(errors_.size(), width_, height_, value); };
   const auto of_halves = [&](const auto& value) {
-    return tiles(
-        [&](size_t i) { return samples[i] > samples_per_block ? value(Halves(samples[i]), samples[i]) : 2.0; });
+    return tiles([&](size_t i) {
+      const uint32_t samples = film.current_samples(i);
+      return samples > samples_per_block ? value(Halves(samples), samples) : 2.0;
+    });
   };
   const TileSums by_blocks = tiles([&](size_t i) { return static_cast<double>(errors_[i]); });
   const TileSums by_halves = tiles([&](size_t i) { return static_cast<double>(of_halves_[i]); });

@@ -274,18 +274,20 @@ std::vector<SettingEntry> image_settings() {
                        "below X: relative (0.05 is 5 percent; the default), or of the displayed value from 0 to 1: "
                        "0.01,display; none for no threshold",
                        noise())),
-      of_samples(guiding_of,
-                 entry(group, "guiding", "", "NAME",
-                       "Learn where light comes from while rendering, for indirect light and caustics: off, on, or auto "
-                       "to stop where it does not pay",
-                       name(&Settings::guiding))),
+      of_samples(
+          guiding_of,
+          entry(group, "guiding", "", "NAME",
+                "Learn where light comes from while rendering, for indirect light and caustics: off, on, or auto "
+                "to stop where it does not pay",
+                name(&Settings::guiding))),
       entry(group, "guiding-memory", "", "MIB", "What --guiding may take (256)",
             number<int64_t>("guiding-memory", &Settings::guiding_memory, 256, 1, 1 << 20)),
-      of_samples([](const RenderSettings& s) { return s.asked.clamp_indirect > 0 ? text_of(s.asked.clamp_indirect) : ""; },
-                 entry(group, "clamp-indirect", "", "X",
-                       "Limit what one path adds of indirect light to X, against bright dots: the image gets darker "
-                       "than it should be; 0: no limit, the default",
-                       number("clamp-indirect", &Settings::clamp_indirect, 0.0, 0.0, 1e30))),
+      of_samples(
+          [](const RenderSettings& s) { return s.asked.clamp_indirect > 0 ? text_of(s.asked.clamp_indirect) : ""; },
+          entry(group, "clamp-indirect", "", "X",
+                "Limit what one path adds of indirect light to X, against bright dots: the image gets darker "
+                "than it should be; 0: no limit, the default",
+                number("clamp-indirect", &Settings::clamp_indirect, 0.0, 0.0, 1e30))),
       of_samples([](const RenderSettings& s) { return std::to_string(s.max_segments - 1); },
                  entry(group, "max-depth", "--maxdepth", "N", "Bounces: a path has at most N + 1 segments",
                        number<int64_t>("max-depth", &Settings::max_depth, -1, 0, max_bounces))),

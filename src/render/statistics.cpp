@@ -75,8 +75,9 @@ std::string RenderStatistics::to_json() const {
                   {"mean_spp", noise.mean_samples}, {"most_spp", settings.samples_per_pixel}};
   if (settings.asked.clamp_indirect > 0) j["clamp_indirect"] = settings.asked.clamp_indirect;
   if (settings.guiding != GuidingMode::off)
-    j["guiding"] = {{"mode", to_string(settings.guiding)}, {"used", guiding.is_used},     {"iterations", guiding.iterations},
-                    {"regions", guiding.regions},         {"bytes", guiding.bytes}, {"variance_ratio", guiding.gain}};
+    j["guiding"] = {
+        {"mode", to_string(settings.guiding)}, {"used", guiding.is_used}, {"iterations", guiding.iterations},
+        {"regions", guiding.regions},          {"bytes", guiding.bytes},  {"variance_ratio", guiding.gain}};
   j["max_depth"] = settings.max_segments - 1;
   j["triangles"] = scene_sizes.triangles;
   j["spheres"] = scene_sizes.spheres;

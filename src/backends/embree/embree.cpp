@@ -30,7 +30,8 @@ class EmbreeBackend final : public Backend {
   void render_pass(const RenderPass<float>& pass) override {
     const SampleKernel<float> kernel(functions().select_kernel(pass.integrator, pass.settings.sampler));
     render_openmp(RenderPass<float>{pass.scene, kernel, pass.settings, pass.film, pass.control, pass.first_sample,
-                                    pass.sample_count, pass.integrator, pass.guiding, structures_->tracer_for_kernels()});
+                                    pass.sample_count, pass.integrator, pass.guiding,
+                                    structures_->tracer_for_kernels()});
   }
   void render_pass(const RenderPass<double>&) override {}
 

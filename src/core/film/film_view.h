@@ -15,28 +15,28 @@ namespace ALHAZEN_CORE {
 /// from the pixel's mean, times their samples; `half_difference` the luminance of its first 2^k blocks less that of the
 /// others, for the largest k that leaves some; `finished` is 1 where no more samples are taken.
 ///
-/// With guiding, samples are taken in iterations that count differently. `radiance`, `weights`, their odd halves and all
-/// that is said about variance are then of the last iteration. Those that start with `earlier_` are of the ones before:
-/// sums times the weights of iterations, sums of filter weights times them, and numbers of samples.
-#define ALHAZEN_FILM_PLANES(PLANE) \
-  PLANE(Vec3<Real>, radiance)      \
-  PLANE(uint32_t, samples)         \
-  PLANE(Real, weights)             \
-  PLANE(Vec3<Real>, albedo)        \
-  PLANE(Vec3<Real>, normal)        \
-  PLANE(Real, depth)               \
-  PLANE(uint32_t, hits)            \
-  PLANE(uint32_t, segments)        \
-  PLANE(Real, luminance_m2)        \
-  PLANE(Real, luminance_mean)      \
-  PLANE(Vec3<Real>, odd_radiance)  \
-  PLANE(Vec3<Real>, odd_albedo)    \
-  PLANE(Vec3<Real>, odd_normal)    \
-  PLANE(Real, odd_depth)           \
-  PLANE(Real, odd_weights)         \
-  PLANE(Real, block_m2)            \
-  PLANE(Real, half_difference)     \
-  PLANE(uint8_t, finished)         \
+/// With guiding, samples are taken in iterations that count differently. `radiance`, `weights`, their odd halves and
+/// all that is said about variance are then of the last iteration. Those that start with `earlier_` are of the ones
+/// before: sums times the weights of iterations, sums of filter weights times them, and numbers of samples.
+#define ALHAZEN_FILM_PLANES(PLANE)        \
+  PLANE(Vec3<Real>, radiance)             \
+  PLANE(uint32_t, samples)                \
+  PLANE(Real, weights)                    \
+  PLANE(Vec3<Real>, albedo)               \
+  PLANE(Vec3<Real>, normal)               \
+  PLANE(Real, depth)                      \
+  PLANE(uint32_t, hits)                   \
+  PLANE(uint32_t, segments)               \
+  PLANE(Real, luminance_m2)               \
+  PLANE(Real, luminance_mean)             \
+  PLANE(Vec3<Real>, odd_radiance)         \
+  PLANE(Vec3<Real>, odd_albedo)           \
+  PLANE(Vec3<Real>, odd_normal)           \
+  PLANE(Real, odd_depth)                  \
+  PLANE(Real, odd_weights)                \
+  PLANE(Real, block_m2)                   \
+  PLANE(Real, half_difference)            \
+  PLANE(uint8_t, finished)                \
   PLANE(Vec3<Real>, earlier_radiance)     \
   PLANE(Vec3<Real>, earlier_odd_radiance) \
   PLANE(Real, earlier_weights)            \
@@ -73,7 +73,9 @@ struct FilmView {
   ALHAZEN_HD bool is_finished(size_t i) const { return finished && finished[i]; }
 
   /// The number of samples of the last iteration, or of all where there are no iterations.
-  ALHAZEN_HD uint32_t current_samples(size_t i) const { return samples[i] - (earlier_samples ? earlier_samples[i] : 0); }
+  ALHAZEN_HD uint32_t current_samples(size_t i) const {
+    return samples[i] - (earlier_samples ? earlier_samples[i] : 0);
+  }
 
   /// A sum of radiance over samples, and of their weights.
   struct RadianceSum {

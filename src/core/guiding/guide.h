@@ -13,8 +13,8 @@
 
 namespace ALHAZEN_CORE {
 
-/// A node of a tree of directions. Quarter k of its square is the right half if k is odd, and the lower half (the larger
-/// y) if k >= 2.
+/// A node of a tree of directions. Quarter k of its square is the right half if k is odd, and the lower half (the
+/// larger y) if k >= 2.
 struct GuideQuad {
   float share[4];     ///< of the light of the node, by quarters; their sum is 1 but for rounding
   uint32_t child[4];  ///< node of the quarter; 0 if it is not divided
@@ -29,14 +29,16 @@ struct GuideRegion {
   float bsdf_share;  ///< probability of sampling the BSDF instead of that tree; 1 until something is known
 };
 
-/// The numbers of BSDF shares at which a region estimates whether a larger one would be better, and the shares.
+/// The number of BSDF shares at which a region estimates whether a larger one would be better, and the shares.
 inline constexpr uint32_t tried_shares = 4;
 ALHAZEN_HD constexpr float tried_share(uint32_t i) { return 0.125f + 0.25f * static_cast<float>(i); }
 
 /// What the vertices of a region sum up.
 struct GuideTally {
   uint64_t vertices;
-  uint64_t slopes[tried_shares];  ///< in two's complement and fixed point
+  /// How fast the second moment of what the vertices contribute falls with the share, at each of the tried ones; in
+  /// two's complement.
+  uint64_t slopes[tried_shares];
 };
 
 template <class Real>
@@ -44,7 +46,7 @@ struct GuideView {
   const uint32_t* cells = nullptr;  ///< nodes of the tree of space: the first of two children, or leaf_cell | region
   const GuideRegion* regions = nullptr;
   const GuideQuad* quads = nullptr;
-  uint64_t* light = nullptr;  ///< four sums per node of `quads`, of its quarters that are not divided
+  uint64_t* light = nullptr;      ///< four sums per node of `quads`, of its quarters that are not divided
   GuideTally* tallies = nullptr;  ///< one per region
   uint32_t cells_count = 0, regions_count = 0, quads_count = 0;
   Vec3<Real> low{}, scale{};  ///< (p - low) * scale is in the unit cube for points of the scene
@@ -55,8 +57,7 @@ struct GuideView {
 
 /// Units of the sums per mean radiance of the image, and the limit of what one vertex adds, as a multiple of that
 /// radiance: 2^27 times the limit can be summed up.
-inline constexpr double guide_units = 1 << 20, guide_limit = 1 << 16,
-                        guide_limit_of_squares = 1 << 16;
+inline constexpr double guide_units = 1 << 20, guide_limit = 1 << 16, guide_limit_of_squares = 1 << 16;
 
 /// The first 32 bits of a number of [0, 1) after the binary point; numbers beyond are clamped, NaN is 0.
 template <class Real>
@@ -64,7 +65,8 @@ ALHAZEN_HD inline uint32_t bits_of_fraction(Real x) {
   return static_cast<uint32_t>((x > 0 ? min(x, Real(0.99999994)) : Real(0)) * Real(4294967296.0));
 }
 
-// ---- directions ------------------------------------------------------------------------------------------------------
+// ---- directions
+// ------------------------------------------------------------------------------------------------------
 
 /// The point of the unit square for a unit vector: the octahedral map (Meyer et al. 2010, "On Floating-Point Normal
 /// Vectors"), which takes no trigonometric functions.
@@ -165,7 +167,8 @@ ALHAZEN_HD inline GuideSample<Real> sample_guide(const GuideView<Real>& guide, u
   return s;
 }
 
-// ---- space -----------------------------------------------------------------------------------------------------------
+// ---- space
+// -----------------------------------------------------------------------------------------------------------
 
 /// A point of the tree's cube, by the bits of its coordinates.
 struct GuidePlace {
@@ -192,7 +195,8 @@ ALHAZEN_HD inline uint32_t guide_region(const GuideView<Real>& guide, GuidePlace
   return node & ~GuideView<Real>::leaf_cell;
 }
 
-// ---- learning --------------------------------------------------------------------------------------------------------
+// ---- learning
+// --------------------------------------------------------------------------------------------------------
 
 /// Adds to a sum that other threads add to as well.
 ALHAZEN_HD inline void add_to_sum(uint64_t* sum, uint64_t value) {
@@ -207,10 +211,10 @@ ALHAZEN_HD inline void add_to_sum(uint64_t* sum, uint64_t value) {
 template <class Real>
 struct GuideVertex {
   Vec3<Real> position;
-  uint32_t region;               ///< that holds it
-  Vec2<Real> square;             ///< of the direction
-  Real throughput;               ///< luminance, before scattering
-  Real radiance;                 ///< luminance that the path had gathered before its next vertex; negative: not known yet
+  uint32_t region;    ///< that holds it
+  Vec2<Real> square;  ///< of the direction
+  Real throughput;    ///< luminance, before scattering
+  Real radiance;      ///< luminance that the path had gathered before its next vertex; negative: not known yet
   Real pdf_of_bsdf, pdf_of_guide;  ///< of the direction, with respect to solid angle
   Real share;                      ///< of the BSDF in what was sampled
 };
@@ -230,8 +234,8 @@ struct GuideTrail {
 };
 
 /// Adds what a vertex contributed, f L |cos| / pdf as luminance, to the sums of a region. The point is moved at random
-/// within a box of the size of its region, so that regions share what they know (Müller 2019, "Practical Path Guiding"
-/// in Production, section 10.3.2).
+/// within a box of the size of its region, so that regions share what they know (Müller 2019, in Vorba et al., "Path
+/// Guiding in Production", SIGGRAPH courses, chapter 10).
 template <class Real>
 ALHAZEN_HD inline void learn_from_vertex(const GuideView<Real>& guide, const GuideVertex<Real>& vertex, Real gathered,
                                          uint32_t hash) {

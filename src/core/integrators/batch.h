@@ -213,9 +213,9 @@ class PathBatch {
       };
       if constexpr (is_guided)
         if (is_computed && !point.bsdf.is_specular())
-          return continue_or_end(light_and_scatter(scene_, numbers, point, lane.path, lane.record, light,
-                                                   trails_[index], regions_[place]),
-                                 index);
+          return continue_or_end(
+              light_and_scatter(scene_, numbers, point, lane.path, lane.record, light, trails_[index], regions_[place]),
+              index);
       continue_or_end(light_and_scatter(scene_, numbers, point, lane.path, lane.record, light, trail_of(index)), index);
     }
   }

@@ -67,14 +67,15 @@ ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& in
     add_infinite_lights(scene, path, record);
     return false;
   }
-  return shade(scene, sampler, max_segments, hit, path, record,
-               [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
-                 const Real visibility = visibility_of(scene, intersector, shadow);
-                 if (visibility > 0) record.radiance += radiance * visibility;
-                 if constexpr (has_counters<Record>)
-                   if (!(visibility > 0)) record.counters.count_blocked();
-               },
-               trail);
+  return shade(
+      scene, sampler, max_segments, hit, path, record,
+      [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
+        const Real visibility = visibility_of(scene, intersector, shadow);
+        if (visibility > 0) record.radiance += radiance * visibility;
+        if constexpr (has_counters<Record>)
+          if (!(visibility > 0)) record.counters.count_blocked();
+      },
+      trail);
 }
 
 /// Radiance along `ray` by the integrator `kind`, over at most `max_segments` >= 1 segments.

@@ -116,14 +116,15 @@ ALHAZEN_HD BsdfSample<Real> scatter_guided(const SceneView<Real>& scene, const S
 
 /// Does what `light_and_scatter` of path.h does, with guiding, in a region of the guide.
 template <class Real, SamplerOf<Real> Sampler, RecordOf<Real> Record, ShadowRayReceiver<Real> Light>
-ALHAZEN_HD bool light_and_scatter(const SceneView<Real>& scene, const Sampler& sampler,
-                                  const ShadingPoint<Real>& point, PathState<Real>& path, Record& record,
-                                  const Light& light, GuideTrail<Real>& trail, uint32_t region) {
+ALHAZEN_HD bool light_and_scatter(const SceneView<Real>& scene, const Sampler& sampler, const ShadingPoint<Real>& point,
+                                  PathState<Real>& path, Record& record, const Light& light, GuideTrail<Real>& trail,
+                                  uint32_t region) {
   const VertexDimensions dimensions(path.vertex);
   const GuidedDirections<Real> directions(scene, region);
   const LightSample<Real> sample = sample_light_for(scene, sampler, dimensions, point);
   const DirectLight<Real> direct = direct_light(point, sample, [&](Real pdf_of_bsdf) {
-    return directions.mixed(pdf_of_bsdf, directions.pdf_of_guide(scene, sample.direction, guide_square(sample.direction)));
+    return directions.mixed(pdf_of_bsdf,
+                            directions.pdf_of_guide(scene, sample.direction, guide_square(sample.direction)));
   });
   if (direct.is_lit) {
     ++record.shadow_rays;
@@ -151,17 +152,16 @@ ALHAZEN_HD bool light_and_scatter(const SceneView<Real>& scene, const Sampler& s
 }
 
 template <class Real, SamplerOf<Real> Sampler, RecordOf<Real> Record, ShadowRayReceiver<Real> Light>
-ALHAZEN_HD bool light_and_scatter(const SceneView<Real>& scene, const Sampler& sampler,
-                                  const ShadingPoint<Real>& point, PathState<Real>& path, Record& record,
-                                  const Light& light, GuideTrail<Real>& trail) {
+ALHAZEN_HD bool light_and_scatter(const SceneView<Real>& scene, const Sampler& sampler, const ShadingPoint<Real>& point,
+                                  PathState<Real>& path, Record& record, const Light& light, GuideTrail<Real>& trail) {
   if (point.bsdf.is_specular()) return light_and_scatter(scene, sampler, point, path, record, light);
   return light_and_scatter(scene, sampler, point, path, record, light, trail, region_at(scene, point.si.position));
 }
 
 template <class Real, SamplerOf<Real> Sampler, RecordOf<Real> Record, ShadowRayReceiver<Real> Light>
 ALHAZEN_HD ALHAZEN_INLINE bool light_and_scatter(const SceneView<Real>& scene, const Sampler& sampler,
-                                                 const ShadingPoint<Real>& point, PathState<Real>& path,
-                                                 Record& record, const Light& light, NoTrail<Real>&) {
+                                                 const ShadingPoint<Real>& point, PathState<Real>& path, Record& record,
+                                                 const Light& light, NoTrail<Real>&) {
   return light_and_scatter(scene, sampler, point, path, record, light);
 }
 

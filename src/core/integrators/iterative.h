@@ -46,7 +46,8 @@ ALHAZEN_HD ALHAZEN_HOT bool shade_at(const SceneView<Real>& scene, const Sampler
 /// The same with the shading point given. `light` and the trail are not used.
 template <class Real, SamplerOf<Real> Sampler, RecordOf<Real> Record, ShadowRayReceiver<Real> Light, class Trail>
 ALHAZEN_HD ALHAZEN_INLINE bool shade(const SceneView<Real>& scene, const Sampler& sampler, uint32_t max_segments,
-                                     const Hit<Real>& hit, IterativeState<Real>& path, Record& record, const Light&, Trail&) {
+                                     const Hit<Real>& hit, IterativeState<Real>& path, Record& record, const Light&,
+                                     Trail&) {
   if (scene.has_cutouts && passes(scene, hit, ray_kind(path.vertex), path.ray, path.travelled))
     return record.segments < max_transparent_hits;
   return shade_at(scene, sampler, max_segments, hit, shading_point(scene, path.ray, hit), path, record);

@@ -99,8 +99,10 @@ TYPED_TEST(Guides, DensityOfTheSquare) {
   }
   for (size_t y = 0; y < side * fine; ++y)
     for (size_t x = 0; x < side * fine; ++x) {
-      const Vec2<double> s{(static_cast<double>(x) + 0.5) / (side * fine), (static_cast<double>(y) + 0.5) / (side * fine)};
-      expected[y / fine * side + x / fine] += 1 / (guide_direction(s).density * 4 * pi<double> * side * side * fine * fine);
+      const Vec2<double> s{(static_cast<double>(x) + 0.5) / (side * fine),
+                           (static_cast<double>(y) + 0.5) / (side * fine)};
+      expected[y / fine * side + x / fine] +=
+          1 / (guide_direction(s).density * 4 * pi<double> * side * side * fine * fine);
     }
   EXPECT_NEAR(std::accumulate(expected.begin(), expected.end(), 0.0), 1, 1e-4);
   for (double& e : expected) e *= static_cast<double>(samples);

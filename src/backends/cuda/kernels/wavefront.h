@@ -51,7 +51,7 @@ struct Slots {
   SoAView<Hit<Real>> hits;
   SoAView<SlotShadowRay<Real>> shadow_rays;
   TrailOf<kind, Real>* trails = nullptr;  ///< for guiding: one per slot
-  uint32_t* queues = nullptr;  ///< `count` entries each, one after another
+  uint32_t* queues = nullptr;             ///< `count` entries each, one after another
   QueueCounts* counts = nullptr;
   uint32_t count = 0;
 
@@ -251,11 +251,12 @@ struct ShadeKernel {
     SumRecord<Real> record(&stage.sums[slots.samples[slot].item], stage.launch.film);
     slots.records.get(slot, record);
     TrailOf<kind, Real> none;
-    const bool goes_on = shade(stage.launch.scene, stage.sampler_of(slot), stage.launch.max_segments, slots.hits[slot],
-                               path, record, [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
-                                 queue_shadow(thread, slot, shadow, radiance);
-                               },
-                               slots.trail(slot, none));
+    const bool goes_on = shade(
+        stage.launch.scene, stage.sampler_of(slot), stage.launch.max_segments, slots.hits[slot], path, record,
+        [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
+          queue_shadow(thread, slot, shadow, radiance);
+        },
+        slots.trail(slot, none));
     slots.paths.set(slot, path);
     slots.records.set(slot, record);
     if (goes_on)

@@ -58,7 +58,8 @@ inline constexpr unsigned raygen_records = 3, miss_records = 2;
 inline constexpr unsigned hit_records = primitive_kinds;  ///< by PrimitiveKind
 
 inline constexpr const char* params_name = "params";
-inline constexpr const char* raygen_names[raygen_records] = {"__raygen__path", "__raygen__iterative", "__raygen__guided_path"};
+inline constexpr const char* raygen_names[raygen_records] = {"__raygen__path", "__raygen__iterative",
+                                                             "__raygen__guided_path"};
 inline constexpr const char* miss_occlusion_name = "__miss__occlusion";
 inline constexpr const char* intersection_names[hit_records] = {  // of kinds that are not built in
 #define ALHAZEN_NAME(X, kind, Record, records, Block, blocks) "__intersection__" #kind,
