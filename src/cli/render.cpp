@@ -94,6 +94,14 @@ void print_start(const RenderStatistics& s) {
        r.max_segments - 1, r.backend, strategy.empty() ? "" : " ", strategy, engine_of(r));
 }
 
+std::string guiding_line(const RenderStatistics& s) {
+  if (s.settings.guiding == GuidingMode::off) return {};
+  const GuidingState& g = s.guiding;
+  return fmt::format("guiding {}, {} guided iterations, {} regions, {:.1f} MB, variance without it {:.2f} times that with it\n",
+                     g.is_used ? "used" : "not used", g.iterations, g.regions, static_cast<double>(g.bytes) * 1e-6,
+                     g.gain);
+}
+
 std::string text_statistics(const RenderStatistics& s) {
   const std::string text = fmt::format(
       "load    {:.3f} s\nbuild   {:.3f} s\nrender  {:.3f} s\ndenoise {:.3f} s\nsamples {} ({:.3f} million per second)\n"
@@ -110,7 +118,7 @@ std::string text_statistics(const RenderStatistics& s) {
                                       s.noise.noise, setting_text(s.settings.asked, "noise"), 100 * s.noise.below,
                                       s.noise.mean_samples, s.samples_per_pixel)
                                 : "";
-  return text + noise + (counts_samples ? counter_table(s.counters) : "");
+  return text + noise + guiding_line(s) + (counts_samples ? counter_table(s.counters) : "");
 }
 
 std::string samples_taken(const RenderStatistics& s) {
@@ -126,6 +134,10 @@ void print_end(const RenderOptions& options, const OutputReport& outputs, const 
     const std::string& quality = statistics.settings.asked.quality;
     std::string line = (quality.empty() ? "" : "quality " + quality + ": ") + samples_taken(statistics) + " in " +
                        format_seconds(statistics.render_seconds);
+    if (statistics.settings.guiding != GuidingMode::off)
+      line += statistics.guiding.is_used          ? "; guided"
+              : statistics.guiding.iterations > 0 ? "; guiding ended, as it did not pay"
+                                                  : "; not guided: too few samples, or no light";
     if (!statistics.denoiser.empty())
       line += fmt::format("; denoised with {} in {}", statistics.denoiser, format_seconds(statistics.denoise_seconds));
     for (const std::string& path : outputs.written)

@@ -247,6 +247,8 @@ double Guiding<Real>::variance(const FilmView<Real>& film, std::vector<float>& t
 
 template <class Real>
 void Guiding<Real>::weigh_samples(Film<Real>& film) const {
+  // The luminance of the image so far must not depend on when it was asked for last.
+  film.set_weight(static_cast<Real>(last_weight_));
   std::vector<float> tiles;
   double plain;
   const double noise = variance(film.view(), tiles, plain);
@@ -270,10 +272,12 @@ void Guiding<Real>::end_iteration(Film<Real>& film, uint32_t samples) {
   }
   if (!is_on_) return;
   const bool is_plain = plain_variance_.empty();
+  film.set_weight(static_cast<Real>(last_weight_));
   std::vector<float> tiles;
   double plain;
   const double noise = variance(film.view(), tiles, plain);
   weigh_samples(film);
+  last_weight_ = static_cast<double>(film.view().iteration_weight);
   film.end_iteration();
   if (is_plain) {
     plain_variance_ = std::move(tiles);
@@ -301,7 +305,7 @@ void Guiding<Real>::learn() {
 template <class Real>
 GuidingState Guiding<Real>::state() const {
   GuidingState state;
-  state.is_used = is_on_ && guided_ > 0;
+  state.is_used = is_on_ && !plain_variance_.empty();
   state.iterations = guided_;
   state.regions = arrays_.regions.size();
   state.bytes = arrays_.quads.size() * (sizeof(GuideQuad) + 4 * sizeof(uint64_t)) +
@@ -393,6 +397,7 @@ void Guiding<Real>::visit_state(Visit& visit) {
   visit(guided_);
   visit(to_fixed_);
   visit(gain_);
+  visit(last_weight_);
   visit(plain_variance_);
   visit(arrays_.cells);
   visit(arrays_.regions);

@@ -45,6 +45,7 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--backend", "--strategy", "--schedule", "--threads", "--nthreads", "--precision", "--progress", "--quiet",
       "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--overwrite", "--device", "--block",
       "--chunk", "--denoise", "--environment", "--texture-budget", "--coats", "--filter", "--noise",
+      "--guiding", "--guiding-memory", "--clamp-indirect",
       // Tested in quality_tests.cpp:
       "--quality",
       // Tested in gltf_tests.cpp:
@@ -339,6 +340,48 @@ TEST_F(RenderOptions, ANoiseTargetStopsEarlyAndIsReported) {
     EXPECT_EQ(result.exit_code, 2) << wrong;
     EXPECT_NE(result.err.find("--noise must be a number above 0 and at most 1"), std::string::npos) << result.err;
   }
+}
+
+TEST_F(RenderOptions, GuidingLearnsAndIsReported) {
+  const nlohmann::json j = statistics({"-o", "a.exr", "--spp", "1100", "--guiding", "on", "--guiding-memory", "8"});
+  EXPECT_EQ(j["guiding"]["mode"], "on");
+  EXPECT_EQ(j["guiding"]["used"], true);
+  EXPECT_GT(j["guiding"]["regions"], 1);
+  EXPECT_LE(j["guiding"]["bytes"], 8 << 20);
+  EXPECT_FALSE(statistics({"-o", "a.exr"}).contains("guiding"));
+  EXPECT_NE(render({"-o", "b.exr", "--spp", "16", "--guiding", "auto"}).err.find("not guided"), std::string::npos);
+  const auto refused = [&](std::vector<std::string> options, const char* words) {
+    options.insert(options.begin(), {"-o", "no.exr"});
+    const CommandResult result = render(options);
+    EXPECT_EQ(result.exit_code, 2) << result.everything();
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+  };
+  refused({"--guiding", "maybe"}, "unknown mode of guiding 'maybe': it may be off, on, auto");
+  refused({"--guiding", "on", "--integrator", "iterative"}, "guiding needs the integrator 'path'");
+  for (const char* wrong : {"0", "-1", "x", "1e9", ""})
+    refused({"--guiding", "on", "--guiding-memory", wrong}, "--guiding-memory must be a whole number from 1 to 1048576");
+}
+
+TEST_F(RenderOptions, IndirectLightIsLimited) {
+  ASSERT_EQ(render({"-o", "all.exr", "--spp", "16"}).exit_code, 0);
+  const nlohmann::json j = statistics({"-o", "limited.exr", "--spp", "16", "--clamp-indirect", "0.02"});
+  EXPECT_EQ(j["clamp_indirect"], 0.02);
+  EXPECT_FALSE(statistics({"-o", "same.exr", "--spp", "16", "--clamp-indirect", "0"}).contains("clamp_indirect"));
+  ASSERT_EQ(render({"-o", "direct.exr", "--spp", "16", "--max-depth", "1"}).exit_code, 0);
+  ASSERT_EQ(render({"-o", "direct_limited.exr", "--spp", "16", "--max-depth", "1", "--clamp-indirect", "0.02"}).exit_code,
+            0);
+  EXPECT_TRUE(is_same(image("all.exr"), image("same.exr")));
+  EXPECT_TRUE(is_same(image("direct.exr"), image("direct_limited.exr")));
+  const double all = mean_of(image("all.exr"), "G"), limited = mean_of(image("limited.exr"), "G"),
+               direct = mean_of(image("direct.exr"), "G");
+  EXPECT_LT(limited, all - 0.1 * (all - direct));
+  EXPECT_GT(limited, direct);
+  const Imf::InputFile file(folder_.file("limited.exr").c_str());
+  const auto* settings = file.header().findTypedAttribute<Imf::StringAttribute>("settings");
+  ASSERT_NE(settings, nullptr);
+  EXPECT_NE(settings->value().find("--clamp-indirect 0.02"), std::string::npos);
+  for (const char* wrong : {"-1", "nan", "inf", "x", ""}) EXPECT_EQ(render({"--clamp-indirect", wrong}).exit_code, 2);
+  EXPECT_EQ(render({"--clamp-indirect", "1", "--integrator", "iterative"}).exit_code, 2);
 }
 
 TEST_F(RenderOptions, SeedsChangeTheNoise) {
