@@ -74,9 +74,9 @@ class Guiding {
   double exposure_;
   Bounds3<Real> bounds_;
   bool is_on_ = true;
-  uint32_t iteration_ = 0, guided_ = 0;  ///< ended; ended and guided
+  uint32_t iteration_ = 0, guided_ = 0;               ///< ended; ended and guided
   double to_fixed_ = 0, gain_ = 0, last_weight_ = 1;  ///< the weight of the last iteration that has ended
-  std::vector<float> plain_variance_;  ///< of samples that were not guided, by tiles
+  std::vector<float> plain_variance_;                 ///< of samples that were not guided, by tiles
   GuideArrays arrays_;
   uint64_t generation_ = 0;
 };

@@ -44,8 +44,8 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--maxdepth", "--size", "--crop", "--cropwindow", "--pixelbounds", "--integrator", "--sampler", "--seed",
       "--backend", "--strategy", "--schedule", "--threads", "--nthreads", "--precision", "--progress", "--quiet",
       "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--overwrite", "--device", "--block",
-      "--chunk", "--denoise", "--environment", "--texture-budget", "--coats", "--filter", "--noise",
-      "--guiding", "--guiding-memory", "--clamp-indirect",
+      "--chunk", "--denoise", "--environment", "--texture-budget", "--coats", "--filter", "--noise", "--guiding",
+      "--guiding-memory", "--clamp-indirect",
       // Tested in quality_tests.cpp:
       "--quality",
       // Tested in gltf_tests.cpp:
@@ -359,7 +359,8 @@ TEST_F(RenderOptions, GuidingLearnsAndIsReported) {
   refused({"--guiding", "maybe"}, "unknown mode of guiding 'maybe': it may be off, on, auto");
   refused({"--guiding", "on", "--integrator", "iterative"}, "guiding needs the integrator 'path'");
   for (const char* wrong : {"0", "-1", "x", "1e9", ""})
-    refused({"--guiding", "on", "--guiding-memory", wrong}, "--guiding-memory must be a whole number from 1 to 1048576");
+    refused({"--guiding", "on", "--guiding-memory", wrong},
+            "--guiding-memory must be a whole number from 1 to 1048576");
 }
 
 TEST_F(RenderOptions, IndirectLightIsLimited) {
@@ -368,8 +369,8 @@ TEST_F(RenderOptions, IndirectLightIsLimited) {
   EXPECT_EQ(j["clamp_indirect"], 0.02);
   EXPECT_FALSE(statistics({"-o", "same.exr", "--spp", "16", "--clamp-indirect", "0"}).contains("clamp_indirect"));
   ASSERT_EQ(render({"-o", "direct.exr", "--spp", "16", "--max-depth", "1"}).exit_code, 0);
-  ASSERT_EQ(render({"-o", "direct_limited.exr", "--spp", "16", "--max-depth", "1", "--clamp-indirect", "0.02"}).exit_code,
-            0);
+  ASSERT_EQ(
+      render({"-o", "direct_limited.exr", "--spp", "16", "--max-depth", "1", "--clamp-indirect", "0.02"}).exit_code, 0);
   EXPECT_TRUE(is_same(image("all.exr"), image("same.exr")));
   EXPECT_TRUE(is_same(image("direct.exr"), image("direct_limited.exr")));
   const double all = mean_of(image("all.exr"), "G"), limited = mean_of(image("limited.exr"), "G"),

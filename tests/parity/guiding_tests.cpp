@@ -1,5 +1,5 @@
-// Path guiding: what is learned does not depend on the order of samples, so the image has the same bits with any engine,
-// size of passes and interruption; and the mean over many images is that of renders without guiding.
+// Path guiding: what is learned does not depend on the order of samples, so the image has the same bits with any
+// engine, size of passes and interruption; and the mean over many images is that of renders without guiding.
 
 #include <algorithm>
 #include <cmath>

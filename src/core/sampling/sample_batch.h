@@ -18,7 +18,7 @@ struct SampleBatch {
   Real x[Dimensions::count][max_count], y[Dimensions::count][max_count];
 
   /// Generates the dimensions whose bit is set in `wanted`, for paths 0 to count - 1.
-  void draw(uint32_t count, uint32_t wanted) {
+  ALHAZEN_INLINE void draw(uint32_t count, uint32_t wanted) {
     const uint32_t end = whole_rows(count);
     for (uint32_t d = 0; d < Dimensions::count; ++d) {
       if (!(wanted >> d & 1)) continue;

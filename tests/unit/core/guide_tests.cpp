@@ -194,7 +194,7 @@ TYPED_TEST(Guides, ScatteringIsUnbiased) {
     Moments albedo, angle;
     for (uint32_t i = 0; i < effort(200'000); ++i) {
       const IndependentSampler sampler(9, i & 1023, i >> 10, 0);
-      GuideVertex<Real> vertex;
+      GuideVertex<Real> vertex{};
       vertex.throughput = 1;
       const BsdfSample<Real> s = scatter_guided(scene, point, directions, sampler, VertexDimensions(0), vertex);
       if (s.pdf > 0) {
@@ -218,7 +218,7 @@ TYPED_TEST(Guides, LearnsFromAVertex) {
   using Real = TypeParam;
   RandomGuide guide(10, 1);
   guide.quads[1].child[0] = guide.quads[1].child[1] = guide.quads[1].child[2] = guide.quads[1].child[3] = 0;
-  GuideVertex<Real> vertex;
+  GuideVertex<Real> vertex{};
   vertex.position = {Real(0.5), Real(0.5), Real(0.5)};
   vertex.region = 0;
   vertex.square = {Real(0.75), Real(0.25)};
