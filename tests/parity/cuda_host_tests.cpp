@@ -146,7 +146,8 @@ TEST(CudaOnHostWideBvh, GivesAllButTheSameBits) {
       RenderControl control(1);
       cuda::HostExecutor executor;
       cuda::DeviceRender<cuda::HostExecutor, cuda::CwbvhTracing, float> render(executor, {});
-      render.render_pass({flat, SampleKernel<float>(nullptr), settings, *film, control, 0, 18}, control.thread(0));
+      render.render_pass({flat, SampleKernel<float>(nullptr), settings, *film, control, 0, 18, settings.integrator},
+                         control.thread(0));
       Rendering rendering;
       rendering.film = std::move(film);
       const Outcome outcome = outcome_of(rendering), expected = render_bits(parity_scene(name), serial);
@@ -175,8 +176,10 @@ TEST(CudaOnHostShares, AddUpToTheImage) {
     for (uint32_t device = 0; device < devices; ++device) {
       cuda::HostExecutor executor;
       cuda::DeviceRender<cuda::HostExecutor, cuda::Bvh2Tracing, double> render(executor, {device, devices});
-      render.render_pass({flat, SampleKernel<double>(nullptr), settings, *film, control, 0, 16}, control.thread(0));
-      render.render_pass({flat, SampleKernel<double>(nullptr), settings, *film, control, 16, 2}, control.thread(0));
+      render.render_pass({flat, SampleKernel<double>(nullptr), settings, *film, control, 0, 16, settings.integrator},
+                         control.thread(0));
+      render.render_pass({flat, SampleKernel<double>(nullptr), settings, *film, control, 16, 2, settings.integrator},
+                         control.thread(0));
     }
     EXPECT_EQ(control.thread(0).samples, expected.statistics.camera_samples);
     Rendering rendering;
