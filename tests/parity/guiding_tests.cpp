@@ -21,6 +21,8 @@ Settings guided_settings(const std::string& precision, int64_t samples = two_ite
   settings.precision = precision;
   settings.samples_per_pixel = samples;
   settings.guiding = "on";
+  settings.width = 11;
+  settings.height = 9;
   return settings;
 }
 
@@ -96,7 +98,7 @@ TEST_P(Guided, ResumesWithTheSameBits) {
 
 TEST_P(Guided, ResumesAfterBeingStopped) {
   const TemporaryFolder folder;
-  constexpr int64_t samples = 8000;
+  constexpr int64_t samples = 20'000;
   Settings settings = guided_settings(precision(), samples);
   settings.threads = 2;
   settings.backend = "openmp";
@@ -132,7 +134,7 @@ class GuidedMean : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(GuidedMean, IsThatWithoutGuiding) {
   Moments guided, plain;
-  for (uint32_t seed = 0; seed < effort(16); ++seed) {
+  for (uint32_t seed = 0; seed < effort(8); ++seed) {
     Settings settings = guided_settings("float", 1024);
     settings.seed = seed;
     guided.add(mean_of(render_bits(parity_scene(GetParam()), settings)));
@@ -179,7 +181,7 @@ Shape "sphere" "float radius" 2
   const Outcome black = render_bits(dark, settings);
   EXPECT_EQ(mean_of(black), 0);
   EXPECT_FALSE(black.statistics.guiding.is_used);
-  settings.pixel_bounds = {{3, 5, 4, 5}};
+  settings.pixel_bounds = {{3, 5, 4, 5}};  // two pixels
   const Outcome tiny = render_bits(parity_scene("cornell"), settings);
   EXPECT_TRUE(std::all_of(tiny.rows.begin(), tiny.rows.end(), [](float value) { return std::isfinite(value); }));
   settings.guiding = "auto";

@@ -225,12 +225,14 @@ TYPED_TEST(Guides, LearnsFromAVertex) {
   vertex.throughput = Real(0.5);
   vertex.pdf_of_bsdf = 2;
   vertex.pdf_of_guide = 1;
+  vertex.share = Real(0.5);
   learn_from_vertex(guide.view<Real>(), vertex, Real(3), 1u);
   EXPECT_EQ(guide.tallies[0].vertices, 1u);
   EXPECT_EQ(guide.light[5], static_cast<uint64_t>(6 * guide_units));
+  // The second moment is w^2 (pdf / tried pdf), so it falls by w^2 pdf (pdf of BSDF - pdf of guide) / (tried pdf)^2.
   for (uint32_t i = 0; i < tried_shares; ++i)
     EXPECT_NEAR(static_cast<double>(static_cast<int64_t>(guide.tallies[0].slopes[i])),
-                6 * guide_units / (1 + static_cast<double>(tried_share(i))), 16);
+                36 * guide_units * 1.5 / sqr(1 + static_cast<double>(tried_share(i))), 32);
   guide.tallies[0] = {};
   std::swap(vertex.pdf_of_bsdf, vertex.pdf_of_guide);
   learn_from_vertex(guide.view<Real>(), vertex, Real(3), 1u);
@@ -244,15 +246,20 @@ TYPED_TEST(Guides, LearnsFromAVertex) {
   learn_from_vertex(guide.view<Real>(), vertex, std::numeric_limits<Real>::infinity(), 1u);
   EXPECT_EQ(guide.light[5], before + static_cast<uint64_t>(guide_limit * guide_units));
 
+  // Two regions with trees of their own.
   guide.cells = {1, leaf_cell | 0, leaf_cell | 1};
-  guide.regions.push_back(guide.regions[0]);
+  guide.quads.push_back(guide.quads[1]);
+  guide.regions.push_back({2, 0.5f});
   guide.tallies.assign(2, {});
-  for (uint32_t i = 0; i < 1000; ++i) learn_from_vertex(guide.view<Real>(), vertex, Real(1), i);
-  EXPECT_NEAR(static_cast<double>(guide.tallies[0].vertices), 500, 60);
-  vertex.position.x = Real(0.2);
-  guide.tallies.assign(2, {});
+  guide.light.assign(12, 0);
   for (uint32_t i = 0; i < 1000; ++i) learn_from_vertex(guide.view<Real>(), vertex, Real(1), i);
   EXPECT_EQ(guide.tallies[0].vertices, 1000u);
+  EXPECT_NEAR(static_cast<double>(guide.light[5]) / static_cast<double>(guide.light[5] + guide.light[9]), 0.5, 0.06);
+  vertex.position.x = Real(0.2);
+  guide.light.assign(12, 0);
+  for (uint32_t i = 0; i < 1000; ++i) learn_from_vertex(guide.view<Real>(), vertex, Real(1), i);
+  EXPECT_GT(guide.light[5], 0u);
+  EXPECT_NEAR(static_cast<double>(guide.light[9]) / static_cast<double>(guide.light[5] + guide.light[9]), 0, 0.06);
 }
 
 }  // namespace
