@@ -41,6 +41,10 @@ std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
                    settings.backend, strategy.empty() ? "" : " --strategy ", strategy, to_string(settings.precision),
                    to_string(settings.integrator), to_string(settings.sampler), settings.max_segments - 1,
                    settings.threads)}};
+  // What changes the image, and is off unless asked for.
+  if (settings.guiding != GuidingMode::off) metadata["settings"] += " --guiding " + to_string(settings.guiding);
+  if (settings.asked.clamp_indirect > 0)
+    metadata["settings"] += " --clamp-indirect " + setting_text(settings.asked, "clamp-indirect");
   if (!settings.asked.quality.empty())
     metadata["quality"] = settings.asked.quality + ": " + quality_options(settings.asked);
   if (settings.asked.noise > 0)
