@@ -80,8 +80,8 @@ struct SceneView {
   uint32_t has_lobes = 0;             ///< 1 if a material chooses among lobes at random
   uint32_t has_narrow_triangles = 0;  ///< 1 if a triangle is much longer than wide (core/shapes/triangle.h)
   Bounds3<Real> bounds{};             ///< of all surfaces
-  Real indirect_limit = infinity<Real>;  ///< of what one path adds after its first scattering, before the exposure
-  GuideView<Real> guide;                 ///< what path guiding has learned; not part of the compiled scene
+  Real indirect_limit = 0;            ///< of each contribution of indirect light, before the exposure; 0: none
+  GuideView<Real> guide;              ///< what path guiding has learned; not part of the compiled scene
 };
 
 }  // namespace ALHAZEN_CORE

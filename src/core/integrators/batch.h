@@ -73,6 +73,7 @@ class PathBatch {
     ShadowRay<Real> shadow;
     Vec3<Real> radiance;  ///< added to the path as far as the light is visible
     uint32_t lane;
+    uint32_t vertex;  ///< number of the vertex it starts at
   };
 
   /// Starts new samples in the slots of ended paths. They follow the continuing paths in `active_`.
@@ -113,8 +114,8 @@ class PathBatch {
 
   /// Ends the paths that escaped and compacts the others in their order.
   void end_escaped() {
-    uint32_t hits = 0;
-    const auto end_or_keep = [&](uint32_t i) {
+    uint32_t hits = 0, still_continuing = 0;
+    for (uint32_t i = 0; i < live_; ++i) {
       const uint32_t index = active_[i];
       Lane& lane = lanes_[index];
       ++lane.record.segments;
@@ -123,14 +124,12 @@ class PathBatch {
         numbers_.samplers[hits] = lane.sampler;
         numbers_.first_dimension[hits] = VertexDimensions(lane.path.vertex).base;
         active_[hits++] = index;
+        if (i < continuing_) still_continuing = hits;
       } else {
         add_infinite_lights(scene_, lane.path, lane.record);
         ended_[ended_count_++] = index;
       }
-    };
-    for (uint32_t i = 0; i < continuing_; ++i) end_or_keep(i);
-    const uint32_t still_continuing = hits;
-    for (uint32_t i = continuing_; i < live_; ++i) end_or_keep(i);
+    }
     continuing_ = still_continuing;
     live_ = hits;
   }
@@ -188,6 +187,7 @@ class PathBatch {
     pending.shadow = shadow;
     pending.radiance = radiance;
     pending.lane = index;
+    pending.vertex = lanes_[index].path.vertex;
   }
 
   /// `place` is the index in `active_`.
@@ -230,7 +230,7 @@ class PathBatch {
       const DirectLight<Real> direct = diffuse_.direct(place, lane.hit, lane.path.ray.time);
       if (direct.is_lit) {
         ++lane.record.shadow_rays;
-        add_shadow_ray(index, direct.shadow, limited(scene_, direct.radiance, lane.path.vertex >= 1));
+        add_shadow_ray(index, direct.shadow, direct.radiance);
       }
       diffuse_.take_over(place, lane.hit, lane.path);
       continue_or_end(diffuse_.goes_on(place), index);
@@ -243,7 +243,14 @@ class PathBatch {
   const Ray<Real>& shadow_ray(uint32_t i) const { return shadow_rays_[i].shadow.ray; }
   Real shadow_limit(uint32_t i) const { return shadow_rays_[i].shadow.t_max; }
 
+  /// Not done where they are made, since that is the hottest code of all.
+  void limit_shadow_rays() {
+    for (uint32_t i = 0; i < shadow_ray_count_; ++i)
+      shadow_rays_[i].radiance = limited(scene_, shadow_rays_[i].radiance, shadow_rays_[i].vertex >= 1);
+  }
+
   void trace_shadow_rays() {
+    if (scene_.indirect_limit > 0) limit_shadow_rays();
     if (scene_.lets_light_through) return trace_shadow_rays_through();
     intersector_.template trace<true>(
         shadow_ray_count_, [&](uint32_t i) -> const Ray<Real>& { return shadow_ray(i); },

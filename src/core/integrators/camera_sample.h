@@ -71,7 +71,7 @@ ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& in
       scene, sampler, max_segments, hit, path, record,
       [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
         const Real visibility = visibility_of(scene, intersector, shadow);
-        if (visibility > 0) record.radiance += radiance * visibility;
+        if (visibility > 0) record.radiance += limited(scene, radiance, path.vertex >= 1) * visibility;
         if constexpr (has_counters<Record>)
           if (!(visibility > 0)) record.counters.count_blocked();
       },

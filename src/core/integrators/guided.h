@@ -128,7 +128,7 @@ ALHAZEN_HD bool light_and_scatter(const SceneView<Real>& scene, const Sampler& s
   });
   if (direct.is_lit) {
     ++record.shadow_rays;
-    light(direct.shadow, limited(scene, path.throughput * direct.radiance, path.vertex >= 1));
+    light(direct.shadow, path.throughput * direct.radiance);
   }
   if (samples_by_side(scene)) path.light_side = side_of_light(point);
   GuideVertex<Real> vertex;

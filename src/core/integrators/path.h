@@ -30,13 +30,6 @@ ALHAZEN_HD ALHAZEN_HOT Real bsdf_mis_weight(const PathState<Real>& path, Real li
   return path.is_specular ? Real(1) : power_heuristic(path.bsdf_pdf, light_pdf);
 }
 
-/// Returns a contribution of a path, limited if it is indirect light: then the image is darker than it should be.
-template <class Real>
-ALHAZEN_HD ALHAZEN_HOT Vec3<Real> limited(const SceneView<Real>& scene, const Vec3<Real>& radiance, bool is_indirect) {
-  if (!is_indirect || !(max_component(radiance) > scene.indirect_limit)) return radiance;
-  return radiance * (scene.indirect_limit / max_component(radiance));
-}
-
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, const PathState<Real>& path,
                                                 Record& record) {
@@ -132,7 +125,7 @@ ALHAZEN_HD ALHAZEN_HOT bool light_and_scatter(const SceneView<Real>& scene, cons
   if constexpr (has_counters<Record>) count_light_sample(scene, sampler, dimensions, point, sample, direct, record);
   if (direct.is_lit) {
     ++record.shadow_rays;
-    light(direct.shadow, limited(scene, path.throughput * direct.radiance, path.vertex >= 1));
+    light(direct.shadow, path.throughput * direct.radiance);
   }
   if (samples_by_side(scene)) path.light_side = side_of_light(point);
   const uint32_t vertex = path.vertex;

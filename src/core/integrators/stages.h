@@ -124,7 +124,16 @@ struct ShadowRay {
   Real t_max;  ///< if not above 0, nothing can occlude
 };
 
-/// Receives shadow rays with the radiance to add if they are unoccluded.
+/// Returns a contribution of a path, limited if it is indirect light and there is a limit: the image is then darker
+/// than it should be.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> limited(const SceneView<Real>& scene, const Vec3<Real>& radiance, bool is_indirect) {
+  if (!(scene.indirect_limit > 0) || !is_indirect) return radiance;
+  const Real largest = max_component(radiance);
+  return largest > scene.indirect_limit ? radiance * (scene.indirect_limit / largest) : radiance;
+}
+
+/// Receives shadow rays with the radiance to add if they are unoccluded. It limits that radiance.
 template <class Receiver, class Real>
 concept ShadowRayReceiver = std::invocable < const Receiver&,
         const ShadowRay<Real>

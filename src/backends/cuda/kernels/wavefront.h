@@ -254,7 +254,7 @@ struct ShadeKernel {
     const bool goes_on = shade(
         stage.launch.scene, stage.sampler_of(slot), stage.launch.max_segments, slots.hits[slot], path, record,
         [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
-          queue_shadow(thread, slot, shadow, radiance);
+          queue_shadow(thread, slot, shadow, limited(stage.launch.scene, radiance, path.vertex >= 1));
         },
         slots.trail(slot, none));
     slots.paths.set(slot, path);
