@@ -63,8 +63,8 @@ struct Settings {
   /// docs/guiding.md says what it is good for.
   std::string guiding;
   int64_t guiding_memory = 256;  ///< MiB that it may take
-  /// Most that one path may add of light that was scattered more than once, in any channel: bright dots disappear, and
-  /// so does a part of caustics and reflections. 0: no limit, the right image. For the integrator path.
+  /// Most that each vertex of a path may add of light that was scattered more than once, in any channel: bright dots
+  /// disappear, and so does a part of caustics and reflections. 0: no limit, the right image. For the integrator path.
   double clamp_indirect = 0;
   int64_t max_depth = -1;         ///< bounces: a path has at most max_depth + 1 segments
   int64_t width = 0, height = 0;  ///< pixels

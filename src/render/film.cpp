@@ -25,6 +25,7 @@ uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, const FilmExt
   if (extras.noise_target) pixel += 2 * sizeof(Real) + sizeof(uint8_t);
   if (extras.guiding) pixel += sizeof(Vec3<Real>) + sizeof(Real) + sizeof(uint32_t);
   if (extras.guiding && extras.denoising) pixel += sizeof(Vec3<Real>) + sizeof(Real);
+  if (extras.guiding && extras.noise_target) pixel += 2 * sizeof(Real);
   return pixel * static_cast<uint64_t>(window.pixels());
 }
 
@@ -56,6 +57,8 @@ Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, const FilmExtras
   allocate_if(extras.guiding, earlier_weights_, pixels);
   allocate_if(extras.guiding && extras.denoising, earlier_odd_weights_, pixels);
   allocate_if(extras.guiding, earlier_samples_, pixels);
+  allocate_if(extras.guiding && extras.noise_target, earlier_variance_, pixels);
+  allocate_if(extras.guiding && extras.noise_target, earlier_half_variance_, pixels);
   const auto pointer = [](auto& plane) { return plane.empty() ? nullptr : plane.data(); };
 #define ALHAZEN_PLANE(type, name) view_.name = pointer(name##_);
   ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)

@@ -5,6 +5,9 @@
 #include <cstring>
 #include <limits>
 #include <mutex>
+#include <new>
+
+#include "render/noise.h"
 
 namespace alhazen {
 
@@ -30,8 +33,19 @@ constexpr double floor_fraction = 0.1;
 /// Guided samples take longer by about this factor; after the first guided iteration, which has learned little, guiding
 /// may still be worse than none by this other.
 constexpr double cost_of_guiding = 1.5, early_gain = 0.7;
-/// Renders with fewer iterations are not guided where that is to be decided.
-constexpr uint32_t min_iterations = 4;
+/// Variances of fewer samples are not compared.
+constexpr double min_compared_samples = 1024;
+/// Bounds the weights of iterations.
+constexpr double max_weight = 1024;
+/// The arrays take at most this part of the memory: the old and the new ones exist at once, and vectors grow by
+/// doubling.
+constexpr uint64_t parts_of_memory = 5;
+
+uint64_t bytes_of(const GuideArrays& arrays) {
+  const auto bytes = [](const auto& array) { return array.size() * sizeof(array[0]); };
+  return bytes(arrays.cells) + bytes(arrays.regions) + bytes(arrays.quads) + bytes(arrays.light) +
+         bytes(arrays.tallies);
+}
 
 /// Builds the arrays of the next iteration from those of the last.
 class TreeBuilder {
@@ -41,11 +55,11 @@ class TreeBuilder {
       for (uint32_t k = 0; k < 4; ++k) sums_[i] += value_of(static_cast<uint32_t>(i), k);
   }
 
-  /// Returns false if there would be more than `max_quads` nodes.
-  bool build(double vertices, double part, uint64_t max_quads, bool learns_shares) {
+  /// Returns false if the arrays would take more than `max_bytes`.
+  bool build(double vertices, double part, uint64_t max_bytes, bool learns_shares) {
     vertices_per_region_ = vertices;
     part_ = part;
-    max_quads_ = max_quads;
+    max_bytes_ = max_bytes;
     learns_shares_ = learns_shares;
     made_ = {};
     made_.cells.resize(1);
@@ -57,6 +71,8 @@ class TreeBuilder {
   GuideArrays take() { return std::move(made_); }
 
  private:
+  bool is_full() const { return bytes_of(made_) > max_bytes_; }
+
   double value_of(uint32_t quad, uint32_t quarter) const {
     const uint32_t child = old_.quads[quad].child[quarter];
     return child ? sums_[child] : static_cast<double>(old_.light[size_t{quad} * 4 + quarter]);
@@ -95,7 +111,7 @@ class TreeBuilder {
     add_quad(old.quad, 0, 0);
     made_.regions.push_back(made);
     made_.tallies.push_back({});
-    return made_.quads.size() <= max_quads_;
+    return !is_full();
   }
 
   float share_of(uint32_t region) const {
@@ -123,7 +139,7 @@ class TreeBuilder {
     for (uint32_t k = 0; k < 4; ++k) sum += values[k] = old ? value_of(old, k) : even / 4;
     for (uint32_t k = 0; k < 4; ++k) {
       made_.quads[made].share[k] = sum > 0 ? static_cast<float>(values[k] / sum) : 0.25f;
-      if (values[k] > part_ * total_ && depth + 1 < max_quad_depth && made_.quads.size() <= max_quads_) {
+      if (values[k] > part_ * total_ && depth + 1 < max_quad_depth && !is_full()) {
         const uint32_t child = add_quad(old ? old_.quads[old].child[k] : 0, values[k], depth + 1);
         made_.quads[made].child[k] = child;
       } else {
@@ -137,11 +153,11 @@ class TreeBuilder {
   GuideArrays made_;
   std::vector<double> sums_;  ///< of the old nodes
   double vertices_per_region_ = 0, part_ = 0, total_ = 0, kept_part_ = 0;
-  uint64_t max_quads_ = 0;
+  uint64_t max_bytes_ = 0;
   bool learns_shares_ = false;
 };
 
-/// Calls visit(x, y, tile) for each pixel of a window.
+/// Calls visit(pixel, tile) for each pixel of a window.
 template <class Visit>
 void visit_tiles(int width, int height, const Visit& visit) {
   const int columns = (width + variance_tile - 1) / variance_tile;
@@ -156,13 +172,46 @@ size_t tile_count(int width, int height) {
          static_cast<size_t>((height + variance_tile - 1) / variance_tile);
 }
 
+template <class Real>
+VarianceComparison compare_variances(const FilmView<Real>& film, int width, int height,
+                                     const std::vector<float>& plain_variance) {
+  struct Tile {
+    double luminance = 0, variance = 0;
+    uint32_t pixels = 0, counted = 0;
+  };
+  std::vector<Tile> tiles(tile_count(width, height));
+  VarianceComparison result;
+  double mean = 0;
+  visit_tiles(width, height, [&](size_t i, size_t t) {
+    Tile& tile = tiles[t];
+    const double value = static_cast<double>(luminance(film.radiance_sum(i).mean()));
+    tile.luminance += value;
+    mean += value;
+    ++tile.pixels;
+    const uint32_t n = film.current_samples(i);
+    if (n < 2 || film.is_finished(i)) return;
+    ++tile.counted;
+    tile.variance += static_cast<double>(film.luminance_m2[i]) / (n - 1);
+    result.samples += n - 1;
+  });
+  mean /= static_cast<double>(width) * height;
+  for (size_t t = 0; t < tiles.size(); ++t) {
+    const Tile& tile = tiles[t];
+    const double reference = std::max(tile.luminance / tile.pixels, 0.0) + floor_fraction * mean;
+    const double inverse = reference > 0 ? 1 / (reference * reference) : 0;
+    result.present += tile.variance * inverse;
+    if (!plain_variance.empty()) result.plain += static_cast<double>(plain_variance[t]) * tile.counted * inverse;
+    result.present_tiles.push_back(tile.counted > 0 ? static_cast<float>(tile.variance / tile.counted) : 0.0f);
+  }
+  return result;
+}
+
 }  // namespace
 
 template <class Real>
 Guiding<Real>::Guiding(const RenderSettings& settings, const SceneView<Real>& scene)
     : decides_(settings.guiding == GuidingMode::automatic),
-      // A node takes 64 bytes with its sums, and twice that while the next trees are built.
-      max_quads_(std::min<uint64_t>(settings.guiding_memory / 128, 1u << 30)),
+      max_bytes_(settings.guiding_memory / parts_of_memory),
       width_(settings.window.width()),
       height_(settings.window.height()),
       exposure_(static_cast<double>(scene.exposure)),
@@ -170,19 +219,11 @@ Guiding<Real>::Guiding(const RenderSettings& settings, const SceneView<Real>& sc
   const int64_t pixels = settings.window.pixels();
   const int64_t wanted = std::clamp<int64_t>((first_samples + pixels - 1) / pixels, 1, 256);
   first_ = static_cast<uint32_t>((wanted + samples_per_block - 1) / samples_per_block * samples_per_block);
-  if (decides_ && settings.samples_per_pixel < first_ << min_iterations) is_on_ = false;
   arrays_.cells.assign(1, leaf_cell);
   arrays_.regions.assign(1, {1, 1});
   arrays_.quads.assign(2, GuideQuad{{0.25f, 0.25f, 0.25f, 0.25f}, {0, 0, 0, 0}});
   arrays_.light.assign(8, 0);
   arrays_.tallies.assign(1, {});
-}
-
-template <class Real>
-uint32_t Guiding<Real>::iteration_end(uint32_t samples) const {
-  uint32_t end = first_;
-  while (end <= samples && end < (1u << 31)) end *= 2;
-  return end;
 }
 
 template <class Real>
@@ -215,51 +256,36 @@ void Guiding<Real>::add(const uint64_t* light, const GuideTally* tallies) {
   }
 }
 
-/// The mean over the pixels of the variance of the present iteration's samples, relative to the luminance of the image
-/// so far. `tiles` becomes the sums of the variances themselves. Pixels that are finished do not count.
 template <class Real>
-double Guiding<Real>::variance(const FilmView<Real>& film, std::vector<float>& tiles, double& plain) const {
-  const size_t count = tile_count(width_, height_);
-  std::vector<double> luminances(count), variances(count);
-  std::vector<uint32_t> pixels(count);
-  double mean = 0;
-  visit_tiles(width_, height_, [&](size_t i, size_t tile) {
-    const double value = static_cast<double>(luminance(film.radiance_sum(i).mean()));
-    luminances[tile] += value;
-    mean += value;
-    ++pixels[tile];
-    const double n = film.current_samples(i);
-    if (n > 1 && !film.is_finished(i)) variances[tile] += static_cast<double>(film.luminance_m2[i]) / (n - 1);
-  });
-  mean /= static_cast<double>(width_) * height_;
-  double sum = 0;
-  tiles.resize(count);
-  plain = 0;
-  for (size_t t = 0; t < count; ++t) {
-    const double reference = std::max(luminances[t] / pixels[t], 0.0) + floor_fraction * mean;
-    const double inverse = reference > 0 ? 1 / (reference * reference) : 0;
-    sum += variances[t] * inverse;
-    tiles[t] = static_cast<float>(variances[t]);
-    if (!plain_variance_.empty()) plain += static_cast<double>(plain_variance_[t]) * inverse;
-  }
-  return sum;
+double Guiding<Real>::weight_of(const VarianceComparison& variances) const {
+  if (!is_guided()) return 1;
+  const double ratio = variances.plain / variances.present;
+  if (variances.samples < min_compared_samples || !(variances.plain > 0) || !std::isfinite(ratio)) return last_weight_;
+  return std::clamp(ratio, 1 / max_weight, max_weight);
 }
 
 template <class Real>
 void Guiding<Real>::weigh_samples(Film<Real>& film) const {
-  // The luminance of the image so far must not depend on when it was asked for last.
+  // Luminances are those of the image with this weight, whenever it is asked for.
   film.set_weight(static_cast<Real>(last_weight_));
-  std::vector<float> tiles;
-  double plain;
-  const double noise = variance(film.view(), tiles, plain);
-  film.set_weight(noise > 0 && std::isfinite(noise) ? static_cast<Real>(1 / noise) : Real(1));
+  film.set_weight(static_cast<Real>(weight_of(compare_variances(film.view(), width_, height_, plain_variance_))));
 }
 
 template <class Real>
-void Guiding<Real>::end_iteration(Film<Real>& film, uint32_t samples) {
-  if (samples != iteration_end(samples - 1)) return;
-  const bool was_learning = is_learning();
+uint32_t Guiding<Real>::samples_left(uint32_t samples) const {
+  const uint64_t end = samples == iteration_end() ? 2 * iteration_end() : iteration_end();
+  return static_cast<uint32_t>(std::min<uint64_t>(end - samples, std::numeric_limits<uint32_t>::max()));
+}
+
+template <class Real>
+void Guiding<Real>::begin_pass(Film<Real>& film, uint32_t samples) {
+  if (samples == iteration_end()) end_iteration(film);
+}
+
+template <class Real>
+void Guiding<Real>::end_iteration(Film<Real>& film) {
   ++iteration_;
+  if (!is_on_) return;
   if (to_fixed_ == 0) {
     double sum = 0;
     visit_tiles(width_, height_, [&](size_t i, size_t) {
@@ -270,48 +296,44 @@ void Guiding<Real>::end_iteration(Film<Real>& film, uint32_t samples) {
     if (mean > 0 && std::isfinite(mean)) to_fixed_ = 1 / mean;
     return;
   }
-  if (!is_on_) return;
-  const bool is_plain = plain_variance_.empty();
   film.set_weight(static_cast<Real>(last_weight_));
-  std::vector<float> tiles;
-  double plain;
-  const double noise = variance(film.view(), tiles, plain);
-  weigh_samples(film);
-  last_weight_ = static_cast<double>(film.view().iteration_weight);
+  VarianceComparison variances = compare_variances(film.view(), width_, height_, plain_variance_);
+  last_weight_ = weight_of(variances);
+  film.set_weight(static_cast<Real>(last_weight_));
+  if (film.view().earlier_variance) keep_variances(film);
   film.end_iteration();
-  if (is_plain) {
-    plain_variance_ = std::move(tiles);
+  if (plain_variance_.empty()) {
+    plain_variance_ = std::move(variances.present_tiles);
   } else {
-    gain_ = noise > 0 ? plain / noise : 0;
     ++guided_;
-    if (decides_ && gain_ < (guided_ == 1 ? early_gain : cost_of_guiding)) is_on_ = false;
+    if (decides_ && last_weight_ < (guided_ == 1 ? early_gain : cost_of_guiding)) is_on_ = false;
   }
-  if (is_on_ && was_learning) learn();
+  if (is_on_) learn();
 }
 
 template <class Real>
-void Guiding<Real>::learn() {
+void Guiding<Real>::learn() try {
   TreeBuilder builder(arrays_);
   double vertices = vertices_per_region * std::sqrt(std::exp2(iteration_ > 2 ? iteration_ - 2 : 0)),
          part = divided_part;
-  while (!builder.build(vertices, part, max_quads_, guided_ > 0)) {
+  while (!builder.build(vertices, part, max_bytes_, guided_ > 0)) {
     vertices *= 2;
     part *= 1.5;
   }
   arrays_ = builder.take();
   ++generation_;
+} catch (const std::bad_alloc&) {
+  // The next iteration is guided by what this one was.
 }
 
 template <class Real>
 GuidingState Guiding<Real>::state() const {
   GuidingState state;
-  state.is_used = is_on_ && !plain_variance_.empty();
+  state.is_used = is_guided();
   state.iterations = guided_;
   state.regions = arrays_.regions.size();
-  state.bytes = arrays_.quads.size() * (sizeof(GuideQuad) + 4 * sizeof(uint64_t)) +
-                arrays_.regions.size() * (sizeof(GuideRegion) + sizeof(GuideTally)) +
-                arrays_.cells.size() * sizeof(uint32_t);
-  state.gain = gain_;
+  state.bytes = bytes_of(arrays_);
+  state.gain = guided_ > 0 ? last_weight_ : 0;
   return state;
 }
 
@@ -376,34 +398,33 @@ class ByteReader {
 template <class Real>
 std::vector<std::byte> Guiding<Real>::bytes() const {
   ByteWriter write;
-  const_cast<Guiding*>(this)->visit_state(write);
+  visit_state(*this, write);
   return std::move(write.bytes);
 }
 
 template <class Real>
 bool Guiding<Real>::restore(const std::vector<std::byte>& bytes) {
   ByteReader read(bytes);
-  visit_state(read);
+  visit_state(*this, read);
   ++generation_;
   return read.is_good && read.is_at_end() && arrays_.light.size() == 4 * arrays_.quads.size() &&
          arrays_.tallies.size() == arrays_.regions.size();
 }
 
 template <class Real>
-template <class Visit>
-void Guiding<Real>::visit_state(Visit& visit) {
-  visit(is_on_);
-  visit(iteration_);
-  visit(guided_);
-  visit(to_fixed_);
-  visit(gain_);
-  visit(last_weight_);
-  visit(plain_variance_);
-  visit(arrays_.cells);
-  visit(arrays_.regions);
-  visit(arrays_.quads);
-  visit(arrays_.light);
-  visit(arrays_.tallies);
+template <class Self, class Visit>
+void Guiding<Real>::visit_state(Self& self, Visit& visit) {
+  visit(self.is_on_);
+  visit(self.iteration_);
+  visit(self.guided_);
+  visit(self.to_fixed_);
+  visit(self.last_weight_);
+  visit(self.plain_variance_);
+  visit(self.arrays_.cells);
+  visit(self.arrays_.regions);
+  visit(self.arrays_.quads);
+  visit(self.arrays_.light);
+  visit(self.arrays_.tallies);
 }
 
 template class Guiding<float>;

@@ -22,6 +22,14 @@ struct GuideArrays {
   std::vector<GuideTally> tallies;
 };
 
+/// Sums over pixels of the variance of samples without guiding, and of those of the present iteration, both relative to
+/// the luminance of the image. Only pixels that take samples in it count, in both.
+struct VarianceComparison {
+  double plain = 0, present = 0;
+  double samples = 0;                ///< of the present iteration, less one for each pixel
+  std::vector<float> present_tiles;  ///< the mean variance of the pixels of each tile, not relative
+};
+
 /// What a render with guiding did, for reports.
 struct GuidingState {
   bool is_used = false;     ///< the samples that are taken now are guided
@@ -40,8 +48,12 @@ class Guiding {
 
   /// How the samples of the present iteration are taken.
   IntegratorKind integrator() const { return is_learning() ? IntegratorKind::guided_path : IntegratorKind::path; }
-  /// The number of samples per pixel at which the iteration ends that sample number `samples` belongs to.
-  uint32_t iteration_end(uint32_t samples) const;
+  /// Called before each pass, with the number of samples that every pixel has. If an iteration ended with them, the
+  /// next one begins: the samples of the old one are weighed and added to those before, it is learned from, and it is
+  /// decided whether guiding goes on.
+  void begin_pass(Film<Real>& film, uint32_t samples);
+  /// How many samples per pixel are left of the iteration that the next one, number `samples`, belongs to.
+  uint32_t samples_left(uint32_t samples) const;
   /// Where kernels find what was learned and add what they learn. It is valid until the iteration ends.
   GuideView<Real> view();
   /// Adds sums that a device has collected in arrays like those of view(). May be called from several threads.
@@ -49,10 +61,8 @@ class Guiding {
   /// Changes whenever the arrays of view() do.
   uint64_t generation() const { return generation_; }
 
-  /// Ends an iteration: measures the variance of its samples and adds them to those of earlier ones, learns, and
-  /// decides whether guiding goes on. Does nothing if `samples` per pixel do not end one.
-  void end_iteration(Film<Real>& film, uint32_t samples);
-  /// Weighs the samples of the present iteration in the image.
+  /// Weighs the samples of the present iteration in the image: by 1 if they are not guided, else by the ratio of the
+  /// variance without guiding to theirs.
   void weigh_samples(Film<Real>& film) const;
   GuidingState state() const;
 
@@ -62,21 +72,28 @@ class Guiding {
 
  private:
   bool is_learning() const { return is_on_ && to_fixed_ > 0; }
-  double variance(const FilmView<Real>& film, std::vector<float>& tiles, double& plain) const;
-  template <class Visit>
-  void visit_state(Visit& visit);
+  /// The number of samples per pixel with which the present iteration ends.
+  uint64_t iteration_end() const { return uint64_t{first_} << iteration_; }
+  /// Whether the samples of the present iteration are guided.
+  bool is_guided() const { return is_on_ && !plain_variance_.empty(); }
+  double weight_of(const VarianceComparison& variances) const;
+  void end_iteration(Film<Real>& film);
   void learn();
+  /// Visits what a checkpoint keeps, of a Guiding or a const one.
+  template <class Self, class Visit>
+  static void visit_state(Self& self, Visit& visit);
 
   bool decides_;  ///< guiding ends where it does not pay
-  uint64_t max_quads_;
+  uint64_t max_bytes_;
   uint32_t first_;
   int width_, height_;
   double exposure_;
   Bounds3<Real> bounds_;
   bool is_on_ = true;
-  uint32_t iteration_ = 0, guided_ = 0;               ///< ended; ended and guided
-  double to_fixed_ = 0, gain_ = 0, last_weight_ = 1;  ///< the weight of the last iteration that has ended
-  std::vector<float> plain_variance_;                 ///< of samples that were not guided, by tiles
+  uint32_t iteration_ = 0, guided_ = 0;  ///< ended; ended and guided
+  double to_fixed_ = 0;
+  double last_weight_ = 1;             ///< of the last iteration that ended
+  std::vector<float> plain_variance_;  ///< of samples that were not guided: mean over the pixels of each tile
   GuideArrays arrays_;
   uint64_t generation_ = 0;
 };

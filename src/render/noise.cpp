@@ -90,17 +90,20 @@ struct Halves {
 
 /// A pixel's luminance, and the variance of it by both estimates.
 struct PixelMean {
+  bool is_known = false;
   double luminance = 0, by_blocks = 0, by_halves = 0;
 };
 
+/// With guiding, of the last iteration.
 template <class Real>
-PixelMean pixel_mean(const FilmView<Real>& film, size_t i) {
+PixelMean mean_of_iteration(const FilmView<Real>& film, size_t i) {
   const uint32_t samples = film.current_samples(i);
   if (samples < 2 * samples_per_block) return {};
   const double n = samples;
   const Halves halves(samples);
   const double first = halves.first, second = halves.second;
   PixelMean mean;
+  mean.is_known = true;
   mean.luminance = static_cast<double>(film.luminance_mean[i]);
   mean.by_blocks = static_cast<double>(film.block_m2[i]) / (n * (halves.blocks - 1));
   const double sum = mean.luminance * n, difference = static_cast<double>(film.half_difference[i]);
@@ -114,14 +117,41 @@ PixelMean pixel_mean(const FilmView<Real>& film, size_t i) {
     mean.by_blocks *= n * n / (weight * weight);
     mean.by_halves *= n * n / (weight * weight);
   }
-  if (film.earlier_weights) {
-    // Iterations weigh by the inverse of their variance, so all of them have this part of the variance of the last.
-    const double current = static_cast<double>(film.weights[i]) * static_cast<double>(film.iteration_weight);
-    const double part = std::clamp(current / (current + static_cast<double>(film.earlier_weights[i])), 0.0, 1.0);
-    mean.by_blocks *= part;
-    mean.by_halves *= part;
+  return mean;
+}
+
+/// Whether the last iteration, of guiding, is too short to estimate errors from: those of the ones before count.
+template <class Real>
+bool is_short(const FilmView<Real>& film, size_t i) {
+  return film.earlier_samples && film.earlier_samples[i] > 0 && film.current_samples(i) < first_decision;
+}
+
+template <class Real>
+PixelMean pixel_mean(const FilmView<Real>& film, size_t i) {
+  PixelMean mean = mean_of_iteration(film, i);
+  if (!film.earlier_variance || film.earlier_samples[i] == 0) return mean;
+  const auto all = film.radiance_sum(i);
+  mean.luminance = static_cast<double>(luminance(all.mean()));
+  const double part =
+      std::clamp(static_cast<double>(film.earlier_weights[i]) / static_cast<double>(all.weight), 0.0, 1.0);
+  const double of_blocks = static_cast<double>(film.earlier_variance[i]),
+               of_halves = static_cast<double>(film.earlier_half_variance[i]);
+  if (is_short(film, i)) {
+    // Whatever its few samples are like, they lower the variance about as much as others of their weight.
+    mean.is_known = true;
+    mean.by_blocks = of_blocks * part;
+    mean.by_halves = of_halves * part;
+  } else {
+    mean.by_blocks = mean.by_blocks * sqr(1 - part) + of_blocks * sqr(part);
+    mean.by_halves = mean.by_halves * sqr(1 - part) + of_halves * sqr(part);
   }
   return mean;
+}
+
+/// The number of samples of which the estimates of a pixel are.
+template <class Real>
+uint32_t estimated_samples(const FilmView<Real>& film, size_t i) {
+  return is_short(film, i) ? film.earlier_samples[i] / 2 : film.current_samples(i);
 }
 
 /// The luminance to which the errors of darker pixels are relative.
@@ -129,7 +159,8 @@ template <class Real>
 double darkest_luminance(const FilmView<Real>& film, size_t pixels) {
   std::vector<float> values(pixels);
   for (size_t i = 0; i < pixels; ++i) {
-    const float value = static_cast<float>(film.luminance_mean[i]);
+    const float value =
+        static_cast<float>(film.earlier_weights ? luminance(film.radiance_sum(i).mean()) : film.luminance_mean[i]);
     values[i] = std::isfinite(value) ? value : 0;  // NaN has no order
   }
   const size_t counted = pixels - static_cast<size_t>(bright_part * static_cast<double>(pixels));
@@ -148,9 +179,7 @@ double exposure_of(const FilmView<Real>& film, size_t pixels) {
   std::vector<float> brightness;
   brightness.reserve(pixels);
   for (size_t i = 0; i < pixels; ++i) {
-    const double count = film.weights ? static_cast<double>(film.weights[i]) : film.samples[i];
-    const Vec3<Real>& sum = film.radiance[i];
-    const float value = static_cast<float>(static_cast<double>(std::max({sum.x, sum.y, sum.z})) / count);
+    const float value = static_cast<float>(max_component(film.radiance_sum(i).mean()));
     if (value > 0 && std::isfinite(value)) brightness.push_back(value);
   }
   return fitting_exposure(std::move(brightness));
@@ -207,6 +236,19 @@ template NoiseState unknown_noise(const Film<float>&);
 template NoiseState unknown_noise(const Film<double>&);
 
 template <class Real>
+void keep_variances(const Film<Real>& film) {
+  const FilmView<Real> view = film.view();
+  for (size_t i = 0; i < static_cast<size_t>(film.window().pixels()); ++i) {
+    const PixelMean mean = pixel_mean(view, i);
+    view.earlier_variance[i] = static_cast<Real>(mean.by_blocks);
+    view.earlier_half_variance[i] = static_cast<Real>(mean.by_halves);
+  }
+}
+
+template void keep_variances(const Film<float>&);
+template void keep_variances(const Film<double>&);
+
+template <class Real>
 NoiseEstimate<Real>::NoiseEstimate(const RenderSettings& settings, const Film<Real>& film)
     : film_(film),
       target_(settings.asked.noise),
@@ -228,9 +270,8 @@ void NoiseEstimate<Real>::measure_pixels(const RenderSettings& settings) {
   if (settings.noise_fits_exposure) curve->scale = portable_exp2(exposure_of(film, pixels));
   for (size_t i = 0; i < pixels; ++i) {
     const PixelMean mean = pixel_mean(film, i);
-    if (film.current_samples(i) < 2 * samples_per_block || !std::isfinite(mean.by_blocks) ||
-        !std::isfinite(mean.luminance))
-      errors_[i] = of_halves_[i] = film.is_finished(i) ? finite_square(target_ * target_) : 1;
+    if (!mean.is_known || !std::isfinite(mean.by_blocks) || !std::isfinite(mean.luminance))
+      errors_[i] = of_halves_[i] = 1;
     if (!(mean.by_blocks > 0) || errors_[i] > 0) continue;
     double error = 0;
     if (curve) {
@@ -252,7 +293,7 @@ void NoiseEstimate<Real>::join_neighbours() {
   const auto tiles = [&](const auto& value) { return TileSums(errors_.size(), width_, height_, value); };
   const auto of_halves = [&](const auto& value) {
     return tiles([&](size_t i) {
-      const uint32_t samples = film.current_samples(i);
+      const uint32_t samples = estimated_samples(film, i);
       return samples > samples_per_block ? value(Halves(samples), samples) : 2.0;
     });
   };

@@ -36,6 +36,10 @@ uint32_t next_decision(uint32_t samples);
 template <class Real>
 NoiseState unknown_noise(const Film<Real>& film);
 
+/// With guiding, called before an iteration ends: keeps the variance of each pixel for estimates in the next ones.
+template <class Real>
+void keep_variances(const Film<Real>& film);
+
 /// Throws std::bad_alloc.
 template <class Real>
 class NoiseEstimate {

@@ -161,7 +161,7 @@ class PassLoop {
     while (!is_done() && !control_.is_stopped()) {
       uint32_t size =
           pass_size(settings_, backend_.max_samples_per_pass(), samples_done_, elapsed_, seconds_per_sample());
-      if (guiding_) size = std::min(size, guiding_->iteration_end(samples_done_) - samples_done_);
+      if (guiding_) size = std::min(size, guiding_->samples_left(samples_done_));
       if (settings_.asked.time_limit > 0 && last_pass_per_sample > 0 &&
           elapsed_ + last_pass_per_sample * size + estimate_seconds_ > settings_.asked.time_limit)
         return;
@@ -170,6 +170,7 @@ class PassLoop {
         in_whole_blocks_ = false;
       }
       const Clock::time_point start = Clock::now();
+      if (guiding_) guiding_->begin_pass(film_, samples_done_);
       const IntegratorKind integrator = guiding_ ? guiding_->integrator() : settings_.integrator;
       if (guiding_) scene_.view.guide = guiding_->view();
       backend_.render_pass(RenderPass<Real>{scene_, select_sample_kernel<Real>(integrator, settings_.sampler),
@@ -183,7 +184,6 @@ class PassLoop {
       samples_done_ += size;
       if (settings_.asked.noise > 0 && next_decision(samples_done_ - 1) == samples_done_)
         last_pass_per_sample *= finish_pixels();
-      if (guiding_) guiding_->end_iteration(film_, samples_done_);
       if (seconds_since(saved) >= settings_.asked.checkpoint_seconds) {
         save_checkpoint();
         saved = Clock::now();
@@ -205,6 +205,7 @@ class PassLoop {
     const Clock::time_point start = Clock::now();
     bool is_known = true;
     try {
+      if (guiding_) guiding_->weigh_samples(film_);
       const NoiseEstimate<Real> estimate(settings_, film_);
       if (finishes) estimate.finish_pixels();
       state_ = estimate.state();
@@ -221,7 +222,6 @@ class PassLoop {
 
   /// Returns the fraction of the pixels that are left of those that were not finished before.
   double finish_pixels() {
-    if (guiding_) guiding_->weigh_samples(film_);
     if (!estimate_noise(true)) return 1;
     const double before = static_cast<double>(unfinished_);
     unfinished_ = film_.unfinished();

@@ -285,8 +285,8 @@ std::vector<SettingEntry> image_settings() {
       of_samples(
           [](const RenderSettings& s) { return s.asked.clamp_indirect > 0 ? text_of(s.asked.clamp_indirect) : ""; },
           entry(group, "clamp-indirect", "", "X",
-                "Limit what one path adds of indirect light to X, against bright dots: the image gets darker "
-                "than it should be; 0: no limit, the default",
+                "Limit each contribution of indirect light to X, against bright dots: the image gets darker than it "
+                "should be; 0: no limit, the default",
                 number("clamp-indirect", &Settings::clamp_indirect, 0.0, 0.0, 1e30))),
       of_samples([](const RenderSettings& s) { return std::to_string(s.max_segments - 1); },
                  entry(group, "max-depth", "--maxdepth", "N", "Bounces: a path has at most N + 1 segments",

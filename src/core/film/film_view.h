@@ -17,7 +17,8 @@ namespace ALHAZEN_CORE {
 ///
 /// With guiding, samples are taken in iterations that count differently. `radiance`, `weights`, their odd halves and
 /// all that is said about variance are then of the last iteration. Those that start with `earlier_` are of the ones
-/// before: sums times the weights of iterations, sums of filter weights times them, and numbers of samples.
+/// before: sums times the weights of iterations, sums of filter weights times them, numbers of samples, and with a
+/// noise target the variance of the mean of them all, by blocks and by halves (render/noise.h).
 #define ALHAZEN_FILM_PLANES(PLANE)        \
   PLANE(Vec3<Real>, radiance)             \
   PLANE(uint32_t, samples)                \
@@ -41,7 +42,9 @@ namespace ALHAZEN_CORE {
   PLANE(Vec3<Real>, earlier_odd_radiance) \
   PLANE(Real, earlier_weights)            \
   PLANE(Real, earlier_odd_weights)        \
-  PLANE(uint32_t, earlier_samples)
+  PLANE(uint32_t, earlier_samples)        \
+  PLANE(Real, earlier_variance)           \
+  PLANE(Real, earlier_half_variance)
 
 /// Returns how many of the first `samples` samples of a pixel are in its second, fourth, ... block.
 ALHAZEN_HD constexpr uint32_t samples_in_odd_blocks(uint32_t samples) {

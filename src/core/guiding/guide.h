@@ -55,9 +55,9 @@ struct GuideView {
   static constexpr uint32_t leaf_cell = 0x80000000u;
 };
 
-/// Units of the sums per mean radiance of the image, and the limit of what one vertex adds, as a multiple of that
-/// radiance: 2^27 times the limit can be summed up.
-inline constexpr double guide_units = 1 << 20, guide_limit = 1 << 16, guide_limit_of_squares = 1 << 16;
+/// Units of the sums per mean radiance of the image, for slopes per its square; and the limit of what one vertex adds,
+/// in the same: 2^27 times that can be summed up.
+inline constexpr double guide_units = 1 << 20, guide_limit = 1 << 16;
 
 /// The first 32 bits of a number of [0, 1) after the binary point; numbers beyond are clamped, NaN is 0.
 template <class Real>
@@ -65,8 +65,7 @@ ALHAZEN_HD inline uint32_t bits_of_fraction(Real x) {
   return static_cast<uint32_t>((x > 0 ? min(x, Real(0.99999994)) : Real(0)) * Real(4294967296.0));
 }
 
-// ---- directions
-// ------------------------------------------------------------------------------------------------------
+// ---- directions ------------------------------------------------------------------------------------------------
 
 /// The point of the unit square for a unit vector: the octahedral map (Meyer et al. 2010, "On Floating-Point Normal
 /// Vectors"), which takes no trigonometric functions.
@@ -167,8 +166,7 @@ ALHAZEN_HD inline GuideSample<Real> sample_guide(const GuideView<Real>& guide, u
   return s;
 }
 
-// ---- space
-// -----------------------------------------------------------------------------------------------------------
+// ---- space -----------------------------------------------------------------------------------------------------
 
 /// A point of the tree's cube, by the bits of its coordinates.
 struct GuidePlace {
@@ -195,8 +193,7 @@ ALHAZEN_HD inline uint32_t guide_region(const GuideView<Real>& guide, GuidePlace
   return node & ~GuideView<Real>::leaf_cell;
 }
 
-// ---- learning
-// --------------------------------------------------------------------------------------------------------
+// ---- learning --------------------------------------------------------------------------------------------------
 
 /// Adds to a sum that other threads add to as well.
 ALHAZEN_HD inline void add_to_sum(uint64_t* sum, uint64_t value) {
@@ -271,13 +268,15 @@ ALHAZEN_HD inline void learn_from_vertex(const GuideView<Real>& guide, const Gui
   }
   // The derivative of the second moment of w by the share, but for its sign, at each of the shares that are tried.
   const Real pdf = vertex.share * vertex.pdf_of_bsdf + (1 - vertex.share) * vertex.pdf_of_guide;
-  const Real squared = weight * min(weight, Real(guide_limit_of_squares) / weight);
+  const Real squared = min(weight * weight, Real(guide_limit));
   for (uint32_t i = 0; i < tried_shares; ++i) {
     const Real share = static_cast<Real>(tried_share(i));
     const Real tried = share * vertex.pdf_of_bsdf + (1 - share) * vertex.pdf_of_guide;
     const Real slope = squared * (pdf / tried) * ((vertex.pdf_of_bsdf - vertex.pdf_of_guide) / tried);
-    if (std::abs(slope) < Real(guide_limit_of_squares) * 64)
-      add_to_sum(&tally.slopes[i], static_cast<uint64_t>(static_cast<int64_t>(slope * Real(guide_units))));
+    if (!(tried > 0 && tried < infinity<Real>)) continue;
+    const Real limit = Real(guide_limit);
+    add_to_sum(&tally.slopes[i],
+               static_cast<uint64_t>(static_cast<int64_t>(clamp(slope, -limit, limit) * Real(guide_units))));
   }
 }
 
