@@ -97,9 +97,9 @@ void print_start(const RenderStatistics& s) {
 std::string guiding_line(const RenderStatistics& s) {
   if (s.settings.guiding == GuidingMode::off) return {};
   const GuidingState& g = s.guiding;
-  return fmt::format(
-      "guiding {}, {} guided iterations, {} regions, {:.1f} MB, variance without it {:.2f} times that with it\n",
-      g.is_used ? "used" : "not used", g.iterations, g.regions, static_cast<double>(g.bytes) * 1e-6, g.gain);
+  return fmt::format("guiding {}, {} guided iterations, {} regions, {:.1f} MB{}\n", g.is_used ? "used" : "not used",
+                     g.iterations, g.regions, static_cast<double>(g.bytes) * 1e-6,
+                     g.gain > 0 ? fmt::format(", variance without it {:.2f} times that with it", g.gain) : "");
 }
 
 std::string text_statistics(const RenderStatistics& s) {
