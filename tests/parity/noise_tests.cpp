@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "parity/engines.h"
 #include "parity/scenes.h"
 #include "render/noise.h"
 
@@ -64,29 +65,7 @@ TEST_P(Noise, HasTheSameBitsByAllEngines) {
       EXPECT_EQ(outcome.statistics.camera_samples, expected.statistics.camera_samples);
       EXPECT_EQ(outcome.statistics.noise.noise, expected.statistics.noise.noise);
     };
-    Settings other = settings;
-    other.backend = "openmp";
-    for (const auto& [strategy, schedule, threads] : {std::tuple{"tiles", "dynamic", 2},
-                                                      {"tiles", "guided", 3},
-                                                      {"rows", "static", 3},
-                                                      {"collapse", "dynamic,3", 2},
-                                                      {"rows+reduction", "guided,2", 2},
-                                                      {"reduction", "static", 3}}) {
-      other.strategy = strategy;
-      other.schedule = schedule;
-      other.threads = threads;
-      expect_same(other);
-    }
-    other = settings;
-    other.backend = "cuda";
-    other.device = "host";
-    for (const char* strategy : {"pixel", "chunk", "persistent", "wavefront"}) {
-      other.strategy = strategy;
-      expect_same(other);
-    }
-    other = settings;
-    other.time_limit = 1e6;  // other sizes of passes
-    expect_same(other);
+    visit_engines(settings, expect_same);
   }
 }
 
