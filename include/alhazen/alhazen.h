@@ -74,6 +74,9 @@ struct Settings {
   std::optional<std::array<int64_t, 4>> pixel_bounds;
   /// Additional layers: albedo, normal, depth, bounces, samples, variance; noisy (before denoising).
   std::vector<std::string> aovs;
+  /// The surface that albedo, normal and depth are of: first, or diffuse for the first that is not perfectly specular,
+  /// seen through glass and in mirrors. Empty: diffuse if the image is denoised and none of these layers is asked for.
+  std::string aov_surface;
   /// none; optix (on an NVIDIA GPU, with any backend), oidn (if its library is here), builtin (any machine); auto: the
   /// best of them that is here. Empty: none. R, G and B are then denoised.
   std::string denoiser;

@@ -81,7 +81,8 @@ struct SceneView {
   uint32_t has_narrow_triangles = 0;  ///< 1 if a triangle is much longer than wide (core/shapes/triangle.h)
   Bounds3<Real> bounds{};             ///< of all surfaces
   Real indirect_limit = 0;            ///< of each contribution of indirect light, before the exposure; 0: none
-  GuideView<Real> guide;              ///< what path guiding has learned; not part of the compiled scene
+  uint32_t records_through_specular = 0;  ///< 1: a path's first hit is where it meets a surface that is not specular
+  GuideView<Real> guide;                  ///< what path guiding has learned; not part of the compiled scene
 };
 
 }  // namespace ALHAZEN_CORE

@@ -330,6 +330,7 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
   if (settings.asked.clamp_indirect > 0)
     flat.view.indirect_limit = static_cast<Real>(settings.asked.clamp_indirect) / flat.view.exposure;
+  flat.view.records_through_specular = settings.records_through_specular;
   started.get();
   statistics.scene_sizes = flat.statistics;
   statistics.load_seconds = load_seconds + seconds_since(start) - flat.statistics.build_seconds;

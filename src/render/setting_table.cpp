@@ -220,6 +220,13 @@ std::vector<SettingEntry> output_settings() {
                 "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance, "
                 "noisy (before denoising)",
                 layer_list(), true)),
+      of_samples([](const RenderSettings& s) { return s.records_through_specular ? "not specular" : ""; },
+                 entry(group, "aov-surface", "", "NAME",
+                       "Whose albedo, normal and depth: the first surface's, or those of the first that is not "
+                       "perfectly specular, through glass and in mirrors (diffuse); denoising uses diffuse unless one "
+                       "of these layers is asked for",
+                       name(&Settings::aov_surface)),
+                 "aov-surface"),
       with_implied(
           "auto",
           of_samples(denoising,

@@ -167,6 +167,18 @@ void check_clamp(const Settings& asked, const RenderSettings& s) {
                      "': leave out --clamp-indirect, or give --integrator path");
 }
 
+/// Needs to know the layers and the denoiser.
+void resolve_aov_surface(const std::string& name, RenderSettings& s) {
+  const bool is_path = s.integrator == IntegratorKind::path;
+  if (!name.empty() && name != "first" && name != "diffuse")
+    throw InputError("unknown surface of layers '" + name + "': it may be first, diffuse");
+  if (name == "diffuse" && !is_path)
+    throw InputError("layers of what is seen through glass and in mirrors need the integrator 'path', and this is '" +
+                     to_string(s.integrator) + "': leave out --aov-surface, or give --integrator path");
+  const bool has_layers = s.aovs.albedo || s.aovs.normal || s.aovs.depth;
+  s.records_through_specular = name.empty() ? is_path && !s.denoiser.empty() && !has_layers : name == "diffuse";
+}
+
 CoatModel parse_coats(const std::string& text) {
   if (text.empty() || text == "lossless") return CoatModel::lossless;
   if (text == "pbrt") return CoatModel::pbrt;
@@ -252,6 +264,7 @@ RenderSettings resolve_settings(const Settings& user, const Scene& scene) {
   if (asked.resume && asked.overwrite) throw InputError("give --resume or --overwrite, not both");
   if (!asked.checkpoint.empty()) check_checkpoint(s);
   resolve_denoiser(asked.denoiser, s);
+  resolve_aov_surface(asked.aov_surface, s);
   s.schedule = parse_schedule(asked.schedule.empty() ? "dynamic" : asked.schedule);
   choose_backend(asked, s);
   check_threads(asked.threads, s);

@@ -74,6 +74,8 @@ struct RenderSettings {
   uint64_t texture_budget = 0;   ///< bytes; 0: no limit
   GuidingMode guiding = GuidingMode::off;
   uint64_t guiding_memory = 0;  ///< bytes
+  /// Albedo, normal and depth are of the first surface that is not perfectly specular.
+  bool records_through_specular = false;
 };
 
 /// Replaces what settings replace in a scene: how much light its coats lose, and the pixel filter. Throws InputError

@@ -13,15 +13,17 @@ template <class Real>
 struct PathState {
   Ray<Real> ray;
   Vec3<Real> throughput = splat(Real(1));
-  Real bsdf_pdf = 0;        ///< of the ray's direction
-  Real eta_scale = 1;       ///< product of eta^2 over refractions, undone for roulette
-  uint32_t vertex = 0;      ///< number of surfaces hit so far
-  bool is_specular = true;  ///< light sampling could not have found this direction
-  Vec3<Real> light_side{};  ///< `side_of_light` of the last surface, if light samples depend on it
-  Real travelled = 0;       ///< distance before the ray's origin, through surfaces that the ray passed through
+  Real bsdf_pdf = 0;             ///< of the ray's direction
+  Real eta_scale = 1;            ///< product of eta^2 over refractions, undone for roulette
+  uint32_t vertex = 0;           ///< number of surfaces hit so far
+  bool is_specular = true;       ///< light sampling could not have found this direction
+  bool awaits_first_hit = true;  ///< what it hits is the first that is recorded of it
+  Vec3<Real> light_side{};       ///< `side_of_light` of the last surface, if light samples depend on it
+  Real travelled = 0;            ///< distance before the ray's origin, through surfaces that the ray passed through
 
   using Fields = FieldList<&PathState::ray, &PathState::throughput, &PathState::bsdf_pdf, &PathState::eta_scale,
-                           &PathState::vertex, &PathState::is_specular, &PathState::light_side, &PathState::travelled>;
+                           &PathState::vertex, &PathState::is_specular, &PathState::awaits_first_hit,
+                           &PathState::light_side, &PathState::travelled>;
 };
 
 /// MIS weight of light found by BSDF sampling, where light sampling has density `light_pdf`.
@@ -102,13 +104,25 @@ ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingP
   return continue_along(sampler, point, s, path);
 }
 
+/// Records the first hit. Surfaces that are perfectly specular may not count: what is seen in them does, with their
+/// colours, and its distance is that from the last of them.
+template <class Real, class Record>
+ALHAZEN_HD ALHAZEN_HOT void record_first_hit(const SceneView<Real>& scene, const ShadingPoint<Real>& point,
+                                             Real distance, PathState<Real>& path, Record& record) {
+  path.awaits_first_hit = scene.records_through_specular && point.bsdf.is_specular();
+  if (!record.wants_first_hit() || path.awaits_first_hit) return;
+  Vec3<Real> albedo = bsdf_albedo(point.bsdf);
+  if (path.vertex > 0) albedo = min(albedo * path.throughput, splat(Real(1)));
+  record.keep_first_hit(FirstHit<Real>{albedo, point.si.shading_normal, distance});
+}
+
 /// Handles a hit up to direct light: records it and adds emission. Returns false if the path ends there.
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT bool handle_hit(const SceneView<Real>& scene, uint32_t max_segments, const Hit<Real>& hit,
                                        const ShadingPoint<Real>& point, PathState<Real>& path, Record& record) {
   if (point.material->features & MaterialFeatures::absorbs)
     path.throughput *= beer_lambert(point, path.travelled + hit.t);
-  if (path.vertex == 0) record_first_hit(point, path.travelled + hit.t, record);
+  if (path.awaits_first_hit) record_first_hit(scene, point, path.travelled + hit.t, path, record);
   gather_emission(scene, path, hit, point, record);
   return path.vertex + 1 < max_segments;
 }

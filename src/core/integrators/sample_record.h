@@ -22,11 +22,11 @@ struct PathRecord {
   using Fields = FieldList<&PathRecord::radiance, &PathRecord::segments, &PathRecord::shadow_rays>;
 };
 
-/// The first surface that the camera ray hits.
+/// The first surface that the camera ray hits, or that it hits after perfectly specular ones.
 template <class Real>
 struct FirstHit {
   Vec3<Real> albedo{}, normal{};  ///< the normal is the shading normal, in world space
-  Real depth = 0;                 ///< distance from the lens, in scene units
+  Real depth = 0;                 ///< distance from the lens, or from the specular surface before, in scene units
 };
 
 /// What integrators write to: a PathRecord that also takes the first hit, if it is wanted.
@@ -39,7 +39,7 @@ concept RecordOf = std::derived_from<Record, PathRecord<Real>> && requires(Recor
 template <class Real>
 struct SampleRecord : PathRecord<Real> {
   FirstHit<Real> first;  ///< valid if `has_hit`
-  uint32_t has_hit = 0;  ///< 1 if the camera ray hit a surface
+  uint32_t has_hit = 0;  ///< 1 if there is a first hit
   bool keeps_first_hit = true;
   [[no_unique_address]] RecordCounters counters;
 
