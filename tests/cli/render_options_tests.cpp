@@ -38,6 +38,17 @@ bool is_same(const Image& a, const Image& b) {
   return a.width == b.width && a.height == b.height && a.channels == b.channels && a.planes == b.planes;
 }
 
+/// What it does is tested in aov_surface_tests.cpp.
+TEST_F(RenderOptions, AovSurface) {
+  for (const char* surface : {"first", "diffuse"})
+    EXPECT_EQ(render({"-o", "surface.exr", "--spp", "1", "--aov", "albedo", "--aov-surface", surface}).exit_code, 0);
+  const CommandResult unknown = render({"-o", "none.exr", "--aov-surface", "second"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("it may be first, diffuse"), std::string::npos) << unknown.err;
+  EXPECT_EQ(render({"-o", "none.exr", "--aov-surface", "diffuse", "--integrator", "iterative"}).exit_code, 2);
+  EXPECT_FALSE(exists("none.exr"));
+}
+
 TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
   const std::set<std::string> tested{
       "--help", "--output", "--outfile", "--aov", "--exr-type", "--exposure", "--tone-map", "--spp", "--max-depth",
@@ -45,7 +56,7 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--backend", "--strategy", "--schedule", "--threads", "--nthreads", "--precision", "--progress", "--quiet",
       "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--overwrite", "--device", "--block",
       "--chunk", "--denoise", "--environment", "--texture-budget", "--coats", "--filter", "--noise", "--guiding",
-      "--guiding-memory", "--clamp-indirect",
+      "--guiding-memory", "--clamp-indirect", "--aov-surface",
       // Tested in quality_tests.cpp:
       "--quality",
       // Tested in gltf_tests.cpp:
