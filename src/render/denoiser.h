@@ -21,9 +21,9 @@ struct NoisyBuffer {
 struct NoisyImage {
   int width = 0, height = 0;
   NoisyBuffer radiance;     ///< linear
-  NoisyBuffer albedo;       ///< in [0, 1], at the first hit of camera rays
-  NoisyBuffer normal;       ///< at the first hit, in world space
-  NoisyBuffer depth;        ///< of the first hit, in scene units
+  NoisyBuffer albedo;       ///< in [0, 1], of the first surface, or of the first that is not perfectly specular
+  NoisyBuffer normal;       ///< likewise, in world space
+  NoisyBuffer depth;        ///< likewise, in scene units
   std::vector<float> hits;  ///< the fraction of camera rays that hit a surface
   /// The part of the weights of a pixel that is in odd blocks, in (0, 1), or 0 if it has no two halves of positive
   /// weight. The radiance of even blocks is (mean - odd_fraction odd) / (1 - odd_fraction).

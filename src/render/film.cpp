@@ -23,7 +23,7 @@ uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, const FilmExt
   if (extras.denoising) pixel += 3 * sizeof(Vec3<Real>) + sizeof(Real);
   if (extras.denoising && extras.weights) pixel += sizeof(Real);
   if (extras.noise_target) pixel += 2 * sizeof(Real) + sizeof(uint8_t);
-  if (extras.guiding) pixel += sizeof(Vec3<Real>) + sizeof(Real) + sizeof(uint32_t);
+  if (extras.guiding) pixel += sizeof(Vec3<Real>) + 2 * sizeof(Real) + sizeof(uint32_t);
   if (extras.guiding && extras.denoising) pixel += sizeof(Vec3<Real>) + sizeof(Real);
   if (extras.guiding && extras.noise_target) pixel += 2 * sizeof(Real);
   return pixel * static_cast<uint64_t>(window.pixels());
@@ -57,6 +57,7 @@ Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, const FilmExtras
   allocate_if(extras.guiding, earlier_weights_, pixels);
   allocate_if(extras.guiding && extras.denoising, earlier_odd_weights_, pixels);
   allocate_if(extras.guiding, earlier_samples_, pixels);
+  allocate_if(extras.guiding, earlier_sample_variance_, pixels);
   allocate_if(extras.guiding && extras.noise_target, earlier_variance_, pixels);
   allocate_if(extras.guiding && extras.noise_target, earlier_half_variance_, pixels);
   const auto pointer = [](auto& plane) { return plane.empty() ? nullptr : plane.data(); };
@@ -93,6 +94,7 @@ void Film<Real>::end_iteration() {
       earlier_odd_radiance_[i] += odd_radiance_[i] * weight;
       earlier_odd_weights_[i] += odd_weights_[i] * weight;
     }
+    earlier_sample_variance_[i] = view_.sample_variance(i);
     earlier_samples_[i] = samples_[i];
   }
   const auto clear = [](auto& plane) { plane.assign(plane.size(), {}); };
@@ -145,8 +147,7 @@ void Film<Real>::resolve_row(int y, std::span<float> row) const {
     if (aovs_.depth) put(hits_[i] > 0 ? depth_[i] / static_cast<Real>(hits_[i]) : Real(0));
     if (aovs_.bounces) put(n > 0 ? static_cast<Real>(segments_[i]) / n : Real(0));
     if (aovs_.samples) put(n);
-    const Real current = static_cast<Real>(view_.current_samples(i));
-    if (aovs_.variance) put(current > 1 ? luminance_m2_[i] / (current - 1) : Real(0));
+    if (aovs_.variance) put(view_.sample_variance(i));
   }
 }
 

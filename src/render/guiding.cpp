@@ -35,6 +35,8 @@ constexpr double floor_fraction = 0.1;
 constexpr double cost_of_guiding = 1.5, early_gain = 0.7;
 /// Variances of fewer samples are not compared.
 constexpr double min_compared_samples = 1024;
+/// Those of an iteration are trusted when it has this part of the samples before it.
+constexpr double trusted_part = 0.25;
 /// Bounds the weights of iterations.
 constexpr double max_weight = 1024;
 /// The arrays take at most this part of the memory: the old and the new ones exist at once, and vectors grow by
@@ -193,6 +195,7 @@ VarianceComparison compare_variances(const FilmView<Real>& film, int width, int 
     ++tile.counted;
     tile.variance += static_cast<double>(film.luminance_m2[i]) / (n - 1);
     result.samples += n - 1;
+    if (film.earlier_samples) result.earlier_samples += film.earlier_samples[i];
   });
   mean /= static_cast<double>(width) * height;
   for (size_t t = 0; t < tiles.size(); ++t) {
@@ -257,18 +260,23 @@ void Guiding<Real>::add(const uint64_t* light, const GuideTally* tallies) {
 }
 
 template <class Real>
-double Guiding<Real>::weight_of(const VarianceComparison& variances) const {
-  if (!is_guided()) return 1;
+std::optional<double> Guiding<Real>::measured_weight(const VarianceComparison& variances) const {
   const double ratio = variances.plain / variances.present;
-  if (variances.samples < min_compared_samples || !(variances.plain > 0) || !std::isfinite(ratio)) return last_weight_;
-  return std::clamp(ratio, 1 / max_weight, max_weight);
+  if (!is_guided() || variances.samples < min_compared_samples || !(variances.plain > 0) || !std::isfinite(ratio))
+    return std::nullopt;
+  // The first samples of an iteration may have missed bright paths that are rare.
+  const double trust =
+      variances.earlier_samples > 0 ? std::min(1.0, variances.samples / (trusted_part * variances.earlier_samples)) : 1;
+  return std::clamp(last_weight_ + trust * (ratio - last_weight_), 1 / max_weight, max_weight);
 }
 
 template <class Real>
-void Guiding<Real>::weigh_samples(Film<Real>& film) const {
+void Guiding<Real>::weigh_samples(Film<Real>& film) {
   // Luminances are those of the image with this weight, whenever it is asked for.
   film.set_weight(static_cast<Real>(last_weight_));
-  film.set_weight(static_cast<Real>(weight_of(compare_variances(film.view(), width_, height_, plain_variance_))));
+  const auto weight = measured_weight(compare_variances(film.view(), width_, height_, plain_variance_));
+  gain_ = weight.value_or(gain_);
+  film.set_weight(static_cast<Real>(is_guided() ? weight.value_or(last_weight_) : 1));
 }
 
 template <class Real>
@@ -298,7 +306,9 @@ void Guiding<Real>::end_iteration(Film<Real>& film) {
   }
   film.set_weight(static_cast<Real>(last_weight_));
   VarianceComparison variances = compare_variances(film.view(), width_, height_, plain_variance_);
-  last_weight_ = weight_of(variances);
+  const std::optional<double> weight = measured_weight(variances);
+  last_weight_ = is_guided() ? weight.value_or(last_weight_) : 1;
+  gain_ = weight.value_or(gain_);
   film.set_weight(static_cast<Real>(last_weight_));
   if (film.view().earlier_variance) keep_variances(film);
   film.end_iteration();
@@ -306,7 +316,7 @@ void Guiding<Real>::end_iteration(Film<Real>& film) {
     plain_variance_ = std::move(variances.present_tiles);
   } else {
     ++guided_;
-    if (decides_ && last_weight_ < (guided_ == 1 ? early_gain : cost_of_guiding)) is_on_ = false;
+    if (decides_ && weight && *weight < (guided_ == 1 ? early_gain : cost_of_guiding)) is_on_ = false;
   }
   if (is_on_) learn();
 }
@@ -327,13 +337,13 @@ void Guiding<Real>::learn() try {
 }
 
 template <class Real>
-GuidingState Guiding<Real>::state() const {
+GuidingState Guiding<Real>::state(uint32_t samples) const {
   GuidingState state;
-  state.is_used = is_guided();
-  state.iterations = guided_;
+  state.is_used = is_guided() && samples > iteration_end() / 2;
+  state.iterations = guided_ + (state.is_used ? 1 : 0);
   state.regions = arrays_.regions.size();
   state.bytes = bytes_of(arrays_);
-  state.gain = guided_ > 0 ? last_weight_ : 0;
+  state.gain = gain_;
   return state;
 }
 
@@ -419,6 +429,7 @@ void Guiding<Real>::visit_state(Self& self, Visit& visit) {
   visit(self.guided_);
   visit(self.to_fixed_);
   visit(self.last_weight_);
+  visit(self.gain_);
   visit(self.plain_variance_);
   visit(self.arrays_.cells);
   visit(self.arrays_.regions);

@@ -4,6 +4,7 @@
 // from what it has learned, whether it pays, and by how much the samples of each iteration count.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,13 +28,14 @@ struct GuideArrays {
 struct VarianceComparison {
   double plain = 0, present = 0;
   double samples = 0;                ///< of the present iteration, less one for each pixel
+  double earlier_samples = 0;        ///< of the iterations before
   std::vector<float> present_tiles;  ///< the mean variance of the pixels of each tile, not relative
 };
 
 /// What a render with guiding did, for reports.
 struct GuidingState {
-  bool is_used = false;     ///< the samples that are taken now are guided
-  uint32_t iterations = 0;  ///< that were learned from
+  bool is_used = false;     ///< the last samples were guided
+  uint32_t iterations = 0;  ///< that were guided, the last of which may be incomplete
   uint64_t regions = 0, bytes = 0;
   double gain = 0;  ///< variance without guiding over that with it, as last measured; 0: not measured
 };
@@ -63,8 +65,9 @@ class Guiding {
 
   /// Weighs the samples of the present iteration in the image: by 1 if they are not guided, else by the ratio of the
   /// variance without guiding to theirs.
-  void weigh_samples(Film<Real>& film) const;
-  GuidingState state() const;
+  void weigh_samples(Film<Real>& film);
+  /// With the number of samples that every pixel has.
+  GuidingState state(uint32_t samples) const;
 
   /// The state for a checkpoint, and back. Returns false if the bytes are damaged.
   std::vector<std::byte> bytes() const;
@@ -76,7 +79,8 @@ class Guiding {
   uint64_t iteration_end() const { return uint64_t{first_} << iteration_; }
   /// Whether the samples of the present iteration are guided.
   bool is_guided() const { return is_on_ && !plain_variance_.empty(); }
-  double weight_of(const VarianceComparison& variances) const;
+  /// Nothing if there are too few samples to compare.
+  std::optional<double> measured_weight(const VarianceComparison& variances) const;
   void end_iteration(Film<Real>& film);
   void learn();
   /// Visits what a checkpoint keeps, of a Guiding or a const one.
@@ -93,6 +97,7 @@ class Guiding {
   uint32_t iteration_ = 0, guided_ = 0;  ///< ended; ended and guided
   double to_fixed_ = 0;
   double last_weight_ = 1;             ///< of the last iteration that ended
+  double gain_ = 0;                    ///< as in GuidingState
   std::vector<float> plain_variance_;  ///< of samples that were not guided: mean over the pixels of each tile
   GuideArrays arrays_;
   uint64_t generation_ = 0;

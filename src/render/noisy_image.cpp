@@ -48,9 +48,7 @@ NoisyImage make_noisy_image(const Film<Real>& film) {
     put(image.depth.mean, i, planes.depth[i], count);
     put(image.depth.odd, i, planes.odd_depth[i], odd);
     image.hits[i] = samples > 0 ? static_cast<float>(planes.hits[i]) / static_cast<float>(samples) : 0.0f;
-    const uint32_t current = planes.current_samples(i);
-    image.variance[i] =
-        current > 1 ? static_cast<float>(planes.luminance_m2[i] / static_cast<Real>(current - 1)) : 0.0f;
+    image.variance[i] = static_cast<float>(planes.sample_variance(i));
   }
   return image;
 }

@@ -137,7 +137,7 @@ class PassLoop {
     if (problem) std::rethrow_exception(problem);
     if (guiding_) {
       guiding_->weigh_samples(film_);
-      statistics.guiding = guiding_->state();
+      statistics.guiding = guiding_->state(samples_done_);
     }
     if (settings_.asked.noise > 0) statistics.noise = noise_state();
     statistics.render_seconds = elapsed_;

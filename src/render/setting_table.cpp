@@ -220,13 +220,6 @@ std::vector<SettingEntry> output_settings() {
                 "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance, "
                 "noisy (before denoising)",
                 layer_list(), true)),
-      of_samples([](const RenderSettings& s) { return s.records_through_specular ? "not specular" : ""; },
-                 entry(group, "aov-surface", "", "NAME",
-                       "Whose albedo, normal and depth: the first surface's, or those of the first that is not "
-                       "perfectly specular, through glass and in mirrors (diffuse); denoising uses diffuse unless one "
-                       "of these layers is asked for",
-                       name(&Settings::aov_surface)),
-                 "aov-surface"),
       with_implied(
           "auto",
           of_samples(denoising,
@@ -235,6 +228,13 @@ std::vector<SettingEntry> output_settings() {
                            "machine), or none; without a name by the best that is here",
                            name(&Settings::denoiser)),
                      "denoising")),
+      of_samples([](const RenderSettings& s) { return s.records_through_specular ? "diffuse" : ""; },
+                 entry(group, "aov-surface", "", "NAME",
+                       "Whose albedo, normal and depth: the first surface's, or those of the first that is not "
+                       "perfectly specular, through glass and in mirrors (diffuse); denoising uses diffuse unless one "
+                       "of these layers is asked for",
+                       name(&Settings::aov_surface)),
+                 "aov-surface"),
   };
 }
 

@@ -176,7 +176,9 @@ void resolve_aov_surface(const std::string& name, RenderSettings& s) {
     throw InputError("layers of what is seen through glass and in mirrors need the integrator 'path', and this is '" +
                      to_string(s.integrator) + "': leave out --aov-surface, or give --integrator path");
   const bool has_layers = s.aovs.albedo || s.aovs.normal || s.aovs.depth;
-  s.records_through_specular = name.empty() ? is_path && !s.denoiser.empty() && !has_layers : name == "diffuse";
+  const bool denoises = !s.denoiser.empty();
+  s.records_through_specular =
+      name.empty() ? is_path && denoises && !has_layers : name == "diffuse" && (denoises || has_layers);
 }
 
 CoatModel parse_coats(const std::string& text) {

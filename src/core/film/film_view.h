@@ -17,8 +17,9 @@ namespace ALHAZEN_CORE {
 ///
 /// With guiding, samples are taken in iterations that count differently. `radiance`, `weights`, their odd halves and
 /// all that is said about variance are then of the last iteration. Those that start with `earlier_` are of the ones
-/// before: sums times the weights of iterations, sums of filter weights times them, numbers of samples, and with a
-/// noise target the variance of the mean of them all, by blocks and by halves (render/noise.h).
+/// before: sums times the weights of iterations, sums of filter weights times them, numbers of samples, the variance of
+/// samples of the last of them, and with a noise target that of the mean of them all, by blocks and by halves
+/// (render/noise.h).
 #define ALHAZEN_FILM_PLANES(PLANE)        \
   PLANE(Vec3<Real>, radiance)             \
   PLANE(uint32_t, samples)                \
@@ -43,6 +44,7 @@ namespace ALHAZEN_CORE {
   PLANE(Real, earlier_weights)            \
   PLANE(Real, earlier_odd_weights)        \
   PLANE(uint32_t, earlier_samples)        \
+  PLANE(Real, earlier_sample_variance)    \
   PLANE(Real, earlier_variance)           \
   PLANE(Real, earlier_half_variance)
 
@@ -78,6 +80,13 @@ struct FilmView {
   /// The number of samples of the last iteration, or of all where there are no iterations.
   ALHAZEN_HD uint32_t current_samples(size_t i) const {
     return samples[i] - (earlier_samples ? earlier_samples[i] : 0);
+  }
+
+  /// The variance of the luminance of one sample, unbiased; 0 where there is only one.
+  ALHAZEN_HD Real sample_variance(size_t i) const {
+    const uint32_t n = current_samples(i);
+    if (n > 1) return luminance_m2[i] / static_cast<Real>(n - 1);
+    return earlier_sample_variance ? earlier_sample_variance[i] : Real(0);
   }
 
   /// A sum of radiance over samples, and of their weights.

@@ -32,9 +32,24 @@ ALHAZEN_HD ALHAZEN_HOT Real bsdf_mis_weight(const PathState<Real>& path, Real li
   return path.is_specular ? Real(1) : power_heuristic(path.bsdf_pdf, light_pdf);
 }
 
+/// The albedo of what is seen after perfectly specular surfaces, times their colours.
+template <class Real>
+ALHAZEN_HD ALHAZEN_HOT Vec3<Real> albedo_in_specular(const PathState<Real>& path, const Vec3<Real>& albedo) {
+  return min(albedo * path.throughput * path.eta_scale, splat(Real(1)));
+}
+
+/// Records a path that has met nothing but specular surfaces: what it sees is as white as they let it be, faces it, and
+/// has no distance.
+template <class Real, class Record>
+ALHAZEN_HD ALHAZEN_COLD void record_escape(const PathState<Real>& path, Record& record) {
+  if (record.wants_first_hit())
+    record.keep_first_hit(FirstHit<Real>{albedo_in_specular(path, splat(Real(1))), -path.ray.direction, Real(0)});
+}
+
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, const PathState<Real>& path,
                                                 Record& record) {
+  if (path.vertex > 0 && path.awaits_first_hit) record_escape(path, record);
   // The constant light is not sampled, so its weight is 1.
   const bool is_indirect = path.vertex >= 2;
   if (!is_zero(scene.background)) record.radiance += limited(scene, path.throughput * scene.background, is_indirect);
@@ -112,7 +127,7 @@ ALHAZEN_HD ALHAZEN_HOT void record_first_hit(const SceneView<Real>& scene, const
   path.awaits_first_hit = scene.records_through_specular && point.bsdf.is_specular();
   if (!record.wants_first_hit() || path.awaits_first_hit) return;
   Vec3<Real> albedo = bsdf_albedo(point.bsdf);
-  if (path.vertex > 0) albedo = min(albedo * path.throughput, splat(Real(1)));
+  if (path.vertex > 0) albedo = albedo_in_specular(path, albedo);
   record.keep_first_hit(FirstHit<Real>{albedo, point.si.shading_normal, distance});
 }
 

@@ -208,7 +208,8 @@ struct IntersectKernel {
       push(thread, slots.material_queue(material), &slots.counts->materials[material], slot);
       return;
     }
-    PathRecord<Real> record = slots.records[slot];
+    SumRecord<Real> record(&stage.sums[slots.samples[slot].item], stage.launch.film);
+    slots.records.get(slot, record);
     add_infinite_lights(stage.launch.scene, slots.paths[slot], record);
     slots.records.set(slot, record);
     push(thread, slots.ended_queue(), &slots.counts->ended, slot);
