@@ -239,7 +239,7 @@ class GuidedMean : public ::testing::TestWithParam<std::string> {};
 /// Over two guided iterations and a part of a third; shares of the BSDF are learned from the second on.
 TEST_P(GuidedMean, IsThatWithoutGuiding) {
   Moments guided, plain;
-  for (uint32_t seed = 0; seed < std::max(4u, effort(8)); ++seed) {
+  for (uint32_t seed = 0; seed < std::max(size_t{4}, effort(8)); ++seed) {
     Settings settings = guided_settings("float", 2304);
     settings.backend = "openmp";
     settings.seed = seed;
