@@ -80,7 +80,9 @@ struct Settings {
   /// none; optix (on an NVIDIA GPU, with any backend), oidn (if its library is here), builtin (any machine); auto: the
   /// best of them that is here. Empty: none. R, G and B are then denoised.
   std::string denoiser;
-  double time_limit = 0;  ///< seconds of rendering; stops after the last complete pass within it; 0: none
+  /// Seconds of rendering: stops where the next pass would take longer, or else in the middle of a pass, so that some
+  /// pixels have more samples than others. 0: none.
+  double time_limit = 0;
   /// File in which to save the state, and from which `resume` continues. A failed save is a warning, and rendering
   /// continues.
   std::string checkpoint;

@@ -122,7 +122,9 @@ std::string text_statistics(const RenderStatistics& s) {
 }
 
 std::string samples_taken(const RenderStatistics& s) {
-  if (s.settings.asked.noise == 0) return fmt::format("{} samples per pixel", s.samples_per_pixel);
+  if (s.settings.asked.noise == 0)
+    return s.mean_samples == s.samples_per_pixel ? fmt::format("{} samples per pixel", s.samples_per_pixel)
+                                                 : fmt::format("{:.1f} samples per pixel on average", s.mean_samples);
   return fmt::format("{:.1f} samples per pixel, at most {}, noise {:.3g}, {:.1f} % of the pixels below {}",
                      s.noise.mean_samples, s.samples_per_pixel, s.noise.noise, 100 * s.noise.below,
                      setting_text(s.settings.asked, "noise"));
@@ -152,14 +154,16 @@ void print_end(const RenderOptions& options, const OutputReport& outputs, const 
 
 /// Writes the images and reports the result. An image without samples is not written, since an older one is better.
 int finish(RenderOptions& options, const Rendering& rendering, bool fits_exposure) {
-  const bool is_empty = is_interrupted() && !rendering.has_samples();
+  const bool is_empty = !rendering.has_samples();
   const auto is_png = [](const std::string& path) { return extension_of(path) == "png"; };
   if (fits_exposure && std::any_of(options.output.paths.begin(), options.output.paths.end(), is_png))
     options.output.how.exposure = fitting_exposure(rendering.source());
   const OutputReport outputs = is_empty ? OutputReport{} : write_outputs(options.output, rendering);
   print_end(options, outputs, rendering.statistics);
   if (!outputs.failures.empty()) return exit_failed;
-  if (!is_interrupted()) return exit_done;
+  if (!is_interrupted() && is_empty)
+    tell("alhazen: the time limit passed before the first sample: no image is written\n");
+  if (!is_interrupted()) return is_empty ? exit_failed : exit_done;
   tell("interrupted{}\n", is_empty                        ? " before the first sample: no image is written"
                           : rendering.statistics.complete ? ", but the image is complete"
                                                           : ": the image has the samples so far");

@@ -38,10 +38,17 @@ class RenderControl {
   void stop() { stopped_.store(true, std::memory_order_relaxed); }
   bool is_stopped() const { return stopped_.load(std::memory_order_relaxed); }
 
+  /// Stops because the time limit has passed.
+  void stop_at_limit() {
+    reached_limit_.store(true, std::memory_order_relaxed);
+    stop();
+  }
+  bool has_reached_limit() const { return reached_limit_.load(std::memory_order_relaxed); }
+
  private:
   std::vector<ThreadStatistics> threads_;
   std::atomic<uint64_t> samples_done_{0}, samples_total_{0};
-  std::atomic<bool> stopped_{false};
+  std::atomic<bool> stopped_{false}, reached_limit_{false};
 };
 
 }  // namespace alhazen

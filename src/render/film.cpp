@@ -85,6 +85,11 @@ uint64_t Film<Real>::total_samples(uint32_t limit) const {
 }
 
 template <class Real>
+uint64_t Film<Real>::pixels_without_samples() const {
+  return static_cast<uint64_t>(std::count(samples_.begin(), samples_.end(), 0u));
+}
+
+template <class Real>
 void Film<Real>::end_iteration() {
   const Real weight = view_.iteration_weight;
   for (size_t i = 0; i < samples_.size(); ++i) {

@@ -45,6 +45,7 @@ class Film {
   uint64_t unfinished() const { return unfinished(window_.x0, window_.x1, window_.y0, window_.y1); }
   /// Samples of all pixels together, of each at most `limit`.
   uint64_t total_samples(uint32_t limit) const;
+  uint64_t pixels_without_samples() const;
   /// The largest number of samples in any pixel.
   uint32_t max_samples() const { return *std::max_element(samples_.begin(), samples_.end()); }
   /// For guiding: by how much samples of the last iteration count, and that another one begins.

@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <exception>
 #include <future>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <system_error>
@@ -84,6 +85,42 @@ class ProgressReporter {
   std::thread thread_;
 };
 
+/// Stops a render when its time is over, also in the middle of a pass.
+class TimeLimit {
+ public:
+  /// Without a limit if `seconds` is 0.
+  TimeLimit(double seconds, RenderControl& control) {
+    if (seconds == 0) return;
+    const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                     std::chrono::duration<double>(std::min(seconds, longest_limit)));
+    thread_ = start_thread("the thread that keeps the time limit", [this, end, &control] {
+      std::unique_lock lock(mutex_);
+      if (!wake_.wait_until(lock, end, [this] { return is_over_; })) control.stop_at_limit();
+    });
+  }
+
+  ~TimeLimit() {
+    if (!thread_.joinable()) return;
+    {
+      const std::lock_guard lock(mutex_);
+      is_over_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
+  }
+
+  TimeLimit(const TimeLimit&) = delete;
+  TimeLimit& operator=(const TimeLimit&) = delete;
+
+ private:
+  static constexpr double longest_limit = 1e9;  ///< seconds; a clock cannot count to any number
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool is_over_ = false;
+  std::thread thread_;
+};
+
 /// The number of samples of the next pass: whole blocks, enough to make the cost of a pass's end negligible, few enough
 /// for the image to grow evenly and for a time limit to be kept; at the end the remainder that is no whole block. With
 /// a noise target, a pass ends where pixels are decided on. `per_sample` is the time of one sample of every pixel, 0
@@ -129,6 +166,7 @@ class PassLoop {
     std::exception_ptr problem;
     {
       ProgressReporter reporter(events_.progress, control_);
+      const TimeLimit limit(settings_.asked.time_limit, control_);
       take_passes();
       if (is_done()) control_.set_total(control_.samples_done());
       problem = reporter.finish();
@@ -143,7 +181,10 @@ class PassLoop {
     statistics.render_seconds = elapsed_;
     statistics.samples_per_pixel = samples_done_;
     statistics.complete = is_done();
-    statistics.interrupted = control_.is_stopped() && !is_done();
+    statistics.mean_samples = static_cast<double>(film_.total_samples(std::numeric_limits<uint32_t>::max())) /
+                              static_cast<double>(settings_.window.pixels());
+    statistics.interrupted = control_.is_stopped() && !control_.has_reached_limit() && !is_done();
+    if (control_.has_reached_limit()) warn_of_gaps();
     statistics.threads = control_.threads();
     for (const ThreadStatistics& thread : control_.threads()) {
       statistics.camera_samples += thread.samples;
@@ -252,6 +293,15 @@ class PassLoop {
       warn({settings_.asked.checkpoint},
            std::string("the checkpoint was not saved, and the render continues: ") + failure.what());
     }
+  }
+
+  /// After a time limit that has ended the first pass.
+  void warn_of_gaps() {
+    const uint64_t pixels = static_cast<uint64_t>(settings_.window.pixels()), empty = film_.pixels_without_samples();
+    if (empty == 0 || empty == pixels) return;
+    warn({}, "the time limit passed before every pixel had a sample: " +
+                 std::to_string((100 * empty + pixels - 1) / pixels) +
+                 " percent of them have none and are black; give a longer one, or a smaller --size");
   }
 
   void warn(const SourceLocation& where, const std::string& message) {

@@ -367,7 +367,7 @@ std::vector<SettingEntry> engine_settings() {
 std::vector<SettingEntry> running_settings() {
   constexpr SettingGroup group = SettingGroup::running;
   return {
-      entry(group, "time-limit", "", "SECONDS", "Stop after the last complete pass within this time",
+      entry(group, "time-limit", "", "SECONDS", "Stop rendering after this time at most, and write the samples so far",
             number("time-limit", &Settings::time_limit, 0.0, 0.0, 1e9)),
       entry(group, "texture-budget", "", "MIB", "Halve the largest texture images until all fit; 0: no limit (16384)",
             number<int64_t>("texture-budget", &Settings::texture_budget, -1, 0, 1 << 30)),

@@ -69,6 +69,7 @@ std::string RenderStatistics::to_json() const {
   j["height"] = settings.window.height();
   j["quality"] = settings.asked.quality.empty() ? "none" : settings.asked.quality;
   j["spp"] = samples_per_pixel;
+  j["mean_spp"] = mean_samples;
   if (settings.asked.noise > 0)
     j["noise"] = {{"target", settings.asked.noise}, {"measure", settings.noise_curve ? "display" : "relative"},
                   {"reached", noise.noise},         {"pixels_below", noise.below},

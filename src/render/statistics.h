@@ -24,6 +24,7 @@ struct RenderStatistics {
   std::string denoiser;            ///< the one that denoised the image; empty: none
   double render_seconds = 0;       ///< taking samples, and deciding which pixels are finished
   uint32_t samples_per_pixel = 0;  ///< in complete passes
+  double mean_samples = 0;         ///< of all pixels, also in a pass that was stopped
   NoiseState noise;                ///< zero without a noise target
   GuidingState guiding;            ///< zero without guiding
   bool complete = false;
