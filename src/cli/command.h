@@ -1,11 +1,12 @@
 #pragma once
 
-// Subcommands and their options. Only command.cpp includes the parser, whose header takes a compiler longer than all
-// that is done with it here.
+// Subcommands and their options. Only command.cpp and command_line.cpp include the parser, whose header takes a
+// compiler longer than all that is done with it here.
 
 #include <concepts>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,13 +81,17 @@ class Command {
   CLI::App* app_;
 };
 
+/// By option, "--denoise": its value where it is given without one.
+const std::map<std::string, std::string>& implied_values();
+
 /// What the help and --version of the program say of it.
 struct ProgramText {
   std::string name, description, version, footer;
 };
 
-/// Parses the command line and runs the subcommand that it names; `add_subcommands` describes them. Returns 0 if it ran
-/// or help was asked for, and exit_bad_input, with a message, where the command line is wrong. Throws what the
+/// Parses the command line (command_line.cpp) and runs the subcommand that it names; `add_subcommands` describes them.
+/// A file to render as the first word stands for `render`, and --config FILE for the options in that file. Returns 0 if
+/// it ran or help was asked for, and exit_bad_input, with a message, where the command line is wrong. Throws what the
 /// subcommand throws.
 int run_command_line(const ProgramText& text, const std::function<void(Command&)>& add_subcommands, int argc,
                      char** argv);

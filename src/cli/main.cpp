@@ -1,16 +1,19 @@
 // The program `alhazen`: parses the command line and turns errors into one message and an exit code.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <exception>
 #include <new>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/stack.h"
 #include "cli/subcommands.h"
+#include "render/sample_kernel.h"
 #include "util/diagnostics.h"
 #include "util/printable.h"
 
@@ -51,11 +54,21 @@ int after_flushing(int exit_code) {
   return exit_code == alhazen::exit_done ? alhazen::exit_failed : exit_code;
 }
 
+std::string version_text() {
+  std::vector<std::string> sets;
+  for (const alhazen::InstructionSet set : alhazen::built_instruction_sets())
+    sets.push_back(alhazen::to_string(set) + (set == alhazen::instruction_sets().back() ? " (used here)" : ""));
+  return fmt::format(
+      "alhazen {}\nkernels for {}; compiler {}\n'alhazen devices' lists backends and denoisers, and says what is "
+      "missing for the others.",
+      ALHAZEN_VERSION, fmt::join(sets, ", "), __VERSION__);
+}
+
 int run_subcommand(int argc, char** argv) {
   alhazen::ProgramText text;
   text.name = "alhazen";
   text.description = "A path tracer whose light transport is written once and run by many engines.";
-  text.version = "alhazen " ALHAZEN_VERSION;
+  text.version = version_text();
   text.footer =
       "Exit codes: 0 done, 1 failed while rendering or writing, 2 bad usage or bad input, 130 interrupted by Ctrl-C, "
       "SIGTERM, SIGHUP or SIGXCPU (the image so far is written).";

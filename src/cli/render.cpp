@@ -32,8 +32,8 @@ struct RenderOptions {
   std::string scene;
   Settings settings;
   OutputOptions output;
-  std::string tone_map = "none", exr_type = "half";
-  std::string progress = "auto", stats;
+  std::string tone_map, exr_type;  ///< empty: none and half
+  std::string progress = "auto", stats, config;
   bool quiet = false, verbose = false, list = false;
   std::optional<double> exposure;  ///< absent: may be chosen by the image's brightness
 };
@@ -41,18 +41,37 @@ struct RenderOptions {
 void parse_output_options(RenderOptions& o) {
   if (o.exposure) o.output.how.exposure = *o.exposure;
   if (!std::isfinite(o.output.how.exposure)) throw InputError("--exposure must be a finite number of stops");
-  if (o.exr_type != "half" && o.exr_type != "float")
+  if (!o.exr_type.empty() && o.exr_type != "half" && o.exr_type != "float")
     throw InputError("unknown pixel type '" + o.exr_type + "': it may be half, float");
-  o.output.how.pixel_type = o.exr_type == "half" ? ExrPixelType::half : ExrPixelType::single;
-  if (o.tone_map != "none" && o.tone_map != "reinhard" && o.tone_map != "filmic")
+  o.output.how.pixel_type = o.exr_type == "float" ? ExrPixelType::single : ExrPixelType::half;
+  if (!o.tone_map.empty() && o.tone_map != "none" && o.tone_map != "reinhard" && o.tone_map != "filmic")
     throw InputError("unknown tone map '" + o.tone_map + "': it may be none, reinhard, filmic");
-  o.output.how.tone_map = o.tone_map == "none"       ? ToneMap::none
-                          : o.tone_map == "reinhard" ? ToneMap::reinhard
-                                                     : ToneMap::filmic;
+  o.output.how.tone_map = o.tone_map == "reinhard" ? ToneMap::reinhard
+                          : o.tone_map == "filmic" ? ToneMap::filmic
+                                                   : ToneMap::none;
   o.settings.noise_exposure = o.exposure;
   o.settings.noise_tone_map = o.tone_map;
   if (!o.stats.empty() && o.stats != "text" && o.stats != "json")
     throw InputError("unknown statistics '" + o.stats + "': it may be text, json");
+}
+
+/// Options that change nothing: what they are about is not written, or not used.
+void warn_of_options_without_effect(const RenderOptions& o, const RenderSettings& settings, Diagnostics& diagnostics) {
+  const auto writes = [&](const char* extension) {
+    return std::any_of(o.output.paths.begin(), o.output.paths.end(),
+                       [&](const std::string& path) { return extension_of(path) == extension; });
+  };
+  const auto warn = [&](const std::string& option, const std::string& reason) {
+    diagnostics.warn({}, "--" + option + " has no effect: " + reason);
+  };
+  if (!writes("exr") && !settings.asked.aovs.empty()) warn("aov", "only EXR has layers; give -o FILE.exr as well");
+  if (!writes("exr") && !o.exr_type.empty()) warn("exr-type", "no EXR is written");
+  const bool is_seen = writes("png") || settings.noise_curve;
+  if (!is_seen && o.exposure) warn("exposure", "it is for PNG, and the other formats keep the radiance as it is");
+  if (!is_seen && !o.tone_map.empty())
+    warn("tone-map", "it is for PNG, and the other formats keep the radiance as it is");
+  if (settings.backend == "serial" && settings.asked.threads > 1)
+    warn("threads", "the backend 'serial' takes samples on one; give --backend openmp for more");
 }
 
 /// Prints new warnings each time it is called.
@@ -182,7 +201,8 @@ int run(RenderOptions& options) {
   LoadedScene loaded = load_scene(options.scene, options.settings, diagnostics);
   Scene& scene = loaded.scene;
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
-  options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene);
+  options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene, diagnostics);
+  warn_of_options_without_effect(options, settings, diagnostics);
   check_files(options.output.paths, options.settings.checkpoint,
               {{options.scene, "the scene"}, {options.settings.environment, "the environment map"}}, *loaded.inputs);
 
@@ -224,7 +244,10 @@ void add_running_options(Command& command, RenderOptions& o, const char* group) 
       .group(group);
   command.add_flag("-q,--quiet", o.quiet, "Say nothing but warnings and errors").group(group);
   command.add_flag("-v,--verbose", o.verbose, "Say what is rendered and how").group(group);
-  command.add_flag("--stats{text}", o.stats, "Print what it cost to stdout; --stats=json as one object").group(group);
+  command.add_option("--stats", o.stats, "Print what it cost to stdout, as text or as one object (json)")
+      .implied("text")
+      .value_name("[NAME]")
+      .group(group);
 }
 
 }  // namespace
@@ -240,6 +263,9 @@ void register_render(Command& program, int& exit_code) {
   command.add_flag("--list", options->list, "Print cameras, variants, animations and lights, and render nothing")
       .group("Image");
   add_setting_options(command, settings, SettingGroup::engine, "Engine");
+  command.add_option("--config", options->config, "Take options from this file, one a line: spp = 64")
+      .value_name("FILE")
+      .group("While it runs");
   add_running_options(command, *options, "While it runs");
   add_setting_options(command, settings, SettingGroup::running, "While it runs");
   command.on_run([options, &exit_code] { exit_code = run(*options); });

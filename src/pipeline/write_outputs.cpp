@@ -32,7 +32,7 @@ std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
   std::map<std::string, std::string> metadata{
       {"software", std::string("Alhazen ") + version()},
       {"scene", s.scene},
-      {"samples", std::to_string(s.samples_per_pixel)},
+      {"samples", fmt::format("{:.10g}", s.mean_samples)},
       {"seed", std::to_string(settings.seed)},
       {"seconds", fmt::format("{:.3f}", s.render_seconds)},
       {"denoiser", s.denoiser.empty() ? "none" : s.denoiser},
@@ -45,6 +45,7 @@ std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
   if (settings.guiding != GuidingMode::off) metadata["settings"] += " --guiding " + to_string(settings.guiding);
   if (settings.asked.clamp_indirect > 0)
     metadata["settings"] += " --clamp-indirect " + setting_text(settings.asked, "clamp-indirect");
+  if (settings.records_through_specular) metadata["settings"] += " --aov-surface diffuse";
   if (!settings.asked.quality.empty())
     metadata["quality"] = settings.asked.quality + ": " + quality_options(settings.asked);
   if (settings.asked.noise > 0)
@@ -57,7 +58,7 @@ std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
 }  // namespace
 
 std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, const std::string& film_filename,
-                                        const std::string& scene_path) {
+                                        const std::string& scene_path, Diagnostics& diagnostics) {
   std::vector<std::string> paths = asked;
   if (paths.empty()) {
     const std::string name = fs::path(film_filename).filename().string();
@@ -67,6 +68,9 @@ std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, c
       fs::path stem = fs::path(scene_path).filename();
       while (stem.has_extension()) stem = stem.stem();
       paths = {stem.string() + ".exr"};
+      if (!name.empty())
+        diagnostics.warn({scene_path}, "the scene asks for '" + name + "', and images are written as " +
+                                           written_extensions() + ": the image becomes '" + paths[0] + "'");
     }
   }
   for (const std::string& path : paths) check_output(path);

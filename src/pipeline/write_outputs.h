@@ -17,11 +17,11 @@ struct OutputOptions {
   WriteOptions how;
 };
 
-/// Returns the requested paths, else the scene's own file name in the current folder, else the scene's name with .exr.
-/// Throws InputError before rendering if a path cannot be written: an unknown extension, a folder that does not exist
-/// or is not writable, cyclic links.
+/// Returns the requested paths, else the scene's own file name in the current folder, else, with a warning if the scene
+/// names a file of a kind that is not written, the scene's name with .exr. Throws InputError before rendering if a path
+/// cannot be written: an unknown extension, a folder that does not exist or is not writable, cyclic links.
 std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, const std::string& film_filename,
-                                        const std::string& scene_path);
+                                        const std::string& scene_path, Diagnostics& diagnostics);
 
 /// Throws InputError if two of these files are the same, by any names: written twice, or overwriting an input, which is
 /// one of `inputs` or of those in `record`. `checkpoint` may be empty.

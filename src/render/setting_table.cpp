@@ -55,12 +55,12 @@ template <class Number>
 Codec number(const char* option, Number Settings::*field, Number open, Number low, Number high) {
   return {[=](const Settings& s) { return s.*field == open ? std::string() : text_of(s.*field); },
           [=](Settings& s, const std::string& text) {
-            std::array<Number, 1> value;
-            if (!parse_numbers(text, ' ', value) || !(value[0] >= low && value[0] <= high))
+            Number value{};
+            if (!parse_number(text, value) || !(value >= low && value <= high))
               refuse(option, text,
                      (std::is_integral_v<Number> ? "a whole number from " : "a number from ") + text_of(low) + " to " +
                          text_of(high));
-            s.*field = value[0];
+            s.*field = value;
           }};
 }
 
@@ -68,12 +68,23 @@ template <class Number>
 Codec optional_number(const char* option, std::optional<Number> Settings::*field, Number low, Number high) {
   return {[=](const Settings& s) { return s.*field ? text_of(*(s.*field)) : std::string(); },
           [=](Settings& s, const std::string& text) {
-            std::array<Number, 1> value;
-            if (!parse_numbers(text, ' ', value) || !(value[0] >= low && value[0] <= high))
+            Number value{};
+            if (!parse_number(text, value) || !(value >= low && value <= high))
               refuse(option, text,
                      (std::is_integral_v<Number> ? "a whole number from " : "a number from ") + text_of(low) + " to " +
                          text_of(high));
-            s.*field = value[0];
+            s.*field = value;
+          }};
+}
+
+/// A time; 0 for none.
+Codec seconds(const char* option, double Settings::*field, double high) {
+  return {[=](const Settings& s) { return s.*field == 0 ? std::string() : text_of(s.*field); },
+          [=](Settings& s, const std::string& text) {
+            double value = 0;
+            if (!parse_seconds(text, value) || !(value >= 0 && value <= high))
+              refuse(option, text, "a time from 0 to " + text_of(high) + " seconds, for example 90, 90s, 1.5min or 2h");
+            s.*field = value;
           }};
 }
 
@@ -99,7 +110,7 @@ Codec size() {
           },
           [](Settings& s, const std::string& text) {
             std::array<int64_t, 2> sides;
-            if (!parse_numbers(text, 'x', sides) || sides[0] < 1 || sides[1] < 1)
+            if ((!parse_numbers(text, 'x', sides) && !parse_numbers(text, 'X', sides)) || sides[0] < 1 || sides[1] < 1)
               refuse("size", text, "WIDTHxHEIGHT, each at least 1 pixel, for example 800x600");
             s.width = sides[0];
             s.height = sides[1];
@@ -113,11 +124,9 @@ Codec checkpoint() {
           [](Settings& s, const std::string& text) {
             const size_t comma = text.rfind(',');
             s.checkpoint = text.substr(0, comma);
-            std::array<double, 1> seconds{s.checkpoint_seconds};
             const bool has_seconds = comma != std::string::npos;
-            if (s.checkpoint.empty() || (has_seconds && !parse_numbers(text.substr(comma + 1), ',', seconds)))
+            if (s.checkpoint.empty() || (has_seconds && !parse_seconds(text.substr(comma + 1), s.checkpoint_seconds)))
               refuse("checkpoint", text, "FILE or FILE,SECONDS");
-            s.checkpoint_seconds = seconds[0];
           }};
 }
 
@@ -367,8 +376,9 @@ std::vector<SettingEntry> engine_settings() {
 std::vector<SettingEntry> running_settings() {
   constexpr SettingGroup group = SettingGroup::running;
   return {
-      entry(group, "time-limit", "", "SECONDS", "Stop rendering after this time at most, and write the samples so far",
-            number("time-limit", &Settings::time_limit, 0.0, 0.0, 1e9)),
+      entry(group, "time-limit", "", "SECONDS",
+            "Stop rendering after this time at most (90, 1.5min, 2h), and write the samples so far",
+            seconds("time-limit", &Settings::time_limit, 1e9)),
       entry(group, "texture-budget", "", "MIB", "Halve the largest texture images until all fit; 0: no limit (16384)",
             number<int64_t>("texture-budget", &Settings::texture_budget, -1, 0, 1 << 30)),
       entry(group, "checkpoint", "", "FILE[,SECONDS]", "Save the state at this interval (60)", checkpoint()),

@@ -1,0 +1,209 @@
+// The command line: what may be left out, options in a file, and messages where it is wrong.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/subcommands.h"
+#include "util/diagnostics.h"
+#include "util/printable.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The name of a subcommand, also of `study`, that was given but does not exist; else empty.
+std::string unknown_subcommand(const CLI::App& app, int argc, char** argv) {
+  const auto is_name = [&](int i) { return argc > i && argv[i][0] != '-'; };
+  if (!is_name(1)) return {};
+  const auto found = app.get_subcommands();
+  if (found.empty()) return argv[1];
+  const bool has_none_below = found[0]->get_name() == "study" && found[0]->get_subcommands().empty();
+  return has_none_below && is_name(2) ? std::string("study ") + argv[2] : std::string();
+}
+
+/// How many characters have to be inserted, left out or replaced to make one word of the other.
+size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+/// The question whether the nearest of `names` was meant, if one is near; else nothing.
+std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
+  const std::string* nearest = nullptr;
+  size_t least = std::min<size_t>(2, word.size() / 3) + 1;
+  for (const std::string& name : names)
+    if (const size_t distance = edit_distance(word, name); distance < least) {
+      least = distance;
+      nearest = &name;
+    }
+  return nearest ? ": did you mean " + *nearest + "?" : "";
+}
+
+/// The options of the subcommand that was given.
+std::vector<std::string> option_names(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// Those of the subcommands, and of what they have below.
+std::vector<std::string> subcommand_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+    for (const CLI::App* below : command->get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(command->get_name() + " " + below->get_name());
+  }
+  return names;
+}
+
+/// The message of an error, with arguments that were not expected in the order given: CLI11 reverses it.
+std::string message_of(const CLI::ParseError& error, const CLI::App& app) {
+  if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError)) return error.what();
+  const std::vector<std::string> unexpected = app.remaining(true);
+  std::string message = unexpected.size() == 1 ? "The following argument was not expected:"
+                                               : "The following arguments were not expected:";
+  for (const std::string& argument : unexpected) message += " " + argument;
+  for (const std::string& argument : unexpected)
+    if (argument.starts_with("--"))
+      return message + suggestion(argument.substr(0, argument.find('=')), option_names(app));
+  return message;
+}
+
+/// Whether the command line names no subcommand, but a file to render, or options of that.
+bool renders_by_default(int argc, char** argv) {
+  if (argc < 2) return false;
+  const std::string_view first = argv[1];
+  if (first.starts_with('-')) return first != "--help" && first != "-h" && first != "--version";
+  return first.find_first_of("./") != std::string_view::npos;
+}
+
+/// The arguments without the program's name, with what may be left out.
+std::vector<std::string> complete_arguments(int argc, char** argv) {
+  std::vector<std::string> arguments;
+  if (renders_by_default(argc, argv)) arguments.emplace_back("render");
+  for (int i = 1; i < argc; ++i) {
+    arguments.emplace_back(argv[i]);
+    if (arguments.back() == "--") {
+      arguments.insert(arguments.end(), argv + i + 1, argv + argc);
+      break;
+    }
+    const auto implied = implied_values().find(arguments.back());
+    if (implied == implied_values().end()) continue;
+    const std::string next = i + 1 < argc ? argv[i + 1] : "";
+    if (next.empty() || next[0] == '-' || next.find_first_of("./") != std::string::npos)
+      arguments.push_back(implied->second);
+  }
+  return arguments;
+}
+
+bool is_given(const CLI::Option& option, const std::vector<std::string>& arguments) {
+  return std::any_of(arguments.begin(), arguments.end(), [&](const std::string& argument) {
+    return argument.starts_with('-') && option.check_name(argument.substr(0, argument.find('=')));
+  });
+}
+
+/// Takes `--config FILE` out of the arguments; returns the file, empty if none is named.
+std::string take_configuration(std::vector<std::string>& arguments) {
+  constexpr std::string_view name = "--config";
+  for (size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
+    const bool is_apart = arguments[i] == name;
+    if (!is_apart && !arguments[i].starts_with(std::string(name) + "=")) continue;
+    if (is_apart && i + 1 == arguments.size()) throw InputError("--config needs the name of a file");
+    const std::string path = is_apart ? arguments[i + 1] : arguments[i].substr(name.size() + 1);
+    const auto first = arguments.begin() + static_cast<std::ptrdiff_t>(i);
+    arguments.erase(first, first + (is_apart ? 2 : 1));
+    return path;
+  }
+  return {};
+}
+
+std::vector<CLI::ConfigItem> read_configuration(const std::string& path) {
+  std::ifstream file(path);
+  if (!file || std::filesystem::is_directory(path))
+    throw InputError({path}, "the file of --config cannot be read: does it exist?");
+  try {
+    return CLI::ConfigTOML().from_config(file);
+  } catch (const CLI::Error& error) {
+    throw InputError({path}, std::string("this is no list of options, name = value: ") + error.what());
+  }
+}
+
+/// Writes the options of a file for `render` out as arguments. What stands on the command line counts.
+void add_configuration(const CLI::App& app, std::vector<std::string>& arguments) {
+  const auto is_render = [](const CLI::App* command) { return command->get_name() == "render"; };
+  if (arguments.empty() || arguments[0] != "render") return;
+  const std::string path = take_configuration(arguments);
+  if (path.empty()) return;
+  const std::vector<std::string> given = arguments;  // of the command line
+  const CLI::App& render = *app.get_subcommands(is_render).at(0);
+  std::vector<std::string> added;
+  for (const CLI::ConfigItem& item : read_configuration(path)) {
+    if (item.name == "++" || item.name == "--") continue;  // where a section begins and ends
+    const CLI::Option* option = render.get_option_no_throw("--" + item.name);
+    const bool is_section_right = item.parents.empty() || item.parents == std::vector<std::string>{given[0]};
+    if (!option || !is_section_right || item.name == "config")
+      throw InputError({path}, "'" + item.fullname() + "' is no option of '" + given[0] + "': write options by their " +
+                                   "long names, for example spp = 64");
+    if (is_given(*option, given)) continue;
+    if (option->get_expected_max() == 0) {  // a flag
+      if (item.inputs.size() != 1 || (item.inputs[0] != "true" && item.inputs[0] != "false"))
+        throw InputError({path}, "'" + item.name + "' is true or false");
+      if (item.inputs[0] == "true") added.push_back("--" + item.name);
+    } else {
+      for (const std::string& value : item.inputs) added.push_back("--" + item.name + "=" + value);
+    }
+  }
+  arguments.insert(arguments.begin() + 1, added.begin(), added.end());
+}
+
+}  // namespace
+
+int run_command_line(const ProgramText& text, const std::function<void(Command&)>& add_subcommands, int argc,
+                     char** argv) {
+  CLI::App app(text.description, text.name);
+  app.set_version_flag("--version", text.version);
+  app.footer(text.footer);
+  Command program(app);
+  program.require_subcommand();
+  add_subcommands(program);
+  try {
+    std::vector<std::string> arguments = complete_arguments(argc, argv);
+    add_configuration(app, arguments);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    app.parse(std::move(arguments));
+    return exit_done;
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    const std::string unknown = unknown_subcommand(app, argc, argv);
+    tell("alhazen: {}\nRun 'alhazen --help' or 'alhazen SUBCOMMAND --help' for the options.\n",
+         printable(unknown.empty()
+                       ? message_of(error, app)
+                       : "there is no subcommand '" + unknown + "'" + suggestion(unknown, subcommand_names(app))));
+    return exit_bad_input;
+  }
+}
+
+}  // namespace alhazen
