@@ -99,6 +99,9 @@ struct Progress {
   double seconds = 0;   ///< of rendering so far
   /// With a noise target, `samples_total` is an estimate that changes while the image is rendered.
   uint64_t samples_done = 0, samples_total = 0;
+  uint64_t samples_loaded = 0;  ///< of `samples_done`, from the checkpoint that is continued
+  uint64_t pixels = 0;          ///< of the image
+  double noise = 0;             ///< with a noise target, its estimate when pixels were last decided on; 0: none yet
 };
 
 /// Called about ten times a second from another thread, and once at the end. Returning false stops the render; the

@@ -1,10 +1,15 @@
 #include "cli/progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <system_error>
+#include <vector>
 
 #include "cli/console.h"
 #include "util/diagnostics.h"
@@ -13,14 +18,50 @@ namespace alhazen {
 
 namespace {
 
-double samples_per_second(const Progress& p) {
-  return p.seconds > 0 ? static_cast<double>(p.samples_done) / p.seconds : 0;
+/// Of this run, without what a checkpoint held.
+double samples_taken(const Progress& p) {
+  return static_cast<double>(p.samples_done - std::min(p.samples_loaded, p.samples_done));
 }
 
-double seconds_left(const Progress& p) { return p.fraction > 0 ? p.seconds / p.fraction * (1 - p.fraction) : 0; }
+double samples_per_second(const Progress& p) { return p.seconds > 0 ? samples_taken(p) / p.seconds : 0; }
 
-/// The bar must not wrap, so that it can be overwritten.
-constexpr int bar_width = 30;
+/// 0 until samples were taken.
+double seconds_left(const Progress& p) {
+  const double rate = samples_per_second(p);
+  return rate > 0 ? static_cast<double>(p.samples_total - p.samples_done) / rate : 0;
+}
+
+/// The parts of a line, the most important first, until no more fits. A line that wraps cannot be overwritten.
+std::string joined(const std::vector<std::string>& parts, size_t width) {
+  std::string line;
+  for (const std::string& part : parts) {
+    const size_t gap = line.empty() ? 0 : 2;
+    if (line.size() + gap + part.size() > width) break;
+    line += std::string(gap, ' ') + part;
+  }
+  return line;
+}
+
+/// What is said of progress beside the fraction.
+std::vector<std::string> details_of(const Progress& p) {
+  std::vector<std::string> parts{fmt::format("{:.0f}%", std::floor(p.fraction * 100)), format_seconds(p.seconds)};
+  if (p.fraction < 1) parts.push_back(seconds_left(p) > 0 ? format_seconds(seconds_left(p)) + " left" : "first pass");
+  if (p.pixels > 0)
+    parts.push_back(fmt::format("{:.0f} spp", static_cast<double>(p.samples_done) / static_cast<double>(p.pixels)));
+  if (p.noise > 0) parts.push_back(fmt::format("noise {:.3g}", p.noise));
+  parts.push_back(fmt::format("{:.2f} Msamples/s", samples_per_second(p) * 1e-6));
+  return parts;
+}
+
+/// Columns of the terminal.
+size_t terminal_width() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+constexpr size_t longest_bar = 30;
+
+constexpr std::chrono::milliseconds first_word{150}, between_words{100};
 
 }  // namespace
 
@@ -53,6 +94,50 @@ void ProgressPrinter::show(const Progress& progress) {
   }
 }
 
+void ProgressPrinter::show_activity(const Activity::State& activity, double seconds) {
+  const std::lock_guard lock(mutex_);
+  const std::string what = activity.what;
+  if (style_ == ProgressStyle::none || what.empty()) return;
+  const std::string count = activity.total > 0  ? fmt::format(" {} of {}", activity.part, activity.total)
+                            : activity.part > 0 ? fmt::format(" {}", activity.part)
+                                                : "";
+  if (style_ == ProgressStyle::bar)
+    return show_over(joined({what + count, format_seconds(seconds)}, terminal_width() - 1));
+  if (what == last_activity_) return;
+  last_activity_ = what;
+  if (style_ == ProgressStyle::lines) return tell_progress(what + "\n");
+  const nlohmann::ordered_json j{
+      {"activity", what}, {"seconds", seconds}, {"part", activity.part}, {"total", activity.total}};
+  tell_progress(j.dump() + "\n");
+}
+
+ActivityPrinter::ActivityPrinter(const Activity& activity, ProgressPrinter& printer)
+    : activity_(activity), printer_(printer) {
+  try {
+    thread_ = std::thread([this] { run(); });
+  } catch (const std::system_error&) {
+    // Where the system gives no thread nothing is said.
+  }
+}
+
+void ActivityPrinter::run() {
+  const auto start = std::chrono::steady_clock::now();
+  std::unique_lock lock(mutex_);
+  for (auto wait = first_word; !wake_.wait_for(lock, wait, [this] { return is_over_; }); wait = between_words)
+    printer_.show_activity(activity_.state(),
+                           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+void ActivityPrinter::finish() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    is_over_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
 void ProgressPrinter::finish() {
   const std::lock_guard lock(mutex_);
   end_bar();
@@ -69,30 +154,40 @@ void ProgressPrinter::end_bar() {
   bar_open_ = false;
 }
 
-void ProgressPrinter::show_bar(const Progress& p) {
-  const int filled = std::clamp(static_cast<int>(p.fraction * bar_width), 0, bar_width);
-  tell_progress(fmt::format("\r[{}{}] {:3.0f}%  {:.2f} Msamples/s  {} left\x1b[K",
-                            std::string(static_cast<size_t>(filled), '#'),
-                            std::string(static_cast<size_t>(bar_width - filled), '.'), p.fraction * 100,
-                            samples_per_second(p) * 1e-6, format_seconds(seconds_left(p))));
+void ProgressPrinter::show_over(const std::string& line) {
+  tell_progress("\r" + line + "\x1b[K");
   bar_open_ = true;
+}
+
+void ProgressPrinter::show_bar(const Progress& p) {
+  const size_t width = terminal_width() - 1;
+  std::string line = joined(details_of(p), width);
+  if (line.size() + 12 < width) {
+    const size_t length = std::min(longest_bar, width - line.size() - 3);
+    const size_t filled = static_cast<size_t>(std::clamp(p.fraction, 0.0, 1.0) * static_cast<double>(length));
+    line = "[" + std::string(filled, '#') + std::string(length - filled, '.') + "] " + line;
+  }
+  show_over(line);
 }
 
 /// Lines become less frequent as the render proceeds, so that a long one does not fill a log.
 void ProgressPrinter::show_line(const Progress& p) {
   if (p.seconds < last_shown_ + interval_ && !(p.fraction >= 1 && last_shown_ >= 0)) return;
   if (p.seconds < 1 && p.fraction < 1) return;
-  tell_progress(fmt::format("{:3.0f}%  {:.2f} Msamples/s  {} left\n", p.fraction * 100, samples_per_second(p) * 1e-6,
-                            format_seconds(seconds_left(p))));
+  tell_progress(joined(details_of(p), std::string::npos / 2) + "\n");
   last_shown_ = p.fraction >= 1 ? 1e300 : p.seconds;
   interval_ = std::min(interval_ * 1.5, 60.0);
 }
 
 void ProgressPrinter::show_json(const Progress& p) {
   if (p.seconds < last_shown_ + 0.5 && p.fraction < 1) return;
-  const nlohmann::ordered_json j{{"fraction", p.fraction},           {"seconds", p.seconds},
-                                 {"seconds_left", seconds_left(p)},  {"samples_done", p.samples_done},
-                                 {"samples_total", p.samples_total}, {"samples_per_second", samples_per_second(p)}};
+  const nlohmann::ordered_json j{{"fraction", p.fraction},
+                                 {"seconds", p.seconds},
+                                 {"seconds_left", seconds_left(p)},
+                                 {"samples_done", p.samples_done},
+                                 {"samples_total", p.samples_total},
+                                 {"samples_per_second", samples_per_second(p)},
+                                 {"noise", p.noise}};
   tell_progress(j.dump() + "\n");
   last_shown_ = p.seconds;
 }

@@ -2,10 +2,13 @@
 
 // Shows the progress of a render on stderr: a bar on a terminal, lines elsewhere, JSON for programs.
 
+#include <condition_variable>
 #include <mutex>
 #include <string>
+#include <thread>
 
 #include "alhazen/alhazen.h"
+#include "util/activity.h"
 
 namespace alhazen {
 
@@ -19,12 +22,15 @@ class ProgressPrinter {
   explicit ProgressPrinter(ProgressStyle style) : style_(style) {}
   /// Prints the progress when the style requires it.
   void show(const Progress& progress);
+  /// Says what is done before the render begins; `seconds` since the start.
+  void show_activity(const Activity::State& activity, double seconds);
   /// Ends the bar's line.
   void finish();
   /// Prints other lines, from any thread, while progress is shown.
   void tell_lines(const std::string& lines);
 
  private:
+  void show_over(const std::string& line);
   void show_bar(const Progress& progress);
   void show_line(const Progress& progress);
   void show_json(const Progress& progress);
@@ -35,6 +41,28 @@ class ProgressPrinter {
   double last_shown_ = -1;
   double interval_ = 1;
   bool bar_open_ = false;
+  std::string last_activity_;
+};
+
+/// While one exists, what is done is said at most 0.2 s after its beginning.
+class ActivityPrinter {
+ public:
+  ActivityPrinter(const Activity& activity, ProgressPrinter& printer);
+  ~ActivityPrinter() { finish(); }
+  ActivityPrinter(const ActivityPrinter&) = delete;
+  ActivityPrinter& operator=(const ActivityPrinter&) = delete;
+  /// Says no more.
+  void finish();
+
+ private:
+  void run();
+
+  const Activity& activity_;
+  ProgressPrinter& printer_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool is_over_ = false;
+  std::thread thread_;
 };
 
 /// 3725 as "1 h 02 min", 75.2 as "1 min 15 s", 4.21 as "4.2 s".

@@ -198,6 +198,7 @@ int run(RenderOptions& options) {
   const ProgressStyle style = parse_progress_style(options.progress);
   ProgressPrinter printer(options.quiet ? ProgressStyle::none : style);
   Diagnostics diagnostics;
+  ActivityPrinter activity(diagnostics.activity(), printer);
   LoadedScene loaded = load_scene(options.scene, options.settings, diagnostics);
   Scene& scene = loaded.scene;
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
@@ -214,6 +215,7 @@ int run(RenderOptions& options) {
     return !is_interrupted();
   };
   events.started = [&](const RenderStatistics& statistics) {
+    activity.finish();
     catch_interrupts();
     warnings.show();
     if (options.verbose) print_start(statistics);

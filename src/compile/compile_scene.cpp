@@ -47,6 +47,7 @@ class SceneCompiler {
 
   CompiledScene<Real> run() {
     check_film();
+    diagnostics_.activity().begin("preparing the scene");
     CompiledScene<Real> flat;
     if (options_.in_render_space) move_to_render_space(scene_);
     compile_camera(scene_, width_, height_, out_, flat.view, diagnostics_);
@@ -85,7 +86,9 @@ class SceneCompiler {
     const bool checks_lost_light = options_.path_segments > 0 && may_lose_light(out_.view());
     CompileOptions options = options_;
     if (has_one_sided_ || checks_lost_light) options.layouts.add(BvhLayout::bvh2);
+    diagnostics_.activity().begin("building the BVH");
     build_trees(options, out_, flat.statistics);
+    diagnostics_.activity().begin("preparing the lights");
     add_triangle_emitters(out_);
     assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
     if (has_one_sided_ && open_seen_backs(whole_view(flat), static_cast<uint32_t>(width_),

@@ -14,6 +14,7 @@ LoadedScene load_scene(const std::string& path, const Settings& settings, Diagno
   // Before the scene is read, which may take long.
   refuse_same_file({settings.checkpoint, "the checkpoint"},
                    {{path, "the scene"}, {settings.environment, "the environment map"}});
+  diagnostics.activity().begin("reading the scene");
   LoadedScene loaded;
   loaded.inputs = std::make_shared<InputRecord>();
   const ReadOptions choice{settings.camera,
@@ -25,8 +26,10 @@ LoadedScene load_scene(const std::string& path, const Settings& settings, Diagno
                            loaded.inputs};
   loaded.scene = read_scene(path, choice, diagnostics);
   loaded.inputs->refuse(settings.checkpoint, "the checkpoint");
-  if (!settings.environment.empty())
+  if (!settings.environment.empty()) {
+    diagnostics.activity().begin("reading the environment map");
     use_environment(loaded.scene, path_beside(path, settings.environment, settings.confine));
+  }
   apply_settings(settings, loaded.scene);
   loaded.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return loaded;

@@ -34,6 +34,18 @@ class RenderControl {
   void set_total(uint64_t count) { samples_total_.store(count, std::memory_order_relaxed); }
   uint64_t samples_total() const { return samples_total_.load(std::memory_order_relaxed); }
 
+  /// Called before the render is watched: the pixels of the image, and the samples that a checkpoint held.
+  void set_start(uint64_t pixels, uint64_t samples_loaded) {
+    pixels_ = pixels;
+    samples_loaded_ = samples_loaded;
+  }
+  uint64_t pixels() const { return pixels_; }
+  uint64_t samples_loaded() const { return samples_loaded_; }
+
+  /// The estimated error of the image; 0: not known.
+  void set_noise(double noise) { noise_.store(noise, std::memory_order_relaxed); }
+  double noise() const { return noise_.load(std::memory_order_relaxed); }
+
   /// Asks the backend to return soon; pixels that it has not begun remain as they are.
   void stop() { stopped_.store(true, std::memory_order_relaxed); }
   bool is_stopped() const { return stopped_.load(std::memory_order_relaxed); }
@@ -47,7 +59,9 @@ class RenderControl {
 
  private:
   std::vector<ThreadStatistics> threads_;
+  uint64_t pixels_ = 0, samples_loaded_ = 0;
   std::atomic<uint64_t> samples_done_{0}, samples_total_{0};
+  std::atomic<double> noise_{0};
   std::atomic<bool> stopped_{false}, reached_limit_{false};
 };
 

@@ -68,6 +68,9 @@ class ProgressReporter {
     const uint64_t total = control_.samples_total();
     p.samples_done = std::min(control_.samples_done(), total);
     p.samples_total = total;
+    p.samples_loaded = control_.samples_loaded();
+    p.pixels = control_.pixels();
+    p.noise = control_.noise();
     fraction_ = std::max(fraction_, total > 0 ? static_cast<double>(p.samples_done) / static_cast<double>(total) : 1);
     p.fraction = fraction_;
     p.seconds = seconds_since(start_);
@@ -162,6 +165,7 @@ class PassLoop {
     if (settings_.asked.resume) samples_done_ = checkpoint_->load(film_, guiding_ ? &*guiding_ : nullptr);
     samples_loaded_ = film_.total_samples(samples_done_);
     control_.add_samples(samples_loaded_);
+    control_.set_start(static_cast<uint64_t>(settings_.window.pixels()), samples_loaded_);
     set_total();
     std::exception_ptr problem;
     {
@@ -255,6 +259,7 @@ class PassLoop {
       state_ = unknown_noise(film_);
       warn({}, "no memory was left to estimate the noise: no pixels are finished by it, and the render continues");
     }
+    control_.set_noise(is_known ? state_.noise : 0);
     has_current_state_ = true;
     estimate_seconds_ = seconds_since(start);
     elapsed_ += estimate_seconds_;
@@ -372,6 +377,7 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Backend> backend = make_backend(settings.backend);
   const bool is_on_gpu = settings.runs_on_device && settings.device != host_device;
+  if (is_on_gpu) diagnostics.activity().begin("starting the GPU");
   std::future<void> started = start_backend(*backend, settings, is_on_gpu);
   const int build_threads = is_on_gpu ? 0 : settings.threads;
   CompileOptions options{settings.width, settings.height, build_threads, backend->wanted_layouts(settings)};
@@ -389,6 +395,7 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   statistics.build_seconds = flat.statistics.build_seconds + seconds_since(build_start);
   const bool weighted = flat.view.filter.has_negative != 0;
   auto film = make_film<Real>(settings, weighted);
+  diagnostics.activity().begin("rendering");
   if (events.started) events.started(statistics);
   PassLoop<Real>(*backend, flat, settings, *film, events, diagnostics).run(statistics);
   statistics.peak_rss_bytes = peak_rss_bytes();

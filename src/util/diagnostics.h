@@ -1,12 +1,15 @@
 #pragma once
 
-// How the library reports bad input: an error, which stops it, or warnings, which are reported once.
+// How the library reports to its caller: bad input by an error, which stops it, or by warnings, which are reported
+// once; and what it is doing.
 
 #include <cstddef>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "util/activity.h"
 
 namespace alhazen {
 
@@ -35,7 +38,7 @@ class RenderError : public std::runtime_error {
   explicit RenderError(const std::string& message);
 };
 
-/// Collects warnings. Each text is kept once, with the location of its first occurrence.
+/// Collects warnings, and knows what is being done. Each text is kept once, with the location of its first occurrence.
 class Diagnostics {
  public:
   struct Warning {
@@ -46,10 +49,12 @@ class Diagnostics {
 
   void warn(const SourceLocation& where, const std::string& message);
   const std::vector<Warning>& warnings() const { return warnings_; }
+  Activity& activity() { return activity_; }
 
  private:
   std::vector<Warning> warnings_;
   std::set<std::string> seen_;
+  Activity activity_;
 };
 
 }  // namespace alhazen

@@ -182,6 +182,7 @@ uint32_t Textures::load(uint32_t source, Texels texels) {
   const auto [entry, is_new] = images_.try_emplace({source, texels}, no_index);
   if (!is_new) return entry->second;
   const Json& image = document_.item("images", source);
+  document_.diagnostics().activity().begin("reading textures", scene_.images.size() + 1);
   Resource resource;
   std::span<const uint8_t> bytes;
   if (const Json* uri = image.find("uri")) {

@@ -55,6 +55,7 @@ uint32_t image_index(Build& build, ParameterList& list, TextureEncoding encoding
   const InputPath path = build.existing_file(list.place_of("filename"), name);
   const auto [entry, is_new] = build.images_by_key.try_emplace({path.name, static_cast<int>(encoding), is_float}, 0u);
   if (is_new) {
+    build.diagnostics.activity().begin("reading textures", build.scene.images.size() + 1);
     ImageTexels image = is_float ? read_scalar(build, list, path, encoding) : read_texture(path, encoding);
     entry->second = static_cast<uint32_t>(build.scene.images.size());
     build.scene.images.push_back(std::move(image));

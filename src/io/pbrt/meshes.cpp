@@ -121,7 +121,10 @@ uint32_t read_ply_mesh(Build& build, ParameterList& list) {
   if (!list.has("filename")) fail(list.place(), list.directive() + " needs \"string filename\" [ \"mesh.ply\" ]");
   const InputPath path = build.existing_file(list.place_of("filename"), list.string("filename", ""));
   const auto [entry, is_new] = build.meshes_by_key.try_emplace("ply " + path.name, 0u);
-  if (is_new) entry->second = add_mesh(build, list, read_ply(path, build.diagnostics));
+  if (is_new) {
+    build.diagnostics.activity().begin("reading meshes", build.scene.meshes.size() + 1);
+    entry->second = add_mesh(build, list, read_ply(path, build.diagnostics));
+  }
   return entry->second;
 }
 
