@@ -69,6 +69,20 @@ struct Settings {
   int64_t max_depth = -1;         ///< bounces: a path has at most max_depth + 1 segments
   int64_t width = 0, height = 0;  ///< pixels
   std::optional<uint32_t> seed;
+  /// Where the camera is: its position, what it looks at, and optionally a direction upwards, without which the axis of
+  /// the scene that was upward stays so. Empty: as the scene says.
+  std::vector<double> look_at;
+  /// Turns the camera about the middle of the scene: azimuth from the front, elevation (degrees), and optionally the
+  /// distance, without which the whole scene is seen. Shapes far larger than all others, such as a ground, do not
+  /// count.
+  std::vector<double> orbit;
+  bool fit = false;           ///< moves the camera so that it sees the whole scene in the direction in which it looks
+  std::optional<double> fov;  ///< degrees over the shorter axis of the image
+  std::optional<double> aperture;  ///< radius of the lens, in scene units; 0: all is sharp
+  std::optional<double> focus;  ///< distance of what is sharp; absent: what the camera was placed for, or the scene's
+  double environment_rotation = 0;  ///< degrees about the upward axis, counter-clockwise from above
+  double environment_strength = 1;  ///< factor on infinite lights
+  double light_scale = 1;           ///< factor on all other lights
   /// Part of the image to render: x0, x1, y0, y1 in [0, 1], or in pixels (half open). Give at most one of the two.
   std::optional<std::array<double, 4>> crop_window;
   std::optional<std::array<int64_t, 4>> pixel_bounds;

@@ -12,32 +12,28 @@
 #include "io/gltf/gltf.h"
 #include "io/pbrt/pbrt.h"
 #include "io/ply/ply.h"
+#include "scene/default_view.h"
 
 namespace alhazen {
 
 namespace {
 
-/// A mesh under a white sky, seen from the front, the side and above, so that it fills the image.
-Scene scene_around(Mesh&& mesh, const std::string& path) {
+/// A mesh as a model without camera and lights is shown.
+Scene scene_around(Mesh&& mesh, const std::string& path, double aspect) {
+  Scene scene;
+  scene.name = path;
+  scene.samples_per_pixel = 64;
+  scene.quality = "good";
   Bounds3<double> box;
   for (const Vec3d& p : mesh.positions) box.extend(p);
   if (box.is_empty() || mesh.indices.empty()) throw InputError({path}, "the mesh has no faces, so there is no image");
-  Scene scene;
-  scene.name = path;
-  const double radius = std::max(0.5 * length(box.diagonal()), 1e-30);
-  scene.camera.fov = 40;
-  const Vec3d centre = box.centre();
-  const Vec3d eye = centre + normalize(Vec3d{0.5, 0.35, 1}) * (radius / 0.34);
-  scene.camera.world_from_camera.start = Transform::look_at(eye, centre, {0, 1, 0}).inverse();
-  scene.camera.world_from_camera.end = scene.camera.world_from_camera.start;
-  Light sky;
-  sky.radiance = {1, 1, 1};
-  scene.lights.push_back(sky);
   scene.meshes.push_back(std::move(mesh));
   Shape shape;
   shape.mesh = 0;
   shape.where = {path};
   scene.groups[0].shapes.push_back(shape);
+  fit_camera(scene, aspect);
+  add_neutral_light(scene);
   return scene;
 }
 
@@ -69,7 +65,7 @@ Scene read_by_format(const std::string& path, const ReadOptions& options, Diagno
   if (!options.is_default())
     throw InputError({path}, "cameras, variants, animations and their time can be chosen for glTF files only");
   if (format == "pbrt") return read_pbrt(input, diagnostics);
-  return scene_around(read_ply(input, diagnostics), path);
+  return scene_around(read_ply(input, diagnostics), path, options.aspect);
 }
 
 }  // namespace

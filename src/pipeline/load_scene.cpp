@@ -5,6 +5,7 @@
 #include "files/file_identity.h"
 #include "io/environment.h"
 #include "io/read_scene.h"
+#include "pipeline/choose_view.h"
 #include "render/settings.h"
 
 namespace alhazen {
@@ -31,6 +32,7 @@ LoadedScene load_scene(const std::string& path, const Settings& settings, Diagno
     use_environment(loaded.scene, path_beside(path, settings.environment, settings.confine));
   }
   apply_settings(settings, loaded.scene);
+  choose_view(settings, loaded.scene);
   loaded.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return loaded;
 }

@@ -46,6 +46,10 @@ std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
   if (settings.asked.clamp_indirect > 0)
     metadata["settings"] += " --clamp-indirect " + setting_text(settings.asked, "clamp-indirect");
   if (settings.records_through_specular) metadata["settings"] += " --aov-surface diffuse";
+  for (const char* name : {"look-at", "orbit", "fit", "fov", "aperture", "focus", "environment-rotate",
+                           "environment-strength", "light-scale"})
+    if (const std::string text = setting_text(settings.asked, name); !text.empty())
+      metadata["settings"] += std::string(" --") + name + (text == "true" ? "" : " " + text);
   if (!settings.asked.quality.empty())
     metadata["quality"] = settings.asked.quality + ": " + quality_options(settings.asked);
   if (settings.asked.noise > 0)

@@ -104,6 +104,38 @@ Codec bounds(const char* option, std::optional<std::array<Number, 4>> Settings::
           }};
 }
 
+/// So many numbers with commas between them, or so many others.
+Codec numbers(const char* option, std::vector<double> Settings::*field, size_t few, size_t many, const char* wanted) {
+  return {[=](const Settings& s) {
+            std::string text;
+            for (const double value : s.*field) text += (text.empty() ? "" : ",") + text_of(value);
+            return text;
+          },
+          [=](Settings& s, const std::string& text) {
+            std::vector<double> values;
+            for (size_t begin = 0; begin <= text.size();) {
+              const size_t end = std::min(text.find(',', begin), text.size());
+              double value = 0;
+              if (!parse_number(std::string_view(text).substr(begin, end - begin), value) || !std::isfinite(value))
+                refuse(option, text, wanted);
+              values.push_back(value);
+              begin = end + 1;
+            }
+            if (values.size() != few && values.size() != many) refuse(option, text, wanted);
+            s.*field = std::move(values);
+          }};
+}
+
+Codec orbit() {
+  constexpr const char* wanted = "AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,DISTANCE, degrees and a distance above 0";
+  const Codec plain = numbers("orbit", &Settings::orbit, 2, 3, wanted);
+  return {plain.text, [=](Settings& s, const std::string& text) {
+            plain.set(s, text);
+            if (!(std::abs(s.orbit[1]) <= 90) || (s.orbit.size() == 3 && !(s.orbit[2] > 0)))
+              refuse("orbit", text, wanted);
+          }};
+}
+
 Codec size() {
   return {[](const Settings& s) {
             return s.width > 0 ? std::to_string(s.width) + "x" + std::to_string(s.height) : std::string();
@@ -318,6 +350,20 @@ std::vector<SettingEntry> image_settings() {
                  entry(group, "integrator", "", "NAME",
                        "path (next-event estimation), or BSDF sampling alone: iterative, recursive, branching",
                        name(&Settings::integrator))),
+      entry(group, "look-at", "", "EX,EY,EZ,LX,LY,LZ[,UX,UY,UZ]", "Put the camera at E, looking at L, with U upwards",
+            numbers("look-at", &Settings::look_at, 6, 9, "six or nine numbers: position, target and the way up")),
+      entry(
+          group, "orbit", "", "AZIMUTH,ELEVATION[,DISTANCE]",
+          "Look at the middle of the scene from there, in degrees from the front and upwards; without a distance from "
+          "where the whole scene is seen",
+          orbit()),
+      entry(group, "fit", "", "", "Move the camera to where the whole scene is seen", flag(&Settings::fit)),
+      entry(group, "fov", "", "DEGREES", "Field of view over the shorter side of the image",
+            optional_number("fov", &Settings::fov, 1e-3, 179.0)),
+      entry(group, "aperture", "", "RADIUS", "Radius of the lens in scene units; 0: all is sharp",
+            optional_number("aperture", &Settings::aperture, 0.0, 1e9)),
+      entry(group, "focus", "", "DISTANCE", "Distance of what is sharp",
+            optional_number("focus", &Settings::focus, 1e-9, 1e12)),
       entry(group, "filter", "", "NAME[,RADIUS]",
             "Pixel filter: box, triangle, gaussian, mitchell or sinc, and its radius in pixels: box,0.5",
             name(&Settings::filter)),
@@ -325,6 +371,12 @@ std::vector<SettingEntry> image_settings() {
             "Light the scene by this map (EXR, HDR, ...) instead of its infinite lights: 2:1 (equirectangular) or "
             "square (octahedral), +y up, its centre towards -z",
             name(&Settings::environment)),
+      entry(group, "environment-rotate", "", "DEGREES", "Turn environment maps, counter-clockwise from above",
+            number("environment-rotate", &Settings::environment_rotation, 0.0, -1e6, 1e6)),
+      entry(group, "environment-strength", "", "X", "Multiply environment maps and the light of skies by X",
+            number("environment-strength", &Settings::environment_strength, 1.0, 0.0, 1e9)),
+      entry(group, "light-scale", "", "X", "Multiply all other lights by X",
+            number("light-scale", &Settings::light_scale, 1.0, 0.0, 1e9)),
       entry(group, "coats", "", "NAME",
             "pbrt: lossless coats (the default), or ones that lose as much light as in pbrt-v4: pbrt",
             name(&Settings::coats)),

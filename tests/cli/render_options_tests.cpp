@@ -57,6 +57,9 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--overwrite", "--device", "--block",
       "--chunk", "--denoise", "--environment", "--texture-budget", "--coats", "--filter", "--noise", "--guiding",
       "--guiding-memory", "--clamp-indirect", "--aov-surface",
+      // Tested in view_tests.cpp:
+      "--look-at", "--orbit", "--fit", "--fov", "--aperture", "--focus", "--environment-rotate",
+      "--environment-strength", "--light-scale",
       // Tested in command_line_tests.cpp:
       "--config",
       // Tested in quality_tests.cpp:

@@ -29,14 +29,6 @@ size_t choose(const Document& document, const std::string& choice, const std::ve
 /// Adds the lights of KHR_lights_punctual. Candela and lux are taken as W / sr and W / m^2 without conversion.
 void add_lights(const Document& document, const Nodes& nodes, Scene& scene, std::vector<std::string>* names);
 
-/// Adds a camera that sees the whole scene from the front, the side and above, for an image of that aspect ratio (width
-/// over height; 0: that of the film).
-void fit_camera(Scene& scene, double aspect);
-
-/// Adds white light from everywhere, more of it from above, and from windows: a bright one in front of and above the
-/// scene, others beside and behind it.
-void add_neutral_light(Scene& scene);
-
 /// If the camera is inside closed walls and no light can enter, makes the outermost walls emit light of their own
 /// colour. Returns whether it did.
 bool light_closed_room(Scene& scene);

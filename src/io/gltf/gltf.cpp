@@ -15,6 +15,7 @@
 #include "io/gltf/nodes.h"
 #include "io/gltf/pointers.h"
 #include "io/gltf/validate.h"
+#include "scene/default_view.h"
 
 namespace alhazen {
 

@@ -1,4 +1,4 @@
-// The camera and the lights for a file without any.
+#include "scene/default_view.h"
 
 #include <algorithm>
 #include <array>
@@ -6,10 +6,8 @@
 #include <numbers>
 
 #include "core/lights/sphere_mapping.h"
-#include "core/math/bounds.h"
-#include "io/gltf/cameras_and_lights.h"
 
-namespace alhazen::gltf {
+namespace alhazen {
 
 namespace {
 
@@ -18,16 +16,19 @@ double smoothstep(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
-/// Calls visit(point) for every vertex in world space.
+/// Calls visit(point) for points in world space between which the shape is: the vertices of a mesh, the corners of a
+/// box about others.
 template <class Visit>
-void for_each_vertex(const Scene& scene, const Visit& visit) {
-  const auto visit_shape = [&](const Shape& shape, const Transform& world_from_object) {
-    for (const Vec3d& p : scene.meshes[shape.mesh].positions) visit(world_from_object.point(p));
-  };
-  for (const Shape& shape : scene.groups[0].shapes) visit_shape(shape, shape.world_from_object.start);
-  for (const Instance& instance : scene.instances)
-    for (const Shape& shape : scene.groups[instance.group].shapes)
-      visit_shape(shape, instance.world_from_group.start * shape.world_from_object.start);
+void for_each_point(const Scene& scene, const PlacedShape& placed, const Visit& visit) {
+  const Shape& shape = *placed.shape;
+  if (shape.type == ShapeType::mesh) {
+    for (const Vec3d& p : scene.meshes[shape.mesh].positions) visit(placed.world_from_object.point(p));
+    return;
+  }
+  const Vec3d reach = shape.reach();
+  for (int corner = 0; corner < 8; ++corner)
+    visit(placed.world_from_object.point(
+        {corner & 1 ? reach.x : -reach.x, corner & 2 ? reach.y : -reach.y, corner & 4 ? reach.z : -reach.z}));
 }
 
 /// From the centre of a box to the camera. glTF models face +z. A model that is flat in z, such as a sign, is seen from
@@ -42,17 +43,48 @@ Vec3d direction_to_eye(const Vec3d& half) {
 
 }  // namespace
 
-void fit_camera(Scene& scene, double aspect) {
-  if (!(aspect > 0)) aspect = static_cast<double>(scene.film.width) / static_cast<double>(scene.film.height);
+std::vector<PlacedShape> placed_shapes(const Scene& scene) {
+  std::vector<PlacedShape> shapes;
+  const auto add = [&](const Shape& shape, const Transform& world_from_object) {
+    PlacedShape placed{&shape, world_from_object, {}};
+    for_each_point(scene, placed, [&](const Vec3d& p) { placed.box.extend(p); });
+    if (!placed.box.is_empty()) shapes.push_back(placed);
+  };
+  for (const Shape& shape : scene.groups[0].shapes) add(shape, shape.world_from_object.start);
+  for (const Instance& instance : scene.instances)
+    for (const Shape& shape : scene.groups[instance.group].shapes)
+      add(shape, instance.world_from_group.start * shape.world_from_object.start);
+  return shapes;
+}
+
+void leave_out_surroundings(std::vector<PlacedShape>& shapes) {
+  constexpr double surroundings = 30;
+  const auto size = [](const PlacedShape& placed) { return length(placed.box.diagonal()); };
+  std::stable_sort(shapes.begin(), shapes.end(),
+                   [&](const PlacedShape& a, const PlacedShape& b) { return size(a) < size(b); });
+  Bounds3<double> smaller;
+  for (size_t i = 0; i + 1 < shapes.size(); ++i) {
+    smaller.extend(shapes[i].box);
+    if (size(shapes[i + 1]) > surroundings * length(smaller.diagonal()) && length(smaller.diagonal()) > 0 &&
+        i + 1 >= shapes.size() / 2) {
+      shapes.erase(shapes.begin() + static_cast<std::ptrdiff_t>(i) + 1, shapes.end());
+      return;
+    }
+  }
+}
+
+Bounds3<double> bounds_of(const std::vector<PlacedShape>& shapes) {
   Bounds3<double> box;
-  for_each_vertex(scene, [&](const Vec3d& p) { box.extend(p); });
+  for (const PlacedShape& placed : shapes) box.extend(placed.box);
   if (box.is_empty()) box.extend(Vec3d{});
+  return box;
+}
+
+Vec3d fitting_eye(const Scene& scene, const std::vector<PlacedShape>& shapes, double aspect, const ViewAxes& axes,
+                  double fov) {
+  const Bounds3<double> box = bounds_of(shapes);
   const Vec3d centre = box.centre(), half = box.diagonal() * 0.5;
-  const Vec3d backward = direction_to_eye(half);
-  const Vec3d right = normalize(cross(Vec3d{0, 1, 0}, backward)), up = cross(backward, right);
-  scene.camera.fov = 40;
-  // The field of view is over the shorter axis of the image, with a small margin at every edge.
-  const double tangent = std::tan(20 * std::numbers::pi / 180) / 1.08;
+  const double tangent = std::tan(fov / 2 * std::numbers::pi / 180) / 1.08;
   const double across = tangent * std::max(aspect, 1.0), along = tangent / std::min(aspect, 1.0);
   // A point is visible if |x - eye.x| <= tangent * (distance - z), in coordinates along right, up and backward. So the
   // largest x + tangent * z and the largest -x + tangent * z of all points determine the eye's position between them
@@ -60,18 +92,28 @@ void fit_camera(Scene& scene, double aspect) {
   double to_right = -1e300, to_left = -1e300, to_top = -1e300, to_bottom = -1e300, nearest = -1e300;
   const auto visit = [&](const Vec3d& point) {
     const Vec3d p = point - centre;
-    const double x = dot(p, right), y = dot(p, up), z = dot(p, backward);
+    const double x = dot(p, axes.right), y = dot(p, axes.up), z = dot(p, axes.backward);
     to_right = std::max(to_right, x + across * z), to_left = std::max(to_left, -x + across * z);
     to_top = std::max(to_top, y + along * z), to_bottom = std::max(to_bottom, -y + along * z);
     nearest = std::max(nearest, z);
   };
-  for_each_vertex(scene, visit);
+  for (const PlacedShape& placed : shapes) for_each_point(scene, placed, visit);
   if (nearest == -1e300) visit(centre);
   // If the scene is a single point, any distance will do.
   const double size = length(half) > 0 ? length(half) : 1e-6;
   const double distance =
       std::max({(to_right + to_left) / (2 * across), (to_top + to_bottom) / (2 * along), nearest + size * 1e-3});
-  const Vec3d eye = centre + right * ((to_right - to_left) / 2) + up * ((to_top - to_bottom) / 2) + backward * distance;
+  return centre + axes.right * ((to_right - to_left) / 2) + axes.up * ((to_top - to_bottom) / 2) +
+         axes.backward * distance;
+}
+
+void fit_camera(Scene& scene, double aspect) {
+  if (!(aspect > 0)) aspect = static_cast<double>(scene.film.width) / static_cast<double>(scene.film.height);
+  const std::vector<PlacedShape> shapes = placed_shapes(scene);
+  const Vec3d backward = direction_to_eye(bounds_of(shapes).diagonal() * 0.5);
+  const Vec3d right = normalize(cross(Vec3d{0, 1, 0}, backward)), up = cross(backward, right);
+  scene.camera.fov = 40;
+  const Vec3d eye = fitting_eye(scene, shapes, aspect, {right, up, backward}, scene.camera.fov);
   scene.camera.world_from_camera.start = Transform(Matrix4{{{right.x, up.x, -backward.x, eye.x},
                                                             {right.y, up.y, -backward.y, eye.y},
                                                             {right.z, up.z, -backward.z, eye.z},
@@ -115,4 +157,4 @@ void add_neutral_light(Scene& scene) {
   scene.lights.push_back(light);
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen
