@@ -79,8 +79,9 @@ struct Settings {
   bool fit = false;           ///< moves the camera so that it sees the whole scene in the direction in which it looks
   std::optional<double> fov;  ///< degrees over the shorter axis of the image
   std::optional<double> aperture;  ///< radius of the lens, in scene units; 0: all is sharp
-  std::optional<double> focus;  ///< distance of what is sharp; absent: what the camera was placed for, or the scene's
-  double environment_rotation = 0;  ///< degrees about the upward axis, counter-clockwise from above
+  std::optional<double>
+      focus;  ///< distance of what is sharp; absent: of what the settings above place it for, else the scene's
+  double environment_rotation = 0;  ///< of maps about their zeniths: degrees, counter-clockwise from above
   double environment_strength = 1;  ///< factor on infinite lights
   double light_scale = 1;           ///< factor on all other lights
   /// Part of the image to render: x0, x1, y0, y1 in [0, 1], or in pixels (half open). Give at most one of the two.

@@ -95,8 +95,10 @@ std::string message_of(const CLI::ParseError& error, const CLI::App& app) {
 bool renders_by_default(int argc, char** argv) {
   if (argc < 2) return false;
   const std::string_view first = argv[1];
-  if (first.starts_with('-')) return first != "--help" && first != "-h" && first != "--version";
-  return first.find_first_of("./") != std::string_view::npos;
+  const auto is_file = [](std::string_view word) {
+    return !word.starts_with('-') && word.find_first_of("./") != std::string_view::npos;
+  };
+  return is_file(first) || (first.starts_with('-') && std::any_of(argv + 2, argv + argc, is_file));
 }
 
 /// The arguments without the program's name, with what may be left out.
@@ -120,23 +122,31 @@ std::vector<std::string> complete_arguments(int argc, char** argv) {
 
 bool is_given(const CLI::Option& option, const std::vector<std::string>& arguments) {
   return std::any_of(arguments.begin(), arguments.end(), [&](const std::string& argument) {
-    return argument.starts_with('-') && option.check_name(argument.substr(0, argument.find('=')));
+    if (argument.starts_with("--")) return option.check_name(argument.substr(0, argument.find('=')));
+    return argument.size() > 1 && argument[0] == '-' && option.check_sname(argument.substr(1, 1));
   });
 }
 
 /// Takes `--config FILE` out of the arguments; returns the file, empty if none is named.
 std::string take_configuration(std::vector<std::string>& arguments) {
-  constexpr std::string_view name = "--config";
-  for (size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
+  const std::string name = "--config";
+  std::string path;
+  for (size_t i = 1; i < arguments.size() && arguments[i] != "--";) {
     const bool is_apart = arguments[i] == name;
-    if (!is_apart && !arguments[i].starts_with(std::string(name) + "=")) continue;
-    if (is_apart && i + 1 == arguments.size()) throw InputError("--config needs the name of a file");
-    const std::string path = is_apart ? arguments[i + 1] : arguments[i].substr(name.size() + 1);
+    if (!is_apart && !arguments[i].starts_with(name + "=")) {
+      ++i;
+      continue;
+    }
+    if (!path.empty()) throw InputError("give --config once");
+    if (!is_apart)
+      path = arguments[i].substr(name.size() + 1);
+    else if (i + 1 < arguments.size())
+      path = arguments[i + 1];
+    if (path.empty()) throw InputError("--config needs the name of a file");
     const auto first = arguments.begin() + static_cast<std::ptrdiff_t>(i);
     arguments.erase(first, first + (is_apart ? 2 : 1));
-    return path;
   }
-  return {};
+  return path;
 }
 
 std::vector<CLI::ConfigItem> read_configuration(const std::string& path) {
@@ -172,7 +182,16 @@ void add_configuration(const CLI::App& app, std::vector<std::string>& arguments)
         throw InputError({path}, "'" + item.name + "' is true or false");
       if (item.inputs[0] == "true") added.push_back("--" + item.name);
     } else {
-      for (const std::string& value : item.inputs) added.push_back("--" + item.name + "=" + value);
+      // Options that may be repeated take one value at a time, the others all of a list.
+      const bool is_list = option->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+      const auto implied = implied_values().find("--" + item.name);
+      std::string joined;
+      for (const std::string& value : item.inputs) {
+        if (is_list) added.push_back("--" + item.name + "=" + value);
+        joined += (joined.empty() ? "" : ",") + value;
+      }
+      if (implied != implied_values().end() && joined == "true") joined = implied->second;
+      if (!is_list) added.push_back("--" + item.name + "=" + joined);
     }
   }
   arguments.insert(arguments.begin() + 1, added.begin(), added.end());

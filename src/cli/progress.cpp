@@ -120,12 +120,14 @@ ActivityPrinter::ActivityPrinter(const Activity& activity, ProgressPrinter& prin
   }
 }
 
-void ActivityPrinter::run() {
+void ActivityPrinter::run() noexcept try {
   const auto start = std::chrono::steady_clock::now();
   std::unique_lock lock(mutex_);
   for (auto wait = first_word; !wake_.wait_for(lock, wait, [this] { return is_over_; }); wait = between_words)
     printer_.show_activity(activity_.state(),
                            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+} catch (const std::exception&) {
+  // Out of memory: nothing more is said.
 }
 
 void ActivityPrinter::finish() {
@@ -136,6 +138,13 @@ void ActivityPrinter::finish() {
   }
   wake_.notify_one();
   thread_.join();
+  printer_.clear();
+}
+
+void ProgressPrinter::clear() {
+  const std::lock_guard lock(mutex_);
+  if (bar_open_) tell_progress("\r\x1b[K");
+  bar_open_ = false;
 }
 
 void ProgressPrinter::finish() {

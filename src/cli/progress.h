@@ -26,6 +26,8 @@ class ProgressPrinter {
   void show_activity(const Activity::State& activity, double seconds);
   /// Ends the bar's line.
   void finish();
+  /// Takes the bar's line away.
+  void clear();
   /// Prints other lines, from any thread, while progress is shown.
   void tell_lines(const std::string& lines);
 
@@ -55,7 +57,7 @@ class ActivityPrinter {
   void finish();
 
  private:
-  void run();
+  void run() noexcept;
 
   const Activity& activity_;
   ProgressPrinter& printer_;

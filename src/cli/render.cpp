@@ -64,7 +64,8 @@ void warn_of_options_without_effect(const RenderOptions& o, const RenderSettings
   const auto warn = [&](const std::string& option, const std::string& reason) {
     diagnostics.warn({}, "--" + option + " has no effect: " + reason);
   };
-  if (!writes("exr") && !settings.asked.aovs.empty()) warn("aov", "only EXR has layers; give -o FILE.exr as well");
+  if (!writes("exr") && !settings.asked.aovs.empty() && settings.denoiser.empty() && settings.asked.checkpoint.empty())
+    warn("aov", "only EXR has layers; give -o FILE.exr as well");
   if (!writes("exr") && !o.exr_type.empty()) warn("exr-type", "no EXR is written");
   const bool is_seen = writes("png") || settings.noise_curve;
   if (!is_seen && o.exposure) warn("exposure", "it is for PNG, and the other formats keep the radiance as it is");

@@ -22,6 +22,7 @@ namespace {
 Scene scene_around(Mesh&& mesh, const std::string& path, double aspect) {
   Scene scene;
   scene.name = path;
+  scene.up = {0, 1, 0};
   scene.samples_per_pixel = 64;
   scene.quality = "good";
   Bounds3<double> box;

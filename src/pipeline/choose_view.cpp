@@ -1,8 +1,11 @@
 #include "pipeline/choose_view.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "io/read_options.h"
 #include "scene/default_view.h"
@@ -30,10 +33,37 @@ Vec3d nearest_axis(const Vec3d& direction) {
   return {axis[0], axis[1], axis[2]};
 }
 
+/// Whether the axes of the world are left-handed as the camera shows them, as in pbrt, unless a file mirrors them, and
+/// unlike in glTF.
+bool is_left_handed(const Scene& scene) { return !scene.camera.world_from_camera.start.swaps_handedness(); }
+
 /// The axes of a camera that looks along -`backward`.
 ViewAxes axes_towards(const Vec3d& backward, const Vec3d& up) {
   const Vec3d right = normalize(cross(up, backward));
   return {right, cross(backward, right), backward};
+}
+
+/// Settings also come from programs, which check nothing.
+void check_values(const Settings& asked) {
+  const auto are_finite = [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  };
+  const auto refuse = [](const char* setting, const char* wanted) {
+    throw InputError("--" + std::string(setting) + " must be " + wanted);
+  };
+  const size_t view = asked.look_at.size(), turn = asked.orbit.size();
+  if ((view != 0 && view != 6 && view != 9) || !are_finite(asked.look_at))
+    refuse("look-at", "six or nine numbers: position, target and the way up");
+  if ((turn != 0 && turn != 2 && turn != 3) || !are_finite(asked.orbit) ||
+      (turn > 0 && std::abs(asked.orbit[1]) > 90) || (turn == 3 && !(asked.orbit[2] > 0)))
+    refuse("orbit", "an azimuth, an elevation from -90 to 90 degrees, and optionally a distance above 0");
+  if (asked.fov && !(*asked.fov >= 1e-3 && *asked.fov <= 179)) refuse("fov", "a number of degrees from 0.001 to 179");
+  if (asked.aperture && !(*asked.aperture >= 0 && *asked.aperture <= 1e9)) refuse("aperture", "a radius, or 0");
+  if (asked.focus && !(*asked.focus >= 1e-9 && *asked.focus <= 1e12)) refuse("focus", "a distance above 0");
+  if (!std::isfinite(asked.environment_rotation)) refuse("environment-rotate", "a number of degrees");
+  if (!(asked.environment_strength >= 0 && asked.environment_strength <= 1e9))
+    refuse("environment-strength", "a factor, or 0");
+  if (!(asked.light_scale >= 0 && asked.light_scale <= 1e9)) refuse("light-scale", "a factor, or 0");
 }
 
 /// Places cameras in a scene.
@@ -43,10 +73,9 @@ class CameraChoice {
       : asked_(asked), scene_(scene), camera_(scene.camera), aspect_(aspect_of(asked.width, asked.height)) {
     if (!(aspect_ > 0)) aspect_ = static_cast<double>(scene.film.width) / static_cast<double>(scene.film.height);
     const Transform& transform = camera_.world_from_camera.start;
-    // glTF has right-handed axes and pbrt left-handed ones, unless a file mirrors them: what is on the right stays
-    // there.
-    is_mirrored_ = !transform.swaps_handedness();
-    up_ = nearest_axis(column(transform, 1));
+    is_left_handed_ = is_left_handed(scene);
+    up_ = nearest_axis(length(scene.up) > 0 ? scene.up : column(transform, 1));
+    for (size_t i = 0; i < 3; ++i) scale_[i] = length(column(transform, i));
   }
 
   void apply() {
@@ -55,18 +84,18 @@ class CameraChoice {
     if (!asked_.look_at.empty()) look_at();
     if (!asked_.orbit.empty()) orbit();
     if (asked_.fit) fit();
-    if (asked_.aperture) camera_.lens_radius = *asked_.aperture;
+    // Lenses are in camera space.
+    if (asked_.aperture) camera_.lens_radius = *asked_.aperture / scale_[0];
     if (asked_.focus)
-      camera_.focal_distance = *asked_.focus;
-    else if (asked_.aperture && distance_ > 0)
-      camera_.focal_distance = distance_;
+      camera_.focal_distance = *asked_.focus / scale_[2];
+    else if (camera_.lens_radius > 0 && distance_ > 0)
+      camera_.focal_distance = distance_ / scale_[2];
   }
 
  private:
   void check() const {
-    const bool needs_perspective =
-        asked_.fov || asked_.aperture || asked_.focus || asked_.fit || asked_.orbit.size() == 2;
-    if (needs_perspective && camera_.kind != CameraKind::perspective)
+    const bool fits = asked_.fit || asked_.orbit.size() == 2;
+    if ((asked_.fov || asked_.aperture || asked_.focus || fits) && camera_.kind != CameraKind::perspective)
       throw InputError(
           "--fov, --fit, --orbit without a distance, --aperture and --focus are for perspective cameras, and the "
           "scene's "
@@ -75,9 +104,10 @@ class CameraChoice {
       throw InputError("give --look-at or --orbit, not both: each says where the camera is");
     if (asked_.fit && asked_.orbit.size() == 3)
       throw InputError("--fit chooses the distance of the camera: leave out that of --orbit");
-    if (asked_.fov && (camera_.screen_window || camera_.frame_aspect_ratio))
+    if ((asked_.fov || fits) && (camera_.screen_window || camera_.frame_aspect_ratio))
       throw InputError(
-          "--fov does not fit the scene's camera, whose screen window or frame aspect ratio says what it sees");
+          "--fov, --fit and --orbit without a distance do not go with the scene's camera, whose screen window or frame "
+          "aspect ratio says what it sees: place it by --look-at or --orbit AZIMUTH,ELEVATION,DISTANCE");
   }
 
   /// The shapes that count for the middle of the scene.
@@ -89,11 +119,13 @@ class CameraChoice {
     return shapes_;
   }
 
+  /// What is on the right of the image stays there.
   void place(const Vec3d& eye, const ViewAxes& axes) {
-    const Vec3d right = is_mirrored_ ? -axes.right : axes.right;
-    camera_.world_from_camera.start = Transform(Matrix4{{{right.x, axes.up.x, -axes.backward.x, eye.x},
-                                                         {right.y, axes.up.y, -axes.backward.y, eye.y},
-                                                         {right.z, axes.up.z, -axes.backward.z, eye.z},
+    const Vec3d right = axes.right * (is_left_handed_ ? -scale_[0] : scale_[0]), up = axes.up * scale_[1],
+                forward = axes.backward * -scale_[2];
+    camera_.world_from_camera.start = Transform(Matrix4{{{right.x, up.x, forward.x, eye.x},
+                                                         {right.y, up.y, forward.y, eye.y},
+                                                         {right.z, up.z, forward.z, eye.z},
                                                          {0, 0, 0, 1}}});
     camera_.world_from_camera.end = camera_.world_from_camera.start;
   }
@@ -112,11 +144,12 @@ class CameraChoice {
     place(eye, axes_towards(backward, up));
   }
 
-  /// Azimuth 0 is in front: where z is towards the viewer if y is up, as in glTF; where y is away from them if z is up.
+  /// Azimuth 0 is in front, where x (or y, if x is up) is to the right.
   void orbit() {
     const double azimuth = asked_.orbit[0] * radians, elevation = asked_.orbit[1] * radians;
-    const Vec3d front = up_.y != 0 ? Vec3d{0, 0, 1} : up_.z != 0 ? Vec3d{0, -1, 0} : Vec3d{0, 0, 1};
-    const Vec3d side = cross(up_, front), level = front * std::cos(azimuth) + side * std::sin(azimuth);
+    const Vec3d right = up_.x != 0 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
+    const Vec3d front = cross(right, up_) * (is_left_handed_ ? -1.0 : 1.0);
+    const Vec3d level = front * std::cos(azimuth) + right * std::sin(azimuth);
     const Vec3d backward = normalize(level * std::cos(elevation) + up_ * std::sin(elevation));
     // Seen from straight above, the front is below.
     const Vec3d up = level * -std::sin(elevation) + up_ * std::cos(elevation);
@@ -141,38 +174,52 @@ class CameraChoice {
   const Scene& scene_;
   Camera& camera_;
   double aspect_;
-  bool is_mirrored_;
+  bool is_left_handed_;
+  std::array<double, 3> scale_;  ///< of camera space
   Vec3d up_;
   double distance_ = 0;  ///< to what the camera was placed for; 0: it was not
   std::vector<PlacedShape> shapes_;
 };
 
-/// Turns maps about the upward axis of the scene, counter-clockwise seen from above.
-void turn_environments(double degrees, const Vec3d& up, Scene& scene) {
-  const Transform turn = Transform::rotate(degrees, up);
-  for (Light& light : scene.lights)
-    if (light.kind == LightKind::environment)
-      light.axes = {turn.direction(light.axes.tangent), turn.direction(light.axes.bitangent),
-                    turn.direction(light.axes.normal)};
+/// Turns maps about their zeniths.
+void turn_environments(double degrees, Scene& scene, Diagnostics& diagnostics) {
+  bool has_maps = false;
+  for (Light& light : scene.lights) {
+    if (light.kind != LightKind::environment) continue;
+    const Transform turn = Transform::rotate(is_left_handed(scene) ? -degrees : degrees, light.axes.normal);
+    light.axes.tangent = turn.direction(light.axes.tangent);
+    light.axes.bitangent = turn.direction(light.axes.bitangent);
+    has_maps = true;
+  }
+  if (!has_maps) diagnostics.warn({}, "--environment-rotate has no effect: the scene has no environment map");
 }
 
-void scale_lights(const Settings& asked, Scene& scene) {
+void scale_lights(const Settings& asked, Scene& scene, Diagnostics& diagnostics) {
+  bool has_infinite = false, has_others = false;
   for (Light& light : scene.lights) {
     const bool is_infinite = light.kind == LightKind::environment || light.kind == LightKind::constant_infinite;
     light.radiance *= is_infinite ? asked.environment_strength : asked.light_scale;
+    (is_infinite ? has_infinite : has_others) = true;
   }
   for (ShapeGroup& group : scene.groups)
     for (Shape& shape : group.shapes)
-      if (shape.emission) shape.emission->radiance *= asked.light_scale;
+      if (shape.emission) {
+        shape.emission->radiance *= asked.light_scale;
+        has_others = true;
+      }
+  if (asked.environment_strength != 1 && !has_infinite)
+    diagnostics.warn({}, "--environment-strength has no effect: the scene has no infinite light");
+  if (asked.light_scale != 1 && !has_others)
+    diagnostics.warn({}, "--light-scale has no effect: the scene has no other light than infinite ones");
 }
 
 }  // namespace
 
-void choose_view(const Settings& asked, Scene& scene) {
+void choose_view(const Settings& asked, Scene& scene, Diagnostics& diagnostics) {
+  check_values(asked);
   CameraChoice(asked, scene).apply();
-  if (asked.environment_rotation != 0)
-    turn_environments(asked.environment_rotation, nearest_axis(column(scene.camera.world_from_camera.start, 1)), scene);
-  scale_lights(asked, scene);
+  if (asked.environment_rotation != 0) turn_environments(asked.environment_rotation, scene, diagnostics);
+  scale_lights(asked, scene, diagnostics);
 }
 
 }  // namespace alhazen

@@ -32,7 +32,7 @@ LoadedScene load_scene(const std::string& path, const Settings& settings, Diagno
     use_environment(loaded.scene, path_beside(path, settings.environment, settings.confine));
   }
   apply_settings(settings, loaded.scene);
-  choose_view(settings, loaded.scene);
+  choose_view(settings, loaded.scene, diagnostics);
   loaded.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return loaded;
 }

@@ -127,9 +127,10 @@ std::string mismatch(const std::string& settings, const std::string& wanted) {
   const bool is_other_scene = has.empty() && lacks.empty();
   if (has.empty()) has = "none of the following";
   if (lacks.empty()) lacks = "none of that";
-  return (is_other_scene ? "the checkpoint is of another scene: give the one that it was made with"
-                         : "the checkpoint is of other settings: it was written with " + has +
-                               ", and this render has " + lacks + ": give those that it was made with") +
+  return (is_other_scene
+              ? "the checkpoint is of another scene, or of another camera or other lights: give what it was made with"
+              : "the checkpoint is of other settings: it was written with " + has + ", and this render has " + lacks +
+                    ": give those that it was made with") +
          ", or start anew with --overwrite instead of --resume";
 }
 

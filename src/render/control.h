@@ -50,10 +50,9 @@ class RenderControl {
   void stop() { stopped_.store(true, std::memory_order_relaxed); }
   bool is_stopped() const { return stopped_.load(std::memory_order_relaxed); }
 
-  /// Stops because the time limit has passed.
+  /// Stops because the time limit has passed, unless the render is stopped already.
   void stop_at_limit() {
-    reached_limit_.store(true, std::memory_order_relaxed);
-    stop();
+    if (!stopped_.exchange(true)) reached_limit_.store(true);
   }
   bool has_reached_limit() const { return reached_limit_.load(std::memory_order_relaxed); }
 

@@ -85,6 +85,13 @@ uint64_t Film<Real>::total_samples(uint32_t limit) const {
 }
 
 template <class Real>
+bool Film<Real>::has_samples(uint32_t count) const {
+  for (size_t i = 0; i < samples_.size(); ++i)
+    if (samples_[i] < count && !view_.is_finished(i)) return false;
+  return true;
+}
+
+template <class Real>
 uint64_t Film<Real>::pixels_without_samples() const {
   return static_cast<uint64_t>(std::count(samples_.begin(), samples_.end(), 0u));
 }

@@ -46,6 +46,8 @@ class Film {
   /// Samples of all pixels together, of each at most `limit`.
   uint64_t total_samples(uint32_t limit) const;
   uint64_t pixels_without_samples() const;
+  /// Whether every pixel that is not finished has so many.
+  bool has_samples(uint32_t count) const;
   /// The largest number of samples in any pixel.
   uint32_t max_samples() const { return *std::max_element(samples_.begin(), samples_.end()); }
   /// For guiding: by how much samples of the last iteration count, and that another one begins.

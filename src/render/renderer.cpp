@@ -96,6 +96,10 @@ class TimeLimit {
     if (seconds == 0) return;
     const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                                      std::chrono::duration<double>(std::min(seconds, longest_limit)));
+    if (end <= Clock::now()) {
+      control.stop_at_limit();
+      return;
+    }
     thread_ = start_thread("the thread that keeps the time limit", [this, end, &control] {
       std::unique_lock lock(mutex_);
       if (!wake_.wait_until(lock, end, [this] { return is_over_; })) control.stop_at_limit();
@@ -224,7 +228,7 @@ class PassLoop {
       const double seconds = seconds_since(start);
       elapsed_ += seconds;
       has_current_state_ = false;
-      if (control_.is_stopped()) return;
+      if (control_.is_stopped() && !film_.has_samples(samples_done_ + size)) return;
       last_pass_per_sample = seconds / size;
       samples_done_ += size;
       if (settings_.asked.noise > 0 && next_decision(samples_done_ - 1) == samples_done_)

@@ -371,7 +371,8 @@ std::vector<SettingEntry> image_settings() {
             "Light the scene by this map (EXR, HDR, ...) instead of its infinite lights: 2:1 (equirectangular) or "
             "square (octahedral), +y up, its centre towards -z",
             name(&Settings::environment)),
-      entry(group, "environment-rotate", "", "DEGREES", "Turn environment maps, counter-clockwise from above",
+      entry(group, "environment-rotate", "", "DEGREES",
+            "Turn environment maps about their zeniths, counter-clockwise from above",
             number("environment-rotate", &Settings::environment_rotation, 0.0, -1e6, 1e6)),
       entry(group, "environment-strength", "", "X", "Multiply environment maps and the light of skies by X",
             number("environment-strength", &Settings::environment_strength, 1.0, 0.0, 1e9)),

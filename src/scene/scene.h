@@ -274,6 +274,7 @@ struct Filter {
 /// The whole description. A reader fills it; `compile` (compile/compile_scene.h) turns it into what integrators use.
 struct Scene {
   std::string name;  ///< the file that it was read from
+  Vec3d up{};        ///< the way up in world space, of any length; zero if the file does not say
   Camera camera;
   FilmSettings film;
   Filter filter;

@@ -70,6 +70,8 @@ TEST_F(CommandLine, TakesOptionsFromAFile) {
   EXPECT_EQ(only_json(result.out)["spp"], 3);
   EXPECT_EQ(only_json(result.out)["seed"], 5);
   EXPECT_GE(image("a.exr").channel("normal.X"), 0);
+  result = render_with({"-ob.exr"});
+  EXPECT_EQ(result.exit_code, 0) << result.everything();
   result = render_with({"--spp=2"});  // the command line counts
   EXPECT_EQ(only_json(result.out)["spp"], 2);
   for (const auto& [text, message] : {std::pair{"sppp = 3", "'sppp' is no option of 'render'"},
@@ -80,6 +82,13 @@ TEST_F(CommandLine, TakesOptionsFromAFile) {
     folder_.write_text("bad.toml", text);
     expect_error({"render", "scene.pbrt", "--config", "bad.toml"}, 2, {message});
   }
+  folder_.write_text("other.toml", "orbit = [60, 20]\ndenoise = true\nstats = true\noutput = \"c.exr\"\nspp = 8\n");
+  EXPECT_EQ(run({"scene.pbrt", "--config=other.toml", "-q"}).exit_code, 0);
+  EXPECT_TRUE(exists("c.exr"));
+  EXPECT_EQ(run({"scene.pbrt", "--config=other.toml", "-q", "-od.exr"}).exit_code, 0);
+  EXPECT_TRUE(exists("d.exr"));
+  expect_error({"render", "scene.pbrt", "--config", "good.toml", "--config", "other.toml"}, 2, {"once"});
+  expect_error({"render", "scene.pbrt", "--config="}, 2, {"--config"});
   expect_error({"render", "scene.pbrt", "--config", "absent.toml"}, 2, {"absent.toml", "cannot be read"});
   expect_error({"render", "scene.pbrt", "--config=."}, 2, {"cannot be read"});
   expect_error({"render", "scene.pbrt", "--config"}, 2, {"--config"});

@@ -1,5 +1,6 @@
 // Behaviour during a render: progress, interruption, limits, checkpoints.
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -110,7 +111,7 @@ TEST_F(Running, TimeLimitStopsInTheMiddleOfAPass) {
   EXPECT_EQ(result.exit_code, 0) << result.everything();
   EXPECT_NE(result.err.find("the time limit passed before every pixel had a sample"), std::string::npos) << result.err;
   const nlohmann::json j = only_json(result.out);
-  EXPECT_LT(j["render_seconds"], 0.7);
+  EXPECT_LT(j["render_seconds"], 1.5);
   EXPECT_GT(j["mean_spp"], 0);
   EXPECT_LT(j["mean_spp"], 4);
   ASSERT_EQ(with({"-o", "b.exr", "--spp", "4"}).exit_code, 0);
@@ -119,17 +120,17 @@ TEST_F(Running, TimeLimitStopsInTheMiddleOfAPass) {
         &b = whole.planes.at(static_cast<size_t>(whole.channel("R")));
   size_t same = 0, black = 0;
   for (size_t i = 0; i < a.size(); ++i) {
-    same += a[i] == b[i];
-    black += a[i] == 0;
+    same += a[i] == b[i] && b[i] > 0;
+    black += a[i] == 0 && b[i] > 0;
   }
   EXPECT_GT(same, 0u);
   EXPECT_GT(black, 0u);
-  EXPECT_GE(same + black + 1, a.size());  // the last pixel may be in between
+  const auto lit = static_cast<size_t>(std::count_if(b.begin(), b.end(), [](float value) { return value > 0; }));
+  EXPECT_GE(same + black + 1, lit);  // the last pixel may be in between
 }
 
 TEST_F(Running, TimeLimitBeforeTheFirstSampleWritesNothing) {
   const CommandResult result = render({"-o", "a.exr", "--spp", endless, "--time-limit", "1e-9"});
-  if (result.exit_code == 0) GTEST_SKIP() << "a sample was taken before the limit was seen";
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_NE(result.err.find("before the first sample"), std::string::npos) << result.err;
   EXPECT_FALSE(exists("a.exr"));

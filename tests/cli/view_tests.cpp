@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <set>
 
+#include "alhazen/alhazen.h"
 #include "cli/fixture.h"
 
 namespace alhazen::test {
@@ -104,23 +107,84 @@ TEST_F(View, OrbitAndFitSeeEverything) {
   }
 }
 
+/// Where the centre of what is of this colour is, in pixels to the right of the middle.
+double side_of(const std::vector<float>& strong, const std::vector<float>& weak, const std::vector<float>& depth,
+               size_t width) {
+  double sum = 0, weight = 0;
+  for (size_t i = 0; i < strong.size(); ++i) {
+    if (!(depth[i] > 0)) continue;
+    const double excess = std::max(0.0, static_cast<double>(strong[i] - 2 * weak[i]));
+    sum += excess * (static_cast<double>(i % width) + 0.5 - static_cast<double>(width) / 2);
+    weight += excess;
+  }
+  return sum / weight;
+}
+
+/// In front x is to the right, so the red ball is on the left; behind it is on the right; at 90 degrees the blue one,
+/// which is where x points, is nearest. So in left-handed and right-handed scenes, whatever is up and wherever their
+/// cameras look, even straight down.
 TEST_F(View, OrbitTurnsAboutTheMiddle) {
-  const std::string z_up = "LookAt 1 -5 2  0 0 0  0 0 1" + perspective;
-  // From the front, where y is away from the viewer, the red ball is on the left and the blue one on the right.
-  const auto side_of = [&](const Image& image, const char* strong, const char* weak) {
-    double sum = 0, weight = 0;
-    const size_t width = static_cast<size_t>(image.width);
-    for (size_t i = 0; i < plane(image, strong).size(); ++i) {
-      if (!(plane(image, "depth.Z")[i] > 0)) continue;
-      const double excess = std::max(0.0, static_cast<double>(plane(image, strong)[i] - 2 * plane(image, weak)[i]));
-      sum += excess * (static_cast<double>(i % width) + 0.5 - static_cast<double>(width) / 2);
-      weight += excess;
+  for (const std::string mirror : {"", "Scale -1 1 1 "})
+    for (const std::string camera : {"LookAt 1 -5 2  0 0 0  0 0 1", "LookAt 0 -2 8  0 0 0  0 0 1",
+                                     "LookAt 1 2 -5  0 0 0  0 1 0", "LookAt 0 8 3  0 0 0  0 1 0"}) {
+      SCOPED_TRACE(mirror + camera);
+      const auto from = [&](const std::string& orbit) {
+        return rendered(mirror + camera + perspective, {"--orbit", orbit});
+      };
+      const auto side = [&](const Image& image, const char* strong, const char* weak) {
+        return side_of(plane(image, strong), plane(image, weak), plane(image, "depth.Z"),
+                       static_cast<size_t>(image.width));
+      };
+      const Image front = from("0,10,9"), back = from("180,10,9");
+      EXPECT_LT(side(front, "R", "B"), -2);
+      EXPECT_GT(side(front, "B", "R"), 2);
+      EXPECT_GT(side(back, "R", "B"), 2);
+      EXPECT_LT(side(back, "B", "R"), -2);
+      const auto nearest = [&](const Image& image, const char* strong, const char* weak) {
+        float least = 1e9f;
+        for (size_t i = 0; i < plane(image, strong).size(); ++i)
+          if (plane(image, "depth.Z")[i] > 0 && plane(image, strong)[i] > 2 * plane(image, weak)[i])
+            least = std::min(least, plane(image, "depth.Z")[i]);
+        return least;
+      };
+      const Image right = from("90,30,9");
+      EXPECT_LT(nearest(right, "B", "R"), nearest(right, "R", "B") - 1);
     }
-    return sum / weight;
-  };
-  const Image front = rendered(z_up, {"--orbit", "0,10,9"}), back = rendered(z_up, {"--orbit", "180,10,9"});
-  EXPECT_LT(side_of(front, "R", "B") * side_of(front, "B", "R"), 0);
-  EXPECT_LT(side_of(front, "R", "B") * side_of(back, "R", "B"), 0);
+}
+
+/// A map that is bright in one direction, seen by a camera that looks along the horizon, at which it is turned:
+/// counter- clockwise from above, what was in the middle goes to the left.
+TEST_F(View, EnvironmentsAreTurned) {
+  Image map{64, 32, {"R", "G", "B"}, {}};
+  map.planes.assign(3, std::vector<float>(64 * 32, 0.01f));
+  for (auto& values : map.planes)
+    for (size_t y = 13; y < 19; ++y)
+      for (size_t x = 30; x < 34; ++x) values[y * 64 + x] = 1;
+  write_exr(folder_.file("map.exr"), source_of(map), {});
+  for (const std::string mirror : {"", "Scale -1 1 1 "}) {
+    SCOPED_TRACE(mirror);
+    const auto seen = [&](const std::string& degrees) {
+      folder_.write_text("empty.pbrt",
+                         mirror +
+                             "LookAt 0 0 0  0 0 -1  0 1 0 Camera \"perspective\" \"float fov\" 90\n"
+                             "Film \"rgb\" \"integer xresolution\" 32 \"integer yresolution\" 32\nWorldBegin\n");
+      const CommandResult result = run({"render", "empty.pbrt", "-q", "--spp", "4", "--environment", "map.exr",
+                                        "--environment-rotate", degrees, "-o", "a.exr"});
+      EXPECT_EQ(result.exit_code, 0) << result.everything();
+      const Image image = this->image("a.exr");
+      double sum = 0, weight = 0;
+      for (size_t i = 0; i < plane(image, "R").size(); ++i) {
+        const double value = std::max(0.0, static_cast<double>(plane(image, "R")[i]) - 0.05);
+        sum += value * (static_cast<double>(i % 32) - 15.5);
+        weight += value;
+      }
+      return weight > 0 ? sum / weight : 1e9;
+    };
+    const double before = seen("0");
+    EXPECT_NEAR(before, 0, 1.5);
+    EXPECT_LT(seen("20"), -3);
+    EXPECT_GT(seen("-20"), 3);
+  }
 }
 
 TEST_F(View, LightsAreScaled) {
@@ -136,6 +200,34 @@ TEST_F(View, LightsAreScaled) {
   const Image one = image("one.exr"), three = image("three.exr");
   for (size_t i = 0; i < plane(one, "G").size(); ++i)
     EXPECT_NEAR(plane(three, "G")[i], 3 * plane(one, "G")[i], 2e-3f * plane(three, "G")[i] + 1e-6f);
+}
+
+TEST_F(View, SaysWhatHasNoEffect) {
+  const CommandResult result =
+      render({"-q", "--spp", "1", "-o", "a.exr", "--environment-rotate", "9", "--environment-strength", "2"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("--environment-rotate has no effect"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("--environment-strength has no effect"), std::string::npos) << result.err;
+}
+
+/// Settings of programs are checked as well.
+TEST_F(View, RefusesBadSettings) {
+  const auto refuses = [&](const std::function<void(Settings&)>& set) {
+    Settings settings;
+    settings.samples_per_pixel = 1;
+    set(settings);
+    EXPECT_THROW(alhazen::render(folder_.file("scene.pbrt"), settings), std::exception);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refuses([](Settings& s) { s.look_at = {1, 2, 3}; });
+  refuses([](Settings& s) { s.orbit = {30}; });
+  refuses([](Settings& s) { s.orbit = {30, 20, -1}; });
+  refuses([&](Settings& s) { s.orbit = {nan, 20}; });
+  refuses([](Settings& s) { s.fov = 200, s.fit = true; });
+  refuses([](Settings& s) { s.aperture = -1; });
+  refuses([&](Settings& s) { s.focus = nan; });
+  refuses([&](Settings& s) { s.light_scale = nan; });
+  refuses([](Settings& s) { s.environment_strength = -1; });
 }
 
 TEST_F(View, RefusesWhatMakesNoSense) {
@@ -166,6 +258,8 @@ TEST_F(View, RefusesWhatMakesNoSense) {
     EXPECT_EQ(run(all).exit_code, 2);
   }
   EXPECT_EQ(run({"render", "flat.pbrt", "-q", "--spp", "1", "-o", "flat.exr", "--orbit", "0,0,5"}).exit_code, 0);
+  folder_.write_text("window.pbrt", three_balls("Camera \"perspective\" \"float screenwindow\" [ -1 1 -1 1 ]"));
+  EXPECT_EQ(run({"render", "window.pbrt", "-o", "none.exr", "--fit"}).exit_code, 2);
 }
 
 /// As a model: lit from several sides, with shades of grey on it, and against a background.

@@ -68,6 +68,7 @@ class SceneReader {
 
   Scene run() {
     scene_.name = document_.path();
+    scene_.up = {0, 1, 0};
     scene_.samples_per_pixel = 64;
     scene_.quality = "good";
     scene_.max_depth = 8;

@@ -75,6 +75,9 @@ struct Build {
 
   Scene scene;
   Diagnostics& diagnostics;
+  /// Of the last LookAt: its way up, and the transform after it.
+  Vec3d look_at_up{};
+  Transform after_look_at;
   std::string folder;  ///< relative paths are resolved from here
   InputScope scope;    ///< of all files that the scene refers to
 

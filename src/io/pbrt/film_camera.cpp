@@ -209,6 +209,8 @@ void set_camera(Build& build, const std::string& kind, ParameterList& list) {
     fail(list.place(), "unknown camera \"" + kind + "\"; use perspective, orthographic, spherical or realistic");
   Camera camera;
   camera.world_from_camera = {build.state.ctm_start.inverse(), build.state.ctm_end.inverse()};
+  // What follows a LookAt is done to the world before it.
+  build.scene.up = (camera.world_from_camera.start * build.after_look_at).direction(build.look_at_up);
   build.coordinate_systems["camera"] = camera.world_from_camera;
   build.lens_image_distance.reset();
   build.lens_exposure = 1;

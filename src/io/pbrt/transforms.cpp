@@ -89,6 +89,8 @@ void look_at(Build& build, Lexer& lexer, const Place& place) {
   change_active(build, place, [&](const Transform& ctm) {
     return ctm * Transform::look_at({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]});
   });
+  build.look_at_up = {v[6], v[7], v[8]};
+  build.after_look_at = build.state.ctm_start;
 }
 
 void set_transform(Build& build, Lexer& lexer, const Place& place) {
