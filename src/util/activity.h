@@ -10,6 +10,14 @@ namespace alhazen {
 /// Set by the thread that does the task, read by any.
 class Activity {
  public:
+  Activity() = default;
+  Activity(const Activity& other) { *this = other; }
+  Activity& operator=(const Activity& other) {
+    const State now = other.state();
+    begin(now.what, now.part, now.total);
+    return *this;
+  }
+
   struct State {
     const char* what = "";  ///< "reading textures"; empty: nothing yet
     uint64_t part = 0;      ///< the number of the part that is done now, from 1; 0: there are none
