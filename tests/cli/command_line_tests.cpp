@@ -131,7 +131,7 @@ TEST_F(CommandLine, SaysWhereTheImageGoesIfTheSceneAsksForAnotherKind) {
 TEST_F(CommandLine, VersionSaysWhatIsBuiltIn) {
   const CommandResult result = run({"--version"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_NE(result.out.find("kernels for baseline"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("kernels for "), std::string::npos) << result.out;
 }
 
 }  // namespace
