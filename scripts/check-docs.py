@@ -59,7 +59,8 @@ def text_of(*folders):
 
 
 class Help:
-    """The options of each subcommand, by its --help: names, and whether a value follows."""
+    """The options of each subcommand, by its --help: names, and what follows: "", "value", or "optional" for one that is
+    left out before an option or a file."""
 
     def __init__(self, program):
         self.program = program
@@ -71,7 +72,8 @@ class Help:
         for line in run.stdout.splitlines():
             match = re.match(r"\s+(-[\w,-]+)(\{\w+\})?( \S.*?)?(?:\s{2,}|$)", line)
             if match:
-                options |= {name: match[3] is not None for name in match[1].split(",")}
+                kind = "" if match[3] is None else "optional" if match[3].startswith(" [") else "value"
+                options |= {name: kind for name in match[1].split(",")}
         return options
 
     def all_options(self):
@@ -249,6 +251,8 @@ class Page:
             if words[0] not in self.help.options():
                 self.fault(f"`alhazen --help` has no option {words[0]}")
             return
+        if re.search("[./]", words[0]):  # a file to render
+            words = ["render", *words]
         depth = 2 if words[0] == "study" and len(words) > 1 else 1
         subcommand = tuple(words[:depth])
         if is_placeholder(words[0]):
@@ -266,6 +270,8 @@ class Page:
             name, equals, value = word.partition("=")
             if name not in options:
                 self.fault(f"`alhazen {' '.join(subcommand)} --help` has no option {name}")
+            elif options[name] == "optional" and rest and (rest[0].startswith("-") or re.search("[./]", rest[0])):
+                continue
             elif options[name] and not equals:
                 value = rest.pop(0) if rest else ""
             if name in INPUT_OPTIONS:
