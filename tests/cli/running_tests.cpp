@@ -47,7 +47,10 @@ TEST_F(Running, ProgressIsLinesOfJsonOnStderr) {
 
 TEST_F(Running, ProgressEndsAtOne) {
   const CommandResult result = render({"-o", "a.exr", "--spp", "8", "--progress", "json"});
-  const nlohmann::json j = nlohmann::json::parse(lines_of(result.err).back(), nullptr, false);
+  std::string last;
+  for (const std::string& line : lines_of(result.err))
+    if (line.starts_with("{")) last = line;
+  const nlohmann::json j = nlohmann::json::parse(last, nullptr, false);
   ASSERT_FALSE(j.is_discarded()) << result.err;
   EXPECT_EQ(j["fraction"], 1.0);
   EXPECT_EQ(j["samples_done"], j["samples_total"]);
