@@ -325,8 +325,8 @@ std::vector<SettingEntry> image_settings() {
       of_samples(
           guiding_of,
           entry(group, "guiding", "", "NAME",
-                "Learn where light comes from while rendering, for indirect light and caustics: off, on, or auto "
-                "to stop where it does not pay",
+                "Learn where light comes from while rendering, for scenes lit by way of other surfaces: off, on, or "
+                "auto to stop where it does not pay",
                 name(&Settings::guiding))),
       entry(group, "guiding-memory", "", "MIB", "What --guiding may take (256)",
             number<int64_t>("guiding-memory", &Settings::guiding_memory, 256, 1, 1 << 20)),
