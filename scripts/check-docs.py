@@ -238,6 +238,10 @@ class Page:
             return  # not ours, or a fault by now
         source = text_of(scripts[0])
         arguments = words[words.index(scripts[0]) + 1:]
+        if "--" in arguments:  # what follows are options of `alhazen render`
+            at = arguments.index("--")
+            self.check_alhazen(["render", *arguments[at + 1 :]])
+            arguments = arguments[:at]
         for option in (OPTION.match(word)[0] for word in arguments if OPTION.match(word)):
             if not re.search(rf"(?<![\w-]){option}\b", source):
                 self.fault(f"{scripts[0]} has no option {option}")
