@@ -59,7 +59,7 @@ const std::vector<double>& reference_image(const std::string& scene) {
   static std::map<std::string, std::vector<double>> images;
   std::vector<double>& image = images[scene];
   if (image.empty()) {
-    Settings settings = guided_settings("float", 32'768);
+    Settings settings = guided_settings("float", 8192);
     settings.backend = "openmp";
     settings.guiding = "off";
     settings.seed = 77;
