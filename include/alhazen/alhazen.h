@@ -79,8 +79,8 @@ struct Settings {
   bool fit = false;           ///< moves the camera so that it sees the whole scene in the direction in which it looks
   std::optional<double> fov;  ///< degrees over the shorter axis of the image
   std::optional<double> aperture;  ///< radius of the lens, in scene units; 0: all is sharp
-  std::optional<double>
-      focus;  ///< distance of what is sharp; absent: of what the settings above place it for, else the scene's
+  /// Distance of what is sharp. Absent: of what the camera was placed for by the settings above, else as in the scene.
+  std::optional<double> focus;
   double environment_rotation = 0;  ///< of maps about their zeniths: degrees, counter-clockwise from above
   double environment_strength = 1;  ///< factor on infinite lights
   double light_scale = 1;           ///< factor on all other lights
