@@ -97,9 +97,9 @@ class CameraChoice {
     const bool fits = asked_.fit || asked_.orbit.size() == 2;
     if ((asked_.fov || asked_.aperture || asked_.focus || fits) && camera_.kind != CameraKind::perspective)
       throw InputError(
-          "--fov, --fit, --orbit without a distance, --aperture and --focus are for perspective cameras, and the "
-          "scene's "
-          "is another: place it by --look-at or --orbit AZIMUTH,ELEVATION,DISTANCE");
+          "--fov, --fit, --orbit without a distance, --aperture and --focus need a perspective camera, and the scene "
+          "has "
+          "another: place it by --look-at or --orbit AZIMUTH,ELEVATION,DISTANCE");
     if (!asked_.look_at.empty() && !asked_.orbit.empty())
       throw InputError("give --look-at or --orbit, not both: each says where the camera is");
     if (asked_.fit && asked_.orbit.size() == 3)
@@ -123,10 +123,7 @@ class CameraChoice {
   void place(const Vec3d& eye, const ViewAxes& axes) {
     const Vec3d right = axes.right * (is_left_handed_ ? -scale_[0] : scale_[0]), up = axes.up * scale_[1],
                 forward = axes.backward * -scale_[2];
-    camera_.world_from_camera.start = Transform(Matrix4{{{right.x, up.x, forward.x, eye.x},
-                                                         {right.y, up.y, forward.y, eye.y},
-                                                         {right.z, up.z, forward.z, eye.z},
-                                                         {0, 0, 0, 1}}});
+    camera_.world_from_camera.start = world_from_camera(eye, right, up, forward);
     camera_.world_from_camera.end = camera_.world_from_camera.start;
   }
 

@@ -107,6 +107,13 @@ Vec3d fitting_eye(const Scene& scene, const std::vector<PlacedShape>& shapes, do
          axes.backward * distance;
 }
 
+Transform world_from_camera(const Vec3d& eye, const Vec3d& right, const Vec3d& up, const Vec3d& forward) {
+  return Transform(Matrix4{{{right.x, up.x, forward.x, eye.x},
+                            {right.y, up.y, forward.y, eye.y},
+                            {right.z, up.z, forward.z, eye.z},
+                            {0, 0, 0, 1}}});
+}
+
 void fit_camera(Scene& scene, double aspect) {
   if (!(aspect > 0)) aspect = static_cast<double>(scene.film.width) / static_cast<double>(scene.film.height);
   const std::vector<PlacedShape> shapes = placed_shapes(scene);
@@ -114,10 +121,7 @@ void fit_camera(Scene& scene, double aspect) {
   const Vec3d right = normalize(cross(Vec3d{0, 1, 0}, backward)), up = cross(backward, right);
   scene.camera.fov = 40;
   const Vec3d eye = fitting_eye(scene, shapes, aspect, {right, up, backward}, scene.camera.fov);
-  scene.camera.world_from_camera.start = Transform(Matrix4{{{right.x, up.x, -backward.x, eye.x},
-                                                            {right.y, up.y, -backward.y, eye.y},
-                                                            {right.z, up.z, -backward.z, eye.z},
-                                                            {0, 0, 0, 1}}});
+  scene.camera.world_from_camera.start = world_from_camera(eye, right, up, -backward);
   scene.camera.world_from_camera.end = scene.camera.world_from_camera.start;
 }
 

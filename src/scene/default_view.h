@@ -41,6 +41,9 @@ struct ViewAxes {
 Vec3d fitting_eye(const Scene& scene, const std::vector<PlacedShape>& shapes, double aspect, const ViewAxes& axes,
                   double fov);
 
+/// The transform of a camera at `eye`, whose axes in world space are its right, up and forward.
+Transform world_from_camera(const Vec3d& eye, const Vec3d& right, const Vec3d& up, const Vec3d& forward);
+
 /// Adds white light from everywhere, more of it from above, and from windows: a bright one in front of and above the
 /// scene, others beside and behind it.
 void add_neutral_light(Scene& scene);
