@@ -87,10 +87,17 @@ struct Settings {
   /// Part of the image to render: x0, x1, y0, y1 in [0, 1], or in pixels (half open). Give at most one of the two.
   std::optional<std::array<double, 4>> crop_window;
   std::optional<std::array<int64_t, 4>> pixel_bounds;
-  /// Additional layers: albedo, normal, depth, bounces, samples, variance; noisy (before denoising).
+  /// Additional layers, by name; docs/layers.md says what each holds: alpha, albedo, normal, camera_normal, depth,
+  /// distance, position, uv, motion, object, material, cryptomatte, components, bounces, samples, variance; noisy
+  /// (before denoising).
   std::vector<std::string> aovs;
-  /// The surface that albedo, normal and depth are of: first, or diffuse for the first that is not perfectly specular,
-  /// seen through glass and in mirrors. Empty: diffuse if the image is denoised and none of these layers is asked for.
+  /// Leaves out the light of the background where the camera sees it directly. The image then has a channel A, and R,
+  /// G and B are premultiplied by it.
+  bool transparent_background = false;
+  bool transparent_glass = false;  ///< also where it sees it through specular glass, whose tint is not transparent
+  /// The surface that albedo, normals and distance are of: first, or diffuse for the first that is not perfectly
+  /// specular, seen through glass and in mirrors. Empty: diffuse if the image is denoised and none of these layers is
+  /// asked for.
   std::string aov_surface;
   /// none; optix (on an NVIDIA GPU, with any backend), oidn (if its library is here), builtin (any machine); auto: the
   /// best of them that is here. Empty: none. R, G and B are then denoised.
@@ -131,8 +138,9 @@ struct ReachedNoise {
   double mean_samples = 0;  ///< per pixel
 };
 
-/// Planes of linear values, rows from the top down: R, G, B (radiance, linear sRGB) and the requested layers (albedo.R,
-/// .G, .B; normal.X, .Y, .Z; depth.Z; bounces.Y; samples.Y; variance.Y; noisy.R, .G, .B).
+/// Planes of linear values, rows from the top down: R, G, B (radiance, linear sRGB), A if the background is
+/// transparent, and the requested layers by the channels of docs/layers.md (albedo.R, .G, .B; normal.X, .Y, .Z;
+/// depth.Z; ...).
 struct RenderedImage {
   int width = 0, height = 0;
   std::vector<std::string> channels;

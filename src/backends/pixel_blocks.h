@@ -3,6 +3,7 @@
 // Blocks of samples on the CPU backends: requests, batches and statistics.
 
 #include <chrono>
+#include <vector>
 
 #include "render/backend.h"
 
@@ -46,9 +47,9 @@ BlockRequest request_block(const RenderPass<Real>& pass, int x, int y, uint32_t 
 
 template <class Real>
 void take_requests(const RenderPass<Real>& pass, const BlockRequest* requests, uint32_t count, BlockSum<Real>* sums,
-                   ThreadStatistics& statistics) {
+                   ThreadStatistics& statistics, PartedLight<Real>* parts) {
   pass.kernel(pass.scene.view, pass.tracer, sample_seed(pass.settings), pass.settings.max_segments, requests, count,
-              sums, pass.film.view().wants_first_hit());
+              sums, pass.film.view().wanted_records(), parts);
   for (uint32_t i = 0; i < count; ++i) {
     statistics.samples += sums[i].samples;
     statistics.rays += sums[i].segments;
@@ -63,7 +64,9 @@ void take_requests(const RenderPass<Real>& pass, const BlockRequest* requests, u
 template <class Real>
 class BlockBatch {
  public:
-  BlockBatch(const RenderPass<Real>& pass, ThreadStatistics& statistics) : pass_(pass), statistics_(statistics) {}
+  BlockBatch(const RenderPass<Real>& pass, ThreadStatistics& statistics) : pass_(pass), statistics_(statistics) {
+    if (pass.film.view().light) parts_.resize(max_blocks_per_request * samples_per_block);
+  }
   ~BlockBatch() { take(); }
   BlockBatch(const BlockBatch&) = delete;
   BlockBatch& operator=(const BlockBatch&) = delete;
@@ -81,7 +84,7 @@ class BlockBatch {
     const uint32_t count = count_;
     count_ = 0;
     if (count == 0 || pass_.control.is_stopped()) return;
-    take_requests(pass_, requests_, count, sums_, statistics_);
+    take_requests(pass_, requests_, count, sums_, statistics_, parts_.empty() ? nullptr : parts_.data());
     for (uint32_t i = 0; i < count; ++i)
       pass_.film.add(static_cast<int>(requests_[i].x), static_cast<int>(requests_[i].y), sums_[i]);
   }
@@ -91,6 +94,7 @@ class BlockBatch {
   uint32_t count_ = 0;
   BlockRequest requests_[max_blocks_per_request];
   BlockSum<Real> sums_[max_blocks_per_request];
+  std::vector<PartedLight<Real>> parts_;  ///< if the film divides light into parts
 };
 
 }  // namespace alhazen

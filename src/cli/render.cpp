@@ -32,18 +32,47 @@ struct RenderOptions {
   std::string scene;
   Settings settings;
   OutputOptions output;
-  std::string tone_map, exr_type;  ///< empty: none and half
+  std::string tone_map, exr_type, exr_compression;  ///< empty: none, half and zip
   std::string progress = "auto", stats, config;
   bool quiet = false, verbose = false, list = false;
   std::optional<double> exposure;  ///< absent: may be chosen by the image's brightness
 };
 
+ExrCompression parse_compression(const std::string& text) {
+  constexpr std::pair<const char*, ExrCompression> names[] = {
+      {"zip", ExrCompression::zip},   {"zips", ExrCompression::zips}, {"piz", ExrCompression::piz},
+      {"rle", ExrCompression::rle},   {"none", ExrCompression::none}, {"dwaa", ExrCompression::dwaa},
+      {"dwab", ExrCompression::dwab},
+  };
+  std::string choices;
+  for (const auto& [name, compression] : names) {
+    if (text == name || (text.empty() && compression == ExrCompression::zip)) return compression;
+    choices += (choices.empty() ? "" : ", ") + std::string(name);
+  }
+  throw InputError("unknown compression '" + text + "': it may be " + choices);
+}
+
+void parse_exr_options(RenderOptions& o) {
+  WriteOptions& how = o.output.how;
+  if (!o.exr_type.empty() && o.exr_type != "half" && o.exr_type != "float")
+    throw InputError("unknown pixel type '" + o.exr_type + "': it may be half, float");
+  how.pixel_type = o.exr_type == "float" ? ExrPixelType::single : ExrPixelType::half;
+  how.compression = parse_compression(o.exr_compression);
+  if (how.tile_size != 0 && (how.tile_size < 8 || how.tile_size > 4096))
+    throw InputError("--exr-tiles must be from 8 to 4096 pixels, for example 64");
+  const bool loses = how.compression == ExrCompression::dwaa || how.compression == ExrCompression::dwab;
+  if (!loses || how.has_parts) return;
+  for (const std::string& layer : o.settings.aovs)
+    if (layer != "albedo" && layer != "components" && layer != "noisy")
+      throw InputError(
+          "the compression '" + o.exr_compression + "' would change the layer '" + layer +
+          "', which is data: give --exr-parts as well, and it is stored without loss, or --exr-compression zip");
+}
+
 void parse_output_options(RenderOptions& o) {
   if (o.exposure) o.output.how.exposure = *o.exposure;
   if (!std::isfinite(o.output.how.exposure)) throw InputError("--exposure must be a finite number of stops");
-  if (!o.exr_type.empty() && o.exr_type != "half" && o.exr_type != "float")
-    throw InputError("unknown pixel type '" + o.exr_type + "': it may be half, float");
-  o.output.how.pixel_type = o.exr_type == "float" ? ExrPixelType::single : ExrPixelType::half;
+  parse_exr_options(o);
   if (!o.tone_map.empty() && o.tone_map != "none" && o.tone_map != "reinhard" && o.tone_map != "filmic")
     throw InputError("unknown tone map '" + o.tone_map + "': it may be none, reinhard, filmic");
   o.output.how.tone_map = o.tone_map == "reinhard" ? ToneMap::reinhard
@@ -66,7 +95,15 @@ void warn_of_options_without_effect(const RenderOptions& o, const RenderSettings
   };
   if (!writes("exr") && !settings.asked.aovs.empty() && settings.denoiser.empty() && settings.asked.checkpoint.empty())
     warn("aov", "only EXR has layers; give -o FILE.exr as well");
-  if (!writes("exr") && !o.exr_type.empty()) warn("exr-type", "no EXR is written");
+  const WriteOptions& how = o.output.how;
+  const std::pair<bool, const char*> of_exr[] = {{!o.exr_type.empty(), "exr-type"},
+                                                 {!o.exr_compression.empty(), "exr-compression"},
+                                                 {how.has_parts, "exr-parts"},
+                                                 {how.tile_size > 0, "exr-tiles"}};
+  for (const auto& [is_given, option] : of_exr)
+    if (is_given && !writes("exr")) warn(option, "no EXR is written");
+  if (settings.asked.transparent_glass && !settings.has_alpha && !settings.aovs.alpha)
+    warn("transparent-glass", "the background is not transparent; give --transparent-background as well");
   const bool is_seen = writes("png") || settings.noise_curve;
   if (!is_seen && o.exposure) warn("exposure", "it is for PNG, and the other formats keep the radiance as it is");
   if (!is_seen && !o.tone_map.empty())
@@ -237,6 +274,15 @@ void add_output_options(Command& command, RenderOptions& o, const char* group) {
       .value_name("FILE")
       .group(group);
   command.add_option("--exr-type", o.exr_type, "half or float").value_name("NAME").group(group);
+  command
+      .add_option("--exr-compression", o.exr_compression,
+                  "zip, zips, piz, rle or none; dwaa and dwab change colours a little")
+      .value_name("NAME")
+      .group(group);
+  command.add_flag("--exr-parts", o.output.how.has_parts, "EXR: write each layer to a part of its own").group(group);
+  command.add_option("--exr-tiles", o.output.how.tile_size, "EXR: write tiles with sides of this many pixels")
+      .value_name("N")
+      .group(group);
   command.add_option("--exposure", o.exposure, "PNG: brightness; a stop doubles it").value_name("STOPS").group(group);
   command.add_option("--tone-map", o.tone_map, "PNG: none, reinhard or filmic").value_name("NAME").group(group);
 }

@@ -15,6 +15,7 @@
 #include "compile/materials.h"
 #include "compile/open_backs.h"
 #include "compile/render_space.h"
+#include "compile/scene_names.h"
 #include "compile/shapes.h"
 #include "compile/trees.h"
 #include "core/shapes/triangle.h"
@@ -49,7 +50,7 @@ class SceneCompiler {
     check_film();
     diagnostics_.activity().begin("preparing the scene");
     CompiledScene<Real> flat;
-    if (options_.in_render_space) move_to_render_space(scene_);
+    if (options_.in_render_space) flat.world_origin = move_to_render_space(scene_);
     compile_camera(scene_, width_, height_, out_, flat.view, diagnostics_);
     check_mixes(scene_);
     fit_images(scene_, options_.texture_budget, diagnostics_);
@@ -76,6 +77,8 @@ class SceneCompiler {
     flat.statistics.lights = out_.lights.size() + (is_zero(flat.view.background) ? 0 : 1);
     flat.statistics.instances = out_.instances.size();
     out_.move_into(flat);
+    flat.object_names = names_.objects();
+    flat.material_names = names_.materials();
     return flat;
   }
 
@@ -163,7 +166,10 @@ class SceneCompiler {
       out_.objects.push_back(object);
     }
     for (const Instance& instance : scene_.instances)
-      if (object_of[instance.group] != no_index) add_instance(scene_, instance, object_of[instance.group], out_);
+      if (object_of[instance.group] != no_index) {
+        add_instance(scene_, instance, object_of[instance.group], out_);
+        if (options_.names_objects) out_.instances.back().object_id = names_.object_id(instance);
+      }
   }
 
   /// Checks that the shapes of the world and copies of groups that are no objects fit into memory.
@@ -197,7 +203,9 @@ class SceneCompiler {
   CompiledMaterials materials_;
   bool has_one_sided_ = false;
   std::vector<double> light_measures_;  ///< by light, see assign_light_probabilities
-  ShapeBuilder<Real> shapes_{scene_, materials_, out_, light_measures_, diagnostics_};
+  SceneNames names_{scene_};
+  ShapeBuilder<Real> shapes_{scene_,          materials_,   out_,
+                             light_measures_, diagnostics_, options_.names_objects ? &names_ : nullptr};
   uint64_t placed_shapes_ = 0;
 };
 

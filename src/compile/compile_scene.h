@@ -20,6 +20,8 @@ struct CompileOptions {
   bool in_render_space = true;
   /// Number of segments of paths if `path` renders, to warn of light that it does not find; 0: no such check.
   uint32_t path_segments = 0;
+  /// Whether surfaces get ids of objects and materials, and CompiledScene their names.
+  bool names_objects = false;
 };
 
 /// Consumes the description while it compiles, so that meshes are not held twice in memory. Throws InputError for

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/scene_view.h"
@@ -37,6 +38,9 @@ struct CompiledScene {
   std::unique_ptr<std::byte, FreeArena> arena;
   SceneView<Real> view;
   SceneStatistics statistics;
+  Vec3d world_origin{};  ///< the origin of render space, in world space
+  /// By id - 1, in the order in which they were found; empty unless they were asked for.
+  std::vector<std::string> object_names, material_names;
 };
 
 }  // namespace alhazen

@@ -17,7 +17,10 @@ void move_by_instances(Shape shape, const std::vector<Instance>& of_object, Scen
   const MovingTransform inner = std::exchange(shape.world_from_object, {});
   for (Instance instance : of_object) {
     const MovingTransform& outer = instance.world_from_group;
-    if (instance.group == no_index) instance.where = shape.where;
+    if (instance.group == no_index) {
+      instance.where = shape.where;
+      instance.name = shape.name;
+    }
     instance.world_from_group = {outer.start * inner.start, outer.end * inner.end};
     instance.group = static_cast<uint32_t>(scene.groups.size());
     scene.instances.push_back(std::move(instance));
@@ -103,7 +106,8 @@ std::vector<ShapePlacement> world_placements(const Scene& scene, const std::vect
       if (!is_object[instance.group] || !is_in_object(shape))
         all.push_back({&shape,
                        {outer.start * shape.world_from_object.start, outer.end * shape.world_from_object.end},
-                       shape.reverse_orientation != instance.reverse_orientation});
+                       shape.reverse_orientation != instance.reverse_orientation,
+                       &instance});
   }
   return all;
 }

@@ -16,6 +16,7 @@ struct ShapePlacement {
   const Shape* shape;
   MovingTransform world_from_object;
   bool reverse_orientation;
+  const Instance* instance = nullptr;  ///< whose transform was applied, if any
 };
 
 /// Returns whether a shape is a light.
@@ -42,7 +43,8 @@ std::vector<ShapePlacement> world_placements(const Scene& scene, const std::vect
 /// The shapes of every object, by group, in the space of the group; empty for groups that are no objects.
 std::vector<std::vector<ShapePlacement>> object_placements(const Scene& scene, const std::vector<bool>& is_object);
 
-/// Appends the record of an instance of the object with index `object`, and its motion while the shutter is open.
+/// Appends the record of an instance of the object with index `object`, and its motion while the shutter is open. Its
+/// object id remains unset.
 /// Throws InputError if its transform is not finite, or maps the object to a plane.
 template <class Real>
 void add_instance(const Scene& scene, const Instance& instance, uint32_t object, SceneArrays<Real>& out);

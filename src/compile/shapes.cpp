@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "core/shapes/cylinder.h"
+#include "core/shapes/disk.h"
 #include "core/shapes/instance.h"
 #include "core/shapes/triangle.h"
 
@@ -168,8 +170,13 @@ uint32_t material_of(const Scene& scene, const Shape& shape) {
 
 template <class Real>
 ShapeBuilder<Real>::ShapeBuilder(Scene& scene, const CompiledMaterials& materials, SceneArrays<Real>& out,
-                                 std::vector<double>& light_measures, Diagnostics& diagnostics)
-    : scene_(scene), materials_(materials), out_(out), light_measures_(light_measures), diagnostics_(diagnostics) {}
+                                 std::vector<double>& light_measures, Diagnostics& diagnostics, SceneNames* names)
+    : scene_(scene),
+      materials_(materials),
+      out_(out),
+      light_measures_(light_measures),
+      diagnostics_(diagnostics),
+      names_(names) {}
 
 template <class Real>
 void ShapeBuilder<Real>::count(const std::vector<ShapePlacement>& placements) {
@@ -195,6 +202,7 @@ void ShapeBuilder<Real>::reserve() {
 
 template <class Real>
 void ShapeBuilder<Real>::place(const ShapePlacement& p) {
+  if (names_) object_id_ = names_->object_id(p);
   if (p.shape->type == ShapeType::sphere) return place_sphere(p);
   if (p.shape->type == ShapeType::cylinder) return place_quadric(p, cylinder_record<Real>, out_.cylinders);
   if (p.shape->type == ShapeType::disk) return place_quadric(p, disk_record<Real>, out_.disks);
@@ -362,6 +370,10 @@ template <class Real>
 uint32_t ShapeBuilder<Real>::add_surface(const Shape& shape, uint32_t light, uint32_t normal_offset, uint32_t uv_offset,
                                          bool flip, uint32_t attributes) {
   out_.surfaces.push_back({material_of(scene_, shape), light, normal_offset, uv_offset, flip ? 1u : 0u, attributes});
+  if (names_) {
+    out_.surfaces.back().object_id = object_id_;
+    out_.surfaces.back().material_id = names_->material_id(shape.material);
+  }
   surface_shapes_.push_back(&shape);
   return static_cast<uint32_t>(out_.surfaces.size() - 1);
 }

@@ -9,6 +9,7 @@
 #include "compile/instances.h"
 #include "compile/materials.h"
 #include "compile/scene_arrays.h"
+#include "compile/scene_names.h"
 #include "scene/scene.h"
 
 namespace alhazen {
@@ -22,9 +23,10 @@ struct MeshSizes {
 template <class Real>
 class ShapeBuilder {
  public:
-  /// `light_measures`, by light: see assign_light_probabilities. All references must outlive the builder.
+  /// `light_measures`, by light: see assign_light_probabilities. With `names`, surfaces get ids. All references must
+  /// outlive the builder.
   ShapeBuilder(Scene& scene, const CompiledMaterials& materials, SceneArrays<Real>& out,
-               std::vector<double>& light_measures, Diagnostics& diagnostics);
+               std::vector<double>& light_measures, Diagnostics& diagnostics, SceneNames* names = nullptr);
 
   /// Counts the uses and sizes of the meshes of `placements`. Throws InputError for shapes that name no mesh.
   void count(const std::vector<ShapePlacement>& placements);
@@ -65,6 +67,8 @@ class ShapeBuilder {
   SceneArrays<Real>& out_;
   std::vector<double>& light_measures_;
   Diagnostics& diagnostics_;
+  SceneNames* names_;
+  uint32_t object_id_ = no_id;  ///< of what is being placed
   MeshSizes sizes_;
   std::vector<uint32_t> uses_;                ///< by mesh: placements still to come
   std::vector<const Shape*> surface_shapes_;  ///< by surface

@@ -82,6 +82,8 @@ struct SceneView {
   Bounds3<Real> bounds{};             ///< of all surfaces
   Real indirect_limit = 0;            ///< of each contribution of indirect light, before the exposure; 0: none
   uint32_t records_through_specular = 0;  ///< 1: a path's first hit is where it meets a surface that is not specular
+  uint32_t hides_background = 0;          ///< 1: camera rays that escape gather nothing
+  uint32_t sees_through_glass = 0;        ///< 1: so do those that have only been transmitted by specular surfaces
   GuideView<Real> guide;                  ///< what path guiding has learned; not part of the compiled scene
 };
 

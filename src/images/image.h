@@ -45,13 +45,20 @@ ImageSource source_of(const Image& image);
 Image image_of(const ImageSource& source);
 
 enum class ExrPixelType { half, single };
+/// DWAA and DWAB lose a little, but not of layers other than colours that are parts of their own; the others lose
+/// nothing.
+enum class ExrCompression { none, rle, zips, zip, piz, dwaa, dwab };
 enum class ToneMap { none, reinhard, filmic };
 
 /// How an image is written. Each format uses the members that it names.
 struct WriteOptions {
   ExrPixelType pixel_type = ExrPixelType::half;  ///< EXR
   /// EXR: prefixes of channels that are always single precision, since half floats cannot hold depth or sample counts.
-  std::vector<std::string> always_single{"depth", "bounces", "samples", "variance"};
+  std::vector<std::string> always_single{"depth",    "distance", "position", "uv",      "motion",  "object",
+                                         "material", "Crypto",   "bounces",  "samples", "variance"};
+  ExrCompression compression = ExrCompression::zip;  ///< EXR
+  bool has_parts = false;                            ///< EXR: a part for each layer instead of one for all
+  int tile_size = 0;                                 ///< EXR: pixels along each side of a tile; 0: scanlines
   /// EXR: text attributes of the header, by name.
   std::map<std::string, std::string> metadata = {};
   /// EXR: the position of the image in the full frame, as origin of the data window and size of the display window.

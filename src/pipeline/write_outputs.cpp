@@ -46,6 +46,8 @@ std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
   if (settings.asked.clamp_indirect > 0)
     metadata["settings"] += " --clamp-indirect " + setting_text(settings.asked, "clamp-indirect");
   if (settings.records_through_specular) metadata["settings"] += " --aov-surface diffuse";
+  if (settings.has_alpha) metadata["settings"] += " --transparent-background";
+  if (settings.asked.transparent_glass) metadata["settings"] += " --transparent-glass";
   for (const char* name : {"look-at", "orbit", "fit", "fov", "aperture", "focus", "environment-rotate",
                            "environment-strength", "light-scale"})
     if (const std::string text = setting_text(settings.asked, name); !text.empty())
@@ -118,6 +120,7 @@ void write_output(const std::string& path, const OutputOptions& options, const R
   const RenderSettings& settings = rendering.statistics.settings;
   WriteOptions how = options.how;
   how.metadata = metadata_of(rendering.statistics);
+  how.metadata.merge(rendering.layer_metadata());
   how.x_offset = settings.window.x0;
   how.y_offset = settings.window.y0;
   how.full_width = settings.width;

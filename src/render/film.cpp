@@ -4,64 +4,58 @@ namespace alhazen {
 
 namespace {
 
-template <class Vector>
-void allocate_if(bool wanted, Vector& plane, size_t size) {
-  if (wanted) plane.resize(size);
-}
+/// Whether a film has each of its planes.
+struct WantedPlanes {
+#define ALHAZEN_PLANE(type, name) bool name = false;
+  ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
+#undef ALHAZEN_PLANE
+
+  WantedPlanes(const AovSet& aovs, const FilmExtras& extras) {
+    radiance = samples = true;
+    weights = extras.weights;
+    albedo = aovs.albedo || extras.denoising;
+    normal = aovs.normal || aovs.camera_normal || extras.denoising;
+    depth = hits = aovs.distance || extras.denoising;
+    segments = aovs.bounces;
+    alpha = aovs.alpha || extras.alpha;
+    position = points = aovs.depth || aovs.position || aovs.uv || aovs.motion;
+    uv = aovs.uv;
+    displacement = aovs.motion;
+    light = aovs.components;
+    objects = aovs.object || aovs.cryptomatte;
+    materials = aovs.material || aovs.cryptomatte;
+    luminance_m2 = luminance_mean = aovs.variance || extras.denoising || extras.noise_target || extras.guiding;
+    odd_radiance = odd_albedo = odd_normal = odd_depth = extras.denoising;
+    odd_weights = extras.denoising && extras.weights;
+    block_m2 = half_difference = finished = extras.noise_target;
+    earlier_radiance = earlier_weights = earlier_samples = earlier_sample_variance = extras.guiding;
+    earlier_alpha = extras.guiding && alpha;
+    earlier_light = extras.guiding && light;
+    earlier_odd_radiance = earlier_odd_weights = extras.guiding && extras.denoising;
+    earlier_variance = earlier_half_variance = extras.guiding && extras.noise_target;
+  }
+};
 
 }  // namespace
 
 template <class Real>
 uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, const FilmExtras& extras) {
-  size_t pixel = sizeof(Vec3<Real>) + sizeof(uint32_t);
-  if (extras.weights) pixel += sizeof(Real);
-  if (aovs.albedo || extras.denoising) pixel += sizeof(Vec3<Real>);
-  if (aovs.normal || extras.denoising) pixel += sizeof(Vec3<Real>);
-  if (aovs.depth || extras.denoising) pixel += sizeof(Real) + sizeof(uint32_t);
-  if (aovs.bounces) pixel += sizeof(uint32_t);
-  if (aovs.variance || extras.denoising || extras.noise_target || extras.guiding) pixel += 2 * sizeof(Real);
-  if (extras.denoising) pixel += 3 * sizeof(Vec3<Real>) + sizeof(Real);
-  if (extras.denoising && extras.weights) pixel += sizeof(Real);
-  if (extras.noise_target) pixel += 2 * sizeof(Real) + sizeof(uint8_t);
-  if (extras.guiding) pixel += sizeof(Vec3<Real>) + 2 * sizeof(Real) + sizeof(uint32_t);
-  if (extras.guiding && extras.denoising) pixel += sizeof(Vec3<Real>) + sizeof(Real);
-  if (extras.guiding && extras.noise_target) pixel += 2 * sizeof(Real);
+  const WantedPlanes wanted(aovs, extras);
+  size_t pixel = 0;
+#define ALHAZEN_PLANE(type, name) pixel += wanted.name ? sizeof(type) : 0;
+  ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
+#undef ALHAZEN_PLANE
   return pixel * static_cast<uint64_t>(window.pixels());
 }
 
 template <class Real>
 Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, const FilmExtras& extras)
-    : window_(window), aovs_(aovs) {
+    : window_(window), aovs_(aovs), has_alpha_(extras.alpha) {
   const size_t pixels = static_cast<size_t>(window.pixels());
-  radiance_.resize(pixels);
-  samples_.resize(pixels);
-  allocate_if(extras.weights, weights_, pixels);
-  allocate_if(aovs.albedo || extras.denoising, albedo_, pixels);
-  allocate_if(aovs.normal || extras.denoising, normal_, pixels);
-  allocate_if(aovs.depth || extras.denoising, depth_, pixels);
-  allocate_if(aovs.depth || extras.denoising, hits_, pixels);
-  allocate_if(aovs.bounces, segments_, pixels);
-  const bool wants_variance = aovs.variance || extras.denoising || extras.noise_target || extras.guiding;
-  allocate_if(wants_variance, luminance_m2_, pixels);
-  allocate_if(wants_variance, luminance_mean_, pixels);
-  allocate_if(extras.denoising, odd_radiance_, pixels);
-  allocate_if(extras.denoising, odd_albedo_, pixels);
-  allocate_if(extras.denoising, odd_normal_, pixels);
-  allocate_if(extras.denoising, odd_depth_, pixels);
-  allocate_if(extras.denoising && extras.weights, odd_weights_, pixels);
-  allocate_if(extras.noise_target, block_m2_, pixels);
-  allocate_if(extras.noise_target, half_difference_, pixels);
-  allocate_if(extras.noise_target, finished_, pixels);
-  allocate_if(extras.guiding, earlier_radiance_, pixels);
-  allocate_if(extras.guiding && extras.denoising, earlier_odd_radiance_, pixels);
-  allocate_if(extras.guiding, earlier_weights_, pixels);
-  allocate_if(extras.guiding && extras.denoising, earlier_odd_weights_, pixels);
-  allocate_if(extras.guiding, earlier_samples_, pixels);
-  allocate_if(extras.guiding, earlier_sample_variance_, pixels);
-  allocate_if(extras.guiding && extras.noise_target, earlier_variance_, pixels);
-  allocate_if(extras.guiding && extras.noise_target, earlier_half_variance_, pixels);
-  const auto pointer = [](auto& plane) { return plane.empty() ? nullptr : plane.data(); };
-#define ALHAZEN_PLANE(type, name) view_.name = pointer(name##_);
+  const WantedPlanes wanted(aovs, extras);
+#define ALHAZEN_PLANE(type, name)          \
+  if (wanted.name) name##_.resize(pixels); \
+  view_.name = wanted.name ? name##_.data() : nullptr;
   ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
 #undef ALHAZEN_PLANE
 }
@@ -102,6 +96,8 @@ void Film<Real>::end_iteration() {
   for (size_t i = 0; i < samples_.size(); ++i) {
     earlier_radiance_[i] += radiance_[i] * weight;
     earlier_weights_[i] += weights_[i] * weight;
+    if (!earlier_alpha_.empty()) earlier_alpha_[i] += alpha_[i] * weight;
+    if (!earlier_light_.empty()) earlier_light_[i].add(light_[i], weight);
     if (!earlier_odd_radiance_.empty()) {
       earlier_odd_radiance_[i] += odd_radiance_[i] * weight;
       earlier_odd_weights_[i] += odd_weights_[i] * weight;
@@ -112,6 +108,8 @@ void Film<Real>::end_iteration() {
   const auto clear = [](auto& plane) { plane.assign(plane.size(), {}); };
   clear(radiance_);
   clear(weights_);
+  clear(alpha_);
+  clear(light_);
   clear(odd_radiance_);
   clear(odd_weights_);
   clear(luminance_m2_);
@@ -124,42 +122,33 @@ void Film<Real>::end_iteration() {
 template <class Real>
 std::vector<std::string> Film<Real>::channels() const {
   std::vector<std::string> names{"R", "G", "B"};
-  const auto add = [&](bool wanted, std::initializer_list<const char*> layer) {
-    if (wanted) names.insert(names.end(), layer.begin(), layer.end());
-  };
-  add(aovs_.albedo, {"albedo.R", "albedo.G", "albedo.B"});
-  add(aovs_.normal, {"normal.X", "normal.Y", "normal.Z"});
-  add(aovs_.depth, {"depth.Z"});
-  add(aovs_.bounces, {"bounces.Y"});
-  add(aovs_.samples, {"samples.Y"});
-  add(aovs_.variance, {"variance.Y"});
+  if (has_alpha_) names.push_back("A");
+  for (const ImageLayer<Real>& layer : image_layers<Real>())
+    if (aovs_.*layer.is_wanted) names.insert(names.end(), layer.channels.begin(), layer.channels.end());
   return names;
 }
 
 template <class Real>
 void Film<Real>::resolve_row(int y, std::span<float> row) const {
-  const size_t width = static_cast<size_t>(window_.width());
+  const size_t width = static_cast<size_t>(window_.width()), first = static_cast<size_t>(y) * width;
+  const auto put = [&](size_t channel, size_t x, float value) { row[channel * width + x] = value; };
   for (size_t x = 0; x < width; ++x) {
-    const size_t i = static_cast<size_t>(y) * width + x;
-    float* out = row.data() + x;
-    const auto put = [&](Real value) {
-      *out = static_cast<float>(value);
-      out += width;
-    };
-    const auto put3 = [&](const Vec3<Real>& value) {
-      put(value.x);
-      put(value.y);
-      put(value.z);
-    };
-    const auto mean = [](const Vec3<Real>& sum, Real count) { return count != 0 ? sum / count : Vec3<Real>{}; };
-    const Real n = static_cast<Real>(samples_[i]);
-    put3(view_.radiance_sum(i).mean());
-    if (aovs_.albedo) put3(mean(albedo_[i], n));
-    if (aovs_.normal) put3(mean(normal_[i], n));
-    if (aovs_.depth) put(hits_[i] > 0 ? depth_[i] / static_cast<Real>(hits_[i]) : Real(0));
-    if (aovs_.bounces) put(n > 0 ? static_cast<Real>(segments_[i]) / n : Real(0));
-    if (aovs_.samples) put(n);
-    if (aovs_.variance) put(view_.sample_variance(i));
+    const Vec3<Real> radiance = view_.radiance_sum(first + x).mean();
+    put(0, x, static_cast<float>(radiance.x));
+    put(1, x, static_cast<float>(radiance.y));
+    put(2, x, static_cast<float>(radiance.z));
+    if (has_alpha_) put(3, x, static_cast<float>(std::clamp(view_.coverage(first + x), Real(0), Real(1))));
+  }
+  size_t channel = has_alpha_ ? 4 : 3;
+  std::vector<float> values;
+  for (const ImageLayer<Real>& layer : image_layers<Real>()) {
+    if (!(aovs_.*layer.is_wanted)) continue;
+    values.resize(layer.channels.size());
+    for (size_t x = 0; x < width; ++x) {
+      layer.put(view_, scene_, first + x, values.data());
+      for (size_t c = 0; c < values.size(); ++c) put(channel + c, x, values[c]);
+    }
+    channel += values.size();
   }
 }
 

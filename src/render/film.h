@@ -6,18 +6,20 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/film/film_view.h"
 #include "images/image.h"
+#include "render/image_layers.h"
 #include "render/settings.h"
 
 namespace alhazen {
 
-/// What a film sums besides radiance and its layers: the weights of the pixel filter, and what a noise target, a
-/// denoiser and path guiding need. Guiding needs the weights.
+/// What a film sums besides radiance and its layers: the weights of the pixel filter, what a noise target, a denoiser
+/// and path guiding need, and the channel A. Guiding needs the weights.
 struct FilmExtras {
-  bool weights = false, noise_target = false, denoising = false, guiding = false;
+  bool weights = false, noise_target = false, denoising = false, guiding = false, alpha = false;
 };
 
 /// Bytes that a film with these pixels and layers takes.
@@ -55,6 +57,9 @@ class Film {
   void end_iteration();
   /// Changes whenever sums change other than by add().
   uint64_t generation() const { return generation_; }
+  /// What layers say of the scene; before it is set, they know neither its camera nor its names.
+  void set_scene(LayerScene scene) { scene_ = std::move(scene); }
+  const LayerScene& scene() const { return scene_; }
   std::vector<std::string> channels() const;
   /// Computes row y (0 is the window's first) of all channels, one after the other: means over the samples so far.
   void resolve_row(int y, std::span<float> row) const;
@@ -77,6 +82,8 @@ class Film {
 
   PixelWindow window_;
   AovSet aovs_;
+  bool has_alpha_;
+  LayerScene scene_;
 #define ALHAZEN_PLANE(type, name) std::vector<type> name##_;
   ALHAZEN_FILM_PLANES(ALHAZEN_PLANE)
 #undef ALHAZEN_PLANE

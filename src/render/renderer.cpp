@@ -310,7 +310,8 @@ void check_memory(uint64_t bytes, const std::string& what) {
 template <class Real>
 std::unique_ptr<Film<Real>> make_film(const RenderSettings& settings, bool weighted) {
   const bool guided = settings.guiding != GuidingMode::off;
-  const FilmExtras extras{weighted || guided, settings.asked.noise > 0, !settings.denoiser.empty(), guided};
+  const FilmExtras extras{weighted || guided, settings.asked.noise > 0, !settings.denoiser.empty(), guided,
+                          settings.has_alpha};
   const uint64_t bytes = film_bytes<Real>(settings.window, settings.aovs, extras);
   if (settings.denoiser.empty())
     check_memory(bytes, "the image with its layers");
@@ -347,11 +348,14 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   const int build_threads = is_on_gpu ? 0 : settings.threads;
   CompileOptions options{settings.width, settings.height, build_threads, backend->wanted_layouts(settings)};
   options.texture_budget = settings.texture_budget;
+  options.names_objects = wants_names(settings.aovs);
   options.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
   CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
   if (settings.asked.clamp_indirect > 0)
     flat.view.indirect_limit = static_cast<Real>(settings.asked.clamp_indirect) / flat.view.exposure;
   flat.view.records_through_specular = settings.records_through_specular;
+  flat.view.hides_background = settings.has_alpha;
+  flat.view.sees_through_glass = settings.asked.transparent_glass;
   started.get();
   statistics.scene_sizes = flat.statistics;
   statistics.load_seconds = load_seconds + seconds_since(start) - flat.statistics.build_seconds;
@@ -360,6 +364,7 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   statistics.build_seconds = flat.statistics.build_seconds + seconds_since(build_start);
   const bool weighted = flat.view.filter.has_negative != 0;
   auto film = make_film<Real>(settings, weighted);
+  film->set_scene(LayerScene(flat));
   diagnostics.activity().begin("rendering");
   if (events.started) events.started(statistics);
   PassLoop<Real>(*backend, flat, settings, *film, events, diagnostics).run(statistics);
@@ -397,6 +402,15 @@ ImageSource Rendering::source() const {
       row[i % 3 * width + i / 3] = denoised[static_cast<size_t>(y) * 3 * width + i];
   };
   return source;
+}
+
+std::map<std::string, std::string> Rendering::layer_metadata() const {
+  return std::visit(
+      [&](const auto& any_film) {
+        return alhazen::layer_metadata(any_film->view(), static_cast<size_t>(any_film->window().pixels()),
+                                       statistics.settings.aovs, any_film->scene());
+      },
+      film);
 }
 
 NoisyImage Rendering::noisy_image() const {

@@ -4,7 +4,9 @@
 // taken, the time is up or the render is stopped.
 
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
 #include <variant>
 
 #include "render/denoiser.h"
@@ -37,6 +39,8 @@ class Rendering {
   bool has_samples() const;
   /// Rows of the image as means so far. It refers to this object.
   ImageSource source() const;
+  /// What headers say about its layers (render/image_layers.h).
+  std::map<std::string, std::string> layer_metadata() const;
   /// The input of denoisers, from a film that was made for denoising.
   NoisyImage noisy_image() const;
 };

@@ -50,8 +50,10 @@ class SampleKernel {
 
   /// Takes `count` blocks into `sums`. `tracer` holds further arguments of the kernel's intersector.
   void operator()(const SceneView<Real>& scene, const ExternalTracer* tracer, SampleSeed seed, uint32_t max_segments,
-                  const BlockRequest* blocks, uint32_t count, BlockSum<Real>* sums, bool wants_first_hit = true) const {
-    raw_({&scene, tracer, sums, blocks, count, seed.seed, seed.screen_order, max_segments, wants_first_hit});
+                  const BlockRequest* blocks, uint32_t count, BlockSum<Real>* sums, const WantedRecords& wanted = {},
+                  PartedLight<Real>* parts = nullptr) const {
+    raw_({&scene, tracer, sums, parts, blocks, count, seed.seed, seed.screen_order, max_segments, wanted.first_hit,
+          wanted.first_point});
   }
 
  private:

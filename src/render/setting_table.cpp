@@ -234,13 +234,17 @@ SettingEntry with_implied(const char* value, SettingEntry entry) {
   return entry;
 }
 
-std::string layer_names(const RenderSettings& s) {
-  const std::pair<bool, const char*> layers[] = {{s.aovs.albedo, "albedo"},   {s.aovs.normal, "normal"},
-                                                 {s.aovs.depth, "depth"},     {s.aovs.bounces, "bounces"},
-                                                 {s.aovs.samples, "samples"}, {s.aovs.variance, "variance"}};
+std::string layer_help() {
   std::string names;
-  for (const auto& [is_wanted, name] : layers)
-    if (is_wanted) names += std::string(names.empty() ? "" : "+") + name;
+  for (const NamedLayer& layer : layer_table()) names += (names.empty() ? "" : ", ") + std::string(layer.name);
+  return names + " (before denoising)";
+}
+
+std::string layer_names(const RenderSettings& s) {
+  std::string names;
+  for (const NamedLayer& layer : layer_table())
+    if (s.aovs.*layer.is_wanted && layer.is_wanted != &AovSet::noisy)
+      names += std::string(names.empty() ? "" : "+") + layer.name;
   return names.empty() ? "none" : names;
 }
 
@@ -255,12 +259,9 @@ std::string window_bounds(const RenderSettings& s) {
 std::vector<SettingEntry> output_settings() {
   constexpr SettingGroup group = SettingGroup::output;
   return {
-      of_samples(
-          layer_names,
-          entry(group, "aov", "", "NAMES",
-                "Layers to add to the EXR, separated by commas: albedo, normal, depth, bounces, samples, variance, "
-                "noisy (before denoising)",
-                layer_list(), true)),
+      of_samples(layer_names,
+                 entry(group, "aov", "", "NAMES", "Layers to add to the EXR, separated by commas: " + layer_help(),
+                       layer_list(), true)),
       with_implied(
           "auto",
           of_samples(denoising,
@@ -271,11 +272,21 @@ std::vector<SettingEntry> output_settings() {
                      "denoising")),
       of_samples([](const RenderSettings& s) { return s.records_through_specular ? "diffuse" : ""; },
                  entry(group, "aov-surface", "", "NAME",
-                       "Whose albedo, normal and depth: the first surface's, or those of the first that is not "
+                       "Whose albedo, normals and distance: the first surface's, or those of the first that is not "
                        "perfectly specular, through glass and in mirrors (diffuse); denoising uses diffuse unless one "
                        "of these layers is asked for",
                        name(&Settings::aov_surface)),
                  "aov-surface"),
+      of_samples([](const RenderSettings& s) { return s.has_alpha ? "on" : ""; },
+                 entry(group, "transparent-background", "", "",
+                       "Leave the background out: EXR gets a channel A (premultiplied), PNG straight alpha",
+                       flag(&Settings::transparent_background)),
+                 "transparent-background"),
+      of_samples(
+          [](const RenderSettings& s) { return s.asked.transparent_glass ? "on" : ""; },
+          entry(group, "transparent-glass", "", "", "See the transparent background through specular glass as well",
+                flag(&Settings::transparent_glass)),
+          "transparent-glass"),
   };
 }
 

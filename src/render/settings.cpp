@@ -37,10 +37,23 @@ constexpr Named<ToneMap> tone_maps[] = {
     {"none", ToneMap::none}, {"reinhard", ToneMap::reinhard}, {"filmic", ToneMap::filmic}};
 constexpr Named<GuidingMode> guiding_modes[] = {
     {"off", GuidingMode::off}, {"on", GuidingMode::on}, {"auto", GuidingMode::automatic}};
-constexpr Named<bool AovSet::*> layers[] = {{"albedo", &AovSet::albedo},   {"normal", &AovSet::normal},
-                                            {"depth", &AovSet::depth},     {"bounces", &AovSet::bounces},
-                                            {"samples", &AovSet::samples}, {"variance", &AovSet::variance},
-                                            {"noisy", &AovSet::noisy}};
+constexpr NamedLayer layers[] = {{"alpha", &AovSet::alpha},
+                                 {"albedo", &AovSet::albedo},
+                                 {"normal", &AovSet::normal},
+                                 {"camera_normal", &AovSet::camera_normal},
+                                 {"depth", &AovSet::depth},
+                                 {"distance", &AovSet::distance},
+                                 {"position", &AovSet::position},
+                                 {"uv", &AovSet::uv},
+                                 {"motion", &AovSet::motion},
+                                 {"object", &AovSet::object},
+                                 {"material", &AovSet::material},
+                                 {"cryptomatte", &AovSet::cryptomatte},
+                                 {"components", &AovSet::components},
+                                 {"bounces", &AovSet::bounces},
+                                 {"samples", &AovSet::samples},
+                                 {"variance", &AovSet::variance},
+                                 {"noisy", &AovSet::noisy}};
 
 template <class Value, size_t count>
 Value by_name(const Named<Value> (&table)[count], const std::string& name, const std::string& what) {
@@ -167,6 +180,22 @@ void check_clamp(const Settings& asked, const RenderSettings& s) {
                      "': leave out --clamp-indirect, or give --integrator path");
 }
 
+bool AovSet::*layer_named(const std::string& name) {
+  std::string choices;
+  for (const NamedLayer& layer : layers) {
+    if (name == layer.name) return layer.is_wanted;
+    choices += (choices.empty() ? "" : ", ") + std::string(layer.name);
+  }
+  throw InputError("unknown layer '" + name + "': it may be " + choices);
+}
+
+void resolve_background(const Settings& asked, RenderSettings& s) {
+  s.has_alpha = asked.transparent_background;
+  if (asked.transparent_glass && s.integrator != IntegratorKind::path)
+    throw InputError("transparent glass needs the integrator 'path', and this is '" + to_string(s.integrator) +
+                     "': leave out --transparent-glass, or give --integrator path");
+}
+
 /// Needs to know the layers and the denoiser.
 void resolve_aov_surface(const std::string& name, RenderSettings& s) {
   const bool is_path = s.integrator == IntegratorKind::path;
@@ -175,7 +204,7 @@ void resolve_aov_surface(const std::string& name, RenderSettings& s) {
   if (name == "diffuse" && !is_path)
     throw InputError("layers of what is seen through glass and in mirrors need the integrator 'path', and this is '" +
                      to_string(s.integrator) + "': leave out --aov-surface, or give --integrator path");
-  const bool has_layers = s.aovs.albedo || s.aovs.normal || s.aovs.depth;
+  const bool has_layers = s.aovs.albedo || s.aovs.normal || s.aovs.camera_normal || s.aovs.distance;
   const bool denoises = !s.denoiser.empty();
   s.records_through_specular =
       name.empty() ? is_path && denoises && !has_layers : name == "diffuse" && (denoises || has_layers);
@@ -250,7 +279,13 @@ RenderSettings resolve_settings(const Settings& user, const Scene& scene) {
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   s.threads =
       asked.threads == 0 ? processors : static_cast<int>(in_range(asked.threads, 1, 4096, "the number of threads"));
-  for (const std::string& layer : asked.aovs) s.aovs.*by_name(layers, layer, "layer") = true;
+  for (const std::string& layer : asked.aovs) s.aovs.*layer_named(layer) = true;
+  if (s.aovs.motion && scene.camera.kind != CameraKind::perspective && scene.camera.kind != CameraKind::orthographic)
+    throw InputError("motion vectors need a perspective or orthographic camera: leave out the layer 'motion'");
+  if (s.aovs.components && s.integrator != IntegratorKind::path)
+    throw InputError("components of the light need the integrator 'path', and this is '" + to_string(s.integrator) +
+                     "': leave out the layer 'components', or give --integrator path");
+  resolve_background(asked, s);
   if (asked.time_limit < 0 || !std::isfinite(asked.time_limit)) throw InputError("the time limit must not be negative");
   if (!(asked.checkpoint_seconds >= 0) || !std::isfinite(asked.checkpoint_seconds))
     throw InputError("the time between checkpoints must be a finite number of seconds, not negative");
@@ -277,6 +312,8 @@ SampleSeed sample_seed(const RenderSettings& settings) {
   if (settings.sampler != SamplerType::zsobol) return settings.seed;
   return {settings.seed, 1 + static_cast<uint32_t>(std::bit_width(settings.samples_per_pixel - 1))};
 }
+
+std::span<const NamedLayer> layer_table() { return layers; }
 
 std::string to_string(Precision precision) { return name_of(precisions, precision); }
 std::string to_string(GuidingMode mode) { return name_of(guiding_modes, mode); }

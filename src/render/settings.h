@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,17 @@ struct Schedule {
 
 /// The layers other than radiance. `noisy` is the radiance before denoising.
 struct AovSet {
-  bool albedo = false, normal = false, depth = false, bounces = false, samples = false, variance = false, noisy = false;
+  bool alpha = false, albedo = false, normal = false, camera_normal = false, depth = false, distance = false,
+       position = false, uv = false, motion = false, object = false, material = false, cryptomatte = false,
+       components = false, bounces = false, samples = false, variance = false, noisy = false;
 };
+
+/// The layers by name, all but `noisy` in the order of channels.
+struct NamedLayer {
+  const char* name;
+  bool AovSet::*is_wanted;
+};
+std::span<const NamedLayer> layer_table();
 
 /// Whether paths are guided; `automatic`: while it pays.
 enum class GuidingMode { off, on, automatic };
@@ -76,6 +86,7 @@ struct RenderSettings {
   uint64_t guiding_memory = 0;  ///< bytes
   /// Albedo, normal and depth are of the first surface that is not perfectly specular.
   bool records_through_specular = false;
+  bool has_alpha = false;  ///< the background is transparent, and the image has a channel A
 };
 
 /// Replaces what settings replace in a scene: how much light its coats lose, and the pixel filter. Throws InputError

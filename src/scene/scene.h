@@ -179,6 +179,7 @@ struct Emission {
 enum class ShapeType { sphere, cylinder, disk, mesh };
 
 struct Shape {
+  std::string name;  ///< shapes of the same name are one object; empty: named by its kind
   ShapeType type = ShapeType::mesh;
   double radius = 1;             ///< sphere, centred at the origin of object space; cylinder and disk, about its z axis
   double inner_radius = 0;       ///< disk
@@ -210,6 +211,7 @@ struct Instance {
   uint32_t group = no_index;
   MovingTransform world_from_group;
   bool reverse_orientation = false;  ///< of the instance itself, in addition to that of its shapes
+  std::string name;                  ///< empty: that of its group, with a number
   SourceLocation where;
 };
 

@@ -46,7 +46,8 @@ Rendering render(const std::string& checkpoint, int64_t samples_per_pixel, bool 
   asked.backend = "serial";
   asked.threads = 1;
   asked.samples_per_pixel = samples_per_pixel;
-  asked.aovs = {"albedo", "normal", "depth", "bounces", "samples", "variance"};
+  asked.aovs = {"alpha", "albedo", "normal",      "depth",   "distance", "position",
+                "uv",    "object", "cryptomatte", "bounces", "samples",  "variance"};
   asked.checkpoint = checkpoint;
   asked.resume = resume;
   const RenderSettings settings = resolve_settings(asked, scene);

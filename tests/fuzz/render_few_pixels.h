@@ -78,7 +78,8 @@ inline void render_few_pixels(Scene&& scene, uint8_t choice, Diagnostics& diagno
   asked.precision = choice % 2 == 0 ? "float" : "double";
   asked.integrator = "path";
   asked.max_depth = std::clamp<int64_t>(scene.max_depth, 0, 8);
-  asked.aovs = {"albedo", "normal", "depth", "bounces", "samples", "variance"};
+  asked.aovs = {"alpha", "albedo", "normal",      "depth",   "distance", "position",
+                "uv",    "object", "cryptomatte", "bounces", "samples",  "variance"};
   const RenderSettings settings = resolve_settings(asked, scene);
   require_numbers(render_scene(std::move(scene), settings, 0, {}, diagnostics));
 }

@@ -52,7 +52,7 @@ void expect_fine_meshes(const char* scene) {
     settings.precision = precision;
     settings.width = 60, settings.height = 50;
     settings.samples_per_pixel = 64;
-    settings.aovs = {"albedo", "normal", "depth"};
+    settings.aovs = {"albedo", "normal", "distance"};
     const Outcome image = render_bits(parity_scene(scene), settings);
     const Outcome expected = render_bits(with_strips(parity_scene(scene)), settings);
     ASSERT_EQ(image.channels, expected.channels);

@@ -40,7 +40,7 @@ Settings layer_settings(const char* surface) {
   Settings settings;
   settings.backend = "serial";
   settings.samples_per_pixel = 64;
-  settings.aovs = {"albedo", "normal", "depth"};
+  settings.aovs = {"albedo", "normal", "distance"};
   settings.aov_surface = surface;
   return settings;
 }
@@ -146,7 +146,7 @@ TEST(AovSurface, OfDenoisingIsDiffuseUnlessItsLayersAreWritten) {
   settings.aov_surface = "first";
   EXPECT_FALSE(resolve_settings(settings, scene).records_through_specular);
   settings.aov_surface = "";
-  settings.aovs = {"depth"};
+  settings.aovs = {"distance"};
   EXPECT_FALSE(resolve_settings(settings, scene).records_through_specular);
   settings.aov_surface = "diffuse";
   EXPECT_TRUE(resolve_settings(settings, scene).records_through_specular);

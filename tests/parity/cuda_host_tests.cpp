@@ -139,10 +139,12 @@ TEST(CudaOnHostWideBvh, GivesAllButTheSameBits) {
       const RenderSettings settings = resolve_settings(host_settings(serial, strategy), scene);
       Diagnostics diagnostics;
       const CompiledScene<float> flat = compile_scene<float>(
-          std::move(scene), {settings.width, settings.height, 1, {BvhLayout::bvh2, BvhLayout::cwbvh}}, diagnostics);
+          std::move(scene), naming({settings.width, settings.height, 1, {BvhLayout::bvh2, BvhLayout::cwbvh}}),
+          diagnostics);
       ASSERT_GT(flat.view.cwbvh_nodes_count, 0u);
       auto film =
           std::make_unique<Film<float>>(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
+      film->set_scene(LayerScene(flat));
       RenderControl control(1);
       cuda::HostExecutor executor;
       cuda::DeviceRender<cuda::HostExecutor, cuda::CwbvhTracing, float> render(executor, {});
@@ -168,10 +170,11 @@ TEST(CudaOnHostShares, AddUpToTheImage) {
     Scene scene = parity_scene("spheres");
     const RenderSettings settings = resolve_settings(host_settings(serial, "persistent"), scene);
     Diagnostics diagnostics;
-    const CompiledScene<double> flat =
-        compile_scene<double>(std::move(scene), {settings.width, settings.height, 1, {BvhLayout::bvh2}}, diagnostics);
+    const CompiledScene<double> flat = compile_scene<double>(
+        std::move(scene), naming({settings.width, settings.height, 1, {BvhLayout::bvh2}}), diagnostics);
     auto film =
         std::make_unique<Film<double>>(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
+    film->set_scene(LayerScene(flat));
     RenderControl control(1);
     for (uint32_t device = 0; device < devices; ++device) {
       cuda::HostExecutor executor;

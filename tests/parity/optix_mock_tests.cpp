@@ -280,9 +280,10 @@ Outcome render(const OptixFunctionTable& table, Scene scene, Settings asked) {
   const RenderSettings settings = resolve_settings(asked, scene);
   Diagnostics diagnostics;
   const CompiledScene<float> flat =
-      compile_scene<float>(std::move(scene), {settings.width, settings.height, 1, {}}, diagnostics);
+      compile_scene<float>(std::move(scene), naming({settings.width, settings.height, 1, {}}), diagnostics);
   auto film =
       std::make_unique<Film<float>>(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
+  film->set_scene(LayerScene(flat));
   RenderControl control(1);
   {
     OptixExecutor<MockExecutor> executor(table, code);
@@ -436,7 +437,7 @@ TEST(OptixMock, DenoiserTakesAndGivesWholeImages) {
   const OptixFunctionTable table = mock_driver();
   Scene scene = parity_scene("spheres");
   Settings asked = settings_of("path");
-  asked.aovs = {"depth", "normal", "albedo"};
+  asked.aovs = {"distance", "normal", "albedo"};
   asked.denoiser = "builtin";  // renders what denoisers need
   const RenderSettings settings = resolve_settings(asked, scene);
   Diagnostics diagnostics;

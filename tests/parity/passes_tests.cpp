@@ -46,11 +46,12 @@ template <class Real>
 Outcome render_in_passes(Scene scene, const Settings& asked, const std::vector<uint32_t>& sizes) {
   Diagnostics diagnostics;
   const RenderSettings settings = resolve_settings(asked, scene);
-  const CompiledScene<Real> flat =
-      compile_scene<Real>(std::move(scene), {settings.width, settings.height, 1, {BvhLayout::bvh8}}, diagnostics);
+  const CompiledScene<Real> flat = compile_scene<Real>(
+      std::move(scene), naming({settings.width, settings.height, 1, {BvhLayout::bvh8}}), diagnostics);
   Rendering rendering;
   auto film =
       std::make_unique<Film<Real>>(settings.window, settings.aovs, FilmExtras{flat.view.filter.has_negative != 0});
+  film->set_scene(LayerScene(flat));
   RenderControl control(settings.threads);
   const std::unique_ptr<Backend> backend = make_backend(settings.backend);
   backend->start(settings);

@@ -9,13 +9,22 @@
 #include <string>
 #include <vector>
 
+#include "compile/compile_scene.h"
 #include "io/pbrt/pbrt.h"
 #include "render/renderer.h"
 
 namespace alhazen::test {
 
-/// All layers that a render can write.
-inline const std::vector<std::string> all_aovs{"albedo", "normal", "depth", "bounces", "samples", "variance"};
+/// All layers that every integrator can write.
+inline const std::vector<std::string> all_aovs{"alpha",    "albedo",      "normal",  "camera_normal", "depth",
+                                               "distance", "position",    "uv",      "motion",        "object",
+                                               "material", "cryptomatte", "bounces", "samples",       "variance"};
+
+/// With names of objects and materials, which layers need.
+inline CompileOptions naming(CompileOptions options) {
+  options.names_objects = true;
+  return options;
+}
 
 struct Outcome {
   int width = 0, height = 0;

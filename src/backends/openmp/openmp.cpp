@@ -26,10 +26,12 @@ void reduce_pixel(const RenderPass<Real>& pass, int x, int y) {
     const int index = omp_get_level() > 1 ? omp_get_ancestor_thread_num(1) : omp_get_thread_num();
     ThreadStatistics& statistics = pass.control.thread(index);
     const BusyTimer timer(statistics);
+    PartedLight<Real> parts_of_block[samples_per_block];
+    PartedLight<Real>* const parts = pass.film.view().light ? parts_of_block : nullptr;
 #pragma omp for schedule(static) nowait
     for (int block = first; block < count; ++block) {
       const BlockRequest request = request_block(pass, x, y, static_cast<uint32_t>(block));
-      take_requests(pass, &request, 1, &blocks[block], statistics);
+      take_requests(pass, &request, 1, &blocks[block], statistics, parts);
     }
   }
   for (int block = first; block < count; ++block) pass.film.add(x, y, blocks[block]);

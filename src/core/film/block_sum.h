@@ -15,6 +15,13 @@ struct BlockSum {
   Vec3<Real> radiance{}, albedo{}, normal{};
   Real weight = 0;  ///< of the pixel filter
   Real depth = 0;
+  Real alpha = 0;  ///< what of the weight is not transparent
+  LightPartSums<Real> light;
+  Vec3<Real> position{}, displacement{};
+  Vec2<Real> uv{};
+  uint32_t points = 0;
+  Real sample_weight[samples_per_block]{};
+  uint32_t object_ids[samples_per_block]{}, material_ids[samples_per_block]{};  ///< of each sample, or no_id
   Real luminance_mean = 0, luminance_m2 = 0;  ///< Welford's running mean and sum of squared deviations
   uint32_t samples = 0, hits = 0, segments = 0, shadow_rays = 0, nonfinite = 0;
   [[no_unique_address]] RecordCounters counters;
@@ -26,16 +33,31 @@ struct BlockSum {
     depth += first.depth;
   }
 
+  /// Adds the first point of the sample that add_path adds next.
+  ALHAZEN_HD void add_first_point(const FirstPoint<Real>& point) {
+    ++points;
+    position += point.position;
+    displacement += point.displacement;
+    uv.x += point.uv.x;
+    uv.y += point.uv.y;
+    object_ids[samples] = point.object_id;
+    material_ids[samples] = point.material_id;
+  }
+
   /// Adds one sample with its own `filter_weight`; infinite or NaN radiance counts as black.
   ALHAZEN_HD void add_path(const PathRecord<Real>& path, Real filter_weight) {
     segments += path.segments;
     shadow_rays += path.shadow_rays;
+    sample_weight[samples] = filter_weight;
     ++samples;
     weight += filter_weight;
+    alpha += filter_weight * (1 - path.transparency);
     Vec3<Real> value = path.radiance;
     if (!is_finite(value)) {
       ++nonfinite;
       value = {};
+    } else if (path.parts) {
+      light.add(path.parts->sums, filter_weight);
     }
     radiance += value * filter_weight;
     const Real y = luminance(value);
@@ -46,6 +68,7 @@ struct BlockSum {
 
   ALHAZEN_HD void add(const SampleRecord<Real>& sample, Real filter_weight) {
     if (sample.has_hit) add_first_hit(sample.first);
+    if (sample.has_point) add_first_point(sample.first_point);
     counters.add(sample.counters);
     add_path(sample, filter_weight);
   }

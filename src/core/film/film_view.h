@@ -3,12 +3,14 @@
 // The planes of a film on any device, and how a block of samples is added to them.
 
 #include "core/film/block_sum.h"
+#include "core/film/coverage.h"
 
 namespace ALHAZEN_CORE {
 
 /// Lists every plane of the film once: PLANE(element type, name). All but the first two exist only on request:
 /// `weights` if the filter has negative weights, those that start with `odd_` for denoising (`odd_weights` only beside
-/// `weights`), the last three for a noise target, the others for their layers.
+/// `weights`), those from `block_m2` to `finished` for a noise target, the others for their layers. `points` counts the
+/// first points, whose sums are `position`, `displacement` and `uv`.
 ///
 /// Planes that start with `odd_` are sums over every second block, the second, fourth, ... of a pixel, so that it has
 /// two means that are independent of each other. `block_m2` is the sum of squared deviations of the luminance of blocks
@@ -20,32 +22,42 @@ namespace ALHAZEN_CORE {
 /// before: sums times the weights of iterations, sums of filter weights times them, numbers of samples, the variance of
 /// samples of the last of them, and with a noise target that of the mean of them all, by blocks and by halves
 /// (render/noise.h).
-#define ALHAZEN_FILM_PLANES(PLANE)        \
-  PLANE(Vec3<Real>, radiance)             \
-  PLANE(uint32_t, samples)                \
-  PLANE(Real, weights)                    \
-  PLANE(Vec3<Real>, albedo)               \
-  PLANE(Vec3<Real>, normal)               \
-  PLANE(Real, depth)                      \
-  PLANE(uint32_t, hits)                   \
-  PLANE(uint32_t, segments)               \
-  PLANE(Real, luminance_m2)               \
-  PLANE(Real, luminance_mean)             \
-  PLANE(Vec3<Real>, odd_radiance)         \
-  PLANE(Vec3<Real>, odd_albedo)           \
-  PLANE(Vec3<Real>, odd_normal)           \
-  PLANE(Real, odd_depth)                  \
-  PLANE(Real, odd_weights)                \
-  PLANE(Real, block_m2)                   \
-  PLANE(Real, half_difference)            \
-  PLANE(uint8_t, finished)                \
-  PLANE(Vec3<Real>, earlier_radiance)     \
-  PLANE(Vec3<Real>, earlier_odd_radiance) \
-  PLANE(Real, earlier_weights)            \
-  PLANE(Real, earlier_odd_weights)        \
-  PLANE(uint32_t, earlier_samples)        \
-  PLANE(Real, earlier_sample_variance)    \
-  PLANE(Real, earlier_variance)           \
+#define ALHAZEN_FILM_PLANES(PLANE)          \
+  PLANE(Vec3<Real>, radiance)               \
+  PLANE(uint32_t, samples)                  \
+  PLANE(Real, weights)                      \
+  PLANE(Vec3<Real>, albedo)                 \
+  PLANE(Vec3<Real>, normal)                 \
+  PLANE(Real, depth)                        \
+  PLANE(uint32_t, hits)                     \
+  PLANE(uint32_t, segments)                 \
+  PLANE(Real, alpha)                        \
+  PLANE(Vec3<Real>, position)               \
+  PLANE(Vec3<Real>, displacement)           \
+  PLANE(Vec2<Real>, uv)                     \
+  PLANE(uint32_t, points)                   \
+  PLANE(Coverage<Real>, objects)            \
+  PLANE(Coverage<Real>, materials)          \
+  PLANE(LightPartSums<Real>, light)         \
+  PLANE(Real, luminance_m2)                 \
+  PLANE(Real, luminance_mean)               \
+  PLANE(Vec3<Real>, odd_radiance)           \
+  PLANE(Vec3<Real>, odd_albedo)             \
+  PLANE(Vec3<Real>, odd_normal)             \
+  PLANE(Real, odd_depth)                    \
+  PLANE(Real, odd_weights)                  \
+  PLANE(Real, block_m2)                     \
+  PLANE(Real, half_difference)              \
+  PLANE(uint8_t, finished)                  \
+  PLANE(Vec3<Real>, earlier_radiance)       \
+  PLANE(Vec3<Real>, earlier_odd_radiance)   \
+  PLANE(Real, earlier_alpha)                \
+  PLANE(LightPartSums<Real>, earlier_light) \
+  PLANE(Real, earlier_weights)              \
+  PLANE(Real, earlier_odd_weights)          \
+  PLANE(uint32_t, earlier_samples)          \
+  PLANE(Real, earlier_sample_variance)      \
+  PLANE(Real, earlier_variance)             \
   PLANE(Real, earlier_half_variance)
 
 /// Returns how many of the first `samples` samples of a pixel are in its second, fourth, ... block.
@@ -73,7 +85,9 @@ struct FilmView {
   Real iteration_weight = 1;  ///< how much samples of the last iteration count, where there are iterations
 
   /// Returns whether anything about the first hit of camera rays is recorded besides radiance.
-  ALHAZEN_HD bool wants_first_hit() const { return albedo || normal || depth; }
+  ALHAZEN_HD WantedRecords wanted_records() const {
+    return {albedo || normal || depth, points || objects || materials};
+  }
 
   ALHAZEN_HD bool is_finished(size_t i) const { return finished && finished[i]; }
 
@@ -102,6 +116,22 @@ struct FilmView {
     const Real weight = weights ? weights[i] : static_cast<Real>(samples[i]);
     if (!earlier_weights) return {radiance[i], weight};
     return {radiance[i] * iteration_weight + earlier_radiance[i], weight * iteration_weight + earlier_weights[i]};
+  }
+
+  /// The fraction of the pixel that is not transparent, counted as radiance is.
+  ALHAZEN_HD Real coverage(size_t i) const {
+    const Real weight = radiance_sum(i).weight;
+    const Real sum = earlier_alpha ? alpha[i] * iteration_weight + earlier_alpha[i] : alpha[i];
+    return weight != 0 ? sum / weight : Real(0);
+  }
+
+  /// A part of the light, as the mean of `radiance_sum` is all of it.
+  ALHAZEN_HD Vec3<Real> part_of_light(size_t i, LightPart part) const {
+    const Real weight = radiance_sum(i).weight;
+    const uint32_t k = static_cast<uint32_t>(part);
+    const Vec3<Real> sum =
+        earlier_light ? light[i].radiance[k] * iteration_weight + earlier_light[i].radiance[k] : light[i].radiance[k];
+    return weight != 0 ? sum / weight : Vec3<Real>{};
   }
 
   /// Over the samples of every second block.
@@ -135,9 +165,25 @@ struct FilmView {
       hits[i] += block.hits;
     }
     if (segments) segments[i] += block.segments;
+    if (alpha) alpha[i] += block.alpha;
+    if (light) light[i].add(block.light);
+    if (points || objects || materials) add_points(i, block);
   }
 
  private:
+  ALHAZEN_HD ALHAZEN_COLD void add_points(size_t i, const BlockSum<Real>& block) const {
+    if (points) {
+      points[i] += block.points;
+      position[i] += block.position;
+    }
+    if (displacement) displacement[i] += block.displacement;
+    if (uv) uv[i] = {uv[i].x + block.uv.x, uv[i].y + block.uv.y};
+    for (uint32_t s = 0; s < block.samples; ++s) {
+      if (objects) objects[i].add(block.object_ids[s], block.sample_weight[s]);
+      if (materials) materials[i].add(block.material_ids[s], block.sample_weight[s]);
+    }
+  }
+
   ALHAZEN_HD void add_deviation(size_t i, const BlockSum<Real>& block) const {
     const Real n = static_cast<Real>(current_samples(i)), m = static_cast<Real>(block.samples);
     const Real delta = block.luminance_mean - luminance_mean[i];

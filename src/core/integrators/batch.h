@@ -25,12 +25,13 @@ requires SamplerOf<Sampler, Real>
 class PathBatch {
  public:
   PathBatch(const SceneView<Real>& scene, const Intersector& intersector, SampleSeed seed, uint32_t max_segments,
-            bool wants_first_hit, uint32_t count, const Pixel& pixel, const End& end)
+            const WantedRecords& wanted, PartedLight<Real>* parts, uint32_t count, const Pixel& pixel, const End& end)
       : scene_(scene),
         intersector_(intersector),
         seed_(seed),
         max_segments_(max_segments),
-        wants_first_hit_(wants_first_hit),
+        wanted_(wanted),
+        parts_(parts),
         count_(count),
         pixel_(pixel),
         end_(end) {}
@@ -88,7 +89,8 @@ class PathBatch {
       lane.filter_weight = camera_.filter_weight(i);
       lane.path = {};
       lane.path.ray = camera_.ray(scene_, i);
-      lane.record.begin(wants_first_hit_);
+      lane.record.begin(wanted_);
+      lane.record.parts = parts_ ? parts_ + lane.sample : nullptr;
       if constexpr (is_guided) trails_[ended_[i]].begin();
       active_[live_++] = ended_[i];
     }
@@ -228,6 +230,7 @@ class PathBatch {
       const uint32_t place = diffuse_.place(i), index = diffuse_lanes_[place];
       Lane& lane = lanes_[index];
       const DirectLight<Real> direct = diffuse_.direct(place, lane.hit, lane.path.ray.time);
+      if (lane.record.parts) part_diffuse(lane);
       if (direct.is_lit) {
         ++lane.record.shadow_rays;
         add_shadow_ray(index, direct.shadow, direct.radiance);
@@ -236,6 +239,13 @@ class PathBatch {
       continue_or_end(diffuse_.goes_on(place), index);
     }
     diffuse_.clear();
+  }
+
+  /// Does what part_sampled_light and part_path do, at a diffuse surface.
+  ALHAZEN_NOINLINE static void part_diffuse(Lane& lane) {
+    PartedLight<Real>& parts = *lane.record.parts;
+    parts.is_at_first = lane.path.vertex == 0;
+    if (parts.is_at_first) parts.sampled = parts.path = {splat(Real(1)), false};
   }
 
   TrailOf<kind, Real>& trail_of(uint32_t index) { return trails_[is_guided ? index : 0]; }
@@ -256,7 +266,7 @@ class PathBatch {
         shadow_ray_count_, [&](uint32_t i) -> const Ray<Real>& { return shadow_ray(i); },
         [&](uint32_t i) { return shadow_limit(i); },
         [&](uint32_t i, bool found, const Hit<Real>&) {
-          if (!found) lanes_[shadow_rays_[i].lane].record.radiance += shadow_rays_[i].radiance;
+          if (!found) lanes_[shadow_rays_[i].lane].record.add_sampled(shadow_rays_[i].radiance);
         });
   }
 
@@ -285,7 +295,7 @@ class PathBatch {
           transmitted[left] = fraction;
           shadow_rays_[left++] = pending;
         } else {
-          lane.record.radiance += pending.radiance * fraction;
+          lane.record.add_sampled(pending.radiance * fraction);
         }
       }
       shadow_ray_count_ = left;
@@ -304,7 +314,8 @@ class PathBatch {
   const Intersector& intersector_;
   SampleSeed seed_;
   uint32_t max_segments_;
-  bool wants_first_hit_;
+  WantedRecords wanted_;
+  PartedLight<Real>* parts_;  ///< one per sample, or null
   uint32_t count_, next_ = 0;
   const Pixel& pixel_;
   const End& end_;
@@ -322,14 +333,14 @@ class PathBatch {
   uint32_t regions_[is_guided ? max_paths : 1];            ///< of the guide, in the order of `active_`
 };
 
-/// Takes `count` samples. `end` is called once for each, in any order. Records keep the first hit if
-/// requested.
+/// Takes `count` samples. `end` is called once for each, in any order. `parts` has an element for each, or is null.
 template <IntegratorKind kind, class Sampler, class Real, BatchIntersector<Real> Intersector, PixelLookup Pixel,
           SampleReceiver<Real> End>
 requires SamplerOf<Sampler, Real>
 void integrate_batch(const SceneView<Real>& scene, const Intersector& intersector, SampleSeed seed,
-                     uint32_t max_segments, bool wants_first_hit, uint32_t count, const Pixel& pixel, const End& end) {
-  PathBatch<kind, Sampler, Real, Intersector, Pixel, End> batch(scene, intersector, seed, max_segments, wants_first_hit,
+                     uint32_t max_segments, const WantedRecords& wanted, PartedLight<Real>* parts, uint32_t count,
+                     const Pixel& pixel, const End& end) {
+  PathBatch<kind, Sampler, Real, Intersector, Pixel, End> batch(scene, intersector, seed, max_segments, wanted, parts,
                                                                 count, pixel, end);
   batch.run();
 }

@@ -19,11 +19,6 @@ struct CameraSample {
   Real filter_weight;
 };
 
-template <class Real>
-ALHAZEN_HD bool scene_moves(const SceneView<Real>& scene) {
-  return scene.moving_spheres_count > 0 || scene.instance_motions_count > 0;
-}
-
 /// Film position of a sample of pixel (x, y), in pixels, and its filter weight.
 template <class Real>
 struct FilmSample {
@@ -71,7 +66,7 @@ ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& in
       scene, sampler, max_segments, hit, path, record,
       [&](const ShadowRay<Real>& shadow, const Vec3<Real>& radiance) {
         const Real visibility = visibility_of(scene, intersector, shadow);
-        if (visibility > 0) record.radiance += limited(scene, radiance, path.vertex >= 1) * visibility;
+        if (visibility > 0) record.add_sampled(limited(scene, radiance, path.vertex >= 1) * visibility);
         if constexpr (has_counters<Record>)
           if (!(visibility > 0)) record.counters.count_blocked();
       },
@@ -81,8 +76,11 @@ ALHAZEN_HD bool take_segment(const SceneView<Real>& scene, const Intersector& in
 /// Radiance along `ray` by the integrator `kind`, over at most `max_segments` >= 1 segments.
 template <IntegratorKind kind, class Real, RayIntersector<Real> Intersector, SamplerOf<Real> Sampler>
 ALHAZEN_HD SampleRecord<Real> integrate(const SceneView<Real>& scene, const Intersector& intersector,
-                                        const Sampler& sampler, const Ray<Real>& ray, uint32_t max_segments) {
+                                        const Sampler& sampler, const Ray<Real>& ray, uint32_t max_segments,
+                                        const WantedRecords& wanted = {}, PartedLight<Real>* parts = nullptr) {
   SampleRecord<Real> record;
+  record.wanted = wanted;
+  record.parts = parts;
   if constexpr (samples_lights(kind) || kind == IntegratorKind::iterative) {
     StateOf<kind, Real> path;
     path.ray = ray;
@@ -95,7 +93,7 @@ ALHAZEN_HD SampleRecord<Real> integrate(const SceneView<Real>& scene, const Inte
   } else {
     record.radiance = cast_ray_branching(scene, intersector, sampler, ray, max_segments, 0, record);
   }
-  record.radiance *= scene.exposure;
+  record.expose(scene.exposure);
   return record;
 }
 

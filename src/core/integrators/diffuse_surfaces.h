@@ -70,7 +70,7 @@ class DiffuseSurfaces {
     continued_.get(i, path);
     next_rays_.get(i, path.ray);
     set_departure(hit, time, path.ray);
-    path.is_specular = false;
+    path.is_specular = path.is_seen_through = false;
     path.travelled = 0;
     ++path.vertex;
   }

@@ -122,14 +122,17 @@ ALHAZEN_HD bool light_and_scatter(const SceneView<Real>& scene, const Sampler& s
   const VertexDimensions dimensions(path.vertex);
   const GuidedDirections<Real> directions(scene, region);
   const LightSample<Real> sample = sample_light_for(scene, sampler, dimensions, point);
-  const DirectLight<Real> direct = direct_light(point, sample, [&](Real pdf_of_bsdf) {
+  DirectLight<Real> direct = direct_light(point, sample, [&](Real pdf_of_bsdf) {
     return directions.mixed(pdf_of_bsdf,
                             directions.pdf_of_guide(scene, sample.direction, guide_square(sample.direction)));
   });
+  if (scene.sees_through_glass && hides_light(scene, point, sample, path)) direct.is_lit = false;
   if (direct.is_lit) {
     ++record.shadow_rays;
+    if (record.parts) part_sampled_light(point, sample.direction, path.vertex, *record.parts);
     light(direct.shadow, path.throughput * direct.radiance);
   }
+  const bool is_first = path.vertex == 0;
   if (samples_by_side(scene)) path.light_side = side_of_light(point);
   GuideVertex<Real> vertex;
   vertex.throughput = luminance(path.throughput);
@@ -141,6 +144,7 @@ ALHAZEN_HD bool light_and_scatter(const SceneView<Real>& scene, const Sampler& s
                       : vertex.pdf_of_bsdf > 0 ? min(s.pdf / vertex.pdf_of_bsdf, Real(1e6))
                                                : Real(1e6);
   if (!continue_along(sampler, point, s, path)) return false;
+  if (record.parts && is_first) part_path(point, path, *record.parts);
   if (vertex.throughput > 0 && trail.count < GuideTrail<Real>::max_vertices) {
     vertex.position = point.si.position;
     vertex.radiance = -1;

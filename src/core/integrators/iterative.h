@@ -22,6 +22,8 @@ struct IterativeState {
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, const IterativeState<Real>& path,
                                                 Record& record) {
+  if (path.vertex == 0) record.transparency = 1;
+  if (path.vertex == 0 && scene.hides_background) return;
   record.radiance += path.throughput * background_radiance(scene, path.ray.direction);
 }
 
@@ -32,6 +34,7 @@ ALHAZEN_HD ALHAZEN_HOT bool shade_at(const SceneView<Real>& scene, const Sampler
                                      Record& record) {
   path.throughput *= beer_lambert(point, path.travelled + hit.t);
   if (path.vertex == 0) record_first_hit(point, path.travelled + hit.t, record);
+  if (path.vertex == 0) record_first_point(scene, point, record);
   record.radiance += path.throughput * surface_emission(scene, hit, point);
   if (path.vertex + 1 >= max_segments) return false;
   const BsdfSample<Real> s = scatter(point, sampler, VertexDimensions(path.vertex));

@@ -18,12 +18,13 @@ struct PathState {
   uint32_t vertex = 0;           ///< number of surfaces hit so far
   bool is_specular = true;       ///< light sampling could not have found this direction
   bool awaits_first_hit = true;  ///< what it hits is the first that is recorded of it
+  bool is_seen_through = true;   ///< all surfaces so far were specular and transmitted it
   Vec3<Real> light_side{};       ///< `side_of_light` of the last surface, if light samples depend on it
   Real travelled = 0;            ///< distance before the ray's origin, through surfaces that the ray passed through
 
   using Fields = FieldList<&PathState::ray, &PathState::throughput, &PathState::bsdf_pdf, &PathState::eta_scale,
                            &PathState::vertex, &PathState::is_specular, &PathState::awaits_first_hit,
-                           &PathState::light_side, &PathState::travelled>;
+                           &PathState::is_seen_through, &PathState::light_side, &PathState::travelled>;
 };
 
 /// MIS weight of light found by BSDF sampling, where light sampling has density `light_pdf`.
@@ -46,13 +47,26 @@ ALHAZEN_HD ALHAZEN_COLD void record_escape(const PathState<Real>& path, Record& 
     record.keep_first_hit(FirstHit<Real>{albedo_in_specular(path, splat(Real(1))), -path.ray.direction, Real(0)});
 }
 
+/// Records that a path shows the background, seen directly or through glass, whose tint is not transparent. Returns
+/// whether the background is hidden there.
+template <class Real, class Record>
+ALHAZEN_HD ALHAZEN_COLD bool record_background(const SceneView<Real>& scene, const PathState<Real>& path,
+                                               Record& record) {
+  if (path.vertex > 0 && !scene.sees_through_glass) return false;
+  const Vec3<Real> tint = min(path.throughput * path.eta_scale, splat(Real(1)));
+  record.transparency = (tint.x + tint.y + tint.z) * Real(1.0 / 3);
+  return scene.hides_background;
+}
+
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, const PathState<Real>& path,
                                                 Record& record) {
   if (path.vertex > 0 && path.awaits_first_hit) record_escape(path, record);
+  if (path.is_seen_through && record_background(scene, path, record)) return;
   // The constant light is not sampled, so its weight is 1.
   const bool is_indirect = path.vertex >= 2;
-  if (!is_zero(scene.background)) record.radiance += limited(scene, path.throughput * scene.background, is_indirect);
+  if (!is_zero(scene.background))
+    record.add_found(path.vertex, limited(scene, path.throughput * scene.background, is_indirect));
   if (scene.far_lights_count == 0) return;
   Real at_infinity = 0;  // the probability that light sampling chooses one of these lights
   if (!path.is_specular) {
@@ -65,7 +79,7 @@ ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, co
     const EscapedLight<Real> found = escaped_light(scene, light, path.light_side, path.ray.direction, pmf > 0);
     if (is_zero(found.radiance)) continue;
     const Real weight = bsdf_mis_weight(path, pmf > 0 ? pmf * found.pdf : Real(0));
-    record.radiance += limited(scene, path.throughput * found.radiance * weight, is_indirect);
+    record.add_found(path.vertex, limited(scene, path.throughput * found.radiance * weight, is_indirect));
   }
 }
 
@@ -85,7 +99,23 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
       light_pdf = pdf_light(scene, scene.lights[point.light], path.ray, hit, point.si, path.light_side);
     }
   }
-  record.radiance += limited(scene, path.throughput * emission * bsdf_mis_weight(path, light_pdf), path.vertex >= 2);
+  record.add_found(path.vertex,
+                   limited(scene, path.throughput * emission * bsdf_mis_weight(path, light_pdf), path.vertex >= 2));
+}
+
+/// Returns whether a path that has only been transmitted still is after this sample: by a surface so smooth that what
+/// is behind it is seen sharply.
+template <class Real>
+ALHAZEN_HD ALHAZEN_COLD bool is_seen_through(const ShadingPoint<Real>& point, const BsdfSample<Real>& s) {
+  return is_transmitted(point, s.direction) && (s.specular || transmits_sharply(point.bsdf));
+}
+
+/// Returns whether light that is sampled behind glass belongs to the background that is hidden there.
+template <class Real>
+ALHAZEN_HD ALHAZEN_COLD bool hides_light(const SceneView<Real>& scene, const ShadingPoint<Real>& point,
+                                         const LightSample<Real>& light, const PathState<Real>& path) {
+  return scene.hides_background && path.is_seen_through && !light.is_finite && is_transmitted(point, light.direction) &&
+         transmits_sharply(point.bsdf);
 }
 
 /// Russian roulette ends paths whose throughput is below this. With a higher threshold more paths end that would have
@@ -101,6 +131,7 @@ ALHAZEN_HD ALHAZEN_HOT bool continue_along(const Sampler& sampler, const Shading
   path.bsdf_pdf = s.pdf;
   path.is_specular = s.specular;
   path.eta_scale *= s.eta * s.eta;
+  if (path.is_seen_through) path.is_seen_through = is_seen_through(point, s);
   path.ray = spawn_ray(point.si, s.direction);
   path.travelled = 0;
   const Real survival = max_component(path.throughput) * path.eta_scale * Real(1 / roulette_threshold);
@@ -138,8 +169,26 @@ ALHAZEN_HD ALHAZEN_HOT bool handle_hit(const SceneView<Real>& scene, uint32_t ma
   if (point.material->features & MaterialFeatures::absorbs)
     path.throughput *= beer_lambert(point, path.travelled + hit.t);
   if (path.awaits_first_hit) record_first_hit(scene, point, path.travelled + hit.t, path, record);
+  if (path.vertex == 0) record_first_point(scene, point, record);
   gather_emission(scene, path, hit, point, record);
   return path.vertex + 1 < max_segments;
+}
+
+/// Notes how light that was sampled along `wi` at a surface is divided into parts.
+template <class Real>
+ALHAZEN_HD ALHAZEN_COLD void part_sampled_light(const ShadingPoint<Real>& point, const Vec3<Real>& wi, uint32_t vertex,
+                                                PartedLight<Real>& parts) {
+  parts.is_at_first = vertex == 0;
+  if (vertex == 0) parts.sampled = {diffuse_fraction(point.bsdf, point.wo, wi), is_transmitted(point, wi)};
+}
+
+/// The same for what a path gathers that was scattered at its first surface.
+template <class Real>
+ALHAZEN_HD ALHAZEN_COLD void part_path(const ShadingPoint<Real>& point, const PathState<Real>& path,
+                                       PartedLight<Real>& parts) {
+  const Vec3<Real>& wi = path.ray.direction;
+  parts.path = {path.is_specular ? Vec3<Real>{} : diffuse_fraction(point.bsdf, point.wo, wi),
+                is_transmitted(point, wi)};
 }
 
 /// Adds direct light and scatters. Returns false if the path ends here. `light` receives the shadow ray to a sampled
@@ -150,15 +199,18 @@ ALHAZEN_HD ALHAZEN_HOT bool light_and_scatter(const SceneView<Real>& scene, cons
                                               const Light& light) {
   const VertexDimensions dimensions(path.vertex);
   const LightSample<Real> sample = sample_light_for(scene, sampler, dimensions, point);
-  const DirectLight<Real> direct = direct_light(point, sample);
+  DirectLight<Real> direct = direct_light(point, sample);
+  if (scene.sees_through_glass && hides_light(scene, point, sample, path)) direct.is_lit = false;
   if constexpr (has_counters<Record>) count_light_sample(scene, sampler, dimensions, point, sample, direct, record);
   if (direct.is_lit) {
     ++record.shadow_rays;
+    if (record.parts) part_sampled_light(point, sample.direction, path.vertex, *record.parts);
     light(direct.shadow, path.throughput * direct.radiance);
   }
   if (samples_by_side(scene)) path.light_side = side_of_light(point);
   const uint32_t vertex = path.vertex;
   const bool goes_on = continue_path(sampler, point, path);
+  if (record.parts && vertex == 0 && goes_on) part_path(point, path, *record.parts);
   // The path has one vertex more unless the sample is black.
   if constexpr (has_counters<Record>)
     record.counters.count_bsdf_sample(point.bsdf.kind, path.vertex == vertex, !goes_on && path.vertex > vertex);

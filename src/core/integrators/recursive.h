@@ -16,9 +16,10 @@ ALHAZEN_HD Vec3<Real> cast_ray_recursive(const SceneView<Real>& scene, const Int
   Hit<Real> hit;
   Real travelled = 0;
   if (!closest_stop(scene, intersector, ray_kind(segment), ray, hit, travelled))
-    return background_radiance(scene, ray.direction);
+    return escape(scene, ray.direction, segment, record);
   const ShadingPoint<Real> point = shading_point(scene, ray, hit);
   if (segment == 0) record_first_hit(point, travelled + hit.t, record);
+  if (segment == 0) record_first_point(scene, point, record);
   const Vec3<Real> transmittance = beer_lambert(point, travelled + hit.t);
   const Vec3<Real> emission = transmittance * surface_emission(scene, hit, point);
   const BsdfSample<Real> s = scatter(point, sampler, VertexDimensions(segment));

@@ -13,6 +13,7 @@
 #include "core/math/ray.h"
 #include "core/sampling/dimensions.h"
 #include "core/sampling/sampler.h"
+#include "core/shapes/displacement.h"
 
 namespace ALHAZEN_CORE {
 
@@ -106,6 +107,12 @@ ALHAZEN_HD ALHAZEN_HOT bool is_on_one_side(const ShadingPoint<Real>& point, cons
              (dot(point.wo, point.si.normal) < 0 ? Real(-1) : Real(1)) *
              (dot(point.wo, point.bsdf.frame.normal) < 0 ? Real(-1) : Real(1)) >
          0;
+}
+
+/// Returns whether a scattered direction is on the other side of the surface than the ray that hit it.
+template <class Real>
+ALHAZEN_HD bool is_transmitted(const ShadingPoint<Real>& point, const Vec3<Real>& wi) {
+  return dot(wi, point.si.normal) * dot(point.wo, point.si.normal) < 0;
 }
 
 /// Beer-Lambert transmittance over `distance` through the medium that the surface bounds.
@@ -239,6 +246,27 @@ template <class Real, RecordOf<Real> Record>
 ALHAZEN_HD ALHAZEN_HOT void record_first_hit(const ShadingPoint<Real>& point, Real distance, Record& record) {
   if (record.wants_first_hit())
     record.keep_first_hit(FirstHit<Real>{bsdf_albedo(point.bsdf), point.si.shading_normal, distance});
+}
+
+/// Radiance that a ray of a recursive integrator finds where it escapes.
+template <class Real, RecordOf<Real> Record>
+ALHAZEN_HD Vec3<Real> escape(const SceneView<Real>& scene, const Vec3<Real>& direction, uint32_t segment,
+                             Record& record) {
+  if (segment == 0) record.transparency = 1;
+  return segment == 0 && scene.hides_background ? Vec3<Real>{} : background_radiance(scene, direction);
+}
+
+/// Records where the camera ray hits.
+template <class Real, RecordOf<Real> Record>
+ALHAZEN_HD ALHAZEN_COLD void record_first_point(const SceneView<Real>& scene, const ShadingPoint<Real>& point,
+                                                Record& record) {
+  if (!record.wants_first_point()) return;
+  const SurfaceInteraction<Real>& si = point.si;
+  const SurfaceRecord& surface = scene.surfaces[si.surface];
+  const bool is_placed = si.instance != no_instance && scene.instances[si.instance].object_id != no_id;
+  record.keep_first_point(FirstPoint<Real>{si.position, displacement_over_shutter(scene, si), si.uv,
+                                           is_placed ? scene.instances[si.instance].object_id : surface.object_id,
+                                           surface.material_id});
 }
 
 }  // namespace ALHAZEN_CORE

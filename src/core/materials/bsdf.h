@@ -165,6 +165,53 @@ ALHAZEN_HD ALHAZEN_HOT BsdfValue<Real> evaluate_bsdf(const Bsdf<Real>& bsdf, con
   }
 }
 
+/// Glass with an alpha up to this is seen through sharply.
+inline constexpr double max_sharp_alpha = 0.01;
+
+/// Returns whether a BSDF that is not specular transmits almost as if it were.
+template <class Real>
+ALHAZEN_HD bool transmits_sharply(const Bsdf<Real>& bsdf) {
+  const auto is_sharp = [](const Vec2<Real>& alpha) { return max(alpha.x, alpha.y) <= Real(max_sharp_alpha); };
+  switch (bsdf.kind) {
+    case MaterialKind::dielectric:
+      return bsdf.dielectric.alpha <= Real(max_sharp_alpha);
+    case MaterialKind::anisotropic_dielectric:
+      return is_sharp(bsdf.anisotropic_dielectric.alpha);
+    case MaterialKind::principled:
+      return is_sharp(bsdf.principled.glass > 0 ? bsdf.principled.alpha : bsdf.principled.through_alpha);
+    default:
+      return false;
+  }
+}
+
+/// Returns which fraction of f(wo, wi), per channel, is of a diffuse lobe; the rest is glossy. Of layered materials
+/// that is what they would reflect less without it.
+template <class Real>
+ALHAZEN_HD ALHAZEN_COLD Vec3<Real> diffuse_fraction(const Bsdf<Real>& bsdf, const Vec3<Real>& wo,
+                                                    const Vec3<Real>& wi) {
+  const Vec3<Real> o = bsdf.frame.to_local(wo), i = bsdf.frame.to_local(wi);
+  const auto fraction = [&](const auto& whole, auto glossy) {
+    glossy.diffuse = {};
+    const Vec3<Real> f = whole.evaluate(o, i).value, rest = glossy.evaluate(o, i).value;
+    const auto channel = [](Real all, Real part) {
+      return all > 0 ? clamp(1 - part / all, Real(0), Real(1)) : Real(0);
+    };
+    return Vec3<Real>{channel(f.x, rest.x), channel(f.y, rest.y), channel(f.z, rest.z)};
+  };
+  switch (bsdf.kind) {
+    case MaterialKind::diffuse:
+    case MaterialKind::oren_nayar:
+    case MaterialKind::diffuse_transmission:
+      return splat(Real(1));
+    case MaterialKind::principled:
+      return fraction(bsdf.principled, bsdf.principled);
+    case MaterialKind::coated_diffuse:
+      return fraction(bsdf.coated_diffuse, bsdf.coated_diffuse);
+    default:
+      return {};
+  }
+}
+
 /// Returns an approximate albedo at normal incidence, as a guide for denoisers.
 template <class Real>
 ALHAZEN_HD Vec3<Real> bsdf_albedo(const Bsdf<Real>& bsdf) {

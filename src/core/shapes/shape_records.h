@@ -117,6 +117,9 @@ struct ObjectRecord {
 
 inline constexpr uint32_t no_motion = 0xffffffffu;
 
+/// Ids of named objects and of materials start at 1 (compile/scene_names.h). They are set only if a layer shows them.
+inline constexpr uint32_t no_id = 0;
+
 /// Places an object in the world, at shutter open. The transforms are 3x4 matrices, stored row by row.
 template <class Real>
 struct InstanceRecord {
@@ -125,9 +128,11 @@ struct InstanceRecord {
   uint32_t object;
   uint32_t flip_normal;  ///< 1: swaps the front and back of every surface
   uint32_t motion;       ///< index into instance_motions, or no_motion
+  uint32_t object_id;    ///< instead of those of its surfaces
 
-  using Fields = FieldList<&InstanceRecord::world_from_object, &InstanceRecord::object_from_world,
-                           &InstanceRecord::object, &InstanceRecord::flip_normal, &InstanceRecord::motion>;
+  using Fields =
+      FieldList<&InstanceRecord::world_from_object, &InstanceRecord::object_from_world, &InstanceRecord::object,
+                &InstanceRecord::flip_normal, &InstanceRecord::motion, &InstanceRecord::object_id>;
 };
 
 /// The change of world_from_object per unit of time: points of the object move along straight lines.
@@ -148,6 +153,7 @@ struct SurfaceRecord {
   uint32_t uv_offset;      ///< the same for uvs
   uint32_t flip_normal;    ///< 1: reverses the normal (a sphere's or cylinder's then points inward)
   uint32_t attributes;     ///< index into vertex_attributes, or no_offset
+  uint32_t object_id = no_id, material_id = no_id;
 };
 
 /// Offsets of the optional vertex attributes of a mesh, used like SurfaceRecord::normal_offset; no_offset if absent.

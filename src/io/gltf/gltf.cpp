@@ -28,7 +28,8 @@ struct Placement {
   uint32_t mesh = 0;
   Matrix4 world = identity;
   Deformation deformation;
-  std::string key;  ///< equal for placements that may be instances of each other; empty: not an instance
+  std::string key;   ///< equal for placements that may be instances of each other; empty: not an instance
+  std::string name;  ///< of the node, or of its mesh
 };
 
 std::vector<std::string> variant_names(const Document& document) {
@@ -127,6 +128,9 @@ class SceneReader {
     if (!mesh) return;
     Placement placement;
     placement.mesh = *mesh;
+    placement.name = document_.string(description, "name");
+    if (placement.name.empty()) placement.name = document_.string(document_.item("meshes", *mesh), "name");
+    if (placement.name.empty()) placement.name = "node." + std::to_string(node);
     placement.deformation.weights = weights(node, *mesh);
     const auto skin = document_.index(description, "skin", "skins");
     if (skin) {
@@ -139,7 +143,10 @@ class SceneReader {
     for (const double weight : placement.deformation.weights) placement.key += ',' + std::to_string(weight);
     const Json* instancing = document_.extension(description, "EXT_mesh_gpu_instancing");
     if (instancing != nullptr) {
+      const std::string name = placement.name;
+      size_t number = 0;
       for (const Matrix4& local : instance_matrices(*instancing)) {
+        placement.name = name + "." + std::to_string(++number);
         placement.world = multiply(nodes_.world(node), local);
         check_transform(document_, *instancing, placement.world);
         add_placement(placement);
@@ -244,6 +251,7 @@ class SceneReader {
         continue;
       }
       for (Shape& shape : placed) {
+        shape.name = placement.name;
         shape.world_from_object = {world, world};
         scene_.groups[0].shapes.push_back(std::move(shape));
       }
@@ -253,6 +261,7 @@ class SceneReader {
   void add_instance(uint32_t group, const Transform& world, const Placement& placement) {
     Instance instance;
     instance.group = group;
+    instance.name = placement.name;
     instance.world_from_group = {world, world};
     instance.where = document_.place(document_.item("meshes", placement.mesh));
     scene_.instances.push_back(instance);

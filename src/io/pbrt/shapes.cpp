@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -143,13 +144,21 @@ void read_as_mesh(Build& build, ParameterList& list, Shape& shape) {
   become_mesh(shape, read(build, list));
 }
 
+/// The object has the name of its file.
+void read_ply_shape(Build& build, ParameterList& list, Shape& shape) {
+  become_mesh(shape, read_ply_mesh(build, list));
+  std::filesystem::path file = std::filesystem::path(build.scene.meshes[shape.mesh].name).filename();
+  while (file.has_extension() && !file.stem().empty()) file = file.stem();
+  shape.name = file.string();
+}
+
 using ShapeReader = void (*)(Build&, ParameterList&, Shape&);
 const std::map<std::string, ShapeReader> shape_readers{{"sphere", read_sphere},
                                                        {"cylinder", read_cylinder},
                                                        {"disk", read_disk},
                                                        {"trianglemesh", read_as_mesh<read_triangle_mesh>},
                                                        {"bilinearmesh", read_as_mesh<read_bilinear_mesh>},
-                                                       {"plymesh", read_as_mesh<read_ply_mesh>},
+                                                       {"plymesh", read_ply_shape},
                                                        {"loopsubdiv", read_as_mesh<read_loop_subdivision>},
                                                        {"curve", read_as_mesh<read_curve>}};
 

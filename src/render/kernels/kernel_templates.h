@@ -15,12 +15,16 @@ template <IntegratorKind kind, class Sampler, class Real, RayIntersector<Real> I
 requires SamplerOf<Sampler, Real>
 void take_blocks_singly(const KernelRequest& request, const SceneView<Real>& scene, const Intersector& intersector,
                         BlockSum<Real>* sums) {
+  PartedLight<Real>* const parts = static_cast<PartedLight<Real>*>(request.parts);
   for (uint32_t b = 0; b < request.block_count; ++b) {
     const BlockRequest& block = request.blocks[b];
     for (uint32_t i = 0; i < block.count; ++i) {
+      if (parts) *parts = {};
       const Sampler sampler({request.seed, request.screen_order}, block.x, block.y, block.first + i);
       const CameraSample<Real> camera = sample_camera(scene, sampler, block.x, block.y);
-      sums[b].add(integrate<kind>(scene, intersector, sampler, camera.ray, request.max_segments), camera.filter_weight);
+      sums[b].add(integrate<kind>(scene, intersector, sampler, camera.ray, request.max_segments,
+                                  {request.wants_first_hit, request.wants_first_point}, parts),
+                  camera.filter_weight);
     }
   }
 }
@@ -37,8 +41,11 @@ void take_blocks_together(const KernelRequest& request, const SceneView<Real>& s
   for (uint32_t b = 0; b < request.block_count; ++b)
     for (uint32_t i = 0; i < request.blocks[b].count; ++i)
       slots[count++] = static_cast<uint16_t>(b * samples_per_block + i);
+  PartedLight<Real>* const parts = static_cast<PartedLight<Real>*>(request.parts);
+  for (uint32_t i = 0; parts && i < count; ++i) parts[i] = {};
   integrate_batch<kind, Sampler>(
-      scene, intersector, {request.seed, request.screen_order}, request.max_segments, request.wants_first_hit, count,
+      scene, intersector, {request.seed, request.screen_order}, request.max_segments,
+      {request.wants_first_hit, request.wants_first_point}, parts, count,
       [&](uint32_t sample) -> PixelSample {
         const uint32_t slot = slots[sample];
         const BlockRequest& block = request.blocks[slot / samples_per_block];
@@ -47,11 +54,16 @@ void take_blocks_together(const KernelRequest& request, const SceneView<Real>& s
       [&](uint32_t sample, const SampleRecord<Real>& record, Real filter_weight) {
         // Member by member: reading the whole record would wait for the path's last stores.
         SampleRecord<Real>& kept = records[slots[sample]];
-        kept.radiance = record.radiance * scene.exposure;
+        kept.radiance = record.radiance;
+        kept.parts = record.parts;
+        kept.expose(scene.exposure);
+        kept.transparency = record.transparency;
         kept.segments = record.segments;
         kept.shadow_rays = record.shadow_rays;
         kept.has_hit = record.has_hit;
         if (record.has_hit) kept.first = record.first;
+        kept.has_point = record.has_point;
+        if (record.has_point) kept.first_point = record.first_point;
         weights[slots[sample]] = filter_weight;
       });
   // Interleaves some blocks: the next sample of a block depends on the one before it.

@@ -21,11 +21,12 @@ struct KernelRequest {
   const void* scene;             ///< SceneView<Real>
   const ExternalTracer* tracer;  ///< Intersector::Tracer, if it has one
   void* sums;                    ///< BlockSum<Real>, one per block
+  void* parts;                   ///< PartedLight<Real>, samples_per_block for each block, or null
   const BlockRequest* blocks;
   uint32_t block_count;
   uint32_t seed, screen_order;  ///< of a SampleSeed
   uint32_t max_segments;
-  bool wants_first_hit;
+  bool wants_first_hit, wants_first_point;
 };
 
 using RawKernel = void (*)(const KernelRequest&);

@@ -107,16 +107,17 @@ ALHAZEN_HD void finish_block(const Thread& thread, const Launch<Real>& launch, s
   if (sum.nonfinite > 0) thread.add(&launch.totals->nonfinite, sum.nonfinite);
 }
 
-/// A path record that adds the first hit to the block immediately instead of storing it along the path.
+/// A path record that adds the first hit and point to the block immediately instead of storing them along the path.
 template <class Real>
 struct SumRecord : PathRecord<Real> {
   BlockSum<Real>* sum;
-  bool wanted;
+  WantedRecords wanted;
 
-  ALHAZEN_HD SumRecord(BlockSum<Real>* block, const FilmView<Real>& film)
-      : sum(block), wanted(film.wants_first_hit()) {}
-  ALHAZEN_HD bool wants_first_hit() const { return wanted; }
+  ALHAZEN_HD SumRecord(BlockSum<Real>* block, const FilmView<Real>& film) : sum(block), wanted(film.wanted_records()) {}
+  ALHAZEN_HD bool wants_first_hit() const { return wanted.first_hit; }
+  ALHAZEN_HD bool wants_first_point() const { return wanted.first_point; }
   ALHAZEN_HD void keep_first_hit(const FirstHit<Real>& hit) { sum->add_first_hit(hit); }
+  ALHAZEN_HD void keep_first_point(const FirstPoint<Real>& point) { sum->add_first_point(point); }
 };
 
 }  // namespace alhazen::cuda

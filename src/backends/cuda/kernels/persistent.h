@@ -20,6 +20,7 @@ struct PersistentKernel {
     const auto intersector = Tracing::intersector(launch.scene, thread.stacks());
     AnySampler sampler(launch.sampler, 0, 0, 0, 0);
     SumRecord<Real> record(nullptr, launch.film);
+    PartedLight<Real> parts;
     StateOf<kind, Real> path;
     TrailOf<kind, Real> trail;
     Real filter_weight = 0;
@@ -45,11 +46,15 @@ struct PersistentKernel {
         path.ray = camera.ray;
         trail.begin();
         static_cast<PathRecord<Real>&>(record) = {};
+        if (launch.film.light) {
+          parts = {};
+          record.parts = &parts;
+        }
       }
       is_under_way = take_segment(launch.scene, intersector, sampler, launch.max_segments, path, record, trail);
       if (is_under_way) continue;
       learn_from_path(launch.scene, trail, record.radiance);
-      record.radiance *= launch.scene.exposure;
+      record.expose(launch.scene.exposure);
       record.sum->add_path(record, filter_weight);
       ++taken;
     }

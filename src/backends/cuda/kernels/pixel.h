@@ -48,13 +48,15 @@ struct PixelKernel {
     const AnySampler sampler(launch.sampler, launch.seed, px, py, sample);
     const CameraSample<Real> camera = sample_camera(launch.scene, sampler, px, py);
     SumRecord<Real> record(&sum, launch.film);
+    PartedLight<Real> parts;
+    if (launch.film.light) record.parts = &parts;
     StateOf<kind, Real> path;
     path.ray = camera.ray;
     TrailOf<kind, Real> trail;
     while (take_segment(launch.scene, intersector, sampler, launch.max_segments, path, record, trail)) {
     }
     learn_from_path(launch.scene, trail, record.radiance);
-    record.radiance *= launch.scene.exposure;
+    record.expose(launch.scene.exposure);
     sum.add_path(record, camera.filter_weight);
   }
 };

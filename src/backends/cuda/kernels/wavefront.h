@@ -51,15 +51,23 @@ struct Slots {
   SoAView<Hit<Real>> hits;
   SoAView<SlotShadowRay<Real>> shadow_rays;
   TrailOf<kind, Real>* trails = nullptr;  ///< for guiding: one per slot
+  PartedLight<Real>* parts = nullptr;     ///< one per slot if `has_parts`
   uint32_t* queues = nullptr;             ///< `count` entries each, one after another
   QueueCounts* counts = nullptr;
   uint32_t count = 0;
+  bool has_parts = false;
 
   static constexpr uint32_t queue_count = 4 + material_queues;
 
   /// What the path of a slot keeps for guiding; `none` without guiding.
   ALHAZEN_HD TrailOf<kind, Real>& trail(uint32_t slot, TrailOf<kind, Real>& none) const {
     return kind == IntegratorKind::guided_path ? trails[slot] : none;
+  }
+
+  /// Gets the record of a slot.
+  ALHAZEN_HD void get_record(uint32_t slot, PathRecord<Real>& record) const {
+    records.get(slot, record);
+    record.parts = has_parts ? parts + slot : nullptr;
   }
 
   ALHAZEN_HD uint32_t* ray_queue(uint32_t parity) const { return queue(parity); }
@@ -77,6 +85,7 @@ struct Slots {
     hits.visit(one);
     shadow_rays.visit(one);
     visit(trails, kind == IntegratorKind::guided_path ? 1u : 0u);
+    visit(parts, has_parts ? 1u : 0u);
     visit(queues, queue_count);
   }
 
@@ -157,6 +166,7 @@ struct GenerateKernel {
     path.ray = camera.ray;
     slots.paths.set(slot, path);
     slots.records.set(slot, {});
+    if (slots.has_parts) slots.parts[slot] = {};
     if constexpr (kind == IntegratorKind::guided_path) slots.trails[slot].begin();
     element<&SlotSample<Real>::filter_weight>(slots.samples, slot) = camera.filter_weight;
     push(thread, slots.ray_queue(stage.parity), &slots.counts->rays[stage.parity], slot);
@@ -164,10 +174,11 @@ struct GenerateKernel {
 
  private:
   ALHAZEN_HD void close_sample(uint32_t slot, const SlotSample<Real>& sample) const {
-    PathRecord<Real> record = stage.slots.records[slot];
+    PathRecord<Real> record;
+    stage.slots.get_record(slot, record);
     if constexpr (kind == IntegratorKind::guided_path)
       learn_from_path(stage.launch.scene, stage.slots.trails[slot], record.radiance);
-    record.radiance *= stage.launch.scene.exposure;
+    record.expose(stage.launch.scene.exposure);
     stage.sums[sample.item].add_path(record, sample.filter_weight);
   }
 };
@@ -209,7 +220,7 @@ struct IntersectKernel {
       return;
     }
     SumRecord<Real> record(&stage.sums[slots.samples[slot].item], stage.launch.film);
-    slots.records.get(slot, record);
+    slots.get_record(slot, record);
     add_infinite_lights(stage.launch.scene, slots.paths[slot], record);
     slots.records.set(slot, record);
     push(thread, slots.ended_queue(), &slots.counts->ended, slot);
@@ -250,7 +261,7 @@ struct ShadeKernel {
     const Slots<kind, Real>& slots = stage.slots;
     StateOf<kind, Real> path = slots.paths[slot];
     SumRecord<Real> record(&stage.sums[slots.samples[slot].item], stage.launch.film);
-    slots.records.get(slot, record);
+    slots.get_record(slot, record);
     TrailOf<kind, Real> none;
     const bool goes_on = shade(
         stage.launch.scene, stage.sampler_of(slot), stage.launch.max_segments, slots.hits[slot], path, record,
@@ -292,8 +303,9 @@ struct ShadowKernel {
     const SceneView<Real>& scene = stage.launch.scene;
     const Real visibility = visibility_of(scene, Tracing::intersector(scene, thread.stacks()), shadow);
     if (!(visibility > 0)) return;
-    PathRecord<Real> record = slots.records[slot];
-    record.radiance += stored.radiance * visibility;
+    PathRecord<Real> record;
+    slots.get_record(slot, record);
+    record.add_sampled(stored.radiance * visibility);
     slots.records.set(slot, record);
   }
 };

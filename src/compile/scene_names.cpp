@@ -1,0 +1,64 @@
+#include "compile/scene_names.h"
+
+#include "core/shapes/shape_records.h"
+
+namespace alhazen {
+
+namespace {
+
+const char* kind_name(ShapeType type) {
+  switch (type) {
+    case ShapeType::sphere:
+      return "sphere";
+    case ShapeType::cylinder:
+      return "cylinder";
+    case ShapeType::disk:
+      return "disk";
+    case ShapeType::mesh:
+      break;
+  }
+  return "mesh";
+}
+
+}  // namespace
+
+uint32_t NameTable::id_of(const std::string& name) {
+  const auto [entry, is_new] = ids_.try_emplace(name, static_cast<uint32_t>(names_.size() + 1));
+  if (is_new) names_.push_back(name);
+  return entry->second;
+}
+
+SceneNames::SceneNames(const Scene& scene) : scene_(scene) {}
+
+uint32_t SceneNames::object_id(const ShapePlacement& placement) {
+  if (placement.instance) return object_id(*placement.instance);
+  const Shape& shape = *placement.shape;
+  uint32_t& id = object_ids_[&shape];
+  if (id == no_id) {
+    const std::string kind = kind_name(shape.type);
+    id = objects_.id_of(shape.name.empty() ? kind + "." + std::to_string(++counts_[kind]) : shape.name);
+  }
+  return id;
+}
+
+uint32_t SceneNames::object_id(const Instance& instance) {
+  uint32_t& id = object_ids_[&instance];
+  if (id == no_id) {
+    std::string name = instance.name;
+    if (name.empty()) {
+      const std::string& group = scene_.groups[instance.group].name;
+      const std::string kind = group.empty() ? "instance" : group;
+      name = kind + "." + std::to_string(++counts_[kind]);
+    }
+    id = objects_.id_of(name);
+  }
+  return id;
+}
+
+uint32_t SceneNames::material_id(uint32_t material) {
+  if (material >= scene_.materials.size()) return materials_.id_of("default");
+  const std::string& name = scene_.materials[material].name;
+  return materials_.id_of(name.empty() ? "material." + std::to_string(material + 1) : name);
+}
+
+}  // namespace alhazen
