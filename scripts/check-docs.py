@@ -59,7 +59,7 @@ def text_of(*folders):
 
 
 class Help:
-    """The options of each subcommand, by its --help: names, and what follows: "", "value", or "optional" for one that is
+    """The options of each subcommand, by its --help-all: names, and what follows: "", "value", or "optional" for one that is
     left out before an option or a file."""
 
     def __init__(self, program):
@@ -67,7 +67,7 @@ class Help:
 
     @functools.cache
     def options(self, *subcommand):
-        run = subprocess.run([self.program, *subcommand, "--help"], capture_output=True, text=True, check=True)
+        run = subprocess.run([self.program, *subcommand, "--help-all"], capture_output=True, text=True, check=True)
         options = {}
         for line in run.stdout.splitlines():
             match = re.match(r"\s+(-[\w,-]+)(\{\w+\})?( \S.*?)?(?:\s{2,}|$)", line)

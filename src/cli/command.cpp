@@ -6,6 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "cli/help.h"
+
 namespace alhazen {
 
 namespace {
@@ -51,6 +53,11 @@ CommandOption& CommandOption::value_name(const std::string& name) {
 
 CommandOption& CommandOption::group(const std::string& heading) {
   option_->group(heading);
+  return *this;
+}
+
+CommandOption& CommandOption::common() {
+  mark_common(*option_);
   return *this;
 }
 

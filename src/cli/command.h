@@ -1,7 +1,7 @@
 #pragma once
 
-// Subcommands and their options. Only command.cpp and command_line.cpp include the parser, whose header takes a
-// compiler longer than all that is done with it here.
+// Subcommands and their options. Only command.cpp, command_line.cpp and help.cpp include the parser, whose header takes
+// a compiler longer than all that is done with it here.
 
 #include <concepts>
 #include <cstdint>
@@ -28,6 +28,8 @@ class CommandOption {
   CommandOption& value_name(const std::string& name);
   /// The heading of the help under which it is listed.
   CommandOption& group(const std::string& heading);
+  /// --help lists it, not only --help-all. A subcommand without any such option lists all in both.
+  CommandOption& common();
   /// May be given more than once, with one value each.
   CommandOption& repeatable();
   /// The value may be left out and is then `value`. A word that follows is its value unless it looks like an option or

@@ -11,6 +11,7 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/help.h"
 #include "cli/subcommands.h"
 #include "util/diagnostics.h"
 #include "util/printable.h"
@@ -202,6 +203,11 @@ void add_configuration(const CLI::App& app, std::vector<std::string>& arguments)
 int run_command_line(const ProgramText& text, const std::function<void(Command&)>& add_subcommands, int argc,
                      char** argv) {
   CLI::App app(text.description, text.name);
+  app.set_help_flag("-h,--help", "Print the common options and exit");
+  app.set_help_all_flag("--help-all", "Print all options and exit");
+  app.formatter_fn([](const CLI::App* command, const std::string& name, CLI::AppFormatMode mode) {
+    return help_text(*command, name, mode == CLI::AppFormatMode::All);
+  });
   app.set_version_flag("--version", text.version);
   app.footer(text.footer);
   Command program(app);

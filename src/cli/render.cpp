@@ -272,7 +272,8 @@ void add_output_options(Command& command, RenderOptions& o, const char* group) {
           "Image to write, " + written_extensions() + "; may be given more than once. Default: as the scene says")
       .repeatable()
       .value_name("FILE")
-      .group(group);
+      .group(group)
+      .common();
   command.add_option("--exr-type", o.exr_type, "half or float").value_name("NAME").group(group);
   command
       .add_option("--exr-compression", o.exr_compression,
@@ -283,20 +284,27 @@ void add_output_options(Command& command, RenderOptions& o, const char* group) {
   command.add_option("--exr-tiles", o.output.how.tile_size, "EXR: write tiles with sides of this many pixels")
       .value_name("N")
       .group(group);
-  command.add_option("--exposure", o.exposure, "PNG: brightness; a stop doubles it").value_name("STOPS").group(group);
-  command.add_option("--tone-map", o.tone_map, "PNG: none, reinhard or filmic").value_name("NAME").group(group);
+  command.add_option("--exposure", o.exposure, "PNG: brightness; a stop doubles it")
+      .value_name("STOPS")
+      .group(group)
+      .common();
+  command.add_option("--tone-map", o.tone_map, "PNG: none, reinhard or filmic")
+      .value_name("NAME")
+      .group(group)
+      .common();
 }
 
 void add_running_options(Command& command, RenderOptions& o, const char* group) {
   command.add_option("--progress", o.progress, "auto (a bar on a terminal), plain, json or none")
       .value_name("NAME")
       .group(group);
-  command.add_flag("-q,--quiet", o.quiet, "Say nothing but warnings and errors").group(group);
+  command.add_flag("-q,--quiet", o.quiet, "Say nothing but warnings and errors").group(group).common();
   command.add_flag("-v,--verbose", o.verbose, "Say what is rendered and how").group(group);
   command.add_option("--stats", o.stats, "Print what it cost to stdout, as text or as one object (json)")
       .implied("text")
       .value_name("[NAME]")
-      .group(group);
+      .group(group)
+      .common();
 }
 
 }  // namespace
@@ -309,8 +317,12 @@ void register_render(Command& program, int& exit_code) {
   add_output_options(command, *options, "Output");
   add_setting_options(command, settings, SettingGroup::output, "Output");
   add_setting_options(command, settings, SettingGroup::image, "Image");
+  add_setting_options(command, settings, SettingGroup::camera, "Camera");
+  add_setting_options(command, settings, SettingGroup::light, "Light");
+  add_setting_options(command, settings, SettingGroup::scene, "Scene");
   command.add_flag("--list", options->list, "Print cameras, variants, animations and lights, and render nothing")
-      .group("Image");
+      .group("Scene")
+      .common();
   add_setting_options(command, settings, SettingGroup::engine, "Engine");
   command.add_option("--config", options->config, "Take options from this file, one a line: spp = 64")
       .value_name("FILE")

@@ -25,7 +25,10 @@ void add_setting_option(Command& command, Settings& settings, std::string_view n
 
 void add_setting_options(Command& command, Settings& settings, SettingGroup group, const std::string& heading) {
   for (const SettingEntry& entry : setting_table())
-    if (entry.group == group) add(command, settings, entry).group(heading);
+    if (entry.group == group) {
+      CommandOption option = add(command, settings, entry).group(heading);
+      if (entry.is_common) option.common();
+    }
 }
 
 }  // namespace alhazen

@@ -234,6 +234,12 @@ SettingEntry with_implied(const char* value, SettingEntry entry) {
   return entry;
 }
 
+/// An entry that --help lists, too.
+SettingEntry common(SettingEntry entry) {
+  entry.is_common = true;
+  return entry;
+}
+
 std::string layer_help() {
   std::string names;
   for (const NamedLayer& layer : layer_table()) names += (names.empty() ? "" : ", ") + std::string(layer.name);
@@ -259,17 +265,17 @@ std::string window_bounds(const RenderSettings& s) {
 std::vector<SettingEntry> output_settings() {
   constexpr SettingGroup group = SettingGroup::output;
   return {
-      of_samples(layer_names,
-                 entry(group, "aov", "", "NAMES", "Layers to add to the EXR, separated by commas: " + layer_help(),
-                       layer_list(), true)),
-      with_implied(
+      common(of_samples(layer_names, entry(group, "aov", "", "NAMES",
+                                           "Layers to add to the EXR, separated by commas: " + layer_help(),
+                                           layer_list(), true))),
+      common(with_implied(
           "auto",
           of_samples(denoising,
                      entry(group, "denoise", "", "[NAME]",
                            "Denoise the image by optix (NVIDIA GPUs), oidn (if its library is here), builtin (any "
                            "machine), or none; without a name by the best that is here",
                            name(&Settings::denoiser)),
-                     "denoising")),
+                     "denoising"))),
       of_samples([](const RenderSettings& s) { return s.records_through_specular ? "diffuse" : ""; },
                  entry(group, "aov-surface", "", "NAME",
                        "Whose albedo, normals and distance: the first surface's, or those of the first that is not "
@@ -277,11 +283,11 @@ std::vector<SettingEntry> output_settings() {
                        "of these layers is asked for",
                        name(&Settings::aov_surface)),
                  "aov-surface"),
-      of_samples([](const RenderSettings& s) { return s.has_alpha ? "on" : ""; },
-                 entry(group, "transparent-background", "", "",
-                       "Leave the background out: EXR gets a channel A (premultiplied), PNG straight alpha",
-                       flag(&Settings::transparent_background)),
-                 "transparent-background"),
+      common(of_samples([](const RenderSettings& s) { return s.has_alpha ? "on" : ""; },
+                        entry(group, "transparent-background", "", "",
+                              "Leave the background out: EXR gets a channel A (premultiplied), PNG straight alpha",
+                              flag(&Settings::transparent_background)),
+                        "transparent-background")),
       of_samples(
           [](const RenderSettings& s) { return s.asked.transparent_glass ? "on" : ""; },
           entry(group, "transparent-glass", "", "", "See the transparent background through specular glass as well",
@@ -305,9 +311,9 @@ std::string noise_target(const RenderSettings& s) {
 }
 
 std::string quality_help() {
-  std::string text;
+  std::string text = "Samples, noise threshold and denoiser at once: draft, good or final";
   for (const Quality& quality : qualities()) {
-    text += (text.empty() ? "" : "; ") + std::string(quality.name) + " (" + quality.help + "): --spp " +
+    text += "; " + std::string(quality.name) + " (" + quality.help + "): --spp " +
             std::to_string(quality.samples_per_pixel) +
             (quality.noise > 0 ? " --noise " + text_of(quality.noise) + ",display" : "") + " --denoise " +
             quality.denoiser;
@@ -324,15 +330,16 @@ std::string guiding_of(const RenderSettings& s) {
 std::vector<SettingEntry> image_settings() {
   constexpr SettingGroup group = SettingGroup::image;
   return {
-      entry(group, "quality", "", "NAME", quality_help(), quality()),
-      entry(group, "spp", "", "N", "Samples per pixel; with --noise, the most (max samples)",
-            number<int64_t>("spp", &Settings::samples_per_pixel, 0, 1, max_samples_per_pixel)),
-      of_samples(noise_target,
-                 entry(group, "noise", "", "X[,MEASURE]",
-                       "Noise threshold (adaptive sampling): take no more samples of pixels whose estimated error is "
-                       "below X: relative (0.05 is 5 percent; the default), or of the displayed value from 0 to 1: "
-                       "0.01,display; none for no threshold",
-                       noise())),
+      common(entry(group, "quality", "", "NAME", quality_help(), quality())),
+      common(entry(group, "spp", "", "N", "Samples per pixel; with --noise, the most (max samples)",
+                   number<int64_t>("spp", &Settings::samples_per_pixel, 0, 1, max_samples_per_pixel))),
+      common(of_samples(
+          noise_target,
+          entry(group, "noise", "", "X[,MEASURE]",
+                "Noise threshold (adaptive sampling): take no more samples of pixels whose estimated error is "
+                "below X: relative (0.05 is 5 percent; the default), or of the displayed value from 0 to 1: "
+                "0.01,display; none for no threshold",
+                noise()))),
       of_samples(
           guiding_of,
           entry(group, "guiding", "", "NAME",
@@ -347,11 +354,13 @@ std::vector<SettingEntry> image_settings() {
                 "Limit each contribution of indirect light to X, against bright dots: the image gets darker than it "
                 "should be; 0: no limit, the default",
                 number("clamp-indirect", &Settings::clamp_indirect, 0.0, 0.0, 1e30))),
-      of_samples([](const RenderSettings& s) { return std::to_string(s.max_segments - 1); },
-                 entry(group, "max-depth", "--maxdepth", "N", "Bounces: a path has at most N + 1 segments",
-                       number<int64_t>("max-depth", &Settings::max_depth, -1, 0, max_bounces))),
-      of_samples([](const RenderSettings& s) { return std::to_string(s.width) + "x" + std::to_string(s.height); },
-                 entry(group, "size", "", "WxH", "Pixels of the whole image", size())),
+      common(of_samples([](const RenderSettings& s) { return std::to_string(s.max_segments - 1); },
+                        entry(group, "max-depth", "--maxdepth", "N", "Bounces: a path has at most N + 1 segments",
+                              number<int64_t>("max-depth", &Settings::max_depth, -1, 0, max_bounces)))),
+      common(
+          of_samples([](const RenderSettings& s) { return std::to_string(s.width) + "x" + std::to_string(s.height); },
+                     entry(group, "size", "", "WxH", "Pixels of the whole image", size()))),
+
       of_samples(window_bounds,
                  entry(group, "crop", "--cropwindow", "X0,X1,Y0,Y1", "Render this part only, fractions from 0 to 1",
                        bounds("crop", &Settings::crop_window, "x0,x1,y0,y1, fractions of the image from 0 to 1"))),
@@ -361,55 +370,60 @@ std::vector<SettingEntry> image_settings() {
                  entry(group, "integrator", "", "NAME",
                        "path (next-event estimation), or BSDF sampling alone: iterative, recursive, branching",
                        name(&Settings::integrator))),
-      entry(group, "look-at", "", "EX,EY,EZ,LX,LY,LZ[,UX,UY,UZ]", "Put the camera at E, looking at L, with U upwards",
-            numbers("look-at", &Settings::look_at, 6, 9, "six or nine numbers: position, target and the way up")),
-      entry(
-          group, "orbit", "", "AZIMUTH,ELEVATION[,DISTANCE]",
+      common(
+          entry(SettingGroup::camera, "look-at", "", "EX,EY,EZ,LX,LY,LZ[,UX,UY,UZ]",
+                "Put the camera at E, looking at L, with U upwards",
+                numbers("look-at", &Settings::look_at, 6, 9, "six or nine numbers: position, target and the way up"))),
+      common(entry(
+          SettingGroup::camera, "orbit", "", "AZIMUTH,ELEVATION[,DISTANCE]",
           "Look at the middle of the scene from there, in degrees from the front and upwards; without a distance from "
           "where the whole scene is seen",
-          orbit()),
-      entry(group, "fit", "", "", "Move the camera to where the whole scene is seen", flag(&Settings::fit)),
-      entry(group, "fov", "", "DEGREES", "Field of view over the shorter side of the image",
-            optional_number("fov", &Settings::fov, 1e-3, 179.0)),
-      entry(group, "aperture", "", "RADIUS", "Radius of the lens in scene units; 0: all is sharp",
+          orbit())),
+      common(entry(SettingGroup::camera, "fit", "", "", "Move the camera to where the whole scene is seen",
+                   flag(&Settings::fit))),
+      common(entry(SettingGroup::camera, "fov", "", "DEGREES", "Field of view over the shorter side of the image",
+                   optional_number("fov", &Settings::fov, 1e-3, 179.0))),
+      entry(SettingGroup::camera, "aperture", "", "RADIUS", "Radius of the lens in scene units; 0: all is sharp",
             optional_number("aperture", &Settings::aperture, 0.0, 1e9)),
-      entry(group, "focus", "", "DISTANCE", "Distance of what is sharp",
+      entry(SettingGroup::camera, "focus", "", "DISTANCE", "Distance of what is sharp",
             optional_number("focus", &Settings::focus, 1e-9, 1e12)),
       entry(group, "filter", "", "NAME[,RADIUS]",
             "Pixel filter: box, triangle, gaussian, mitchell or sinc, and its radius in pixels: box,0.5",
             name(&Settings::filter)),
-      entry(group, "environment", "", "FILE",
-            "Light the scene by this map (EXR, HDR, ...) instead of its infinite lights: 2:1 (equirectangular) or "
-            "square (octahedral), +y up, its centre towards -z",
-            name(&Settings::environment)),
-      entry(group, "environment-rotate", "", "DEGREES",
+      common(
+          entry(SettingGroup::light, "environment", "", "FILE",
+                "Light the scene by this map (EXR, HDR, ...) instead of its infinite lights: 2:1 (equirectangular) or "
+                "square (octahedral), +y up, its centre towards -z",
+                name(&Settings::environment))),
+      entry(SettingGroup::light, "environment-rotate", "", "DEGREES",
             "Turn environment maps about their zeniths, counter-clockwise from above",
             number("environment-rotate", &Settings::environment_rotation, 0.0, -1e6, 1e6)),
-      entry(group, "environment-strength", "", "X", "Multiply environment maps and the light of skies by X",
+      entry(SettingGroup::light, "environment-strength", "", "X",
+            "Multiply environment maps and the light of skies by X",
             number("environment-strength", &Settings::environment_strength, 1.0, 0.0, 1e9)),
-      entry(group, "light-scale", "", "X", "Multiply all other lights by X",
+      entry(SettingGroup::light, "light-scale", "", "X", "Multiply all other lights by X",
             number("light-scale", &Settings::light_scale, 1.0, 0.0, 1e9)),
-      entry(group, "coats", "", "NAME",
+      entry(SettingGroup::scene, "coats", "", "NAME",
             "pbrt: lossless coats (the default), or ones that lose as much light as in pbrt-v4: pbrt",
             name(&Settings::coats)),
-      entry(group, "camera", "", "NAME", "glTF: the camera of this name or number; see --list",
-            name(&Settings::camera)),
-      entry(group, "time", "", "SECONDS", "glTF: the scene at this time of its animation",
-            optional_number("time", &Settings::animation_time, -1e9, 1e9)),
-      entry(group, "animation", "", "NAME", "glTF: the animation of this name or number, for --time",
+      common(entry(SettingGroup::camera, "camera", "", "NAME", "glTF: the camera of this name or number; see --list",
+                   name(&Settings::camera))),
+      common(entry(SettingGroup::scene, "time", "", "SECONDS", "glTF: the scene at this time of its animation",
+                   optional_number("time", &Settings::animation_time, -1e9, 1e9))),
+      entry(SettingGroup::scene, "animation", "", "NAME", "glTF: the animation of this name or number, for --time",
             name(&Settings::animation)),
-      entry(group, "variant", "", "NAME",
-            "glTF: the materials of this variant, by name or number; without it each mesh's own",
-            name(&Settings::variant)),
-      entry(group, "confine", "", "", "Read no files outside the folder of the scene: for untrusted scenes",
-            flag(&Settings::confine)),
+      common(entry(SettingGroup::scene, "variant", "", "NAME",
+                   "glTF: the materials of this variant, by name or number; without it each mesh's own",
+                   name(&Settings::variant))),
+      common(entry(SettingGroup::scene, "confine", "", "",
+                   "Read no files outside the folder of the scene: for untrusted scenes", flag(&Settings::confine))),
       of_samples(order_of_samples, entry(group, "sampler", "", "NAME",
                                          "sobol, zsobol (noise that looks finer; plans for --spp samples, which a "
                                          "checkpoint cannot change) or independent",
                                          name(&Settings::sampler))),
-      of_samples([](const RenderSettings& s) { return std::to_string(s.seed); },
-                 entry(group, "seed", "", "N", "Seed of the random numbers",
-                       optional_number("seed", &Settings::seed, uint32_t{0}, ~uint32_t{0}))),
+      common(of_samples([](const RenderSettings& s) { return std::to_string(s.seed); },
+                        entry(group, "seed", "", "N", "Seed of the random numbers",
+                              optional_number("seed", &Settings::seed, uint32_t{0}, ~uint32_t{0})))),
   };
 }
 
@@ -422,7 +436,7 @@ std::string kind_of_bits(const RenderSettings& s) {
 std::vector<SettingEntry> engine_settings() {
   constexpr SettingGroup group = SettingGroup::engine;
   return {
-      of_samples(kind_of_bits, entry(group, "backend", "", "NAME", backend_help(), name(&Settings::backend))),
+      common(of_samples(kind_of_bits, entry(group, "backend", "", "NAME", backend_help(), name(&Settings::backend)))),
       entry(group, "strategy", "", "NAME", strategy_help(), name(&Settings::strategy)),
       entry(group, "schedule", "", "KIND[,CHUNK]", "openmp, embree: static, dynamic or guided, and a chunk: dynamic,4",
             name(&Settings::schedule)),
@@ -430,8 +444,8 @@ std::vector<SettingEntry> engine_settings() {
             name(&Settings::device)),
       entry(group, "block", "", "WxH", "cuda, pixel and chunk: threads per block (16x16)", name(&Settings::block)),
       entry(group, "chunk", "", "WxH", "cuda, chunk: chunks in each direction (4x4)", name(&Settings::chunk)),
-      entry(group, "threads", "-t,--nthreads", "N", "Threads; 0 for all",
-            number("threads", &Settings::threads, 0, 0, 4096)),
+      common(entry(group, "threads", "-t,--nthreads", "N", "Threads; 0 for all",
+                   number("threads", &Settings::threads, 0, 0, 4096))),
       of_samples([](const RenderSettings& s) { return to_string(s.precision); },
                  entry(group, "precision", "", "NAME", "float or double", name(&Settings::precision))),
   };
@@ -440,9 +454,9 @@ std::vector<SettingEntry> engine_settings() {
 std::vector<SettingEntry> running_settings() {
   constexpr SettingGroup group = SettingGroup::running;
   return {
-      entry(group, "time-limit", "", "SECONDS",
-            "Stop rendering after this time at most (90, 1.5min, 2h), and write the samples so far",
-            seconds("time-limit", &Settings::time_limit, 1e9)),
+      common(entry(group, "time-limit", "", "SECONDS",
+                   "Stop rendering after this time at most (90, 1.5min, 2h), and write the samples so far",
+                   seconds("time-limit", &Settings::time_limit, 1e9))),
       entry(group, "texture-budget", "", "MIB", "Halve the largest texture images until all fit; 0: no limit (16384)",
             number<int64_t>("texture-budget", &Settings::texture_budget, -1, 0, 1 << 30)),
       entry(group, "checkpoint", "", "FILE[,SECONDS]", "Save the state at this interval (60)", checkpoint()),

@@ -13,7 +13,8 @@
 
 namespace alhazen {
 
-enum class SettingGroup { output, image, engine, running };
+/// Each has a heading of its own in the help (cli/render.cpp).
+enum class SettingGroup { output, image, camera, light, scene, engine, running };
 
 struct SettingEntry {
   SettingGroup group;
@@ -31,6 +32,7 @@ struct SettingEntry {
   std::function<std::string(const RenderSettings&)> of_samples = {};
   const char* of_samples_name = "";  ///< what a checkpoint calls it; empty: `name`
   const char* implied = "";          ///< what the option means without a value; empty: it needs one
+  bool is_common = false;            ///< --help lists it, not only --help-all
 };
 
 const std::vector<SettingEntry>& setting_table();

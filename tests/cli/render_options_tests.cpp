@@ -62,13 +62,15 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--environment-strength", "--light-scale",
       // Tested in command_line_tests.cpp:
       "--config",
+      // Tested in help_tests.cpp:
+      "--help-all",
       // Tested in quality_tests.cpp:
       "--quality",
       // Tested in gltf_tests.cpp:
       "--camera", "--time", "--animation", "--variant", "--list",
       // Tested in hostile_input_tests.cpp:
       "--confine"};
-  const CommandResult help = run({"render", "--help"});
+  const CommandResult help = run({"render", "--help-all"});
   EXPECT_EQ(help.exit_code, 0);
   std::set<std::string> named;
   for (size_t at = help.out.find("--"); at != std::string::npos; at = help.out.find("--", at + 2)) {
@@ -76,7 +78,7 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
     named.insert(help.out.substr(at, end - at));
   }
   EXPECT_EQ(named, tested);
-  for (const char* group : {"Output:", "Image:", "Engine:", "While it runs:", "SCENE"})
+  for (const char* group : {"Output:", "Image:", "Camera:", "Light:", "Scene:", "Engine:", "While it runs:", "SCENE"})
     EXPECT_NE(help.out.find(group), std::string::npos) << group;
 }
 
