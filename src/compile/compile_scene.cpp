@@ -49,7 +49,7 @@ class SceneCompiler {
     check_film();
     diagnostics_.activity().begin("preparing the scene");
     CompiledScene<Real> flat;
-    if (options_.in_render_space) move_to_render_space(scene_);
+    if (options_.in_render_space) flat.origin = move_to_render_space(scene_);
     compile_camera(scene_, width_, height_, out_, flat.view, diagnostics_);
     check_mixes(scene_);
     fit_images(scene_, options_.texture_budget, diagnostics_);
@@ -76,6 +76,7 @@ class SceneCompiler {
     flat.statistics.lights = out_.lights.size() + (is_zero(flat.view.background) ? 0 : 1);
     flat.statistics.instances = out_.instances.size();
     out_.move_into(flat);
+    open_seen_backs(static_cast<uint32_t>(width_), static_cast<uint32_t>(height_), options_.threads, flat);
     return flat;
   }
 
@@ -91,12 +92,19 @@ class SceneCompiler {
     diagnostics_.activity().begin("preparing the lights");
     add_triangle_emitters(out_);
     assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
-    if (has_one_sided_ && open_seen_backs(whole_view(flat), static_cast<uint32_t>(width_),
-                                          static_cast<uint32_t>(height_), options_.threads, out_))
+    const bool opens_later = has_one_sided_ && options_.for_cameras;
+    if (has_one_sided_ && !opens_later &&
+        open_seen_backs(whole_view(flat), static_cast<uint32_t>(width_), static_cast<uint32_t>(height_),
+                        options_.threads, out_))
       flat.view.lets_light_through = 1;
     if (checks_lost_light)
       if (const auto lost = find_lost_light(whole_view(flat), options_.path_segments))
         warn_of_lost_light(*lost, scene_, shapes_.location_of(lost->surface), diagnostics_);
+    if (opens_later) {
+      flat.backs = prepare_openings(whole_view(flat), out_);
+      flat.backs.lets_light_through = flat.view.lets_light_through;
+      return;
+    }
     if (options_.layouts.has(BvhLayout::bvh2) || out_.bvh2_nodes.empty()) return;
     flat.statistics.tree_bytes -= out_.bvh2_nodes.size() * sizeof(out_.bvh2_nodes[0]);
     flat.statistics.nodes = out_.bvh8_nodes.size();

@@ -73,9 +73,9 @@ Vec3d origin_of(const Scene& scene) {
 
 }  // namespace
 
-void move_to_render_space(Scene& scene) {
+Vec3d move_to_render_space(Scene& scene) {
   const Vec3d origin = origin_of(scene);
-  if (is_zero(origin) || !is_finite(origin)) return;
+  if (is_zero(origin) || !is_finite(origin)) return {};
   const Transform there = Transform::translate(-origin), back = Transform::translate(origin);
   const auto move = [&](MovingTransform& transform) { transform = {there * transform.start, there * transform.end}; };
   move(scene.camera.world_from_camera);
@@ -83,6 +83,7 @@ void move_to_render_space(Scene& scene) {
   for (Instance& instance : scene.instances) move(instance.world_from_group);
   for (Light& light : scene.lights) light.position -= origin;
   for (Texture& texture : scene.textures) texture.texture_from_world = texture.texture_from_world * back;
+  return origin;
 }
 
 }  // namespace alhazen

@@ -9,7 +9,8 @@
 namespace alhazen {
 
 /// Translates everything that has a position, in double precision. Scenes whose camera distance or size is comparable
-/// to their distance from the origin remain unchanged, and so do their images, to the last bit.
-void move_to_render_space(Scene& scene);
+/// to their distance from the origin remain unchanged, and so do their images, to the last bit. Returns the point of
+/// the world that became the origin.
+Vec3d move_to_render_space(Scene& scene);
 
 }  // namespace alhazen

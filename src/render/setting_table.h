@@ -13,7 +13,7 @@
 
 namespace alhazen {
 
-enum class SettingGroup { output, image, engine, running };
+enum class SettingGroup { output, image, animation, engine, running };
 
 struct SettingEntry {
   SettingGroup group;
@@ -37,6 +37,9 @@ const std::vector<SettingEntry>& setting_table();
 
 /// `name` must be in the table.
 const SettingEntry& setting_entry(std::string_view name);
+
+/// Throws InputError as `set` of the entry does if the value is none that the option takes: programs check nothing.
+void check_setting(const Settings& settings, std::string_view name);
 
 /// The value of one setting as text.
 inline std::string setting_text(const Settings& settings, std::string_view name) {
