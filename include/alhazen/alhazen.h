@@ -44,7 +44,14 @@ struct Settings {
   std::string camera;     ///< glTF: a name, or a number from 0; empty: the first
   std::string variant;    ///< glTF: a name or a number of KHR_materials_variants; empty: none
   std::string animation;  ///< glTF: a name or a number; empty: the first if `animation_time` is given
-  std::optional<double> animation_time;  ///< glTF: seconds; absent: no animation is applied
+  /// Seconds: the scene at this time of its animation (glTF), or of the motion that it describes (pbrt), when the
+  /// shutter opens. Absent: no animation is applied, and the shutter opens when the scene says.
+  std::optional<double> animation_time;
+  /// Motion blur: the fraction of the time of a frame for which the shutter is open, 0 to 1; there are
+  /// `frames_per_second`. 0: moving things are sharp. Absent: as the scene says (pbrt), or 0 (glTF). Shapes are blurred
+  /// as they are moved; a warning says which motion is not: of cameras, lights, skins and morph targets.
+  std::optional<double> shutter;
+  double frames_per_second = 24;
   /// draft, good or final: sets those of `samples_per_pixel`, `noise` and `denoiser` that are left open
   /// (docs/noise.md has the values). Empty: good for a glTF file if all three are left open, otherwise none of them.
   std::string quality;

@@ -94,6 +94,22 @@ void ProgressPrinter::show(const Progress& progress) {
   }
 }
 
+void ProgressPrinter::begin_frame(int64_t number, size_t index, size_t count) {
+  const std::lock_guard lock(mutex_);
+  frame_ = number;
+  frame_index_ = index;
+  frame_count_ = count;
+  last_shown_ = -1;
+  interval_ = 1;
+}
+
+std::vector<std::string> ProgressPrinter::details(const Progress& progress) const {
+  std::vector<std::string> parts = details_of(progress);
+  if (frame_count_ > 0)
+    parts.insert(parts.begin(), fmt::format("frame {} ({} of {})", frame_, frame_index_, frame_count_));
+  return parts;
+}
+
 void ProgressPrinter::show_activity(const Activity::State& activity, double seconds) {
   const std::lock_guard lock(mutex_);
   const std::string what = activity.what;
@@ -170,7 +186,7 @@ void ProgressPrinter::show_over(const std::string& line) {
 
 void ProgressPrinter::show_bar(const Progress& p) {
   const size_t width = terminal_width() - 1;
-  std::string line = joined(details_of(p), width);
+  std::string line = joined(details(p), width);
   if (line.size() + 12 < width) {
     const size_t length = std::min(longest_bar, width - line.size() - 3);
     const size_t filled = static_cast<size_t>(std::clamp(p.fraction, 0.0, 1.0) * static_cast<double>(length));
@@ -183,20 +199,25 @@ void ProgressPrinter::show_bar(const Progress& p) {
 void ProgressPrinter::show_line(const Progress& p) {
   if (p.seconds < last_shown_ + interval_ && !(p.fraction >= 1 && last_shown_ >= 0)) return;
   if (p.seconds < 1 && p.fraction < 1) return;
-  tell_progress(joined(details_of(p), std::string::npos / 2) + "\n");
+  tell_progress(joined(details(p), std::string::npos / 2) + "\n");
   last_shown_ = p.fraction >= 1 ? 1e300 : p.seconds;
   interval_ = std::min(interval_ * 1.5, 60.0);
 }
 
 void ProgressPrinter::show_json(const Progress& p) {
   if (p.seconds < last_shown_ + 0.5 && p.fraction < 1) return;
-  const nlohmann::ordered_json j{{"fraction", p.fraction},
-                                 {"seconds", p.seconds},
-                                 {"seconds_left", seconds_left(p)},
-                                 {"samples_done", p.samples_done},
-                                 {"samples_total", p.samples_total},
-                                 {"samples_per_second", samples_per_second(p)},
-                                 {"noise", p.noise}};
+  nlohmann::ordered_json j{{"fraction", p.fraction},
+                           {"seconds", p.seconds},
+                           {"seconds_left", seconds_left(p)},
+                           {"samples_done", p.samples_done},
+                           {"samples_total", p.samples_total},
+                           {"samples_per_second", samples_per_second(p)},
+                           {"noise", p.noise}};
+  if (frame_count_ > 0) {
+    j["frame"] = frame_;
+    j["frame_index"] = frame_index_;
+    j["frame_count"] = frame_count_;
+  }
   tell_progress(j.dump() + "\n");
   last_shown_ = p.seconds;
 }

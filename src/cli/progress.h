@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "alhazen/alhazen.h"
 #include "util/activity.h"
@@ -22,6 +23,8 @@ class ProgressPrinter {
   explicit ProgressPrinter(ProgressStyle style) : style_(style) {}
   /// Prints the progress when the style requires it.
   void show(const Progress& progress);
+  /// From now on progress is that of the frame with this number, the `index`-th of `count`, from 1.
+  void begin_frame(int64_t number, size_t index, size_t count);
   /// Says what is done before the render begins; `seconds` since the start.
   void show_activity(const Activity::State& activity, double seconds);
   /// Ends the bar's line.
@@ -37,6 +40,8 @@ class ProgressPrinter {
   void show_line(const Progress& progress);
   void show_json(const Progress& progress);
   void end_bar();
+  /// What is said of progress beside the fraction.
+  std::vector<std::string> details(const Progress& progress) const;
 
   std::mutex mutex_;
   ProgressStyle style_;
@@ -44,6 +49,8 @@ class ProgressPrinter {
   double interval_ = 1;
   bool bar_open_ = false;
   std::string last_activity_;
+  int64_t frame_ = 0;
+  size_t frame_index_ = 0, frame_count_ = 0;  ///< 0: it is one image
 };
 
 /// While one exists, what is done is said at most 0.2 s after its beginning.

@@ -1,6 +1,7 @@
 // `alhazen render`: renders a scene file to images.
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,13 +11,16 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/frames.h"
 #include "cli/interrupt.h"
 #include "cli/listing.h"
-#include "cli/progress.h"
+#include "cli/render_options.h"
+#include "cli/sequence.h"
 #include "cli/setting_options.h"
 #include "cli/subcommands.h"
+#include "cli/video.h"
+#include "io/read_scene.h"
 #include "pipeline/load_scene.h"
-#include "pipeline/write_outputs.h"
 #include "render/backend.h"
 #include "render/counter_lines.h"
 #include "render/renderer.h"
@@ -27,16 +31,6 @@
 namespace alhazen {
 
 namespace {
-
-struct RenderOptions {
-  std::string scene;
-  Settings settings;
-  OutputOptions output;
-  std::string tone_map, exr_type, exr_compression;  ///< empty: none, half and zip
-  std::string progress = "auto", stats, config;
-  bool quiet = false, verbose = false, list = false;
-  std::optional<double> exposure;  ///< absent: may be chosen by the image's brightness
-};
 
 ExrCompression parse_compression(const std::string& text) {
   constexpr std::pair<const char*, ExrCompression> names[] = {
@@ -84,7 +78,8 @@ void parse_output_options(RenderOptions& o) {
     throw InputError("unknown statistics '" + o.stats + "': it may be text, json");
 }
 
-/// Options that change nothing: what they are about is not written, or not used.
+}  // namespace
+
 void warn_of_options_without_effect(const RenderOptions& o, const RenderSettings& settings, Diagnostics& diagnostics) {
   const auto writes = [&](const char* extension) {
     return std::any_of(o.output.paths.begin(), o.output.paths.end(),
@@ -112,30 +107,22 @@ void warn_of_options_without_effect(const RenderOptions& o, const RenderSettings
     warn("threads", "the backend 'serial' takes samples on one; give --backend openmp for more");
 }
 
-/// Prints new warnings each time it is called.
-class WarningPrinter {
- public:
-  WarningPrinter(const Diagnostics& diagnostics, ProgressPrinter& printer)
-      : diagnostics_(diagnostics), printer_(printer) {}
+void WarningPrinter::show() {
+  std::string lines;
+  for (; shown_ < diagnostics_.warnings().size(); ++shown_)
+    lines += "warning: " + diagnostics_.warnings()[shown_].to_string() + "\n";
+  if (!lines.empty()) printer_.tell_lines(lines);
+}
 
-  void show() {
-    std::string lines;
-    for (; shown_ < diagnostics_.warnings().size(); ++shown_)
-      lines += "warning: " + diagnostics_.warnings()[shown_].to_string() + "\n";
-    if (!lines.empty()) printer_.tell_lines(lines);
-  }
-
- private:
-  const Diagnostics& diagnostics_;
-  ProgressPrinter& printer_;
-  size_t shown_ = 0;
-};
+namespace {
 
 std::string engine_of(const RenderSettings& r) {
   if (!r.runs_on_device) return fmt::format("{} thread{}", r.threads, r.threads == 1 ? "" : "s");
   if (r.device == host_device) return "the host";
   return r.device == all_devices ? fmt::format("{} GPUs", r.threads) : fmt::format("GPU {}", r.device);
 }
+
+}  // namespace
 
 void print_start(const RenderStatistics& s) {
   const RenderSettings& r = s.settings;
@@ -150,6 +137,8 @@ void print_start(const RenderStatistics& s) {
        r.asked.noise > 0 ? "at most " : "", r.samples_per_pixel, to_string(r.integrator), to_string(r.precision),
        r.max_segments - 1, r.backend, strategy.empty() ? "" : " ", strategy, engine_of(r));
 }
+
+namespace {
 
 std::string guiding_line(const RenderStatistics& s) {
   if (s.settings.guiding == GuidingMode::off) return {};
@@ -187,12 +176,15 @@ std::string samples_taken(const RenderStatistics& s) {
                      setting_text(s.settings.asked, "noise"));
 }
 
-void print_end(const RenderOptions& options, const OutputReport& outputs, const RenderStatistics& statistics) {
+}  // namespace
+
+void print_end(const RenderOptions& options, const OutputReport& outputs, const RenderStatistics& statistics,
+               const std::string& head, std::optional<int64_t> frame) {
   for (const std::string& failure : outputs.failures) tell("alhazen: {}\n", failure);
   if (!options.quiet) {
     const std::string& quality = statistics.settings.asked.quality;
-    std::string line = (quality.empty() ? "" : "quality " + quality + ": ") + samples_taken(statistics) + " in " +
-                       format_seconds(statistics.render_seconds);
+    std::string line = head + (quality.empty() ? "" : "quality " + quality + ": ") + samples_taken(statistics) +
+                       " in " + format_seconds(statistics.render_seconds);
     if (statistics.settings.guiding != GuidingMode::off)
       line += statistics.guiding.is_used          ? "; guided"
               : statistics.guiding.iterations > 0 ? "; guiding ended, as it did not pay"
@@ -200,14 +192,19 @@ void print_end(const RenderOptions& options, const OutputReport& outputs, const 
     if (!statistics.denoiser.empty())
       line += fmt::format("; denoised with {} in {}", statistics.denoiser, format_seconds(statistics.denoise_seconds));
     for (const std::string& path : outputs.written)
-      line += (&path == &outputs.written[0] ? "; wrote " : ", ") + printable(path);
+      line += (&path == &outputs.written[0] ? "; wrote " : ", ") +
+              (path == standard_output_name ? "standard output" : printable(path));
     if (!options.exposure && options.output.how.exposure < 0)
       line += fmt::format("; PNG with --exposure {}", options.output.how.exposure);
     tell("{}\n", line);
   }
-  if (options.stats == "json") print_out("{}\n", statistics.to_json());
-  if (options.stats == "text") print_out("{}", text_statistics(statistics));
+  const std::string json = options.stats == "json" ? statistics.to_json() : "";
+  if (!json.empty()) print_out("{}\n", frame ? fmt::format("{{\"frame\":{},{}", *frame, json.substr(1)) : json);
+  if (options.stats == "text")
+    print_out("{}{}", frame ? fmt::format("frame   {}\n", *frame) : "", text_statistics(statistics));
 }
+
+namespace {
 
 /// Writes the images and reports the result. An image without samples is not written, since an older one is better.
 int finish(RenderOptions& options, const Rendering& rendering, bool fits_exposure) {
@@ -227,12 +224,42 @@ int finish(RenderOptions& options, const Rendering& rendering, bool fits_exposur
   return exit_interrupted;
 }
 
+/// Standard output can take one image, and nothing beside it.
+void check_standard_output(const RenderOptions& o) {
+  const std::vector<std::string>& paths = o.output.paths;
+  const bool is_used = std::find(paths.begin(), paths.end(), standard_output_name) != paths.end();
+  if (!o.format.empty() && !has_written_extension("image." + o.format))
+    throw InputError("unknown --format '" + o.format + "': it may be exr, png, pfm");
+  if (!is_used) {
+    if (!o.format.empty()) throw InputError("--format is for -o -, and other files have it in their names");
+    return;
+  }
+  if (!o.stats.empty()) throw InputError("-o - and --stats both write to standard output: give one of them a file");
+  if (::isatty(STDOUT_FILENO)) throw InputError("-o - writes an image to standard output, which is a terminal");
+}
+
+void refuse_video(const std::string& path) {
+  if (is_video(path))
+    throw InputError({path}, "a video needs more than one frame: give --turntable N, or --frames A..B of an animation");
+}
+
+void warn_of_patterns(const RenderOptions& o, Diagnostics& diagnostics) {
+  for (const std::string& path : o.output.paths)
+    if (FramePattern::is_likely(path))
+      diagnostics.warn({path},
+                       "one image is rendered, and its name is taken as it is: --frames or --turntable put the "
+                       "numbers of frames into names");
+}
+
 int run(RenderOptions& options) {
   if (options.list) {
     print_listing(options.scene, options.settings.confine, false);
     return exit_done;
   }
   parse_output_options(options);
+  check_standard_output(options);
+  if (options.is_sequence()) return render_sequence(options);
+  for (const std::string& path : options.output.paths) refuse_video(path);
   const ProgressStyle style = parse_progress_style(options.progress);
   ProgressPrinter printer(options.quiet ? ProgressStyle::none : style);
   Diagnostics diagnostics;
@@ -242,8 +269,10 @@ int run(RenderOptions& options) {
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene, diagnostics);
   warn_of_options_without_effect(options, settings, diagnostics);
+  warn_of_patterns(options, diagnostics);
+  const std::string scene_file = options.scene == standard_input_name ? "" : options.scene;
   check_files(options.output.paths, options.settings.checkpoint,
-              {{options.scene, "the scene"}, {options.settings.environment, "the environment map"}}, *loaded.inputs);
+              {{scene_file, "the scene"}, {options.settings.environment, "the environment map"}}, *loaded.inputs);
 
   const bool fits_exposure = scene.film.fits_exposure && !options.exposure;
   WarningPrinter warnings(diagnostics, printer);
@@ -267,13 +296,17 @@ int run(RenderOptions& options) {
 
 void add_output_options(Command& command, RenderOptions& o, const char* group) {
   command
-      .add_option(
-          "-o,--output,--outfile", o.output.paths,
-          "Image to write, " + written_extensions() + "; may be given more than once. Default: as the scene says")
+      .add_option("-o,--output,--outfile", o.output.paths,
+                  "Image to write, " + written_extensions() +
+                      ", or - for standard output; of frames NAME_####.png, .mp4 or "
+                      ".gif; may be given more than once. Default: as the scene says")
       .repeatable()
       .value_name("FILE")
       .group(group)
       .common();
+  command.add_option("--format", o.format, "What -o - writes: png (the default), exr or pfm")
+      .value_name("NAME")
+      .group(group);
   command.add_option("--exr-type", o.exr_type, "half or float").value_name("NAME").group(group);
   command
       .add_option("--exr-compression", o.exr_compression,
@@ -290,6 +323,20 @@ void add_output_options(Command& command, RenderOptions& o, const char* group) {
       .common();
   command.add_option("--tone-map", o.tone_map, "PNG: none, reinhard or filmic")
       .value_name("NAME")
+      .group(group)
+      .common();
+}
+
+void add_animation_options(Command& command, RenderOptions& o, const char* group) {
+  command
+      .add_option("--frames", o.frames,
+                  "Render these frames, at the times A / fps to B / fps; those that are there are left as they are")
+      .value_name("A..B[:STEP]")
+      .group(group)
+      .common();
+  command.add_option("--turntable", o.turntable, "N frames of the camera going round the middle of the scene once")
+      .within(int64_t{1}, max_frames)
+      .value_name("N")
       .group(group)
       .common();
 }
@@ -312,7 +359,9 @@ void add_running_options(Command& command, RenderOptions& o, const char* group) 
 void register_render(Command& program, int& exit_code) {
   Command command = program.add_subcommand("render", "Render a scene to images");
   auto options = std::make_shared<RenderOptions>();
-  command.add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)").required().value_name("");
+  command.add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply); - for pbrt on standard input")
+      .required()
+      .value_name("");
   Settings& settings = options->settings;
   add_output_options(command, *options, "Output");
   add_setting_options(command, settings, SettingGroup::output, "Output");
@@ -323,6 +372,8 @@ void register_render(Command& program, int& exit_code) {
   command.add_flag("--list", options->list, "Print cameras, variants, animations and lights, and render nothing")
       .group("Scene")
       .common();
+  add_animation_options(command, *options, "Animation");
+  add_setting_options(command, settings, SettingGroup::animation, "Animation");
   add_setting_options(command, settings, SettingGroup::engine, "Engine");
   command.add_option("--config", options->config, "Take options from this file, one a line: spp = 64")
       .value_name("FILE")

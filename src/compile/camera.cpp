@@ -76,7 +76,7 @@ FilterRecord<Real> filter_record(const Filter& filter, std::vector<Real>& table)
 
 /// If the camera were not finite, its rays would not be either.
 template <class Real>
-void check_camera(const Scene& scene, const CameraRecord<Real>& camera) {
+void check_camera(const std::string& scene_name, const CameraRecord<Real>& camera) {
   bool finite = true;
   for (const Real value : {camera.x_scale, camera.x_offset, camera.y_scale, camera.y_offset, camera.lens_radius,
                            camera.focal_distance, camera.inverse_scale})
@@ -84,7 +84,7 @@ void check_camera(const Scene& scene, const CameraRecord<Real>& camera) {
   for (const auto& row : camera.world_from_camera)
     for (const Real value : row) finite = finite && std::isfinite(value);
   if (!finite)
-    throw InputError({scene.name},
+    throw InputError({scene_name},
                      "the camera is not finite in this precision: its transform, its screen window or its lens is too "
                      "large or too small");
 }
@@ -108,18 +108,14 @@ double filter_value(const Filter& filter, double x, double radius) {
 }
 
 template <class Real>
-void compile_camera(const Scene& scene, int64_t width, int64_t height, SceneArrays<Real>& out, SceneView<Real>& view,
-                    Diagnostics& diagnostics) {
-  const Camera& camera = scene.camera;
+CameraRecord<Real> camera_record(const Camera& camera, const std::string& scene_name, int64_t width, int64_t height) {
   if (!(camera.fov > 0 && camera.fov < 180)) throw InputError("the camera's field of view must be between 0 and 180");
-  if (camera.world_from_camera.is_moving())
-    diagnostics.warn({scene.name}, "the camera moves; it is rendered at rest, where it is when the shutter opens");
   const double aspect = camera.frame_aspect_ratio.value_or(static_cast<double>(width) / static_cast<double>(height));
   std::array<double, 4> window = aspect > 1 ? std::array<double, 4>{-aspect, aspect, -1, 1}
                                             : std::array<double, 4>{-1, 1, -1 / aspect, 1 / aspect};
   if (camera.screen_window) window = *camera.screen_window;
   double scale = std::tan(camera.fov * std::numbers::pi / 360);
-  CameraRecord<Real>& record = view.camera;
+  CameraRecord<Real> record{};
   record.kind = camera.kind;
   if (camera.kind == CameraKind::orthographic) scale = 1;
   const bool sees_all = camera.kind == CameraKind::equirectangular || camera.kind == CameraKind::equal_area;
@@ -142,11 +138,22 @@ void compile_camera(const Scene& scene, int64_t width, int64_t height, SceneArra
                        (static_cast<double>(width) * static_cast<double>(height));
   const double unit = sees_all ? 4 * std::numbers::pi : camera.kind == CameraKind::orthographic ? axis * axis : 1;
   record.footprint = static_cast<Real>(pixel * unit / 4);
-  check_camera(scene, record);
+  check_camera(scene_name, record);
+  return record;
+}
+
+template <class Real>
+void compile_camera(const Scene& scene, int64_t width, int64_t height, SceneArrays<Real>& out, SceneView<Real>& view,
+                    Diagnostics& diagnostics) {
+  view.camera = camera_record<Real>(scene.camera, scene.name, width, height);
+  if (scene.camera.world_from_camera.is_moving())
+    diagnostics.warn({scene.name}, "the camera moves; it is rendered at rest, where it is when the shutter opens");
   view.filter = filter_record(scene.filter, out.filter_cdf);
   view.exposure = static_cast<Real>(scene.film.exposure);
 }
 
+template CameraRecord<float> camera_record(const Camera&, const std::string&, int64_t, int64_t);
+template CameraRecord<double> camera_record(const Camera&, const std::string&, int64_t, int64_t);
 template void compile_camera(const Scene&, int64_t, int64_t, SceneArrays<float>&, SceneView<float>&, Diagnostics&);
 template void compile_camera(const Scene&, int64_t, int64_t, SceneArrays<double>&, SceneView<double>&, Diagnostics&);
 

@@ -2,10 +2,16 @@
 
 // The part of scene compilation that makes the camera and the pixel filter.
 
+#include <string>
+
 #include "compile/scene_arrays.h"
 #include "scene/scene.h"
 
 namespace alhazen {
+
+/// The record of a camera for an image of width x height pixels. `scene_name` is for messages.
+template <class Real>
+CameraRecord<Real> camera_record(const Camera& camera, const std::string& scene_name, int64_t width, int64_t height);
 
 /// The camera for an image of width x height pixels, and the table of the filter.
 template <class Real>

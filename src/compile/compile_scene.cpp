@@ -79,6 +79,7 @@ class SceneCompiler {
     out_.move_into(flat);
     flat.object_names = names_.objects();
     flat.material_names = names_.materials();
+    open_seen_backs(static_cast<uint32_t>(width_), static_cast<uint32_t>(height_), options_.threads, flat);
     return flat;
   }
 
@@ -94,12 +95,19 @@ class SceneCompiler {
     diagnostics_.activity().begin("preparing the lights");
     add_triangle_emitters(out_);
     assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
-    if (has_one_sided_ && open_seen_backs(whole_view(flat), static_cast<uint32_t>(width_),
-                                          static_cast<uint32_t>(height_), options_.threads, out_))
+    const bool opens_later = has_one_sided_ && options_.for_cameras;
+    if (has_one_sided_ && !opens_later &&
+        open_seen_backs(whole_view(flat), static_cast<uint32_t>(width_), static_cast<uint32_t>(height_),
+                        options_.threads, out_))
       flat.view.lets_light_through = 1;
     if (checks_lost_light)
       if (const auto lost = find_lost_light(whole_view(flat), options_.path_segments))
         warn_of_lost_light(*lost, scene_, shapes_.location_of(lost->surface), diagnostics_);
+    if (opens_later) {
+      flat.backs = prepare_openings(whole_view(flat), out_);
+      flat.backs.lets_light_through = flat.view.lets_light_through;
+      return;
+    }
     if (options_.layouts.has(BvhLayout::bvh2) || out_.bvh2_nodes.empty()) return;
     flat.statistics.tree_bytes -= out_.bvh2_nodes.size() * sizeof(out_.bvh2_nodes[0]);
     flat.statistics.nodes = out_.bvh8_nodes.size();

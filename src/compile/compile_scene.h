@@ -18,6 +18,9 @@ struct CompileOptions {
   uint64_t texture_budget = 0;  ///< bytes that images may take; 0: no limit
   /// Whether to move a scene that is far from the world's origin there (compile/render_space.h).
   bool in_render_space = true;
+  /// Whether the camera will be changed (compile/change_camera.h). The scene does then not depend on which is first,
+  /// but for where render space is.
+  bool for_cameras = false;
   /// Number of segments of paths if `path` renders, to warn of light that it does not find; 0: no such check.
   uint32_t path_segments = 0;
   /// Whether surfaces get ids of objects and materials, and CompiledScene their names.

@@ -2,6 +2,7 @@
 
 // The compiled scene in memory: one arena with every array, and the view of it.
 
+#include <array>
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
@@ -31,6 +32,15 @@ struct SceneStatistics {
   double build_seconds = 0;            ///< of the BVH alone
 };
 
+/// What it takes to open the backs that another camera sees (compile/open_backs.h). Without one-sided triangles all is
+/// empty.
+struct BackOpenings {
+  std::vector<uint32_t> closed;                 ///< the surfaces of the world's triangles, none of them open
+  std::vector<std::array<uint32_t, 2>> opened;  ///< by surface: the one that is absent, and the one that is lit through
+  bool has_only_delta_lights = false;
+  uint32_t lets_light_through = 0;  ///< of the scene with nothing open
+};
+
 /// Owns the memory of `view`. Every pointer of the view is in [arena, arena + statistics.bytes), so copying those bytes
 /// and shifting the pointers makes the same scene elsewhere.
 template <class Real>
@@ -38,9 +48,10 @@ struct CompiledScene {
   std::unique_ptr<std::byte, FreeArena> arena;
   SceneView<Real> view;
   SceneStatistics statistics;
-  Vec3d world_origin{};  ///< the origin of render space, in world space
+  Vec3d world_origin{};  ///< the origin of render space, in world space (compile/render_space.h)
   /// By id - 1, in the order in which they were found; empty unless they were asked for.
   std::vector<std::string> object_names, material_names;
+  BackOpenings backs;  ///< if it was compiled for several cameras
 };
 
 }  // namespace alhazen

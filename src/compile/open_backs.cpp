@@ -281,10 +281,22 @@ void split_coincident_sides(SceneArrays<Real>& out) {
   for (const uint32_t i : halves) out.triangles[i].surface = with_half.like(out.triangles[i].surface);
 }
 
+namespace {
+
+/// By triangle of the world: whether it is absent, and whether it admits light from behind. Empty if no back is seen.
+struct SeenBacks {
+  std::vector<uint8_t> is_open, is_lit_through;
+};
+
 template <class Real>
-bool open_seen_backs(const SceneView<Real>& view, uint32_t width, uint32_t height, int threads,
-                     SceneArrays<Real>& out) {
-  const uint32_t end = out.objects.empty() ? view.triangles_count : out.objects[0].first_triangle;
+uint32_t triangles_in_world(const SceneView<Real>& view) {
+  return view.objects_count == 0 ? view.triangles_count : view.objects[0].first_triangle;
+}
+
+template <class Real>
+SeenBacks find_seen_backs(const SceneView<Real>& view, uint32_t width, uint32_t height, int threads,
+                          bool only_delta_lights) {
+  const uint32_t end = triangles_in_world(view);
   std::vector<uint8_t> is_open(end);
   const int team = threads > 0 ? threads : omp_get_max_threads();
   mark_backs_in_image(view, width, height, end, team, is_open);
@@ -292,23 +304,72 @@ bool open_seen_backs(const SceneView<Real>& view, uint32_t width, uint32_t heigh
 #pragma omp parallel for schedule(dynamic, 256) num_threads(team)
   for (uint32_t i = 0; i < end; ++i)
     if (!is_open[i]) is_open[i] = is_candidate(view, i) && eye.looks_at_back_of(i);
-  if (std::find(is_open.begin(), is_open.end(), 1) == is_open.end()) return false;
+  if (std::find(is_open.begin(), is_open.end(), 1) == is_open.end()) return {};
   open_whole_walls(view, is_open);
   std::vector<uint8_t> is_lit_through(end);
-  if (has_only_delta_lights(out, view) && is_in_the_open(view)) is_lit_through = rooms_of(view, is_open);
+  if (only_delta_lights && is_in_the_open(view)) is_lit_through = rooms_of(view, is_open);
+  return {std::move(is_open), std::move(is_lit_through)};
+}
+
+}  // namespace
+
+template <class Real>
+bool open_seen_backs(const SceneView<Real>& view, uint32_t width, uint32_t height, int threads,
+                     SceneArrays<Real>& out) {
+  const SeenBacks seen = find_seen_backs(view, width, height, threads, has_only_delta_lights(out, view));
   // The view is not used from here on: it lacks the new surfaces and materials.
   SurfacesWithFeature<Real> absent(out, MaterialFeatures::absent), lit_through(out, MaterialFeatures::lit_through);
-  for (uint32_t i = 0; i < end; ++i) {
+  for (size_t i = 0; i < seen.is_open.size(); ++i) {
     uint32_t& surface = out.triangles[i].surface;
-    if (is_open[i]) surface = absent.like(surface);
-    if (is_lit_through[i]) surface = lit_through.like(surface);
+    if (seen.is_open[i]) surface = absent.like(surface);
+    if (seen.is_lit_through[i]) surface = lit_through.like(surface);
   }
-  return true;
+  return !seen.is_open.empty();
+}
+
+template <class Real>
+BackOpenings prepare_openings(const SceneView<Real>& view, SceneArrays<Real>& out) {
+  BackOpenings backs;
+  backs.has_only_delta_lights = has_only_delta_lights(out, view);
+  const uint32_t end = triangles_in_world(view);
+  std::vector<uint8_t> is_needed(out.surfaces.size());
+  for (uint32_t i = 0; i < end; ++i) {
+    backs.closed.push_back(out.triangles[i].surface);
+    if (is_candidate(view, i)) is_needed[backs.closed.back()] = 1;
+  }
+  SurfacesWithFeature<Real> absent(out, MaterialFeatures::absent), lit_through(out, MaterialFeatures::lit_through);
+  for (uint32_t s = 0; s < is_needed.size(); ++s) {
+    if (is_needed[s])
+      backs.opened.push_back({absent.like(s), lit_through.like(s)});
+    else
+      backs.opened.push_back({s, s});
+  }
+  return backs;
+}
+
+template <class Real>
+void open_seen_backs(uint32_t width, uint32_t height, int threads, CompiledScene<Real>& scene) {
+  const BackOpenings& backs = scene.backs;
+  if (backs.closed.empty()) return;
+  // The arena is the scene's own.
+  auto* const triangles = const_cast<TriangleRecord*>(scene.view.triangles);
+  for (size_t i = 0; i < backs.closed.size(); ++i) triangles[i].surface = backs.closed[i];
+  scene.view.lets_light_through = backs.lets_light_through;
+  const SeenBacks seen = find_seen_backs(scene.view, width, height, threads, backs.has_only_delta_lights);
+  for (size_t i = 0; i < seen.is_open.size(); ++i) {
+    const std::array<uint32_t, 2>& opened = backs.opened[backs.closed[i]];
+    if (seen.is_open[i] || seen.is_lit_through[i]) triangles[i].surface = opened[seen.is_open[i] ? 0 : 1];
+  }
+  if (!seen.is_open.empty()) scene.view.lets_light_through = 1;
 }
 
 template void split_coincident_sides(SceneArrays<float>&);
 template void split_coincident_sides(SceneArrays<double>&);
 template bool open_seen_backs(const SceneView<float>&, uint32_t, uint32_t, int, SceneArrays<float>&);
 template bool open_seen_backs(const SceneView<double>&, uint32_t, uint32_t, int, SceneArrays<double>&);
+template BackOpenings prepare_openings(const SceneView<float>&, SceneArrays<float>&);
+template BackOpenings prepare_openings(const SceneView<double>&, SceneArrays<double>&);
+template void open_seen_backs(uint32_t, uint32_t, int, CompiledScene<float>&);
+template void open_seen_backs(uint32_t, uint32_t, int, CompiledScene<double>&);
 
 }  // namespace alhazen

@@ -23,4 +23,14 @@ void split_coincident_sides(SceneArrays<Real>& out);
 template <class Real>
 bool open_seen_backs(const SceneView<Real>& view, uint32_t width, uint32_t height, int threads, SceneArrays<Real>& out);
 
+/// The same for one camera after another: prepares the surfaces that it may need, with none open yet. To be called once
+/// all surfaces are there.
+template <class Real>
+BackOpenings prepare_openings(const SceneView<Real>& view, SceneArrays<Real>& out);
+
+/// Opens the backs that the camera of the compiled `scene` sees, and closes those that another camera saw. The scene
+/// must have the binary tree.
+template <class Real>
+void open_seen_backs(uint32_t width, uint32_t height, int threads, CompiledScene<Real>& scene);
+
 }  // namespace alhazen

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <climits>
 #include <cstdio>
 #include <cstring>
 #include <system_error>
@@ -24,6 +25,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 std::atomic<bool (*)()> pipe_wait_is_over{nullptr};
+
+constexpr const char* standard_output = "-";
 
 constexpr auto pipe_poll_interval = std::chrono::milliseconds(50);
 constexpr auto pipe_patience = std::chrono::seconds(1);
@@ -88,8 +91,13 @@ std::string WriteError::reason(int error) {
 
 void set_pipe_wait_is_over(bool (*is_over)()) { pipe_wait_is_over.store(is_over); }
 
-AtomicFile::AtomicFile(const std::string& path) : path_(path) {
+AtomicFile::AtomicFile(const std::string& path) : path_(path == standard_output ? "to standard output" : path) {
   if (path.empty()) throw RenderError("cannot write a file without a name: give one");
+  if (path == standard_output) {
+    is_pipe_ = true;
+    target_ = path;
+    return;
+  }
   int error = 0;
   target_ = follow_links(path, error);
   if (error != 0) throw WriteError(path_, error);
@@ -215,13 +223,20 @@ void AtomicFile::give_name() {
 /// A pipe is opened and written without blocking, so that the write can be abandoned if there is no reader.
 void AtomicFile::write_pipe() {
   Clock::time_point since = Clock::now();
-  while ((descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK)) < 0) {
+  const bool is_standard = target_ == standard_output;
+  if (is_standard && (descriptor_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)) < 0) fail(errno);
+  while (!is_standard && (descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK)) < 0) {
     if (errno != ENXIO && errno != EINTR) fail(errno);
     if (is_enough(since)) fail(EPIPE);
     std::this_thread::sleep_for(pipe_poll_interval);
   }
+  // Standard output may block; where a pipe has room it takes this many bytes at once.
+  const size_t piece = is_standard ? PIPE_BUF : for_pipe_.size();
   for (size_t sent = 0; sent < for_pipe_.size();) {
-    const ssize_t written = ::write(descriptor_, for_pipe_.data() + sent, for_pipe_.size() - sent);
+    pollfd ready{descriptor_, POLLOUT, 0};
+    const bool has_room = !is_standard || ::poll(&ready, 1, 0) > 0;
+    const ssize_t written =
+        has_room ? ::write(descriptor_, for_pipe_.data() + sent, std::min(piece, for_pipe_.size() - sent)) : 0;
     if (written > 0) {
       sent += static_cast<size_t>(written);
       since = Clock::now();

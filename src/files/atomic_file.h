@@ -29,7 +29,7 @@ class WriteError : public RenderError {
 /// killed; `commit` gives it a name and renames it to the target. If the filesystem does not support nameless files, a
 /// temporary file is used instead, and temporaries of killed processes are removed. Without a commit the target remains
 /// unchanged. Symbolic links are followed. Devices are written directly; data for a pipe are kept in memory until
-/// `commit`, since image formats seek.
+/// `commit`, since image formats seek, and so are those for the path "-", which is standard output.
 /// Every failure is a WriteError. The first is remembered and thrown again by `commit`, so that a library that swallows
 /// an exception of `write` cannot turn it into a success.
 class AtomicFile {

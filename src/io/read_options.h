@@ -18,15 +18,18 @@ struct ReadOptions {
   std::string camera;
   std::string variant;         ///< of KHR_materials_variants; empty: the materials without the extension
   std::string animation;       ///< empty: the first; used only if `time` is given
-  std::optional<double> time;  ///< seconds; absent: no animation is applied
+  std::optional<double> time;  ///< seconds, when the shutter opens; absent: no animation is applied
   /// Aspect ratio (width over height) of the requested image, used if the file has no camera; 0: none is requested.
   double aspect = 0;
   /// Whether the files that the scene refers to must be in its folder (files/confinement.h).
   bool confine = false;
   /// Records the files that are read; null: none.
   std::shared_ptr<InputRecord> record = nullptr;
-  /// Whether nothing is selected; `confine` and `record` select nothing.
-  bool is_default() const { return camera.empty() && variant.empty() && animation.empty() && !time; }
+  /// For how many seconds the shutter is open; absent: as the file says, or 0.
+  std::optional<double> shutter_seconds = std::nullopt;
+  /// Whether nothing is selected that glTF files alone offer.
+  bool is_default() const { return camera.empty() && variant.empty() && animation.empty(); }
+  bool has_motion_blur() const { return shutter_seconds && *shutter_seconds > 0; }
 };
 
 struct SceneListing {

@@ -8,11 +8,13 @@
 #include <stdexcept>
 
 #include "core/math/bounds.h"
+#include "files/standard_input.h"
 #include "images/image.h"
 #include "io/gltf/gltf.h"
 #include "io/pbrt/pbrt.h"
 #include "io/ply/ply.h"
 #include "scene/default_view.h"
+#include "scene/shutter.h"
 
 namespace alhazen {
 
@@ -59,14 +61,20 @@ namespace {
 Scene read_by_format(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
   InputPath input = path_beside(path, path, options.confine);
   input.scope.record = options.record;
-  const std::string format = format_of(input);
+  const bool is_standard_input = path == standard_input_name;
+  const std::string format = is_standard_input ? "pbrt" : format_of(input);
   if (options.time && !std::isfinite(*options.time))
     throw InputError("the time of the animation must be a finite number of seconds");
+  if (options.shutter_seconds && !(*options.shutter_seconds >= 0 && std::isfinite(*options.shutter_seconds)))
+    throw InputError("the time that the shutter is open must be 0 or more seconds");
   if (format == "gltf") return read_gltf(input, options, diagnostics);
   if (!options.is_default())
-    throw InputError({path}, "cameras, variants, animations and their time can be chosen for glTF files only");
-  if (format == "pbrt") return read_pbrt(input, diagnostics);
-  return scene_around(read_ply(input, diagnostics), path, options.aspect);
+    throw InputError({path}, "cameras, variants and animations can be chosen for glTF files only");
+  Scene scene = is_standard_input  ? parse_pbrt(standard_input(), "standard input", input.scope, diagnostics)
+                : format == "pbrt" ? read_pbrt(input, diagnostics)
+                                   : scene_around(read_ply(input, diagnostics), path, options.aspect);
+  if (options.time || options.shutter_seconds) set_shutter(scene, options.time, options.shutter_seconds);
+  return scene;
 }
 
 }  // namespace
@@ -82,9 +90,16 @@ Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostic
                    "-v): give it fewer or smaller meshes and images");
 }
 
+std::vector<Camera> read_camera_path(const std::string& path, const ReadOptions& options,
+                                     const std::vector<double>& times) {
+  if (path == standard_input_name) return {};
+  const InputPath input = path_beside(path, path, options.confine);
+  return format_of(input) == "gltf" ? read_gltf_camera_path(input, options, times) : std::vector<Camera>{};
+}
+
 SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
   const InputPath input = path_beside(path, path, options.confine);
-  if (format_of(input) == "gltf") return list_gltf(input, diagnostics);
+  if (path != standard_input_name && format_of(input) == "gltf") return list_gltf(input, diagnostics);
   // These formats offer no choices, but unreadable files are reported all the same.
   ReadOptions only_read;
   only_read.confine = options.confine;

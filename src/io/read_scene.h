@@ -4,6 +4,7 @@
 // .glb files of any name by their first bytes.
 
 #include <string>
+#include <vector>
 
 #include "files/input_file.h"
 #include "io/read_options.h"
@@ -11,10 +12,18 @@
 
 namespace alhazen {
 
+/// This name stands for a pbrt scene on standard input. Names in it are relative to the working folder.
+inline constexpr const char* standard_input_name = "-";
+
 /// Reads a scene (.pbrt, .pbrt.gz, .gltf, .glb), or a mesh alone (.ply, .ply.gz), to which it adds a camera and a sky.
 /// Throws InputError, also if `options` select something that the format does not offer.
 Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics);
 inline Scene read_scene(const std::string& path, Diagnostics& diagnostics) { return read_scene(path, {}, diagnostics); }
+
+/// The cameras at `times`, in seconds, of a scene whose animation moves its camera alone, so that the rest need be read
+/// once; empty for any other scene. Throws InputError.
+std::vector<Camera> read_camera_path(const std::string& path, const ReadOptions& options,
+                                     const std::vector<double>& times);
 
 /// The choices for `options`. Throws InputError.
 SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics);

@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "io/read_options.h"
-#include "scene/default_view.h"
+#include "render/setting_table.h"
+#include "scene/subject.h"
 #include "util/diagnostics.h"
 
 namespace alhazen {
@@ -45,32 +46,20 @@ ViewAxes axes_towards(const Vec3d& backward, const Vec3d& up) {
 
 /// Settings also come from programs, which check nothing.
 void check_values(const Settings& asked) {
-  const auto are_finite = [](const std::vector<double>& values) {
-    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-  };
-  const auto refuse = [](const char* setting, const char* wanted) {
-    throw InputError("--" + std::string(setting) + " must be " + wanted);
-  };
-  const size_t view = asked.look_at.size(), turn = asked.orbit.size();
-  if ((view != 0 && view != 6 && view != 9) || !are_finite(asked.look_at))
-    refuse("look-at", "six or nine numbers: position, target and the way up");
-  if ((turn != 0 && turn != 2 && turn != 3) || !are_finite(asked.orbit) ||
-      (turn > 0 && std::abs(asked.orbit[1]) > 90) || (turn == 3 && !(asked.orbit[2] > 0)))
-    refuse("orbit", "an azimuth, an elevation from -90 to 90 degrees, and optionally a distance above 0");
-  if (asked.fov && !(*asked.fov >= 1e-3 && *asked.fov <= 179)) refuse("fov", "a number of degrees from 0.001 to 179");
-  if (asked.aperture && !(*asked.aperture >= 0 && *asked.aperture <= 1e9)) refuse("aperture", "a radius, or 0");
-  if (asked.focus && !(*asked.focus >= 1e-9 && *asked.focus <= 1e12)) refuse("focus", "a distance above 0");
-  if (!std::isfinite(asked.environment_rotation)) refuse("environment-rotate", "a number of degrees");
-  if (!(asked.environment_strength >= 0 && asked.environment_strength <= 1e9))
-    refuse("environment-strength", "a factor, or 0");
-  if (!(asked.light_scale >= 0 && asked.light_scale <= 1e9)) refuse("light-scale", "a factor, or 0");
+  for (const char* name :
+       {"look-at", "orbit", "fov", "aperture", "focus", "environment-rotate", "environment-strength", "light-scale"})
+    check_setting(asked, name);
 }
 
 /// Places cameras in a scene.
 class CameraChoice {
  public:
-  CameraChoice(const Settings& asked, Scene& scene)
-      : asked_(asked), scene_(scene), camera_(scene.camera), aspect_(aspect_of(asked.width, asked.height)) {
+  CameraChoice(const Settings& asked, Scene& scene, bool turns)
+      : asked_(asked),
+        turns_(turns),
+        scene_(scene),
+        camera_(scene.camera),
+        aspect_(aspect_of(asked.width, asked.height)) {
     if (!(aspect_ > 0)) aspect_ = static_cast<double>(scene.film.width) / static_cast<double>(scene.film.height);
     const Transform& transform = camera_.world_from_camera.start;
     is_left_handed_ = is_left_handed(scene);
@@ -83,13 +72,19 @@ class CameraChoice {
     if (asked_.fov) camera_.fov = *asked_.fov;
     if (!asked_.look_at.empty()) look_at();
     if (!asked_.orbit.empty()) orbit();
-    if (asked_.fit) fit();
+    // A camera that the reader has placed sees the whole scene from its side alone.
+    if (asked_.fit || (turns_ && camera_.is_default && asked_.look_at.empty() && asked_.orbit.empty())) fit();
     // Lenses are in camera space.
     if (asked_.aperture) camera_.lens_radius = *asked_.aperture / scale_[0];
     if (asked_.focus)
       camera_.focal_distance = *asked_.focus / scale_[2];
     else if (camera_.lens_radius > 0 && distance_ > 0)
       camera_.focal_distance = distance_ / scale_[2];
+  }
+
+  Pivot pivot() {
+    if (!subject_) subject_ = find_subject(scene_, std::nullopt);
+    return {subject_->middle, up_, is_left_handed_};
   }
 
  private:
@@ -110,13 +105,11 @@ class CameraChoice {
           "aspect ratio says what it sees: place it by --look-at or --orbit AZIMUTH,ELEVATION,DISTANCE");
   }
 
-  /// The shapes that count for the middle of the scene.
-  const std::vector<PlacedShape>& shapes() {
-    if (shapes_.empty()) {
-      shapes_ = placed_shapes(scene_);
-      leave_out_surroundings(shapes_);
-    }
-    return shapes_;
+  /// The position from which the whole scene is seen.
+  Vec3d fitting_position(const ViewAxes& axes) {
+    const ViewFrame frame = view_frame(axes, aspect_, camera_.fov);
+    subject_ = find_subject(scene_, frame);
+    return turns_ ? all_round_fitting_eye(scene_, *subject_, frame, up_) : fitting_eye(*subject_, frame);
   }
 
   /// What is on the right of the image stays there.
@@ -151,10 +144,8 @@ class CameraChoice {
     // Seen from straight above, the front is below.
     const Vec3d up = level * -std::sin(elevation) + up_ * std::cos(elevation);
     const ViewAxes axes = axes_towards(backward, up);
-    const Vec3d middle = bounds_of(shapes()).centre();
-    const Vec3d eye = asked_.orbit.size() == 3 ? middle + backward * asked_.orbit[2]
-                                               : fitting_eye(scene_, shapes(), aspect_, axes, camera_.fov);
-    distance_ = dot(eye - middle, backward);
+    const Vec3d eye = asked_.orbit.size() == 3 ? pivot().middle + backward * asked_.orbit[2] : fitting_position(axes);
+    distance_ = dot(eye - pivot().middle, backward);
     place(eye, axes);
   }
 
@@ -162,12 +153,13 @@ class CameraChoice {
   void fit() {
     const Transform& transform = camera_.world_from_camera.start;
     const ViewAxes axes = axes_towards(normalize(-column(transform, 2)), normalize(column(transform, 1)));
-    const Vec3d eye = fitting_eye(scene_, shapes(), aspect_, axes, camera_.fov);
-    distance_ = dot(eye - bounds_of(shapes()).centre(), axes.backward);
+    const Vec3d eye = fitting_position(axes);
+    distance_ = dot(eye - pivot().middle, axes.backward);
     place(eye, axes);
   }
 
   const Settings& asked_;
+  bool turns_;  ///< about the scene, once it is placed
   const Scene& scene_;
   Camera& camera_;
   double aspect_;
@@ -175,7 +167,7 @@ class CameraChoice {
   std::array<double, 3> scale_;  ///< of camera space
   Vec3d up_;
   double distance_ = 0;  ///< to what the camera was placed for; 0: it was not
-  std::vector<PlacedShape> shapes_;
+  std::optional<Subject> subject_;
 };
 
 /// Turns maps about their zeniths.
@@ -212,11 +204,43 @@ void scale_lights(const Settings& asked, Scene& scene, Diagnostics& diagnostics)
 
 }  // namespace
 
-void choose_view(const Settings& asked, Scene& scene, Diagnostics& diagnostics) {
-  check_values(asked);
-  CameraChoice(asked, scene).apply();
+namespace {
+
+void change_lights(const Settings& asked, Scene& scene, Diagnostics& diagnostics) {
   if (asked.environment_rotation != 0) turn_environments(asked.environment_rotation, scene, diagnostics);
   scale_lights(asked, scene, diagnostics);
+}
+
+}  // namespace
+
+void choose_view(const Settings& asked, Scene& scene, Diagnostics& diagnostics) {
+  check_values(asked);
+  CameraChoice(asked, scene, false).apply();
+  change_lights(asked, scene, diagnostics);
+}
+
+Pivot choose_turning_view(const Settings& asked, Scene& scene, Diagnostics& diagnostics) {
+  check_values(asked);
+  CameraChoice choice(asked, scene, true);
+  choice.apply();
+  change_lights(asked, scene, diagnostics);
+  return choice.pivot();
+}
+
+Camera placed_camera(const Settings& asked, const Camera& camera, Scene& scene) {
+  scene.camera = camera;
+  CameraChoice(asked, scene, false).apply();
+  return scene.camera;
+}
+
+Camera turned_camera(const Camera& camera, const Pivot& pivot, double degrees) {
+  if (degrees == 0) return camera;
+  const Transform turn = Transform::translate(pivot.middle) *
+                         Transform::rotate(pivot.is_left_handed ? -degrees : degrees, pivot.up) *
+                         Transform::translate(-pivot.middle);
+  Camera turned = camera;
+  turned.world_from_camera = {turn * camera.world_from_camera.start, turn * camera.world_from_camera.end};
+  return turned;
 }
 
 }  // namespace alhazen

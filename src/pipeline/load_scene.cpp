@@ -5,26 +5,35 @@
 #include "files/file_identity.h"
 #include "io/environment.h"
 #include "io/read_scene.h"
-#include "pipeline/choose_view.h"
+#include "render/setting_table.h"
 #include "render/settings.h"
 
 namespace alhazen {
 
-LoadedScene load_scene(const std::string& path, const Settings& settings, Diagnostics& diagnostics) {
+ReadOptions read_options(const Settings& settings) {
+  for (const char* name : {"time", "fps", "shutter"}) check_setting(settings, name);
+  ReadOptions options{settings.camera,
+                      settings.variant,
+                      settings.animation,
+                      settings.animation_time,
+                      aspect_of(settings.width, settings.height),
+                      settings.confine};
+  if (settings.shutter) options.shutter_seconds = *settings.shutter / settings.frames_per_second;
+  return options;
+}
+
+namespace {
+
+LoadedScene load(const std::string& path, const Settings& settings, bool turns, Diagnostics& diagnostics) {
   const auto start = std::chrono::steady_clock::now();
   // Before the scene is read, which may take long.
-  refuse_same_file({settings.checkpoint, "the checkpoint"},
-                   {{path, "the scene"}, {settings.environment, "the environment map"}});
+  refuse_same_file({settings.checkpoint, "the checkpoint"}, {{path == standard_input_name ? "" : path, "the scene"},
+                                                             {settings.environment, "the environment map"}});
   diagnostics.activity().begin("reading the scene");
   LoadedScene loaded;
   loaded.inputs = std::make_shared<InputRecord>();
-  const ReadOptions choice{settings.camera,
-                           settings.variant,
-                           settings.animation,
-                           settings.animation_time,
-                           aspect_of(settings.width, settings.height),
-                           settings.confine,
-                           loaded.inputs};
+  ReadOptions choice = read_options(settings);
+  choice.record = loaded.inputs;
   loaded.scene = read_scene(path, choice, diagnostics);
   loaded.inputs->refuse(settings.checkpoint, "the checkpoint");
   if (!settings.environment.empty()) {
@@ -32,9 +41,22 @@ LoadedScene load_scene(const std::string& path, const Settings& settings, Diagno
     use_environment(loaded.scene, path_beside(path, settings.environment, settings.confine));
   }
   apply_settings(settings, loaded.scene);
-  choose_view(settings, loaded.scene, diagnostics);
+  if (turns)
+    loaded.pivot = choose_turning_view(settings, loaded.scene, diagnostics);
+  else
+    choose_view(settings, loaded.scene, diagnostics);
   loaded.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return loaded;
+}
+
+}  // namespace
+
+LoadedScene load_scene(const std::string& path, const Settings& settings, Diagnostics& diagnostics) {
+  return load(path, settings, false, diagnostics);
+}
+
+LoadedScene load_turning_scene(const std::string& path, const Settings& settings, Diagnostics& diagnostics) {
+  return load(path, settings, true, diagnostics);
 }
 
 }  // namespace alhazen

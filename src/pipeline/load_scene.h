@@ -8,6 +8,8 @@
 
 #include "alhazen/alhazen.h"
 #include "files/input_record.h"
+#include "io/read_options.h"
+#include "pipeline/choose_view.h"
 #include "scene/scene.h"
 #include "util/diagnostics.h"
 
@@ -17,11 +19,17 @@ struct LoadedScene {
   Scene scene;
   std::shared_ptr<InputRecord> inputs;  ///< every file that was read
   double seconds = 0;
+  Pivot pivot;  ///< of a camera that turns
 };
 
 /// Reads a scene with what `settings` says about it: camera, variant, time of the animation, environment map, coats,
 /// pixel filter, and whether it is confined to its folder. Throws InputError, also if the checkpoint that `settings`
 /// names is one of the files that were read.
 LoadedScene load_scene(const std::string& path, const Settings& settings, Diagnostics& diagnostics);
+/// The same for a camera that will turn about the scene.
+LoadedScene load_turning_scene(const std::string& path, const Settings& settings, Diagnostics& diagnostics);
+
+/// What settings select in a file.
+ReadOptions read_options(const Settings& settings);
 
 }  // namespace alhazen

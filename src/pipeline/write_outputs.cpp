@@ -9,6 +9,7 @@
 #include "files/atomic_file.h"
 #include "files/file_identity.h"
 #include "images/display/fitting_exposure.h"
+#include "io/read_scene.h"
 #include "render/backend.h"
 #include "render/quality.h"
 #include "render/setting_table.h"
@@ -20,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void check_output(const std::string& path) {
+  if (path == standard_output_name) return;
   if (!has_written_extension(path))
     throw InputError({path},
                      "images are written as " + written_extensions() + ": give a name that ends in one of them");
@@ -48,8 +50,8 @@ std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
   if (settings.records_through_specular) metadata["settings"] += " --aov-surface diffuse";
   if (settings.has_alpha) metadata["settings"] += " --transparent-background";
   if (settings.asked.transparent_glass) metadata["settings"] += " --transparent-glass";
-  for (const char* name : {"look-at", "orbit", "fit", "fov", "aperture", "focus", "environment-rotate",
-                           "environment-strength", "light-scale"})
+  for (const char* name : {"time", "animation", "shutter", "look-at", "orbit", "fit", "fov", "aperture", "focus",
+                           "environment-rotate", "environment-strength", "light-scale"})
     if (const std::string text = setting_text(settings.asked, name); !text.empty())
       metadata["settings"] += std::string(" --") + name + (text == "true" ? "" : " " + text);
   if (!settings.asked.quality.empty())
@@ -71,7 +73,7 @@ std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, c
     if (has_written_extension(name)) {
       paths = {name};
     } else {
-      fs::path stem = fs::path(scene_path).filename();
+      fs::path stem = scene_path == standard_input_name ? "stdin" : fs::path(scene_path).filename();
       while (stem.has_extension()) stem = stem.stem();
       paths = {stem.string() + ".exr"};
       if (!name.empty())
@@ -125,11 +127,16 @@ void write_output(const std::string& path, const OutputOptions& options, const R
   how.y_offset = settings.window.y0;
   how.full_width = settings.width;
   how.full_height = settings.height;
-  write_image(path, rendering.source(), how);
+  if (path != standard_output_name) return write_image(path, rendering.source(), how);
+#define ALHAZEN_WRITE(name) \
+  if (options.standard_output_format == #name) write_##name(path, rendering.source(), how);
+  ALHAZEN_WRITTEN_FORMATS(ALHAZEN_WRITE)
+#undef ALHAZEN_WRITE
 }
 
 /// Pipes may wait for their reader for long, so files are written before them.
 bool is_file(const std::string& path) {
+  if (path == standard_output_name) return false;
   std::error_code ignored;
   return fs::status(path, ignored).type() != fs::file_type::fifo;
 }

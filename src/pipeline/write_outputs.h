@@ -12,9 +12,13 @@
 
 namespace alhazen {
 
+/// This name stands for standard output.
+inline constexpr const char* standard_output_name = "-";
+
 struct OutputOptions {
   std::vector<std::string> paths;
   WriteOptions how;
+  std::string standard_output_format = "png";  ///< an extension of written_extensions()
 };
 
 /// Returns the requested paths, else the scene's own file name in the current folder, else, with a warning if the scene

@@ -12,14 +12,15 @@
 #include <optional>
 #include <system_error>
 #include <thread>
+#include <utility>
 
+#include "compile/change_camera.h"
 #include "compile/compile_scene.h"
 #include "render/backend.h"
 #include "render/checkpoint.h"
 #include "render/denoiser.h"
 #include "render/guiding.h"
 #include "render/noise.h"
-#include "render/noisy_image.h"
 #include "render/sample_kernel.h"
 #include "render/time_limit.h"
 #include "util/thread_limit.h"
@@ -333,89 +334,90 @@ std::future<void> start_backend(Backend& backend, const RenderSettings& settings
   refuse_thread("the thread that starts the GPU", error);
 }
 
+void denoise(Rendering& rendering, Diagnostics& diagnostics);
+
 template <class Real>
-Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, double load_seconds,
-                              const RenderEvents& events, Diagnostics& diagnostics) {
-  Rendering rendering;
-  RenderStatistics& statistics = rendering.statistics;
-  statistics.settings = settings;
-  statistics.scene = scene.name;
-  const Clock::time_point start = Clock::now();
-  const std::unique_ptr<Backend> backend = make_backend(settings.backend);
-  const bool is_on_gpu = settings.runs_on_device && settings.device != host_device;
-  if (is_on_gpu) diagnostics.activity().begin("starting the GPU");
-  std::future<void> started = start_backend(*backend, settings, is_on_gpu);
-  const int build_threads = is_on_gpu ? 0 : settings.threads;
-  CompileOptions options{settings.width, settings.height, build_threads, backend->wanted_layouts(settings)};
-  options.texture_budget = settings.texture_budget;
-  options.names_objects = wants_names(settings.aovs);
-  options.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
-  CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
-  if (settings.asked.clamp_indirect > 0)
-    flat.view.indirect_limit = static_cast<Real>(settings.asked.clamp_indirect) / flat.view.exposure;
-  flat.view.records_through_specular = settings.records_through_specular;
-  flat.view.hides_background = settings.has_alpha;
-  flat.view.sees_through_glass = settings.asked.transparent_glass;
-  started.get();
-  statistics.scene_sizes = flat.statistics;
-  statistics.load_seconds = load_seconds + seconds_since(start) - flat.statistics.build_seconds;
-  const Clock::time_point build_start = Clock::now();
-  backend->prepare(flat);
-  statistics.build_seconds = flat.statistics.build_seconds + seconds_since(build_start);
-  const bool weighted = flat.view.filter.has_negative != 0;
-  auto film = make_film<Real>(settings, weighted);
-  film->set_scene(LayerScene(flat));
-  diagnostics.activity().begin("rendering");
-  if (events.started) events.started(statistics);
-  PassLoop<Real>(*backend, flat, settings, *film, events, diagnostics).run(statistics);
-  statistics.peak_rss_bytes = peak_rss_bytes();
-  if (statistics.nonfinite_samples > 0)
-    diagnostics.warn({statistics.scene}, std::to_string(statistics.nonfinite_samples) +
-                                             " samples were infinite or NaN and were counted as black");
-  rendering.film = std::move(film);
-  return rendering;
-}
+class RendererOf final : public SceneRenderer {
+ public:
+  RendererOf(Scene&& scene, const RenderSettings& settings, double load_seconds, bool for_cameras,
+             Diagnostics& diagnostics)
+      : settings_(settings), diagnostics_(diagnostics), scene_name_(scene.name) {
+    const Clock::time_point start = Clock::now();
+    make_backend();
+    CompileOptions options{settings.width, settings.height, build_threads(), backend_->wanted_layouts(settings)};
+    options.texture_budget = settings.texture_budget;
+    options.names_objects = wants_names(settings.aovs);
+    options.for_cameras = for_cameras;
+    options.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
+    flat_ = compile_scene<Real>(std::move(scene), options, diagnostics);
+    if (settings.asked.clamp_indirect > 0)
+      flat_.view.indirect_limit = static_cast<Real>(settings.asked.clamp_indirect) / flat_.view.exposure;
+    flat_.view.records_through_specular = settings.records_through_specular;
+    flat_.view.hides_background = settings.has_alpha;
+    flat_.view.sees_through_glass = settings.asked.transparent_glass;
+    started_.get();
+    load_seconds_ = load_seconds + seconds_since(start) - flat_.statistics.build_seconds;
+    build_seconds_ = flat_.statistics.build_seconds;
+  }
+
+  Rendering render(const RenderEvents& events, const Camera* camera, const RenderSettings* preview) override {
+    const RenderSettings& settings = preview ? *preview : settings_;
+    Rendering rendering;
+    RenderStatistics& statistics = rendering.statistics;
+    statistics.settings = settings;
+    statistics.scene = scene_name_;
+    Clock::time_point start = Clock::now();
+    if (camera) {
+      change_camera(*camera, scene_name_, settings.width, settings.height, build_threads(), flat_);
+      // A device has a copy of the scene.
+      if (settings_.runs_on_device && is_prepared_) {
+        make_backend();
+        started_.get();
+        is_prepared_ = false;
+      }
+    }
+    statistics.scene_sizes = flat_.statistics;
+    statistics.load_seconds = std::exchange(load_seconds_, 0) + seconds_since(start);
+    start = Clock::now();
+    if (!is_prepared_) backend_->prepare(flat_);
+    is_prepared_ = true;
+    statistics.build_seconds = std::exchange(build_seconds_, 0) + seconds_since(start);
+    auto film = make_film<Real>(settings, flat_.view.filter.has_negative != 0);
+    film->set_scene(LayerScene(flat_));
+    diagnostics_.activity().begin("rendering");
+    if (events.started) events.started(statistics);
+    PassLoop<Real>(*backend_, flat_, settings, *film, events, diagnostics_).run(statistics);
+    statistics.peak_rss_bytes = peak_rss_bytes();
+    if (statistics.nonfinite_samples > 0)
+      diagnostics_.warn({statistics.scene}, std::to_string(statistics.nonfinite_samples) +
+                                                " samples were infinite or NaN and were counted as black");
+    rendering.film = std::move(film);
+    if (!settings.denoiser.empty() && rendering.has_samples()) denoise(rendering, diagnostics_);
+    return rendering;
+  }
+
+ private:
+  bool is_on_gpu() const { return settings_.runs_on_device && settings_.device != host_device; }
+
+  int build_threads() const { return is_on_gpu() ? 0 : settings_.threads; }
+
+  void make_backend() {
+    backend_ = alhazen::make_backend(settings_.backend);
+    if (is_on_gpu()) diagnostics_.activity().begin("starting the GPU");
+    started_ = start_backend(*backend_, settings_, is_on_gpu());
+  }
+
+  const RenderSettings& settings_;
+  Diagnostics& diagnostics_;
+  std::string scene_name_;
+  CompiledScene<Real> flat_;
+  std::unique_ptr<Backend> backend_;
+  std::future<void> started_;  ///< waits for the backend, which must outlive it
+  bool is_prepared_ = false;
+  double load_seconds_ = 0, build_seconds_ = 0;  ///< 0 once an image has counted them
+};
 
 }  // namespace
-
-bool Rendering::has_samples() const {
-  return std::visit([](const auto& any_film) { return any_film->max_samples() > 0; }, film);
-}
-
-ImageSource Rendering::source() const {
-  ImageSource source = std::visit(
-      [](const auto& any_film) {
-        const auto* planes = any_film.get();
-        return ImageSource{planes->window().width(), planes->window().height(), planes->channels(),
-                           [planes](int y, std::span<float> row) { planes->resolve_row(y, row); }};
-      },
-      film);
-  const size_t width = static_cast<size_t>(source.width), count = source.channels.size();
-  const bool keeps_noisy = statistics.settings.aovs.noisy;
-  if (keeps_noisy) source.channels.insert(source.channels.end(), {"noisy.R", "noisy.G", "noisy.B"});
-  if (denoised.empty() && !keeps_noisy) return source;
-  source.fill_row = [this, width, count, keeps_noisy, film_row = source.fill_row](int y, std::span<float> row) {
-    film_row(y, row);
-    if (keeps_noisy) std::copy_n(row.begin(), 3 * width, row.begin() + static_cast<std::ptrdiff_t>(count * width));
-    if (denoised.empty()) return;
-    for (size_t i = 0; i < 3 * width; ++i)
-      row[i % 3 * width + i / 3] = denoised[static_cast<size_t>(y) * 3 * width + i];
-  };
-  return source;
-}
-
-std::map<std::string, std::string> Rendering::layer_metadata() const {
-  return std::visit(
-      [&](const auto& any_film) {
-        return alhazen::layer_metadata(any_film->view(), static_cast<size_t>(any_film->window().pixels()),
-                                       statistics.settings.aovs, any_film->scene());
-      },
-      film);
-}
-
-NoisyImage Rendering::noisy_image() const {
-  return std::visit([](const auto& any_film) { return make_noisy_image(*any_film); }, film);
-}
 
 namespace {
 
@@ -455,10 +457,8 @@ void denoise(Rendering& rendering, Diagnostics& diagnostics) {
   statistics.peak_rss_bytes = peak_rss_bytes();
 }
 
-}  // namespace
-
-Rendering render_scene(Scene&& scene, const RenderSettings& settings, double load_seconds, const RenderEvents& events,
-                       Diagnostics& diagnostics) {
+/// Warns of what the settings do not show of the scene.
+void check_settings(const Scene& scene, const RenderSettings& settings, Diagnostics& diagnostics) {
   if (settings.integrator != IntegratorKind::path)
     for (const Light& light : scene.lights)
       if (!light_traits(light.kind).has_size)
@@ -469,12 +469,26 @@ Rendering render_scene(Scene&& scene, const RenderSettings& settings, double loa
                                        " samples before one is finished, and have at most " +
                                        std::to_string(settings.samples_per_pixel) + "; ask for more by --spp");
   if (!settings.denoiser_warning.empty()) diagnostics.warn({scene.name}, settings.denoiser_warning);
-  Rendering rendering =
-      settings.precision == Precision::single
-          ? render_in_precision<float>(std::move(scene), settings, load_seconds, events, diagnostics)
-          : render_in_precision<double>(std::move(scene), settings, load_seconds, events, diagnostics);
-  if (!settings.denoiser.empty() && rendering.has_samples()) denoise(rendering, diagnostics);
-  return rendering;
+}
+
+std::unique_ptr<SceneRenderer> make_renderer(Scene&& scene, const RenderSettings& settings, double load_seconds,
+                                             bool for_cameras, Diagnostics& diagnostics) {
+  check_settings(scene, settings, diagnostics);
+  if (settings.precision == Precision::single)
+    return std::make_unique<RendererOf<float>>(std::move(scene), settings, load_seconds, for_cameras, diagnostics);
+  return std::make_unique<RendererOf<double>>(std::move(scene), settings, load_seconds, for_cameras, diagnostics);
+}
+
+}  // namespace
+
+std::unique_ptr<SceneRenderer> make_scene_renderer(Scene&& scene, const RenderSettings& settings, double load_seconds,
+                                                   Diagnostics& diagnostics) {
+  return make_renderer(std::move(scene), settings, load_seconds, true, diagnostics);
+}
+
+Rendering render_scene(Scene&& scene, const RenderSettings& settings, double load_seconds, const RenderEvents& events,
+                       Diagnostics& diagnostics) {
+  return make_renderer(std::move(scene), settings, load_seconds, false, diagnostics)->render(events);
 }
 
 }  // namespace alhazen

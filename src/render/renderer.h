@@ -45,6 +45,23 @@ class Rendering {
   NoisyImage noisy_image() const;
 };
 
+/// A scene that is compiled once, and rendered by one camera after another.
+class SceneRenderer {
+ public:
+  virtual ~SceneRenderer() = default;
+  /// Renders what the scene's own camera sees, or if one is given, which is in the world, what that sees. Statistics
+  /// count the time to read the scene and to build its BVH for the first image only. `preview` replaces the settings
+  /// for this image: they may be of another size, window and number of samples, and without denoiser, noise target and
+  /// guiding. Throws as render_scene does.
+  virtual Rendering render(const RenderEvents& events, const Camera* camera = nullptr,
+                           const RenderSettings* preview = nullptr) = 0;
+};
+
+/// Compiles the scene; `settings` and `diagnostics` must outlive what is returned. Images do not depend on which others
+/// were rendered before. Throws as render_scene does.
+std::unique_ptr<SceneRenderer> make_scene_renderer(Scene&& scene, const RenderSettings& settings, double load_seconds,
+                                                   Diagnostics& diagnostics);
+
 /// `load_seconds` is the time taken to read the scene, for the statistics. Throws InputError, RenderError,
 /// std::bad_alloc, and anything that `events` throws.
 Rendering render_scene(Scene&& scene, const RenderSettings& settings, double load_seconds, const RenderEvents& events,

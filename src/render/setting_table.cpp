@@ -408,10 +408,6 @@ std::vector<SettingEntry> image_settings() {
             name(&Settings::coats)),
       common(entry(SettingGroup::camera, "camera", "", "NAME", "glTF: the camera of this name or number; see --list",
                    name(&Settings::camera))),
-      common(entry(SettingGroup::scene, "time", "", "SECONDS", "glTF: the scene at this time of its animation",
-                   optional_number("time", &Settings::animation_time, -1e9, 1e9))),
-      entry(SettingGroup::scene, "animation", "", "NAME", "glTF: the animation of this name or number, for --time",
-            name(&Settings::animation)),
       common(entry(SettingGroup::scene, "variant", "", "NAME",
                    "glTF: the materials of this variant, by name or number; without it each mesh's own",
                    name(&Settings::variant))),
@@ -424,6 +420,21 @@ std::vector<SettingEntry> image_settings() {
       common(of_samples([](const RenderSettings& s) { return std::to_string(s.seed); },
                         entry(group, "seed", "", "N", "Seed of the random numbers",
                               optional_number("seed", &Settings::seed, uint32_t{0}, ~uint32_t{0})))),
+  };
+}
+
+std::vector<SettingEntry> animation_settings() {
+  constexpr SettingGroup group = SettingGroup::animation;
+  return {
+      common(entry(group, "time", "", "SECONDS", "The scene at this time of its animation or motion",
+                   optional_number("time", &Settings::animation_time, -1e9, 1e9))),
+      entry(group, "animation", "", "NAME", "glTF: the animation of this name or number, for --time and --frames",
+            name(&Settings::animation)),
+      entry(group, "fps", "", "F", "Frames per second (24)",
+            number("fps", &Settings::frames_per_second, 24.0, 1e-3, 1e6)),
+      entry(group, "shutter", "", "S",
+            "Motion blur: the fraction of a frame's time for which the shutter is open, 0 to 1; glTF: 0 unless given",
+            optional_number("shutter", &Settings::shutter, 0.0, 1.0)),
   };
 }
 
@@ -455,13 +466,14 @@ std::vector<SettingEntry> running_settings() {
   constexpr SettingGroup group = SettingGroup::running;
   return {
       common(entry(group, "time-limit", "", "SECONDS",
-                   "Stop rendering after this time at most (90, 1.5min, 2h), and write the samples so far",
+                   "Stop rendering an image after this time at most (90, 1.5min, 2h), and write the samples so far",
                    seconds("time-limit", &Settings::time_limit, 1e9))),
       entry(group, "texture-budget", "", "MIB", "Halve the largest texture images until all fit; 0: no limit (16384)",
             number<int64_t>("texture-budget", &Settings::texture_budget, -1, 0, 1 << 30)),
       entry(group, "checkpoint", "", "FILE[,SECONDS]", "Save the state at this interval (60)", checkpoint()),
       entry(group, "resume", "", "", "Continue from the checkpoint file", flag(&Settings::resume)),
-      entry(group, "overwrite", "", "", "Replace the file of --checkpoint, whatever it contains",
+      entry(group, "overwrite", "", "",
+            "Replace the file of --checkpoint, whatever it contains; render frames again that are there",
             flag(&Settings::overwrite)),
   };
 }
@@ -471,7 +483,7 @@ std::vector<SettingEntry> running_settings() {
 const std::vector<SettingEntry>& setting_table() {
   static const std::vector<SettingEntry> table = [] {
     std::vector<SettingEntry> all;
-    for (auto* part : {output_settings, image_settings, engine_settings, running_settings})
+    for (auto* part : {output_settings, image_settings, animation_settings, engine_settings, running_settings})
       for (SettingEntry& each : part()) all.push_back(std::move(each));
     return all;
   }();
@@ -482,6 +494,12 @@ const SettingEntry& setting_entry(std::string_view name) {
   for (const SettingEntry& each : setting_table())
     if (each.name == name) return each;
   throw std::logic_error("there is no setting '" + std::string(name) + "'");
+}
+
+void check_setting(const Settings& settings, std::string_view name) {
+  const SettingEntry& entry = setting_entry(name);
+  Settings checked;
+  if (const std::string text = entry.text(settings); !text.empty()) entry.set(checked, text);
 }
 
 }  // namespace alhazen

@@ -14,7 +14,7 @@
 namespace alhazen {
 
 /// Each has a heading of its own in the help (cli/render.cpp).
-enum class SettingGroup { output, image, camera, light, scene, engine, running };
+enum class SettingGroup { output, image, camera, light, scene, animation, engine, running };
 
 struct SettingEntry {
   SettingGroup group;
@@ -39,6 +39,9 @@ const std::vector<SettingEntry>& setting_table();
 
 /// `name` must be in the table.
 const SettingEntry& setting_entry(std::string_view name);
+
+/// Throws InputError as `set` of the entry does if the value is none that the option takes: programs check nothing.
+void check_setting(const Settings& settings, std::string_view name);
 
 /// The value of one setting as text.
 inline std::string setting_text(const Settings& settings, std::string_view name) {

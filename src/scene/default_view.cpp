@@ -16,21 +16,6 @@ double smoothstep(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
-/// Calls visit(point) for points in world space between which the shape is: the vertices of a mesh, the corners of a
-/// box about others.
-template <class Visit>
-void for_each_point(const Scene& scene, const PlacedShape& placed, const Visit& visit) {
-  const Shape& shape = *placed.shape;
-  if (shape.type == ShapeType::mesh) {
-    for (const Vec3d& p : scene.meshes[shape.mesh].positions) visit(placed.world_from_object.point(p));
-    return;
-  }
-  const Vec3d reach = shape.reach();
-  for (int corner = 0; corner < 8; ++corner)
-    visit(placed.world_from_object.point(
-        {corner & 1 ? reach.x : -reach.x, corner & 2 ? reach.y : -reach.y, corner & 4 ? reach.z : -reach.z}));
-}
-
 /// From the centre of a box to the camera. glTF models face +z. A model that is flat in z, such as a sign, is seen from
 /// the front, others more from the side and from above; one that is long in z is seen from its side, and one that is
 /// flat in y from above.
@@ -45,32 +30,12 @@ Vec3d direction_to_eye(const Vec3d& half) {
 
 std::vector<PlacedShape> placed_shapes(const Scene& scene) {
   std::vector<PlacedShape> shapes;
-  const auto add = [&](const Shape& shape, const Transform& world_from_object) {
+  for_each_placed_shape(scene, [&](const Shape& shape, const Transform& world_from_object) {
     PlacedShape placed{&shape, world_from_object, {}};
-    for_each_point(scene, placed, [&](const Vec3d& p) { placed.box.extend(p); });
+    for_each_point(scene, shape, world_from_object, [&](const Vec3d& p) { placed.box.extend(p); });
     if (!placed.box.is_empty()) shapes.push_back(placed);
-  };
-  for (const Shape& shape : scene.groups[0].shapes) add(shape, shape.world_from_object.start);
-  for (const Instance& instance : scene.instances)
-    for (const Shape& shape : scene.groups[instance.group].shapes)
-      add(shape, instance.world_from_group.start * shape.world_from_object.start);
+  });
   return shapes;
-}
-
-void leave_out_surroundings(std::vector<PlacedShape>& shapes) {
-  constexpr double surroundings = 30;
-  const auto size = [](const PlacedShape& placed) { return length(placed.box.diagonal()); };
-  std::stable_sort(shapes.begin(), shapes.end(),
-                   [&](const PlacedShape& a, const PlacedShape& b) { return size(a) < size(b); });
-  Bounds3<double> smaller;
-  for (size_t i = 0; i + 1 < shapes.size(); ++i) {
-    smaller.extend(shapes[i].box);
-    if (size(shapes[i + 1]) > surroundings * length(smaller.diagonal()) && length(smaller.diagonal()) > 0 &&
-        i + 1 >= shapes.size() / 2) {
-      shapes.erase(shapes.begin() + static_cast<std::ptrdiff_t>(i) + 1, shapes.end());
-      return;
-    }
-  }
 }
 
 Bounds3<double> bounds_of(const std::vector<PlacedShape>& shapes) {
@@ -80,31 +45,60 @@ Bounds3<double> bounds_of(const std::vector<PlacedShape>& shapes) {
   return box;
 }
 
+ViewFrame view_frame(const ViewAxes& axes, double aspect, double fov) {
+  constexpr double margin = 1.08;
+  const double tangent = std::tan(fov / 2 * std::numbers::pi / 180) / margin;
+  return {axes, tangent * std::max(aspect, 1.0), tangent / std::min(aspect, 1.0)};
+}
+
+void ViewReach::add(const ViewFrame& frame, const Vec3d& p) {
+  const double x = dot(p, frame.axes.right), y = dot(p, frame.axes.up), z = dot(p, frame.axes.backward);
+  to_right = std::max(to_right, x + frame.across * z), to_left = std::max(to_left, -x + frame.across * z);
+  to_top = std::max(to_top, y + frame.along * z), to_bottom = std::max(to_bottom, -y + frame.along * z);
+  nearest = std::max(nearest, z);
+}
+
+/// What is to be maximised is linear in the position; of a circle it is the value at its centre plus the radius times
+/// the length of what the gradient has in the plane of the circle.
+void ViewReach::add_all_round(const ViewFrame& frame, const Vec3d& p, const Vec3d& up) {
+  const double height = dot(p, up), radius = length(p - up * height);
+  const auto largest = [&](const Vec3d& gradient) {
+    const double along_axis = dot(gradient, up);
+    return height * along_axis + radius * length(gradient - up * along_axis);
+  };
+  const ViewAxes& axes = frame.axes;
+  to_right = std::max(to_right, largest(axes.right + axes.backward * frame.across));
+  to_left = std::max(to_left, largest(-axes.right + axes.backward * frame.across));
+  to_top = std::max(to_top, largest(axes.up + axes.backward * frame.along));
+  to_bottom = std::max(to_bottom, largest(-axes.up + axes.backward * frame.along));
+  nearest = std::max(nearest, largest(axes.backward));
+}
+
+void ViewReach::add(const ViewReach& other) {
+  to_right = std::max(to_right, other.to_right), to_left = std::max(to_left, other.to_left);
+  to_top = std::max(to_top, other.to_top), to_bottom = std::max(to_bottom, other.to_bottom);
+  nearest = std::max(nearest, other.nearest);
+}
+
+Vec3d ViewReach::eye(const ViewFrame& frame, double min_distance) const {
+  const double distance = std::max(
+      {(to_right + to_left) / (2 * frame.across), (to_top + to_bottom) / (2 * frame.along), nearest + min_distance});
+  return frame.axes.right * ((to_right - to_left) / 2) + frame.axes.up * ((to_top - to_bottom) / 2) +
+         frame.axes.backward * distance;
+}
+
 Vec3d fitting_eye(const Scene& scene, const std::vector<PlacedShape>& shapes, double aspect, const ViewAxes& axes,
                   double fov) {
   const Bounds3<double> box = bounds_of(shapes);
   const Vec3d centre = box.centre(), half = box.diagonal() * 0.5;
-  const double tangent = std::tan(fov / 2 * std::numbers::pi / 180) / 1.08;
-  const double across = tangent * std::max(aspect, 1.0), along = tangent / std::min(aspect, 1.0);
-  // A point is visible if |x - eye.x| <= tangent * (distance - z), in coordinates along right, up and backward. So the
-  // largest x + tangent * z and the largest -x + tangent * z of all points determine the eye's position between them
-  // and its distance.
-  double to_right = -1e300, to_left = -1e300, to_top = -1e300, to_bottom = -1e300, nearest = -1e300;
-  const auto visit = [&](const Vec3d& point) {
-    const Vec3d p = point - centre;
-    const double x = dot(p, axes.right), y = dot(p, axes.up), z = dot(p, axes.backward);
-    to_right = std::max(to_right, x + across * z), to_left = std::max(to_left, -x + across * z);
-    to_top = std::max(to_top, y + along * z), to_bottom = std::max(to_bottom, -y + along * z);
-    nearest = std::max(nearest, z);
-  };
-  for (const PlacedShape& placed : shapes) for_each_point(scene, placed, visit);
-  if (nearest == -1e300) visit(centre);
+  const ViewFrame frame = view_frame(axes, aspect, fov);
+  ViewReach reach;
+  const auto visit = [&](const Vec3d& point) { reach.add(frame, point - centre); };
+  for (const PlacedShape& placed : shapes) for_each_point(scene, *placed.shape, placed.world_from_object, visit);
+  if (reach.nearest == -1e300) visit(centre);
   // If the scene is a single point, any distance will do.
   const double size = length(half) > 0 ? length(half) : 1e-6;
-  const double distance =
-      std::max({(to_right + to_left) / (2 * across), (to_top + to_bottom) / (2 * along), nearest + size * 1e-3});
-  return centre + axes.right * ((to_right - to_left) / 2) + axes.up * ((to_top - to_bottom) / 2) +
-         axes.backward * distance;
+  return centre + reach.eye(frame, size * 1e-3);
 }
 
 Transform world_from_camera(const Vec3d& eye, const Vec3d& right, const Vec3d& up, const Vec3d& forward) {
@@ -123,6 +117,7 @@ void fit_camera(Scene& scene, double aspect) {
   const Vec3d eye = fitting_eye(scene, shapes, aspect, {right, up, backward}, scene.camera.fov);
   scene.camera.world_from_camera.start = world_from_camera(eye, right, up, -backward);
   scene.camera.world_from_camera.end = scene.camera.world_from_camera.start;
+  scene.camera.is_default = true;
 }
 
 void add_neutral_light(Scene& scene) {

@@ -251,6 +251,7 @@ struct Camera {
   double focal_distance = 1e6;
   double shutter_open = 0, shutter_close = 1;
   CameraKind kind = CameraKind::perspective;
+  bool is_default = false;  ///< the file has none; this one sees the whole scene (scene/default_view.h)
 };
 
 struct FilmSettings {

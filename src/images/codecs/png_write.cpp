@@ -3,11 +3,10 @@
 #include <png.h>
 
 #include <algorithm>
-#include <cmath>
 #include <csetjmp>
 
 #include "files/atomic_file.h"
-#include "images/display/tone_map.h"
+#include "images/display/display_row.h"
 #include "images/image.h"
 
 namespace alhazen {
@@ -88,22 +87,6 @@ class PngWriter {
   char message_[256] = {};
 };
 
-uint8_t encode(double linear) { return static_cast<uint8_t>(std::floor(255 * srgb_encode(linear) + 0.5)); }
-
-/// `channels`: positions of R, G and B in `row`.
-void encode_row(std::span<const float> row, const std::array<size_t, 3>& channels, const WriteOptions& options,
-                std::vector<uint8_t>& encoded) {
-  const size_t width = encoded.size() / 3;
-  const double factor = std::exp2(options.exposure);
-  for (size_t x = 0; x < width; ++x) {
-    Vec3d colour;
-    for (int c = 0; c < 3; ++c)
-      colour[c] = factor * static_cast<double>(row[channels[static_cast<size_t>(c)] * width + x]);
-    colour = tone_map(colour, options.tone_map);
-    for (int c = 0; c < 3; ++c) encoded[3 * x + static_cast<size_t>(c)] = encode(colour[c]);
-  }
-}
-
 }  // namespace
 
 void write_png(const std::string& path, const ImageSource& source, const WriteOptions& options) {
@@ -116,7 +99,7 @@ void write_png(const std::string& path, const ImageSource& source, const WriteOp
   std::vector<uint8_t> encoded(3 * width);
   for (int y = 0; y < source.height; ++y) {
     source.fill_row(y, row);
-    encode_row(row, channels, options, encoded);
+    encode_display_row(row, channels, options, encoded);
     writer.write_row(encoded);
   }
   writer.end();

@@ -133,7 +133,7 @@ size_t weight_count(const Document& document, const Json& node) {
 
 }  // namespace
 
-void Nodes::animate(const Json& animation, double time) {
+void Nodes::animate(const Json& animation, double time_asked, double step_time) {
   const Json& samplers = list_of(document_, animation, "samplers");
   for (const Json& channel : list_of(document_, animation, "channels").items) {
     const Json* target = document_.object(channel, "target");
@@ -142,6 +142,7 @@ void Nodes::animate(const Json& animation, double time) {
     if (!node) continue;  // for extensions
     const Sampler sampler = read_sampler(document_, accessors_, sampler_of(document_, samplers, channel));
     const std::string path = document_.string(*target, "path");
+    const double time = sampler.interpolation == "STEP" ? step_time : time_asked;
     NodePose& pose = poses_[*node];
     if (path == "weights") {
       pose.weights = sampler.at(time, weight_count(document_, document_.item("nodes", *node)), false);

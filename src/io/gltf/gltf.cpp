@@ -12,6 +12,7 @@
 #include "io/gltf/cameras_and_lights.h"
 #include "io/gltf/materials.h"
 #include "io/gltf/meshes.h"
+#include "io/gltf/motion.h"
 #include "io/gltf/nodes.h"
 #include "io/gltf/pointers.h"
 #include "io/gltf/validate.h"
@@ -27,6 +28,7 @@ namespace {
 struct Placement {
   uint32_t mesh = 0;
   Matrix4 world = identity;
+  MovingTransform motion = {};  ///< `world` while the shutter is open
   Deformation deformation;
   std::string key;   ///< equal for placements that may be instances of each other; empty: not an instance
   std::string name;  ///< of the node, or of its mesh
@@ -50,7 +52,7 @@ std::vector<std::string> animation_names(const Document& document) {
 
 /// Null if no animation is requested.
 const Json* chosen_animation(const Document& document, const ReadOptions& options) {
-  if (!options.time && options.animation.empty()) return nullptr;
+  if (!options.time && options.animation.empty() && !options.has_motion_blur()) return nullptr;
   const std::vector<std::string> names = animation_names(document);
   const size_t index = choose(document, options.animation.empty() ? "0" : options.animation, names, "animation");
   return &document.item("animations", index);
@@ -76,11 +78,13 @@ class SceneReader {
     choose_variant();
     choose_animation();
     nodes_.place();
+    if (motion_) motion_->warn_of_lights(nodes_);
     for (const uint32_t node : nodes_.drawn()) add_node(node);
     place_all();
     add_lights(document_, nodes_, scene_, nullptr);
     const bool has_camera = set_camera(document_, nodes_, options_.camera, scene_);
     if (!has_camera) fit_camera(scene_, options_.aspect);
+    if (has_camera && motion_) move_camera();
     const bool is_lit = !scene_.lights.empty() || emits_;
     scene_.film.fits_exposure = is_lit;
     // A file with a camera and lights is rendered with its own lights; otherwise it is shown as a model.
@@ -102,8 +106,24 @@ class SceneReader {
   }
 
   void choose_animation() {
-    if (const Json* animation = chosen_animation(document_, options_))
-      nodes_.animate(*animation, options_.time.value_or(0));
+    const Json* animation = chosen_animation(document_, options_);
+    if (animation == nullptr) return;
+    const double opening = options_.time.value_or(0);
+    nodes_.animate(*animation, opening);
+    if (options_.has_motion_blur())
+      motion_.emplace(document_, accessors_, *animation, opening, *options_.shutter_seconds);
+  }
+
+  void move_camera() {
+    Scene closing;
+    set_camera(document_, motion_->closing(), options_.camera, closing);
+    scene_.camera.world_from_camera.end = closing.camera.world_from_camera.start;
+  }
+
+  void warn_of_deformation(const Json& where, const char* what) const {
+    document_.warn(where, std::string(what) +
+                              " move while the shutter is open: the mesh is rendered in the shape that it has when the "
+                              "shutter opens, without motion blur of its own");
   }
 
   const std::vector<Json>& primitives(uint32_t mesh) const {
@@ -115,8 +135,8 @@ class SceneReader {
     return list->items;
   }
 
-  std::vector<double> weights(uint32_t node, uint32_t mesh) const {
-    if (!nodes_.pose(node).weights.empty()) return nodes_.pose(node).weights;
+  std::vector<double> weights(const Nodes& nodes, uint32_t node, uint32_t mesh) const {
+    if (!nodes.pose(node).weights.empty()) return nodes.pose(node).weights;
     const Json& description = document_.item("meshes", mesh);
     const Json* list = document_.list(description, "weights");
     return list == nullptr ? std::vector<double>{} : document_.numbers(description, "weights", list->items.size());
@@ -131,11 +151,15 @@ class SceneReader {
     placement.name = document_.string(description, "name");
     if (placement.name.empty()) placement.name = document_.string(document_.item("meshes", *mesh), "name");
     if (placement.name.empty()) placement.name = "node." + std::to_string(node);
-    placement.deformation.weights = weights(node, *mesh);
+    placement.deformation.weights = weights(nodes_, node, *mesh);
+    if (motion_ && placement.deformation.weights != weights(motion_->closing(), node, *mesh))
+      warn_of_deformation(description, "morph targets");
     const auto skin = document_.index(description, "skin", "skins");
     if (skin) {
       // A skinned mesh is placed by its joints, wherever its own node is.
       placement.deformation.joints = nodes_.joints(*skin);
+      if (motion_ && placement.deformation.joints != motion_->closing().joints(*skin))
+        warn_of_deformation(description, "joints of a skin");
       placements_.push_back(placement);
       return;
     }
@@ -149,16 +173,20 @@ class SceneReader {
         placement.name = name + "." + std::to_string(++number);
         placement.world = multiply(nodes_.world(node), local);
         check_transform(document_, *instancing, placement.world);
-        add_placement(placement);
+        add_placement(placement, node, local);
       }
       return;
     }
     placement.world = nodes_.world(node);
-    add_placement(placement);
+    add_placement(placement, node, identity);
   }
 
-  void add_placement(Placement placement) {
-    if (!is_invertible(placement.world)) {
+  void add_placement(Placement placement, uint32_t node, const Matrix4& local) {
+    if (is_invertible(placement.world)) {
+      const Transform world(placement.world);
+      placement.motion = motion_ ? motion_->of_mesh(node, placement.world, local, document_.item("nodes", node))
+                                 : MovingTransform{world, world};
+    } else {
       placement.deformation.baked = placement.world;
       placement.world = identity;
       placement.key.clear();
@@ -232,11 +260,10 @@ class SceneReader {
     std::map<std::string, uint32_t> groups;
     for (const Placement& placement : placements_) {
       const bool is_repeated = !placement.key.empty() && uses_[placement.key] > 1;
-      const Transform world(placement.world);
       if (is_repeated) {
         const auto entry = groups.find(placement.key);
         if (entry != groups.end()) {
-          add_instance(entry->second, world, placement);
+          add_instance(entry->second, placement);
           continue;
         }
       }
@@ -247,22 +274,22 @@ class SceneReader {
         const auto group = static_cast<uint32_t>(scene_.groups.size());
         groups[placement.key] = group;
         scene_.groups.push_back({document_.string(document_.item("meshes", placement.mesh), "name"), placed});
-        add_instance(group, world, placement);
+        add_instance(group, placement);
         continue;
       }
       for (Shape& shape : placed) {
         shape.name = placement.name;
-        shape.world_from_object = {world, world};
+        shape.world_from_object = placement.motion;
         scene_.groups[0].shapes.push_back(std::move(shape));
       }
     }
   }
 
-  void add_instance(uint32_t group, const Transform& world, const Placement& placement) {
+  void add_instance(uint32_t group, const Placement& placement) {
     Instance instance;
     instance.group = group;
     instance.name = placement.name;
-    instance.world_from_group = {world, world};
+    instance.world_from_group = placement.motion;
     instance.where = document_.place(document_.item("meshes", placement.mesh));
     scene_.instances.push_back(instance);
   }
@@ -276,11 +303,27 @@ class SceneReader {
   Materials materials_{document_, textures_, scene_};
   Meshes meshes_{document_, buffers_, accessors_, scene_};
   Nodes nodes_;
+  std::optional<Motion> motion_;  ///< if the shutter stays open
   std::vector<Placement> placements_;
   std::map<std::string, size_t> uses_;
   std::optional<size_t> variant_;
   bool emits_ = false;
 };
+
+/// Values that pointers animate are rendered as they are when the shutter opens.
+void set_pointed_values(Document& document, const Json& animation, const ReadOptions& options) {
+  const double opening = options.time.value_or(0);
+  const std::vector<PointedValue> values = pointed_values(document, animation, opening);
+  if (options.has_motion_blur()) {
+    const std::vector<PointedValue> later = pointed_values(document, animation, opening + *options.shutter_seconds);
+    for (size_t i = 0; i < values.size(); ++i)
+      if (values[i].numbers != later[i].numbers)
+        document.warn(*values[i].channel,
+                      "KHR_animation_pointer changes values while the shutter is open: they are rendered as they are "
+                      "when it opens, without motion blur");
+  }
+  write_pointed_values(document, values);
+}
 
 std::string folder_of(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
@@ -300,7 +343,7 @@ Scene parse_gltf(std::span<const uint8_t> bytes, const InputPath& path, const st
     gltf::check_extensions(document);
     gltf::validate(document);
     if (const gltf::Json* animation = gltf::chosen_animation(document, options))
-      gltf::write_pointed_values(document, gltf::pointed_values(document, *animation, options.time.value_or(0)));
+      gltf::set_pointed_values(document, *animation, options);
     return gltf::SceneReader(document, options).run();
   } catch (const std::bad_alloc&) {
     throw InputError({path.name}, "the scene is too large for the memory of this machine");
@@ -330,6 +373,63 @@ std::vector<uint8_t> read_main_file(const InputPath& path) {
 
 Scene read_gltf(const InputPath& path, const ReadOptions& options, Diagnostics& diagnostics) {
   return parse_gltf(gltf::read_main_file(path), path, gltf::folder_of(path.name), options, diagnostics);
+}
+
+namespace gltf {
+
+namespace {
+
+/// Returns whether the animation moves nothing that is drawn, or that deforms what is drawn.
+bool moves_only_camera(const Document& document, const Json& animation, const Nodes& nodes) {
+  std::vector<bool> is_moved(nodes.size());
+  const Json* channels = document.list(animation, "channels");
+  for (const Json& channel : channels == nullptr ? std::vector<Json>{} : channels->items) {
+    const Json* target = document.object(channel, "target");
+    const auto node = target == nullptr ? std::nullopt : document.index(*target, "node", "nodes");
+    if (!node) return false;
+    is_moved[*node] = true;
+  }
+  // Parents come before their children.
+  for (const uint32_t node : nodes.of_scene()) {
+    const Json& description = document.item("nodes", node);
+    if (const Json* children = document.list(description, "children"); is_moved[node] && children != nullptr)
+      for (const Json& child : children->items) is_moved[document.as_index(child, "nodes")] = true;
+    const bool is_seen =
+        description.find("mesh") != nullptr || document.extension(description, "KHR_lights_punctual") != nullptr;
+    if (is_moved[node] && is_seen) return false;
+  }
+  for (const Json& skin : document.array("skins"))
+    if (const Json* joints = document.list(skin, "joints"))
+      for (const Json& joint : joints->items)
+        if (is_moved[document.as_index(joint, "nodes")]) return false;
+  return std::find(is_moved.begin(), is_moved.end(), true) != is_moved.end();
+}
+
+}  // namespace
+
+}  // namespace gltf
+
+std::vector<Camera> read_gltf_camera_path(const InputPath& path, const ReadOptions& options,
+                                          const std::vector<double>& times) {
+  Diagnostics ignored;  // whoever reads the scene warns
+  const std::vector<uint8_t> bytes = gltf::read_main_file(path);
+  const gltf::Document document(bytes, path, gltf::folder_of(path.name), ignored);
+  gltf::validate(document);
+  const gltf::Json* animation = gltf::chosen_animation(document, options);
+  gltf::Buffers buffers(document);
+  gltf::Accessors accessors(document, buffers);
+  const gltf::Nodes at_rest(document, accessors);
+  if (animation == nullptr || !gltf::moves_only_camera(document, *animation, at_rest)) return {};
+  std::vector<Camera> cameras;
+  for (const double time : times) {
+    gltf::Nodes nodes = at_rest;
+    nodes.animate(*animation, time);
+    nodes.place();
+    Scene scene;
+    if (!gltf::set_camera(document, nodes, options.camera, scene)) return {};
+    cameras.push_back(scene.camera);
+  }
+  return cameras;
 }
 
 SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics) {

@@ -27,8 +27,10 @@ class Nodes {
   /// Reads all nodes and checks that they form trees.
   Nodes(const Document& document, Accessors& accessors);
 
-  /// Sets nodes to their state in animation `animation` at `time` seconds; time is clamped to the animation.
-  void animate(const Json& animation, double time);
+  /// Sets nodes to their state in animation `animation` at `time` seconds; time is clamped to the animation. What moves
+  /// in steps is set to its state at `step_time`.
+  void animate(const Json& animation, double time, double step_time);
+  void animate(const Json& animation, double time) { animate(animation, time, time); }
   /// To be called once after the poses are final.
   void place();
 

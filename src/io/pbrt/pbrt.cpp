@@ -29,4 +29,8 @@ Scene parse_pbrt(const std::string& text, const std::string& name, const std::st
   return parse({name, {}, text}, folder, {}, diagnostics);
 }
 
+Scene parse_pbrt(const std::string& text, const std::string& name, const InputScope& scope, Diagnostics& diagnostics) {
+  return parse({name, {}, text}, "", scope, diagnostics);
+}
+
 }  // namespace alhazen

@@ -16,5 +16,7 @@ Scene read_pbrt(const InputPath& path, Diagnostics& diagnostics);
 
 /// The same for a text in memory. `name` replaces the file in messages; includes are looked up in `folder`.
 Scene parse_pbrt(const std::string& text, const std::string& name, const std::string& folder, Diagnostics& diagnostics);
+/// The same in the working folder; the files that the text names are opened in `scope`.
+Scene parse_pbrt(const std::string& text, const std::string& name, const InputScope& scope, Diagnostics& diagnostics);
 
 }  // namespace alhazen
