@@ -7,6 +7,7 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <half.h>
 
@@ -75,6 +76,7 @@ Imf::Header make_header(const ImageSource& source, const std::vector<ExrPlane>& 
   Imf::Header header(Imath::Box2i({0, 0}, {full_width - 1, full_height - 1}), data_window(source, options));
   header.compression() = Imf::ZIP_COMPRESSION;
   for (const ExrPlane& plane : planes) header.channels().insert(plane.channel, Imf::Channel(plane.type));
+  Imf::addChromaticities(header, Imf::Chromaticities());  // those of sRGB
   for (const auto& [name, text] : options.metadata) header.insert(name, Imf::StringAttribute(text));
   return header;
 }

@@ -1,4 +1,4 @@
-// Writes 8-bit PNG by libpng.
+// Writes PNG of 8 or 16 bits by libpng.
 
 #include <png.h>
 
@@ -7,8 +7,9 @@
 #include <csetjmp>
 
 #include "files/atomic_file.h"
-#include "images/display/tone_map.h"
+#include "images/display/display_transform.h"
 #include "images/image.h"
+#include "util/printable.h"
 
 namespace alhazen {
 
@@ -18,16 +19,45 @@ namespace {
 /// destructor in its frame; no C++ exception passes through libpng's frames.
 class PngWriter {
  public:
-  PngWriter(const std::string& path, AtomicFile& file) : path_(path), file_(file) {}
+  PngWriter(const std::string& path, AtomicFile& file, const WriteOptions& options)
+      : path_(path), file_(file), depth_(options.png_depth) {
+    for (const auto& [name, text] : options.metadata) add_text(name == "software" ? "Software" : name, text);
+    for (const auto& [keyword, text] : texts_) chunks_.push_back(text_chunk(keyword, text));
+  }
   ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
   PngWriter(const PngWriter&) = delete;
   PngWriter& operator=(const PngWriter&) = delete;
 
   void begin(int width, int height) { require(try_begin(width, height)); }
-  void write_row(const std::vector<uint8_t>& row) { require(try_write_row(row.data())); }
+  /// `row`: three values of each pixel.
+  void write_row(std::span<const uint16_t> row) {
+    const size_t size = depth_ == 16 ? 2 : 1;
+    bytes_.resize(size * row.size());
+    for (size_t i = 0; i < row.size(); ++i) {
+      if (depth_ == 16) bytes_[2 * i] = static_cast<uint8_t>(row[i] >> 8);  // the high byte comes first
+      bytes_[size * i + size - 1] = static_cast<uint8_t>(row[i]);
+    }
+    require(try_write_row(bytes_.data()));
+  }
   void end() { require(try_end()); }
 
  private:
+  /// PNG has keywords of at most 79 bytes. How long the render took stays out: equal images are equal files.
+  void add_text(const std::string& name, const std::string& text) {
+    if (name != "seconds") texts_.emplace_back(name.substr(0, 79), printable(text));
+  }
+
+  /// UTF-8, without compression.
+  static png_text text_chunk(const std::string& keyword, const std::string& text) {
+    png_text chunk{};
+    chunk.compression = PNG_ITXT_COMPRESSION_NONE;
+    chunk.key = const_cast<char*>(keyword.c_str());  // libpng copies all of it
+    chunk.text = const_cast<char*>(text.c_str());
+    chunk.itxt_length = text.size();
+    chunk.lang = chunk.lang_key = nullptr;
+    return chunk;
+  }
+
   bool try_begin(int width, int height) {
     png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
     if (png_ == nullptr) return false;
@@ -36,9 +66,10 @@ class PngWriter {
     if (info_ == nullptr) return false;
     png_set_write_fn(png_, this, on_write, on_flush);
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-    png_set_IHDR(png_, info_, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_set_IHDR(png_, info_, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), depth_,
+                 PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB_gAMA_and_cHRM(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_set_text(png_, info_, chunks_.data(), static_cast<int>(chunks_.size()));
     png_write_info(png_, info_);
     return true;
   }
@@ -83,40 +114,29 @@ class PngWriter {
 
   const std::string& path_;
   AtomicFile& file_;
+  int depth_;
+  std::vector<std::pair<std::string, std::string>> texts_;
+  std::vector<png_text> chunks_;
+  std::vector<uint8_t> bytes_;
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
   char message_[256] = {};
 };
-
-uint8_t encode(double linear) { return static_cast<uint8_t>(std::floor(255 * srgb_encode(linear) + 0.5)); }
-
-/// `channels`: positions of R, G and B in `row`.
-void encode_row(std::span<const float> row, const std::array<size_t, 3>& channels, const WriteOptions& options,
-                std::vector<uint8_t>& encoded) {
-  const size_t width = encoded.size() / 3;
-  const double factor = std::exp2(options.exposure);
-  for (size_t x = 0; x < width; ++x) {
-    Vec3d colour;
-    for (int c = 0; c < 3; ++c)
-      colour[c] = factor * static_cast<double>(row[channels[static_cast<size_t>(c)] * width + x]);
-    colour = tone_map(colour, options.tone_map);
-    for (int c = 0; c < 3; ++c) encoded[3 * x + static_cast<size_t>(c)] = encode(colour[c]);
-  }
-}
 
 }  // namespace
 
 void write_png(const std::string& path, const ImageSource& source, const WriteOptions& options) {
   const std::array<size_t, 3> channels = rgb_channels(path, source);
   AtomicFile file(path);
-  PngWriter writer(path, file);
+  PngWriter writer(path, file, options);
   writer.begin(source.width, source.height);
+  const DisplayTransform display(options);
   const size_t width = static_cast<size_t>(source.width);
   std::vector<float> row(source.channels.size() * width);
-  std::vector<uint8_t> encoded(3 * width);
+  std::vector<uint16_t> encoded(3 * width);
   for (int y = 0; y < source.height; ++y) {
     source.fill_row(y, row);
-    encode_row(row, channels, options, encoded);
+    display.encode_row(row, channels, options.png_depth == 16 ? 65535 : 255, encoded);
     writer.write_row(encoded);
   }
   writer.end();
