@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
-#include <optional>
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/display_options.h"
 #include "cli/interrupt.h"
 #include "cli/listing.h"
 #include "cli/progress.h"
@@ -32,25 +31,17 @@ struct RenderOptions {
   std::string scene;
   Settings settings;
   OutputOptions output;
-  std::string tone_map, exr_type;  ///< empty: none and half
+  DisplayOptions display;
+  std::string exr_type;  ///< empty: half
   std::string progress = "auto", stats, config;
   bool quiet = false, verbose = false, list = false;
-  std::optional<double> exposure;  ///< absent: may be chosen by the image's brightness
 };
 
 void parse_output_options(RenderOptions& o) {
-  if (o.exposure) o.output.how.exposure = *o.exposure;
-  if (!std::isfinite(o.output.how.exposure)) throw InputError("--exposure must be a finite number of stops");
+  parse_display_options(o.display, o.output, o.settings);
   if (!o.exr_type.empty() && o.exr_type != "half" && o.exr_type != "float")
     throw InputError("unknown pixel type '" + o.exr_type + "': it may be half, float");
   o.output.how.pixel_type = o.exr_type == "float" ? ExrPixelType::single : ExrPixelType::half;
-  if (!o.tone_map.empty() && o.tone_map != "none" && o.tone_map != "reinhard" && o.tone_map != "filmic")
-    throw InputError("unknown tone map '" + o.tone_map + "': it may be none, reinhard, filmic");
-  o.output.how.tone_map = o.tone_map == "reinhard" ? ToneMap::reinhard
-                          : o.tone_map == "filmic" ? ToneMap::filmic
-                                                   : ToneMap::none;
-  o.settings.noise_exposure = o.exposure;
-  o.settings.noise_tone_map = o.tone_map;
   if (!o.stats.empty() && o.stats != "text" && o.stats != "json")
     throw InputError("unknown statistics '" + o.stats + "': it may be text, json");
 }
@@ -67,10 +58,7 @@ void warn_of_options_without_effect(const RenderOptions& o, const RenderSettings
   if (!writes("exr") && !settings.asked.aovs.empty() && settings.denoiser.empty() && settings.asked.checkpoint.empty())
     warn("aov", "only EXR has layers; give -o FILE.exr as well");
   if (!writes("exr") && !o.exr_type.empty()) warn("exr-type", "no EXR is written");
-  const bool is_seen = writes("png") || settings.noise_curve;
-  if (!is_seen && o.exposure) warn("exposure", "it is for PNG, and the other formats keep the radiance as it is");
-  if (!is_seen && !o.tone_map.empty())
-    warn("tone-map", "it is for PNG, and the other formats keep the radiance as it is");
+  warn_of_display_options(o.display, o.output.paths, settings.noise_curve.has_value(), warn);
   if (settings.backend == "serial" && settings.asked.threads > 1)
     warn("threads", "the backend 'serial' takes samples on one; give --backend openmp for more");
 }
@@ -164,8 +152,7 @@ void print_end(const RenderOptions& options, const OutputReport& outputs, const 
       line += fmt::format("; denoised with {} in {}", statistics.denoiser, format_seconds(statistics.denoise_seconds));
     for (const std::string& path : outputs.written)
       line += (&path == &outputs.written[0] ? "; wrote " : ", ") + printable(path);
-    if (!options.exposure && options.output.how.exposure < 0)
-      line += fmt::format("; PNG with --exposure {}", options.output.how.exposure);
+    if (statistics.display) tell("{}", display_lines(*statistics.display));
     tell("{}\n", line);
   }
   if (options.stats == "json") print_out("{}\n", statistics.to_json());
@@ -173,11 +160,11 @@ void print_end(const RenderOptions& options, const OutputReport& outputs, const 
 }
 
 /// Writes the images and reports the result. An image without samples is not written, since an older one is better.
-int finish(RenderOptions& options, const Rendering& rendering, bool fits_exposure) {
+int finish(RenderOptions& options, Rendering& rendering) {
   const bool is_empty = !rendering.has_samples();
-  const auto is_png = [](const std::string& path) { return extension_of(path) == "png"; };
-  if (fits_exposure && std::any_of(options.output.paths.begin(), options.output.paths.end(), is_png))
-    options.output.how.exposure = fitting_exposure(rendering.source());
+  const std::vector<std::string>& paths = options.output.paths;
+  if (!is_empty && std::any_of(paths.begin(), paths.end(), is_displayed_format))
+    rendering.statistics.display = choose_display(rendering, options.output.display, options.output.how);
   const OutputReport outputs = is_empty ? OutputReport{} : write_outputs(options.output, rendering);
   print_end(options, outputs, rendering.statistics);
   if (!outputs.failures.empty()) return exit_failed;
@@ -204,11 +191,13 @@ int run(RenderOptions& options) {
   Scene& scene = loaded.scene;
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene, diagnostics);
+  check_sizes(options.output.paths, settings.window);
   warn_of_options_without_effect(options, settings, diagnostics);
   check_files(options.output.paths, options.settings.checkpoint,
               {{options.scene, "the scene"}, {options.settings.environment, "the environment map"}}, *loaded.inputs);
 
-  const bool fits_exposure = scene.film.fits_exposure && !options.exposure;
+  if (scene.film.fits_exposure && options.display.exposure.empty())
+    options.output.display.exposure = ExposureRule::fitting;
   WarningPrinter warnings(diagnostics, printer);
   RenderEvents events;
   events.progress = [&](const Progress& progress) {
@@ -222,10 +211,10 @@ int run(RenderOptions& options) {
     if (options.verbose) print_start(statistics);
   };
   events.warned = [&] { warnings.show(); };
-  const Rendering rendering = render_scene(std::move(scene), settings, loaded.seconds, events, diagnostics);
+  Rendering rendering = render_scene(std::move(scene), settings, loaded.seconds, events, diagnostics);
   printer.finish();
   warnings.show();
-  return finish(options, rendering, fits_exposure);
+  return finish(options, rendering);
 }
 
 void add_output_options(Command& command, RenderOptions& o, const char* group) {
@@ -237,8 +226,7 @@ void add_output_options(Command& command, RenderOptions& o, const char* group) {
       .value_name("FILE")
       .group(group);
   command.add_option("--exr-type", o.exr_type, "half or float").value_name("NAME").group(group);
-  command.add_option("--exposure", o.exposure, "PNG: brightness; a stop doubles it").value_name("STOPS").group(group);
-  command.add_option("--tone-map", o.tone_map, "PNG: none, reinhard or filmic").value_name("NAME").group(group);
+  add_display_options(command, o.display, group);
 }
 
 void add_running_options(Command& command, RenderOptions& o, const char* group) {
