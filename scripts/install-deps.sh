@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build
-  libopenexr-dev libpng-dev zlib1g-dev libstb-dev
+  libopenexr-dev libpng-dev libjpeg-dev zlib1g-dev libstb-dev
   nlohmann-json3-dev libcli11-dev libfmt-dev
   libdraco-dev libmeshoptimizer-dev libwebp-dev
 )
@@ -15,8 +15,8 @@ fi
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
   echo "install-deps: this is not Debian or Ubuntu. Install these yourself, under the names they have here: a C++20" \
-    "compiler with OpenMP (GCC 12 or later), CMake 3.25, Ninja, OpenEXR 3, libpng, zlib, stb, nlohmann-json, CLI11," \
-    "fmt, Embree, Draco, meshoptimizer and libwebp where they are wanted; for the tests GoogleTest, Google Benchmark, clang-format and Python 3 with matplotlib." >&2
+    "compiler with OpenMP (GCC 12 or later), CMake 3.25, Ninja, OpenEXR 3, libpng, libjpeg, zlib, stb, nlohmann-json," \
+    "CLI11, fmt, Embree, Draco, meshoptimizer and libwebp where they are wanted; for the tests GoogleTest, Google Benchmark, clang-format and Python 3 with matplotlib." >&2
   exit 1
 fi
 

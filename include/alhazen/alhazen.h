@@ -60,11 +60,13 @@ struct Settings {
   /// most 1; 0: none. docs/noise.md says how the error is estimated.
   double noise = 0;
   /// What the noise target is of: relative (to the pixel's luminance; the default), or display: of the sRGB value from
-  /// 0 to 1 that is shown at the exposure `noise_exposure` in stops, by the tone map `noise_tone_map` (none, reinhard
-  /// or filmic; empty: none). Without an exposure it is 0, or, for a glTF file with lights, the one by which its image
-  /// so far is not overexposed. none, with `noise` 0: no target, also if `quality` has one.
+  /// 0 to 1 that is shown at the exposure `noise_exposure` in stops, by the tone map `noise_tone_map` (none, reinhard,
+  /// filmic, aces or agx; empty: none). Without an exposure it is 0, or, for a glTF file with lights, the one by which
+  /// its image so far is not overexposed. none, with `noise` 0: no target, also if `quality` has one.
   std::string noise_measure;
   std::optional<double> noise_exposure;
+  /// In the place of `noise_exposure`: the exposure is metered from the image so far, as by `--exposure auto`.
+  bool noise_auto_exposure = false;
   std::string noise_tone_map;
   /// Path guiding, for the integrator path: off, on, or auto to stop it where it does not pay; empty: off.
   /// docs/guiding.md says what it is good for.

@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
-#include <optional>
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/display_options.h"
 #include "cli/frames.h"
 #include "cli/interrupt.h"
 #include "cli/listing.h"
@@ -64,16 +63,8 @@ void parse_exr_options(RenderOptions& o) {
 }
 
 void parse_output_options(RenderOptions& o) {
-  if (o.exposure) o.output.how.exposure = *o.exposure;
-  if (!std::isfinite(o.output.how.exposure)) throw InputError("--exposure must be a finite number of stops");
+  parse_display_options(o.display, o.output, o.settings);
   parse_exr_options(o);
-  if (!o.tone_map.empty() && o.tone_map != "none" && o.tone_map != "reinhard" && o.tone_map != "filmic")
-    throw InputError("unknown tone map '" + o.tone_map + "': it may be none, reinhard, filmic");
-  o.output.how.tone_map = o.tone_map == "reinhard" ? ToneMap::reinhard
-                          : o.tone_map == "filmic" ? ToneMap::filmic
-                                                   : ToneMap::none;
-  o.settings.noise_exposure = o.exposure;
-  o.settings.noise_tone_map = o.tone_map;
   if (!o.stats.empty() && o.stats != "text" && o.stats != "json")
     throw InputError("unknown statistics '" + o.stats + "': it may be text, json");
 }
@@ -99,10 +90,7 @@ void warn_of_options_without_effect(const RenderOptions& o, const RenderSettings
     if (is_given && !writes("exr")) warn(option, "no EXR is written");
   if (settings.asked.transparent_glass && !settings.has_alpha && !settings.aovs.alpha)
     warn("transparent-glass", "the background is not transparent; give --transparent-background as well");
-  const bool is_seen = writes("png") || settings.noise_curve;
-  if (!is_seen && o.exposure) warn("exposure", "it is for PNG, and the other formats keep the radiance as it is");
-  if (!is_seen && !o.tone_map.empty())
-    warn("tone-map", "it is for PNG, and the other formats keep the radiance as it is");
+  warn_of_display_options(o.display, o.output.paths, settings.noise_curve.has_value(), warn);
   if (settings.backend == "serial" && settings.asked.threads > 1)
     warn("threads", "the backend 'serial' takes samples on one; give --backend openmp for more");
 }
@@ -194,8 +182,7 @@ void print_end(const RenderOptions& options, const OutputReport& outputs, const 
     for (const std::string& path : outputs.written)
       line += (&path == &outputs.written[0] ? "; wrote " : ", ") +
               (path == standard_output_name ? "standard output" : printable(path));
-    if (!options.exposure && options.output.how.exposure < 0)
-      line += fmt::format("; PNG with --exposure {}", options.output.how.exposure);
+    if (statistics.display) tell("{}", display_lines(*statistics.display));
     tell("{}\n", line);
   }
   const std::string json = options.stats == "json" ? statistics.to_json() : "";
@@ -207,11 +194,11 @@ void print_end(const RenderOptions& options, const OutputReport& outputs, const 
 namespace {
 
 /// Writes the images and reports the result. An image without samples is not written, since an older one is better.
-int finish(RenderOptions& options, const Rendering& rendering, bool fits_exposure) {
+int finish(RenderOptions& options, Rendering& rendering) {
   const bool is_empty = !rendering.has_samples();
-  const auto is_png = [](const std::string& path) { return extension_of(path) == "png"; };
-  if (fits_exposure && std::any_of(options.output.paths.begin(), options.output.paths.end(), is_png))
-    options.output.how.exposure = fitting_exposure(rendering.source());
+  const std::vector<std::string>& paths = options.output.paths;
+  if (!is_empty && std::any_of(paths.begin(), paths.end(), is_displayed_format))
+    rendering.statistics.display = choose_display(rendering, options.output.display, options.output.how);
   const OutputReport outputs = is_empty ? OutputReport{} : write_outputs(options.output, rendering);
   print_end(options, outputs, rendering.statistics);
   if (!outputs.failures.empty()) return exit_failed;
@@ -268,13 +255,15 @@ int run(RenderOptions& options) {
   Scene& scene = loaded.scene;
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene, diagnostics);
+  check_sizes(options.output.paths, settings.window);
   warn_of_options_without_effect(options, settings, diagnostics);
   warn_of_patterns(options, diagnostics);
   const std::string scene_file = options.scene == standard_input_name ? "" : options.scene;
   check_files(options.output.paths, options.settings.checkpoint,
               {{scene_file, "the scene"}, {options.settings.environment, "the environment map"}}, *loaded.inputs);
 
-  const bool fits_exposure = scene.film.fits_exposure && !options.exposure;
+  if (scene.film.fits_exposure && options.display.exposure.empty())
+    options.output.display.exposure = ExposureRule::fitting;
   WarningPrinter warnings(diagnostics, printer);
   RenderEvents events;
   events.progress = [&](const Progress& progress) {
@@ -288,10 +277,10 @@ int run(RenderOptions& options) {
     if (options.verbose) print_start(statistics);
   };
   events.warned = [&] { warnings.show(); };
-  const Rendering rendering = render_scene(std::move(scene), settings, loaded.seconds, events, diagnostics);
+  Rendering rendering = render_scene(std::move(scene), settings, loaded.seconds, events, diagnostics);
   printer.finish();
   warnings.show();
-  return finish(options, rendering, fits_exposure);
+  return finish(options, rendering);
 }
 
 void add_output_options(Command& command, RenderOptions& o, const char* group) {
@@ -317,14 +306,7 @@ void add_output_options(Command& command, RenderOptions& o, const char* group) {
   command.add_option("--exr-tiles", o.output.how.tile_size, "EXR: write tiles with sides of this many pixels")
       .value_name("N")
       .group(group);
-  command.add_option("--exposure", o.exposure, "PNG: brightness; a stop doubles it")
-      .value_name("STOPS")
-      .group(group)
-      .common();
-  command.add_option("--tone-map", o.tone_map, "PNG: none, reinhard or filmic")
-      .value_name("NAME")
-      .group(group)
-      .common();
+  add_display_options(command, o.display, group);
 }
 
 void add_animation_options(Command& command, RenderOptions& o, const char* group) {

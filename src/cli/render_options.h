@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/display_options.h"
 #include "cli/progress.h"
 #include "pipeline/write_outputs.h"
 
@@ -14,13 +15,13 @@ struct RenderOptions {
   std::string scene;
   Settings settings;
   OutputOptions output;
-  std::string tone_map, exr_type, exr_compression;  ///< empty: none, half and zip
-  std::string format;              ///< of standard output; empty: png
-  std::string frames;              ///< a range; empty: one image, or with a turntable all frames
-  int64_t turntable = 0;           ///< frames of a turn; 0: none
+  DisplayOptions display;
+  std::string exr_type, exr_compression;  ///< empty: half and zip
+  std::string format;                     ///< of standard output; empty: png
+  std::string frames;                     ///< a range; empty: one image, or with a turntable all frames
+  int64_t turntable = 0;                  ///< frames of a turn; 0: none
   std::string progress = "auto", stats, config;
   bool quiet = false, verbose = false, list = false;
-  std::optional<double> exposure;  ///< absent: may be chosen by the image's brightness
 
   bool is_sequence() const { return !frames.empty() || turntable != 0; }
 };

@@ -15,7 +15,7 @@
 #include "cli/interrupt.h"
 #include "cli/subcommands.h"
 #include "cli/video.h"
-#include "images/display/display_row.h"
+#include "images/display/display_bytes.h"
 #include "io/read_scene.h"
 #include "pipeline/load_scene.h"
 #include "render/setting_table.h"
@@ -107,7 +107,7 @@ RenderSettings preview_of(const RenderSettings& settings) {
   small.samples_per_pixel = 16;
   small.asked.noise = 0;
   small.noise_curve.reset();
-  small.noise_fits_exposure = false;
+  small.noise_exposure = ExposureRule::given;
   small.asked.time_limit = 0;
   small.aovs = {};
   small.denoiser.clear();
@@ -194,7 +194,7 @@ class Sequence {
         for (Camera& camera : cameras_) camera = placed_camera(settings, camera, loaded.scene);
         loaded.scene.camera = first;
         compile(std::move(loaded), settings);
-      } else if (!options_.exposure && has_display()) {
+      } else if (has_display() && may_choose_display()) {
         fit_exposure_by_frame_0();
       }
     }
@@ -202,12 +202,22 @@ class Sequence {
       diagnostics_.warn({}, "the camera is at rest while the shutter is open: its motion is not blurred");
   }
 
-  bool has_png() const {
+  template <class Is>
+  bool writes(const Is& is) const {
     const std::vector<std::string> paths = plan_.paths_of(plan_.frames.front());
-    return std::any_of(paths.begin(), paths.end(), [](const std::string& path) { return extension_of(path) == "png"; });
+    return std::any_of(paths.begin(), paths.end(), is);
   }
-  /// Whether anything is written in 8 bits.
-  bool has_display() const { return has_png() || !plan_.videos.empty(); }
+  bool has_png() const {
+    return writes([](const std::string& path) { return extension_of(path) == "png"; });
+  }
+  /// Whether anything is written as displays show it.
+  bool has_display() const { return writes(is_displayed_format) || !plan_.videos.empty(); }
+
+  /// Whether the exposure or the white balance may be left to the image, before the scene is known.
+  bool may_choose_display() const {
+    const DisplayChoice& choice = options_.output.display;
+    return options_.display.exposure.empty() || choice.exposure != ExposureRule::given || choice.estimates_white;
+  }
 
   /// No frame may replace a file that the scene is read from.
   void check_outputs(int64_t frame) const {
@@ -227,24 +237,30 @@ class Sequence {
     described.output.paths = plan_.paths_of(plan_.frames.front());
     if (!plan_.videos.empty()) described.output.paths.push_back("video.png");  // options for PNG are for videos too
     warn_of_options_without_effect(described, resolved, diagnostics_);
-    fits_exposure_ =
-        resolved.noise_fits_exposure || (loaded.scene.film.fits_exposure && !options_.exposure && has_display());
+    DisplayChoice& choice = options_.output.display;
+    if (loaded.scene.film.fits_exposure && options_.display.exposure.empty()) choice.exposure = ExposureRule::fitting;
+    fits_exposure_ = resolved.noise_exposure != ExposureRule::given ||
+                     (has_display() && (choice.exposure != ExposureRule::given || choice.estimates_white));
     return resolved;
   }
 
-  /// Every frame has the exposure that the first frame of the whole turn or animation would get, frame 0.
+  /// Every frame has the exposure and white balance that the first frame of the whole turn or animation would get,
+  /// frame 0.
   void choose_exposure(SceneRenderer& renderer, const Camera* camera, const RenderSettings& settings) {
     const RenderSettings small = preview_of(settings);
     RenderEvents silent;
     silent.progress = [](const Progress&) { return !is_interrupted(); };
     const Rendering preview = renderer.render(silent, camera, &small);
-    if (preview.has_samples()) options_.output.how.exposure = fitting_exposure(preview.source());
+    if (!preview.has_samples()) return;
+    DisplayChoice choice = std::exchange(options_.output.display, {});
+    if (choice.exposure == ExposureRule::given) choice.exposure = settings.noise_exposure;
+    choose_display(preview, choice, options_.output.how);
   }
 
   void use_exposure(RenderSettings& settings) const {
-    if (!fits_exposure_ || !settings.noise_fits_exposure) return;
+    if (!fits_exposure_ || settings.noise_exposure == ExposureRule::given) return;
     settings.noise_curve->scale = portable_exp2(options_.output.how.exposure);
-    settings.noise_fits_exposure = false;
+    settings.noise_exposure = ExposureRule::given;
   }
 
   void compile(LoadedScene loaded, const Settings& settings) {
@@ -367,7 +383,7 @@ class Sequence {
   std::vector<Camera> cameras_;              ///< of plan_.frames; empty: each frame reads the scene
   std::unique_ptr<SceneRenderer> renderer_;  ///< if there are cameras; refers to settings_
   bool is_started_ = false, is_prepared_ = false;
-  bool fits_exposure_ = false;  ///< frames are darkened alike
+  bool fits_exposure_ = false;  ///< the first frame decides how all are displayed
   std::vector<std::unique_ptr<VideoWriter>> videos_;
   size_t frames_of_videos_ = 0;
 };

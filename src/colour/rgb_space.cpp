@@ -103,6 +103,13 @@ SrgbFromPrimaries::SrgbFromPrimaries(const Chromaticities& chromaticities) {
       if (!(std::abs(factor) <= 1e6)) throw InputError("its chromaticities do not define a colour space");
 }
 
+Vec3d srgb_to_xyz(Vec3d rgb) { return multiply(xyz_from_rgb(srgb.chromaticities), rgb); }
+
+std::array<Vec3d, 3> srgb_adaptation(const Vec2d& from, const Vec2d& to) {
+  return multiply(srgb_from_xyz,
+                  multiply(adaptation(xyz_of(from) / from.y, xyz_of(to) / to.y), xyz_from_rgb(srgb.chromaticities)));
+}
+
 Vec3d xyz_to_srgb(Vec3d xyz) { return multiply(srgb_from_xyz, xyz); }
 
 bool is_rgb_space(const std::string& name) {

@@ -11,6 +11,11 @@ namespace alhazen {
 
 /// Converts CIE XYZ to linear sRGB; Y = 1 with the chromaticity of D65 is (1, 1, 1). Out-of-gamut colours are negative.
 Vec3d xyz_to_srgb(Vec3d xyz);
+Vec3d srgb_to_xyz(Vec3d rgb);
+
+/// The rows of a matrix that adapts linear sRGB from one white to another by the Bradford method. The whites are CIE
+/// 1931 x and y; what has the first becomes what has the second, and as bright.
+std::array<Vec3d, 3> srgb_adaptation(const Vec2d& from, const Vec2d& to);
 
 /// CIE 1931 x and y of the primaries and of their white, the sum of equal parts.
 struct Chromaticities {

@@ -61,7 +61,8 @@ constexpr WrittenFormat written_formats[] = {
 };
 
 const WrittenFormat* written_format(const std::string& path) {
-  const std::string extension = extension_of(path);
+  std::string extension = extension_of(path);
+  if (extension == "jpeg") extension = "jpg";
   const auto* format = std::find_if(std::begin(written_formats), std::end(written_formats),
                                     [&](const WrittenFormat& f) { return extension == f.extension; });
   return format == std::end(written_formats) ? nullptr : format;
@@ -73,6 +74,11 @@ void write_image(const std::string& path, const ImageSource& source, const Write
   const WrittenFormat* format = written_format(path);
   if (format == nullptr) throw RenderError("cannot write " + path + ": its name must end in " + written_extensions());
   format->write(path, source, options);
+}
+
+bool is_displayed_format(const std::string& path) {
+  const WrittenFormat* format = written_format(path);
+  return format != nullptr && (format->write == write_png || format->write == write_jpg);
 }
 
 bool has_written_extension(const std::string& path) { return written_format(path) != nullptr; }

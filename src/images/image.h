@@ -48,7 +48,7 @@ enum class ExrPixelType { half, single };
 /// DWAA and DWAB lose a little, but not of layers other than colours that are parts of their own; the others lose
 /// nothing.
 enum class ExrCompression { none, rle, zips, zip, piz, dwaa, dwab };
-enum class ToneMap { none, reinhard, filmic };
+enum class ToneMap { none, reinhard, filmic, aces, agx };
 
 /// How an image is written. Each format uses the members that it names.
 struct WriteOptions {
@@ -59,21 +59,27 @@ struct WriteOptions {
   ExrCompression compression = ExrCompression::zip;  ///< EXR
   bool has_parts = false;                            ///< EXR: a part for each layer instead of one for all
   int tile_size = 0;                                 ///< EXR: pixels along each side of a tile; 0: scanlines
-  /// EXR: text attributes of the header, by name.
+  /// EXR, PNG, JPEG, HDR: text about the image, by name.
   std::map<std::string, std::string> metadata = {};
   /// EXR: the position of the image in the full frame, as origin of the data window and size of the display window.
   int x_offset = 0, y_offset = 0;
   int full_width = 0, full_height = 0;  ///< EXR; 0: those of the image
-  double exposure = 0;                  ///< 8-bit formats, in stops: values are first multiplied by 2^exposure
-  ToneMap tone_map = ToneMap::none;     ///< 8-bit formats
+  // PNG and JPEG, in the order in which they are applied (images/display/display_transform.h):
+  double exposure = 0;               ///< in stops: values are first multiplied by 2^exposure
+  double white_temperature = 0;      ///< kelvin: light of this colour becomes white; 0: that of D65, which is unchanged
+  ToneMap tone_map = ToneMap::none;  ///< of the linear values
+  int png_depth = 8;                 ///< PNG: bits per channel, 8 or 16
+  int jpeg_quality = 95;             ///< JPEG: 1 to 100, on the scale of libjpeg
 };
 
 /// Lists every format that images are written in, by its extension. write_NAME, in a file of codecs/, writes it; what
 /// chooses a format, and the names in messages and help, expand from this list.
 ///   exr  all channels
-///   png  channels R, G, B; values are tone mapped, clamped to [0, 1] and sRGB-encoded, NaN becomes black
+///   png  channels R, G, B, in 8 or 16 bits; values are tone mapped, clamped to [0, 1] and sRGB-encoded, NaN is black
+///   jpg  the same in 8 bits, compressed with a loss; .jpeg is another name of it
+///   hdr  channels R, G, B in 8 bits each with a common exponent; negative values and NaN become 0
 ///   pfm  channels R, G, B as they are, in single precision
-#define ALHAZEN_WRITTEN_FORMATS(FORMAT) FORMAT(exr) FORMAT(png) FORMAT(pfm)
+#define ALHAZEN_WRITTEN_FORMATS(FORMAT) FORMAT(exr) FORMAT(png) FORMAT(jpg) FORMAT(hdr) FORMAT(pfm)
 
 /// Each writes the image completely or not at all, through an AtomicFile (files/atomic_file.h).
 /// Throws RenderError with path and cause if that fails; existing files then remain unchanged.
@@ -88,8 +94,14 @@ void write_image(const std::string& path, const ImageSource& source, const Write
 /// Returns whether images can be written to a file of this name.
 bool has_written_extension(const std::string& path);
 
-/// The extensions for messages: ".exr, .png or .pfm".
+/// The extensions for messages: ".exr, .png, .jpg, .hdr or .pfm".
 std::string written_extensions();
+
+/// Returns whether a file of this name holds what a display shows, not radiance: exposed, balanced and tone mapped.
+bool is_displayed_format(const std::string& path);
+
+/// The most pixels that a side of a JPEG may have.
+inline constexpr int max_jpeg_side = 65500;
 
 /// The positions of R, G and B among the channels, for formats that hold these alone. Throws RenderError that names
 /// `path` if one is missing or the image has no pixels.

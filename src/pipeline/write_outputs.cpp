@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "files/atomic_file.h"
 #include "files/file_identity.h"
-#include "images/display/fitting_exposure.h"
+#include "images/display/tone_map.h"
 #include "io/read_scene.h"
 #include "render/backend.h"
 #include "render/quality.h"
@@ -63,6 +62,13 @@ std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
   return metadata;
 }
 
+/// As options of the command line.
+std::string display_text(const WriteOptions& how) {
+  return fmt::format("--exposure {:.10g}", how.exposure) +
+         (how.white_temperature > 0 ? fmt::format(" --white-balance {:.10g}", how.white_temperature) : "") +
+         " --tone-map " + to_string(how.tone_map);
+}
+
 }  // namespace
 
 std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, const std::string& film_filename,
@@ -85,23 +91,12 @@ std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, c
   return paths;
 }
 
-double fitting_exposure(const ImageSource& source) {
-  const auto channel = [&](const char* name) {
-    return static_cast<size_t>(std::find(source.channels.begin(), source.channels.end(), name) -
-                               source.channels.begin());
-  };
-  const size_t r = channel("R"), g = channel("G"), b = channel("B"), count = source.channels.size();
-  if (std::max({r, g, b}) >= count) return 0;
-  const size_t width = static_cast<size_t>(source.width);
-  std::vector<float> row(count * width), brightness;
-  for (int y = 0; y < source.height; ++y) {
-    source.fill_row(y, row);
-    for (size_t x = 0; x < width; ++x) {
-      const float value = std::max({row[r * width + x], row[g * width + x], row[b * width + x]});
-      if (value > 0 && std::isfinite(value)) brightness.push_back(value);
-    }
-  }
-  return fitting_exposure(std::move(brightness));
+void check_sizes(const std::vector<std::string>& outputs, const PixelWindow& window) {
+  for (const std::string& path : outputs)
+    if ((extension_of(path) == "jpg" || extension_of(path) == "jpeg") &&
+        std::max(window.width(), window.height()) > max_jpeg_side)
+      throw InputError({path}, "a JPEG has at most " + std::to_string(max_jpeg_side) +
+                                   " pixels in each direction: give a name that ends in .png, or a smaller --size");
 }
 
 void check_files(const std::vector<std::string>& outputs, const std::string& checkpoint,
@@ -122,7 +117,8 @@ void write_output(const std::string& path, const OutputOptions& options, const R
   const RenderSettings& settings = rendering.statistics.settings;
   WriteOptions how = options.how;
   how.metadata = metadata_of(rendering.statistics);
-  how.metadata.merge(rendering.layer_metadata());
+  if (extension_of(path) == "exr") how.metadata.merge(rendering.layer_metadata());
+  if (is_displayed_format(path)) how.metadata["display"] = display_text(how);
   how.x_offset = settings.window.x0;
   how.y_offset = settings.window.y0;
   how.full_width = settings.width;

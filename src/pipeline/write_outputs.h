@@ -8,6 +8,7 @@
 #include "files/file_identity.h"
 #include "files/input_record.h"
 #include "images/image.h"
+#include "pipeline/display_choice.h"
 #include "render/renderer.h"
 
 namespace alhazen {
@@ -19,6 +20,7 @@ struct OutputOptions {
   std::vector<std::string> paths;
   WriteOptions how;
   std::string standard_output_format = "png";  ///< an extension of written_extensions()
+  DisplayChoice display;                       ///< what of `how` is left to the image
 };
 
 /// Returns the requested paths, else the scene's own file name in the current folder, else, with a warning if the scene
@@ -26,6 +28,9 @@ struct OutputOptions {
 /// cannot be written: an unknown extension, a folder that does not exist or is not writable, cyclic links.
 std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, const std::string& film_filename,
                                         const std::string& scene_path, Diagnostics& diagnostics);
+
+/// Throws InputError if a format cannot hold as many pixels.
+void check_sizes(const std::vector<std::string>& outputs, const PixelWindow& window);
 
 /// Throws InputError if two of these files are the same, by any names: written twice, or overwriting an input, which is
 /// one of `inputs` or of those in `record`. `checkpoint` may be empty.
@@ -39,9 +44,5 @@ struct OutputReport {
 
 /// Writes every image, even if others fail.
 OutputReport write_outputs(const OutputOptions& options, const Rendering& rendering);
-
-/// The exposure in stops, 0 or less, that keeps an image from being mostly white: about half of the pixels that are not
-/// black get a strongest channel below 0.6.
-double fitting_exposure(const ImageSource& source);
 
 }  // namespace alhazen

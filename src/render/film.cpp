@@ -11,13 +11,12 @@ struct WantedPlanes {
 #undef ALHAZEN_PLANE
 
   WantedPlanes(const AovSet& aovs, const FilmExtras& extras) {
-    radiance = samples = true;
+    radiance = samples = alpha = true;
     weights = extras.weights;
     albedo = aovs.albedo || extras.denoising;
     normal = aovs.normal || aovs.camera_normal || extras.denoising;
     depth = hits = aovs.distance || extras.denoising;
     segments = aovs.bounces;
-    alpha = aovs.alpha || extras.alpha;
     position = points = aovs.depth || aovs.position || aovs.uv || aovs.motion;
     uv = aovs.uv;
     displacement = aovs.motion;
@@ -29,7 +28,7 @@ struct WantedPlanes {
     odd_weights = extras.denoising && extras.weights;
     block_m2 = half_difference = finished = extras.noise_target;
     earlier_radiance = earlier_weights = earlier_samples = earlier_sample_variance = extras.guiding;
-    earlier_alpha = extras.guiding && alpha;
+    earlier_alpha = extras.guiding;
     earlier_light = extras.guiding && light;
     earlier_odd_radiance = earlier_odd_weights = extras.guiding && extras.denoising;
     earlier_variance = earlier_half_variance = extras.guiding && extras.noise_target;
@@ -96,7 +95,7 @@ void Film<Real>::end_iteration() {
   for (size_t i = 0; i < samples_.size(); ++i) {
     earlier_radiance_[i] += radiance_[i] * weight;
     earlier_weights_[i] += weights_[i] * weight;
-    if (!earlier_alpha_.empty()) earlier_alpha_[i] += alpha_[i] * weight;
+    earlier_alpha_[i] += alpha_[i] * weight;
     if (!earlier_light_.empty()) earlier_light_[i].add(light_[i], weight);
     if (!earlier_odd_radiance_.empty()) {
       earlier_odd_radiance_[i] += odd_radiance_[i] * weight;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "images/display/fitting_exposure.h"
+#include "images/display/exposure_meter.h"
 #include "render/power_bisection.h"
 
 namespace alhazen {
@@ -175,14 +175,13 @@ double darkest_luminance(const FilmView<Real>& film, size_t pixels) {
 
 /// The exposure of the image so far, as it would be displayed.
 template <class Real>
-double exposure_of(const FilmView<Real>& film, size_t pixels) {
-  std::vector<float> brightness;
-  brightness.reserve(pixels);
-  for (size_t i = 0; i < pixels; ++i) {
-    const float value = static_cast<float>(max_component(film.radiance_sum(i).mean()));
-    if (value > 0 && std::isfinite(value)) brightness.push_back(value);
-  }
-  return fitting_exposure(std::move(brightness));
+double exposure_of(const FilmView<Real>& film, int width, int height, ExposureRule rule) {
+  ExposureMeter meter(width, height, true);
+  size_t i = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x, ++i)
+      meter.add(x, y, convert<double>(film.radiance_sum(i).mean()), static_cast<double>(film.coverage(i)));
+  return meter.exposure(rule);
 }
 
 /// What the samples of some pixels are like, in the mean.
@@ -267,7 +266,8 @@ void NoiseEstimate<Real>::measure_pixels(const RenderSettings& settings) {
   of_halves_.resize(pixels);
   const double darkest = settings.noise_curve ? 0 : darkest_luminance(film, pixels);
   std::optional<DisplayCurve> curve = settings.noise_curve;
-  if (settings.noise_fits_exposure) curve->scale = portable_exp2(exposure_of(film, pixels));
+  if (curve && settings.noise_exposure != ExposureRule::given)
+    curve->scale = portable_exp2(exposure_of(film, width_, height_, settings.noise_exposure));
   for (size_t i = 0; i < pixels; ++i) {
     const PixelMean mean = pixel_mean(film, i);
     if (!mean.is_known || !std::isfinite(mean.by_blocks) || !std::isfinite(mean.luminance))

@@ -265,9 +265,9 @@ std::string window_bounds(const RenderSettings& s) {
 std::vector<SettingEntry> output_settings() {
   constexpr SettingGroup group = SettingGroup::output;
   return {
-      common(of_samples(layer_names, entry(group, "aov", "", "NAMES",
-                                           "Layers to add to the EXR, separated by commas: " + layer_help(),
-                                           layer_list(), true))),
+      common(of_samples(layer_names,
+                        entry(group, "aov", "", "NAMES",
+                              "Layers to add to the EXR, separated by commas: " + layer_help(), layer_list(), true))),
       common(with_implied(
           "auto",
           of_samples(denoising,
@@ -306,7 +306,9 @@ std::string noise_target(const RenderSettings& s) {
   if (s.asked.noise == 0) return {};
   if (!s.noise_curve) return text_of(s.asked.noise) + " relative";
   return text_of(s.asked.noise) + " displayed at " +
-         (s.noise_fits_exposure ? "the image's exposure" : "exposure " + text_of(s.asked.noise_exposure.value_or(0))) +
+         (s.noise_exposure == ExposureRule::given     ? "exposure " + text_of(s.asked.noise_exposure.value_or(0))
+          : s.noise_exposure == ExposureRule::fitting ? "the image's exposure"
+                                                      : "automatic exposure") +
          " by tone map " + (s.asked.noise_tone_map.empty() ? "none" : s.asked.noise_tone_map);
 }
 

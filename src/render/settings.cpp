@@ -6,6 +6,7 @@
 #include <cmath>
 #include <thread>
 
+#include "images/display/tone_map.h"
 #include "render/backend.h"
 #include "render/checkpoint.h"
 #include "render/denoiser.h"
@@ -33,8 +34,6 @@ constexpr Named<SamplerType> samplers[] = {
     {"sobol", SamplerType::sobol}, {"zsobol", SamplerType::zsobol}, {"independent", SamplerType::independent}};
 constexpr Named<ScheduleKind> schedules[] = {
     {"static", ScheduleKind::static_}, {"dynamic", ScheduleKind::dynamic}, {"guided", ScheduleKind::guided}};
-constexpr Named<ToneMap> tone_maps[] = {
-    {"none", ToneMap::none}, {"reinhard", ToneMap::reinhard}, {"filmic", ToneMap::filmic}};
 constexpr Named<GuidingMode> guiding_modes[] = {
     {"off", GuidingMode::off}, {"on", GuidingMode::on}, {"auto", GuidingMode::automatic}};
 constexpr NamedLayer layers[] = {{"alpha", &AovSet::alpha},
@@ -157,10 +156,12 @@ void resolve_noise(const Settings& asked, const Scene& scene, RenderSettings& s)
   const double exposure = asked.noise_exposure.value_or(0);
   if (!(std::abs(exposure) <= 100))
     throw InputError("the exposure at which noise is seen must be a number of stops from -100 to 100");
-  s.noise_curve =
-      DisplayCurve{portable_exp2(exposure),
-                   asked.noise_tone_map.empty() ? ToneMap::none : by_name(tone_maps, asked.noise_tone_map, "tone map")};
-  s.noise_fits_exposure = !asked.noise_exposure && scene.film.fits_exposure;
+  if (asked.noise_auto_exposure && asked.noise_exposure)
+    throw InputError("give the exposure at which noise is seen, or let the image decide on it, not both");
+  s.noise_curve = DisplayCurve{portable_exp2(exposure), tone_map_named(asked.noise_tone_map)};
+  s.noise_exposure = asked.noise_auto_exposure                           ? ExposureRule::automatic
+                     : !asked.noise_exposure && scene.film.fits_exposure ? ExposureRule::fitting
+                                                                         : ExposureRule::given;
 }
 
 void resolve_guiding(const Settings& asked, RenderSettings& s) {

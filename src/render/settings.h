@@ -11,6 +11,7 @@
 #include "alhazen/alhazen.h"
 #include "core/integrators/camera_sample.h"
 #include "images/display/display_error.h"
+#include "images/display/exposure_meter.h"
 #include "scene/scene.h"
 
 namespace alhazen {
@@ -71,10 +72,10 @@ struct RenderSettings {
   IntegratorKind integrator = IntegratorKind::path;
   SamplerType sampler = SamplerType::sobol;
   int threads = 1;
-  uint32_t samples_per_pixel = 16;          ///< with a noise target, the most
-  std::optional<DisplayCurve> noise_curve;  ///< present: the noise target is of what is displayed
-  bool noise_fits_exposure = false;         ///< its scale is then chosen by the film (fitting_exposure)
-  uint32_t max_segments = 6;                ///< D, bounces + 1
+  uint32_t samples_per_pixel = 16;                    ///< with a noise target, the most
+  std::optional<DisplayCurve> noise_curve;            ///< present: the noise target is of what is displayed
+  ExposureRule noise_exposure = ExposureRule::given;  ///< if not given, the image so far decides on the curve's scale
+  uint32_t max_segments = 6;                          ///< D, bounces + 1
   int width = 0, height = 0;
   PixelWindow window;
   uint32_t seed = 0;

@@ -91,6 +91,12 @@ std::string RenderStatistics::to_json() const {
   j["render_seconds"] = render_seconds;
   j["denoiser"] = denoiser.empty() ? "none" : denoiser;
   if (!settings.denoiser.empty()) j["denoise_seconds"] = denoise_seconds;
+  if (display)
+    j["display"] = {{"exposure", display->exposure},
+                    {"exposure_is_metered", display->exposure_is_metered},
+                    {"white_temperature", display->white_temperature},
+                    {"white_is_estimated", display->white_is_estimated},
+                    {"tone_map", display->tone_map}};
   j["complete"] = complete;
   j["camera_samples"] = camera_samples;
   j["rays"] = rays;

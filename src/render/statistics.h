@@ -3,6 +3,7 @@
 // What a render did and what it cost.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,15 @@
 #include "render/settings.h"
 
 namespace alhazen {
+
+/// How the images that a display shows were made of the radiance.
+struct DisplayStatistics {
+  double exposure = 0;               ///< stops
+  bool exposure_is_metered = false;  ///< false also where the rule `fitting` found that it may stay 0
+  double white_temperature = 0;      ///< kelvin; 0: no white balance
+  bool white_is_estimated = false;
+  std::string tone_map;
+};
 
 struct RenderStatistics {
   RenderSettings settings;
@@ -30,8 +40,9 @@ struct RenderStatistics {
   bool complete = false;
   bool interrupted = false;  ///< stopped by the caller, not by a time limit
   uint64_t camera_samples = 0, rays = 0, shadow_rays = 0, nonfinite_samples = 0;
-  uint64_t peak_rss_bytes = 0;  ///< peak of the process
-  SampleCounters counters;      ///< of all threads; zero in builds that do not count
+  uint64_t peak_rss_bytes = 0;               ///< peak of the process
+  std::optional<DisplayStatistics> display;  ///< absent if no PNG or JPEG is written
+  SampleCounters counters;                   ///< of all threads; zero in builds that do not count
   std::vector<ThreadStatistics> threads;
 
   double mean_segments() const;

@@ -307,8 +307,13 @@ TEST_F(BadInput, Settings) {
   expect_bad_usage({"--threads", "-1"}, {"--threads"});
   expect_bad_usage({"--threads", "5000"}, {"--threads"});
   expect_bad_usage({"--exr-type", "double"}, {"double", "half, float"});
-  expect_bad_usage({"--tone-map", "aces"}, {"aces", "reinhard"});
-  expect_bad_usage({"--exposure", "bright"}, {"--exposure"});
+  expect_bad_usage({"--tone-map", "hable"}, {"hable", "none, reinhard, filmic, aces, agx"});
+  expect_bad_usage({"--exposure", "bright"}, {"--exposure", "'bright'", "auto"});
+  for (const char* white : {"warm", "999", "25001", "nan", "-1"})
+    expect_bad_usage({"--white-balance", white}, {"--white-balance", "1000 to 25000 kelvin"});
+  for (const char* depth : {"12", "16.0", "many"}) expect_bad_usage({"--png-depth", depth}, {"--png-depth", "8 or 16"});
+  for (const char* quality : {"0", "101", "best", "9.5"})
+    expect_bad_usage({"--jpeg-quality", quality}, {"--jpeg-quality", "1 to 100"});
   expect_bad_usage({"--progress", "loud"}, {"loud", "auto, plain, json, none"});
   expect_bad_usage({"-q", "--progress", "loud"}, {"loud", "auto, plain, json, none"});
   expect_bad_usage({"--stats=xml"}, {"xml", "text, json"});
@@ -350,9 +355,10 @@ TEST_F(BadInput, Targets) {
   std::filesystem::create_directory(folder_.file("folder.exr"));
   expect_bad_usage({"-o", "no/such/folder/a.exr"}, {"no/such/folder/a.exr", "does not exist"});
   expect_bad_usage({"-o", "folder.exr"}, {"folder.exr", "folder"});
-  expect_bad_usage({"-o", "a.jpg"}, {"a.jpg", ".exr, .png or .pfm"});
-  expect_bad_usage({"-o", "a"}, {".exr, .png or .pfm"});
-  expect_bad_usage({"-o", ""}, {".exr, .png or .pfm"});
+  expect_bad_usage({"-o", "a.tiff"}, {"a.tiff", ".exr, .png, .jpg, .hdr or .pfm"});
+  expect_bad_usage({"-o", "a"}, {".exr, .png, .jpg, .hdr or .pfm"});
+  expect_bad_usage({"-o", ""}, {".exr, .png, .jpg, .hdr or .pfm"});
+  expect_bad_usage({"-o", "a.jpg", "--size", "65501x1"}, {"a.jpg", "at most 65500 pixels"});
   expect_bad_usage({"-o", "scene.pbrt/a.exr"}, {"scene.pbrt/a.exr"});
   std::filesystem::create_symlink("loop.exr", folder_.file("loop.exr"));
   std::filesystem::create_symlink("pong.exr", folder_.file("ping.exr"));

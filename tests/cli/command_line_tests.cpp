@@ -108,10 +108,15 @@ TEST_F(CommandLine, SaysWhichOptionsHaveNoEffect) {
   expect_warning({"-o", "a.pfm", "--exr-type", "float"}, "exr-type");
   expect_warning({"-o", "a.exr", "--exposure", "1"}, "exposure");
   expect_warning({"-o", "a.exr", "-o", "a.pfm", "--tone-map", "filmic"}, "tone-map");
+  expect_warning({"-o", "a.hdr", "--exposure", "auto"}, "exposure");
+  expect_warning({"-o", "a.exr", "--white-balance", "auto"}, "white-balance");
+  expect_warning({"-o", "a.jpg", "--png-depth", "16"}, "png-depth");
+  expect_warning({"-o", "a.png", "--jpeg-quality", "90"}, "jpeg-quality");
   expect_warning({"-o", "a.exr", "--backend", "serial", "--threads", "2"}, "threads");
   EXPECT_EQ(warnings({"-o", "a.exr", "-o", "a.png", "--aov", "albedo", "--exposure", "1", "--tone-map", "filmic",
-                      "--exr-type", "float", "--backend", "openmp", "--threads", "2"}),
+                      "--exr-type", "float", "--backend", "openmp", "--threads", "2", "--png-depth", "16"}),
             "");
+  EXPECT_EQ(warnings({"-o", "a.jpeg", "--exposure", "auto", "--white-balance", "auto", "--jpeg-quality", "90"}), "");
   // Noise is displayed with this exposure.
   EXPECT_EQ(warnings({"-o", "a.exr", "--exposure", "1", "--noise", "0.1,display"}).find("--exposure"),
             std::string::npos);

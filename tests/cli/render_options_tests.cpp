@@ -60,6 +60,8 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       // Tested in view_tests.cpp:
       "--look-at", "--orbit", "--fit", "--fov", "--aperture", "--focus", "--environment-rotate",
       "--environment-strength", "--light-scale",
+      // Tested in display_options_tests.cpp:
+      "--white-balance", "--png-depth", "--jpeg-quality",
       // Tested in command_line_tests.cpp:
       "--config",
       // Tested in help_tests.cpp:

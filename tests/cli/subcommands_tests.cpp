@@ -77,7 +77,7 @@ TEST_F(Subcommands, CompareRefusesWhatCannotBeCompared) {
   const std::vector<std::vector<std::string>> cases{{"compare", "a.exr", "b.exr", "--diff", "diff.png"},
                                                     {"compare", "a.exr", "missing.exr", "--diff", "diff.png"},
                                                     {"compare", "text.png", "a.exr", "--diff", "diff.png"},
-                                                    {"compare", "a.exr", "a.exr", "--diff", "diff.jpg"},
+                                                    {"compare", "a.exr", "a.exr", "--diff", "diff.tiff"},
                                                     {"compare", "a.exr", ".", "--diff", "diff.png"},
                                                     {"compare", "a.exr"},
                                                     {"compare", "a.exr", "a.exr", "a.exr"}};

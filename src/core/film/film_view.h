@@ -7,7 +7,8 @@
 
 namespace ALHAZEN_CORE {
 
-/// Lists every plane of the film once: PLANE(element type, name). All but the first two exist only on request:
+/// Lists every plane of the film once: PLANE(element type, name). All but the first three exist only on
+/// request:
 /// `weights` if the filter has negative weights, those that start with `odd_` for denoising (`odd_weights` only beside
 /// `weights`), those from `block_m2` to `finished` for a noise target, the others for their layers. `points` counts the
 /// first points, whose sums are `position`, `displacement` and `uv`.
@@ -25,13 +26,13 @@ namespace ALHAZEN_CORE {
 #define ALHAZEN_FILM_PLANES(PLANE)          \
   PLANE(Vec3<Real>, radiance)               \
   PLANE(uint32_t, samples)                  \
+  PLANE(Real, alpha)                        \
   PLANE(Real, weights)                      \
   PLANE(Vec3<Real>, albedo)                 \
   PLANE(Vec3<Real>, normal)                 \
   PLANE(Real, depth)                        \
   PLANE(uint32_t, hits)                     \
   PLANE(uint32_t, segments)                 \
-  PLANE(Real, alpha)                        \
   PLANE(Vec3<Real>, position)               \
   PLANE(Vec3<Real>, displacement)           \
   PLANE(Vec2<Real>, uv)                     \
@@ -165,7 +166,7 @@ struct FilmView {
       hits[i] += block.hits;
     }
     if (segments) segments[i] += block.segments;
-    if (alpha) alpha[i] += block.alpha;
+    alpha[i] += block.alpha;
     if (light) light[i].add(block.light);
     if (points || objects || materials) add_points(i, block);
   }

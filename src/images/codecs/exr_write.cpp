@@ -8,6 +8,7 @@
 #include <ImfMultiPartOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfTiledOutputPart.h>
 #include <half.h>
@@ -151,6 +152,7 @@ Imf::Header make_header(const ImageSource& source, const std::vector<ExrPlane>& 
   if (!part.name.empty()) header.setName(part.name);
   for (size_t c = part.first; c < part.last; ++c)
     header.channels().insert(planes[c].channel, Imf::Channel(planes[c].type));
+  Imf::addChromaticities(header, Imf::Chromaticities());  // those of sRGB
   for (const auto& [name, text] : options.metadata)
     if (part.name.empty() || is_about(part, name, options)) header.insert(name, Imf::StringAttribute(text));
   return header;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "images/display/tone_map.h"
 
@@ -30,6 +31,20 @@ double DisplayCurve::operator()(double luminance) const {
 
 double DisplayCurve::error(double luminance, double deviation) const {
   return ((*this)(luminance + deviation) - (*this)(std::max(0.0, luminance - deviation))) / 2;
+}
+
+double portable_log2(double value) {
+  int exponent = 0;
+  double mantissa = std::frexp(value, &exponent);
+  if (mantissa < std::numbers::sqrt2 / 2) {
+    mantissa *= 2;
+    --exponent;
+  }
+  // ln m = 2 artanh z, whose series converges fast, since |z| is at most 0.172.
+  const double z = (mantissa - 1) / (mantissa + 1);
+  double sum = 0;
+  for (int k = 21; k >= 1; k -= 2) sum = sum * (z * z) + 1.0 / k;
+  return exponent + 2 * z * sum * std::numbers::log2e;
 }
 
 double portable_exp2(double exponent) {

@@ -6,11 +6,12 @@
 
 namespace alhazen {
 
-/// srgb_encode for values up to 1, and 2^x, of operations that IEEE 754 rounds in one way. Where a decision depends on
-/// them, it is the same on every machine, which is not certain of std::pow and std::exp2. The relative error is below
-/// 1e-14.
+/// srgb_encode for values up to 1, 2^x, and the logarithm of positive numbers, of operations that IEEE 754 rounds in
+/// one way. Where a decision depends on them, it is the same on every machine, which is not certain of std::pow and
+/// std::exp2. The relative error is below 1e-14.
 double portable_srgb_encode(double linear);
 double portable_exp2(double exponent);
+double portable_log2(double value);
 
 /// How a linear luminance becomes a grey value of sRGB from 0 to 1.
 struct DisplayCurve {

@@ -1,4 +1,4 @@
-// Writing of images: EXR, PNG and PFM files, tone mapping, and atomic replacement of existing files.
+// Writing of images: EXR, PNG and PFM files, and atomic replacement of existing files.
 
 #include "images/image.h"
 
@@ -11,6 +11,7 @@
 #include <ImfOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfTileDescription.h>
 #include <ImfTiledOutputFile.h>
@@ -24,7 +25,6 @@
 #include <stdexcept>
 
 #include "image_files.h"
-#include "images/display/tone_map.h"
 
 namespace alhazen::test {
 namespace {
@@ -48,7 +48,7 @@ Image grey_image(std::vector<float> values) {
 
 std::string render_error_of(const std::string& path, const Image& image) {
   try {
-    extension_of(path) == "exr" ? write_exr(path, source_of(image), {}) : write_png(path, source_of(image), {});
+    has_written_extension(path) ? write_image(path, source_of(image), {}) : write_png(path, source_of(image), {});
   } catch (const RenderError& error) {
     return error.what();
   }
@@ -118,6 +118,8 @@ TEST(Exr, HeaderHoldsMetadataAndWindows) {
   EXPECT_EQ(header.dataWindow(), Imath::Box2i({10, 20}, {13, 22}));
   EXPECT_EQ(header.displayWindow(), Imath::Box2i({0, 0}, {99, 49}));
   EXPECT_EQ(header.compression(), Imf::ZIP_COMPRESSION);
+  ASSERT_TRUE(Imf::hasChromaticities(header));
+  EXPECT_EQ(Imf::chromaticities(header).green, Imath::V2f(0.30f, 0.60f)) << "those of sRGB";
   EXPECT_EQ(header.typedAttribute<Imf::StringAttribute>("software").value(), "alhazen");
   EXPECT_EQ(header.typedAttribute<Imf::StringAttribute>("alhazen.settings.of.a.long.name.over.31").value(), "spp 16");
   EXPECT_EQ(header.channels()["R"].type, Imf::HALF);
@@ -247,28 +249,21 @@ TEST(Png, EveryByteComesBack) {
 TEST(Png, ClampsAndTurnsNanBlack) {
   const TemporaryFolder folder;
   const Image image = grey_image({-1, 2, infinity, -infinity, std::numeric_limits<float>::quiet_NaN()});
-  for (const ToneMap map : {ToneMap::none, ToneMap::reinhard, ToneMap::filmic}) {
-    write_png(folder.file("a.png"), source_of(image), {.tone_map = map});
-    const std::vector<float> back = read_image(folder.file("a.png")).planes[2];
-    EXPECT_EQ(back[0], 0);
-    EXPECT_EQ(back[2], 1);
-    EXPECT_EQ(back[3], 0);
-    EXPECT_EQ(back[4], 0);
-  }
+  for (const ToneMap map : {ToneMap::none, ToneMap::reinhard, ToneMap::filmic, ToneMap::aces, ToneMap::agx})
+    for (const double white : {0.0, 3000.0}) {
+      write_png(folder.file("a.png"), source_of(image), {.white_temperature = white, .tone_map = map});
+      const std::vector<float> back = read_image(folder.file("a.png")).planes[2];
+      EXPECT_EQ(back[0], 0);
+      EXPECT_EQ(back[2], 1);
+      EXPECT_EQ(back[3], 0);
+      EXPECT_EQ(back[4], 0);
+    }
 }
 
 TEST(Png, ExposureIsInStops) {
   const TemporaryFolder folder;
   write_png(folder.file("a.png"), source_of(grey_image({0.125f})), {.exposure = 3});
   EXPECT_EQ(read_image(folder.file("a.png")).planes[0][0], 1.0f);
-}
-
-TEST(Png, ToneMapsKeepBlackAndOrder) {
-  for (const ToneMap map : {ToneMap::none, ToneMap::reinhard, ToneMap::filmic}) {
-    EXPECT_EQ(tone_map({0, 0, 0}, map).x, 0);
-    EXPECT_LT(tone_map(splat(0.2), map).x, tone_map(splat(0.4), map).x);
-  }
-  EXPECT_NEAR(tone_map(splat(1.0), ToneMap::reinhard).y, 0.5, 1e-6);
 }
 
 TEST(Png, NeedsRedGreenAndBlue) {
@@ -310,14 +305,16 @@ TEST(Pfm, NeedsPixelsAndColours) {
 TEST(WriteImage, TheExtensionDecides) {
   const TemporaryFolder folder;
   const Image image = grey_image({0.25f, 0.5f});
-  for (const char* name : {"a.exr", "a.PNG", "a.pfm"}) {
+  for (const char* name : {"a.exr", "a.PNG", "a.pfm", "a.jpg", "b.JPEG", "a.hdr"}) {
     EXPECT_TRUE(has_written_extension(name)) << name;
     write_image(folder.file(name), source_of(image), {});
     EXPECT_EQ(read_image(folder.file(name)).width, 2) << name;
   }
-  EXPECT_FALSE(has_written_extension("a.jpg"));
-  EXPECT_THROW(write_image(folder.file("a.jpg"), source_of(image), {}), RenderError);
-  EXPECT_EQ(folder.count(), 3u);
+  EXPECT_FALSE(has_written_extension("a.tiff"));
+  EXPECT_THROW(write_image(folder.file("a.tiff"), source_of(image), {}), RenderError);
+  EXPECT_EQ(folder.count(), 6u);
+  for (const char* name : {"a.png", "a.jpg", "a.jpeg"}) EXPECT_TRUE(is_displayed_format(name)) << name;
+  for (const char* name : {"a.exr", "a.hdr", "a.pfm", "a.tiff", ""}) EXPECT_FALSE(is_displayed_format(name)) << name;
 }
 
 // Completely or not at all.
@@ -335,15 +332,18 @@ TEST(AtomicWrite, AFailingSourceLeavesTheOldFile) {
   const TemporaryFolder folder;
   const Bytes old{1, 2, 3};
   const std::string exr = folder.write("a.exr", old), png = folder.write("a.png", old),
-                    pfm = folder.write("a.pfm", old);
+                    pfm = folder.write("a.pfm", old), jpg = folder.write("a.jpg", old),
+                    hdr = folder.write("a.hdr", old);
   EXPECT_THROW(write_exr(exr, interrupted_source(), {}), Interrupted);
   EXPECT_THROW(write_png(png, interrupted_source(), {}), Interrupted);
+  EXPECT_THROW(write_jpg(jpg, interrupted_source(), {}), Interrupted);
+  EXPECT_THROW(write_hdr(hdr, interrupted_source(), {}), Interrupted);
   // Rows go from the bottom up, so this source fails after nine of them.
   EXPECT_THROW(write_pfm(pfm, interrupted_source(), {}), Interrupted);
   EXPECT_EQ(read_file(exr), old);
   EXPECT_EQ(read_file(png), old);
-  EXPECT_EQ(read_file(pfm), old);
-  EXPECT_EQ(folder.count(), 3u);
+  for (const std::string& path : {pfm, jpg, hdr}) EXPECT_EQ(read_file(path), old) << path;
+  EXPECT_EQ(folder.count(), 5u);
 }
 
 TEST(AtomicWrite, ReplacesAndLeavesNoTemporary) {
@@ -432,7 +432,7 @@ class SmallDisk {
 TEST(AtomicWrite, ADiskThatFillsUpAtAnyPoint) {
   const TemporaryFolder folder;
   const Image image = make_image(30, 100, {"R", "G", "B"});
-  for (const char* name : {"a.exr", "a.png"}) {
+  for (const char* name : {"a.exr", "a.png", "a.jpg", "a.hdr"}) {
     const std::string path = folder.file(name);
     EXPECT_EQ(render_error_of(path, image), "");
     const rlim_t size = read_file(path).size();
