@@ -21,7 +21,7 @@ class DisplayImages : public Command {
         "WorldBegin LightSource \"infinite\" \"rgb L\" [" +
             background +
             "]\n"
-            "LightSource \"distant\" \"point3 from\" [0 0 1] \"rgb L\" [" +
+            "LightSource \"distant\" \"point3 from\" [0 0 5] \"rgb L\" [" +
             light +
             "]\n"
             "Material \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5] Shape \"sphere\" \"float radius\" 1.1\n");
@@ -54,8 +54,10 @@ TEST_F(DisplayImages, AutomaticExposureIsForTheSurfacesThatAreSeen) {
       const nlohmann::json display = display_of(arguments);
       ASSERT_TRUE(display.is_object());
       EXPECT_TRUE(display["exposure_is_metered"]);
-      EXPECT_LT(display["exposure"], -9) << background;
       EXPECT_GT(middle_of("a.png"), 0.1) << background;
+      // 2000 / pi at the brightest: by 9.3 stops it would be just white.
+      EXPECT_LT(display["exposure"], how.empty() ? -8.0 : -9.3) << background;
+      if (how.empty()) continue;
       EXPECT_LT(middle_of("a.png"), 0.99) << background;
     }
 }

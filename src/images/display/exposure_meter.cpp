@@ -96,7 +96,8 @@ double ExposureMeter::automatic() const {
   if (!(luminance.total() > 0)) return 0;
   const double grey = portable_log2(middle_grey) - luminance.mean_log2(darkest_part, 1 - brightest_part);
   const double white = -portable_log2(luminance.quantile(1 - white_part));
-  return std::round(10 * std::clamp(white, grey - max_darkening, grey)) / 10 + 0.0;  // not -0
+  const double darkest = grey - (uses_coverage() ? max_darkening : max_unknown_darkening);
+  return std::round(10 * std::clamp(white, darkest, grey)) / 10 + 0.0;  // not -0
 }
 
 }  // namespace alhazen

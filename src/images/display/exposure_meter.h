@@ -33,9 +33,10 @@ class ExposureMeter {
 
   /// Stops, by tenths. The mean logarithm of the luminance, without the darkest tenth and the brightest twentieth,
   /// becomes that of middle grey, 0.18. Where more than a tenth would be above white, the image is made darker, until
-  /// it is no more than that, by at most `max_darkening` stops.
+  /// it is no more than that, by at most `max_darkening` stops, or, where it is not known what is a dark background,
+  /// `max_unknown_darkening`.
   double automatic() const;
-  static constexpr double max_darkening = 1.5;
+  static constexpr double max_darkening = 1.5, max_unknown_darkening = 4;
 
   /// By a rule other than `given`.
   double exposure(ExposureRule rule) const { return rule == ExposureRule::automatic ? automatic() : fitting(); }

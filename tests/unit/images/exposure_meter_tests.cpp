@@ -99,6 +99,15 @@ TEST(ExposureMeter, BrightDotsAndBlackDoNotCount) {
   EXPECT_NEAR(meter.automatic(), 0, 0.11);
 }
 
+/// A dark background that is not known to be one does not make a bright subject white.
+TEST(ExposureMeter, AutomaticSparesASubjectOnADarkBackground) {
+  const ExposureMeter meter = metered(40, [](int x, int y) {
+    const bool is_subject = std::abs(x - 20) < 9 && std::abs(y - 20) < 9;
+    return MeteredPixel{is_subject ? 600 : 0.02, -1};
+  });
+  EXPECT_LT(meter.automatic(), std::log2(1 / 600.0) + 1.5);
+}
+
 /// Where a third of the image is far brighter than the rest, it is not all white.
 TEST(ExposureMeter, AutomaticSparesHighlights) {
   const auto exposure_of_highlights = [](double brightness) {
