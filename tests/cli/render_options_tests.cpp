@@ -60,6 +60,8 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       // Tested in view_tests.cpp:
       "--look-at", "--orbit", "--fit", "--fov", "--aperture", "--focus", "--environment-rotate",
       "--environment-strength", "--light-scale",
+      // Tested in frames_tests.cpp, turntable_tests.cpp, motion_blur_tests.cpp and standard_streams_tests.cpp:
+      "--frames", "--fps", "--turntable", "--shutter", "--format",
       // Tested in command_line_tests.cpp:
       "--config",
       // Tested in quality_tests.cpp:
@@ -76,7 +78,7 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
     named.insert(help.out.substr(at, end - at));
   }
   EXPECT_EQ(named, tested);
-  for (const char* group : {"Output:", "Image:", "Engine:", "While it runs:", "SCENE"})
+  for (const char* group : {"Output:", "Image:", "Animation:", "Engine:", "While it runs:", "SCENE"})
     EXPECT_NE(help.out.find(group), std::string::npos) << group;
 }
 
