@@ -62,6 +62,10 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--environment-strength", "--light-scale",
       // Tested in display_options_tests.cpp:
       "--white-balance", "--png-depth", "--jpeg-quality",
+      // Tested in frames_tests.cpp, turntable_tests.cpp, motion_blur_tests.cpp and standard_streams_tests.cpp:
+      "--frames", "--fps", "--turntable", "--shutter", "--format",
+      // Tested in layers_tests.cpp:
+      "--transparent-background", "--transparent-glass", "--exr-compression", "--exr-parts", "--exr-tiles",
       // Tested in command_line_tests.cpp:
       "--config",
       // Tested in help_tests.cpp:
@@ -80,7 +84,8 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
     named.insert(help.out.substr(at, end - at));
   }
   EXPECT_EQ(named, tested);
-  for (const char* group : {"Output:", "Image:", "Camera:", "Light:", "Scene:", "Engine:", "While it runs:", "SCENE"})
+  for (const char* group :
+       {"Output:", "Image:", "Camera:", "Light:", "Scene:", "Animation:", "Engine:", "While it runs:", "SCENE"})
     EXPECT_NE(help.out.find(group), std::string::npos) << group;
 }
 
