@@ -192,7 +192,7 @@ int finish(RenderOptions& options, const Rendering& rendering, bool fits_exposur
 
 int run(RenderOptions& options) {
   if (options.list) {
-    print_listing(options.scene, options.settings.confine, false);
+    print_listing(options.scene, options.settings, false);
     return exit_done;
   }
   parse_output_options(options);

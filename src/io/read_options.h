@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace alhazen {
+#include "io/find_file.h"
 
-class InputRecord;
+namespace alhazen {
 
 /// Empty options leave the choice to the file. Instead of a name, a number from 0 in the order of SceneListing may be
 /// given.
@@ -25,7 +25,8 @@ struct ReadOptions {
   bool confine = false;
   /// Records the files that are read; null: none.
   std::shared_ptr<InputRecord> record = nullptr;
-  /// Whether nothing is selected; `confine` and `record` select nothing.
+  FileSearch search = {};
+  /// Whether nothing is selected; `confine`, `record` and `search` select nothing.
   bool is_default() const { return camera.empty() && variant.empty() && animation.empty() && !time; }
 };
 

@@ -13,6 +13,7 @@
 #include "io/pbrt/pbrt.h"
 #include "io/ply/ply.h"
 #include "scene/default_view.h"
+#include "scene/kind_names.h"
 
 namespace alhazen {
 
@@ -59,13 +60,14 @@ namespace {
 Scene read_by_format(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
   InputPath input = path_beside(path, path, options.confine);
   input.scope.record = options.record;
+  check_search_folders(options.search, input.scope);
   const std::string format = format_of(input);
   if (options.time && !std::isfinite(*options.time))
     throw InputError("the time of the animation must be a finite number of seconds");
   if (format == "gltf") return read_gltf(input, options, diagnostics);
   if (!options.is_default())
     throw InputError({path}, "cameras, variants, animations and their time can be chosen for glTF files only");
-  if (format == "pbrt") return read_pbrt(input, diagnostics);
+  if (format == "pbrt") return read_pbrt(input, diagnostics, options.search);
   return scene_around(read_ply(input, diagnostics), path, options.aspect);
 }
 
@@ -82,14 +84,32 @@ Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostic
                    "-v): give it fewer or smaller meshes and images");
 }
 
+namespace {
+
+/// What has no name is called by its kind and its place in the file.
+SceneListing names_in(const Scene& scene) {
+  SceneListing listing;
+  listing.cameras.emplace_back(camera_name(scene.camera.kind));
+  for (const Light& light : scene.lights) listing.lights.push_back(light_name(light));
+  for (const ShapeGroup& group : scene.groups)
+    for (const Shape& shape : group.shapes)
+      if (shape.emission) listing.lights.push_back("area light, " + shape.where.to_string());
+  return listing;
+}
+
+}  // namespace
+
+bool offers_choices(const std::string& path, const ReadOptions& options) {
+  return format_of(path_beside(path, path, options.confine)) == "gltf";
+}
+
 SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
   const InputPath input = path_beside(path, path, options.confine);
-  if (format_of(input) == "gltf") return list_gltf(input, diagnostics);
-  // These formats offer no choices, but unreadable files are reported all the same.
+  if (format_of(input) == "gltf") return list_gltf(input, diagnostics, options.search);
   ReadOptions only_read;
   only_read.confine = options.confine;
-  read_scene(path, only_read, diagnostics);
-  return {};
+  only_read.search = options.search;
+  return names_in(read_scene(path, only_read, diagnostics));
 }
 
 InputPath path_beside(const std::string& scene, const std::string& path, bool confine) {

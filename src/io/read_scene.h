@@ -16,6 +16,9 @@ namespace alhazen {
 Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics);
 inline Scene read_scene(const std::string& path, Diagnostics& diagnostics) { return read_scene(path, {}, diagnostics); }
 
+/// Whether the file is glTF, the only format that offers choices. Throws InputError if it is none that is read.
+bool offers_choices(const std::string& path, const ReadOptions& options);
+
 /// The choices for `options`. Throws InputError.
 SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics);
 

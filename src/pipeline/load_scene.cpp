@@ -24,7 +24,8 @@ LoadedScene load_scene(const std::string& path, const Settings& settings, Diagno
                            settings.animation_time,
                            aspect_of(settings.width, settings.height),
                            settings.confine,
-                           loaded.inputs};
+                           loaded.inputs,
+                           {settings.search_paths, settings.strict}};
   loaded.scene = read_scene(path, choice, diagnostics);
   loaded.inputs->refuse(settings.checkpoint, "the checkpoint");
   if (!settings.environment.empty()) {

@@ -210,6 +210,8 @@ class SceneReader {
       const MaterialUse& use = materials_.use(material_index(primitive), has_vertex_colours(document_, primitive));
       const auto mesh = meshes_.read(primitive, use, placement.deformation);
       if (!mesh) continue;
+      const std::string name = document_.string(document_.item("meshes", placement.mesh), "name");
+      if (!name.empty()) scene_.meshes[*mesh].name = name;
       Shape shape;
       shape.mesh = *mesh;
       shape.material = use.material;
@@ -286,7 +288,7 @@ bool is_glb(std::span<const uint8_t> bytes) { return bytes.size() >= 4 && std::m
 
 Scene parse_gltf(std::span<const uint8_t> bytes, const InputPath& path, const std::string& folder,
                  const ReadOptions& options, Diagnostics& diagnostics) {
-  gltf::Document document(bytes, path, folder, diagnostics);
+  gltf::Document document(bytes, path, folder, diagnostics, options.search);
   try {
     gltf::check_extensions(document);
     gltf::validate(document);
@@ -323,9 +325,9 @@ Scene read_gltf(const InputPath& path, const ReadOptions& options, Diagnostics& 
   return parse_gltf(gltf::read_main_file(path), path, gltf::folder_of(path.name), options, diagnostics);
 }
 
-SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics) {
+SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics, const FileSearch& search) {
   const std::vector<uint8_t> bytes = gltf::read_main_file(path);
-  const gltf::Document document(bytes, path, gltf::folder_of(path.name), diagnostics);
+  const gltf::Document document(bytes, path, gltf::folder_of(path.name), diagnostics, search);
   gltf::validate(document);
   gltf::Buffers buffers(document);
   gltf::Accessors accessors(document, buffers);

@@ -20,7 +20,7 @@ Scene parse_gltf(std::span<const uint8_t> bytes, const InputPath& path, const st
                  const ReadOptions& options, Diagnostics& diagnostics);
 
 /// The names among which ReadOptions choose.
-SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics);
+SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics, const FileSearch& search = {});
 
 /// Returns whether the bytes begin a .glb file.
 bool is_glb(std::span<const uint8_t> bytes);
