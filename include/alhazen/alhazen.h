@@ -37,6 +37,12 @@ struct Settings {
   /// Read no files outside the folder of the scene file; for untrusted scenes. Files that are linked or mounted into
   /// the folder count as inside, hard links included.
   bool confine = false;
+  /// Folders in which files that the scene names are looked for after the scene's own. With `confine` they must be
+  /// within it.
+  std::vector<std::string> search_paths;
+  /// A texture image that is in none of them is an error, as other files are. Otherwise a warning names it, and magenta
+  /// is shown in its place.
+  bool strict = false;
   /// Pixel filter: box, triangle, gaussian, mitchell or sinc, with an optional radius in pixels: "box,0.5". Empty: that
   /// of the scene.
   std::string filter;

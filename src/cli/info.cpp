@@ -3,17 +3,15 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <string>
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/info_report.h"
 #include "cli/listing.h"
+#include "cli/setting_options.h"
 #include "cli/subcommands.h"
-#include "compile/compile_scene.h"
 #include "pipeline/load_scene.h"
-#include "render/statistics.h"
-#include "scene/filters.h"
-#include "util/printable.h"
 
 namespace alhazen {
 
@@ -21,60 +19,24 @@ namespace {
 
 struct InfoOptions {
   std::string scene;
-  bool json = false, list = false, confine = false;
+  Settings settings;
+  bool json = false, list = false, all = false;
 };
-
-std::string name_of(FilterType type) {
-  for (const auto& [name, filter] : named_filters())
-    if (filter.type == type) return name;
-  return {};
-}
 
 void show(const InfoOptions& options) {
   if (options.list) {
-    print_listing(options.scene, options.confine, options.json);
+    print_listing(options.scene, options.settings, options.json);
     return;
   }
   Diagnostics diagnostics;
-  Settings asked;
-  asked.confine = options.confine;
-  Scene scene = load_scene(options.scene, asked, diagnostics).scene;
-  const RenderSettings settings = resolve_settings(asked, scene);
-  const size_t materials = scene.materials.size(), textures = scene.textures.size(), images = scene.images.size(),
-               meshes = scene.meshes.size(), instances = scene.instances.size();
-  const std::string filter = name_of(scene.filter.type);
-  CompileOptions as_on_cpus{.layouts = {BvhLayout::bvh8}};
-  as_on_cpus.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
-  const SceneStatistics sizes = compile_scene<float>(std::move(scene), as_on_cpus, diagnostics).statistics;
-  nlohmann::ordered_json j{{"scene", options.scene},
-                           {"width", settings.window.width()},
-                           {"height", settings.window.height()},
-                           {"quality", settings.asked.quality.empty() ? "none" : settings.asked.quality},
-                           {"spp", settings.samples_per_pixel},
-                           {"max_depth", settings.max_segments - 1},
-                           {"integrator", to_string(settings.integrator)},
-                           {"sampler", to_string(settings.sampler)},
-                           {"filter", filter},
-                           {"triangles", sizes.triangles},
-                           {"spheres", sizes.spheres}};
-  for (const auto& [name, count] : sizes.others) j[name] = count;
-  j.update(nlohmann::ordered_json{{"lights", sizes.lights},
-                                  {"meshes", meshes},
-                                  {"instances", instances},
-                                  {"materials", materials},
-                                  {"textures", textures},
-                                  {"images", images},
-                                  {"nodes", sizes.nodes},
-                                  {"scene_bytes", sizes.bytes},
-                                  {"tree_bytes", sizes.tree_bytes},
-                                  {"build_seconds", sizes.build_seconds},
-                                  {"peak_rss_bytes", peak_rss_bytes()}});
-  if (options.json) {
-    print_out("{}\n", j.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
-  } else {
-    for (const auto& [key, value] : j.items())
-      print_out("{:<15} {}\n", key, value.is_string() ? printable(value.get<std::string>()) : value.dump());
-  }
+  const Scene scene = load_scene(options.scene, options.settings, diagnostics).scene;
+  const SceneReport report{options.scene,
+                           scene,
+                           resolve_settings(options.settings, scene),
+                           describe(scene),
+                           list_choices(options.scene, options.settings),
+                           diagnostics.warnings()};
+  print_out("{}", options.json ? report_json(report) : report_text(report, options.all));
   for (const Diagnostics::Warning& warning : diagnostics.warnings()) tell("warning: {}\n", warning.to_string());
 }
 
@@ -84,9 +46,11 @@ void register_info(Command& program) {
   Command command = program.add_subcommand("info", "Read a scene and describe its contents");
   auto options = std::make_shared<InfoOptions>();
   command.add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)").required().value_name("");
-  command.add_flag("--json", options->json, "One JSON object instead of the list");
-  command.add_flag("--list", options->list, "Cameras, variants, animations and lights of a glTF file instead");
-  command.add_flag("--confine", options->confine, "Read nothing outside the folder of the scene");
+  command.add_flag("--json", options->json, "One JSON object instead of the report; docs/formats.md has its keys");
+  command.add_flag("--all", options->all, "Every object, material, light and image, not only the first 20 of each");
+  command.add_flag("--list", options->list, "Cameras, variants, animations and lights instead, with their numbers");
+  for (const char* name : {"camera", "time", "animation", "variant", "confine", "search-path", "strict"})
+    add_setting_option(command, options->settings, name);
   command.on_run([options] { show(*options); });
 }
 

@@ -10,11 +10,22 @@
 
 namespace alhazen {
 
-void print_listing(const std::string& scene, bool confine, bool as_json) {
-  Diagnostics diagnostics;
+static ReadOptions reading(const Settings& settings) {
   ReadOptions choice;
-  choice.confine = confine;
-  const SceneListing listing = list_scene(scene, choice, diagnostics);
+  choice.confine = settings.confine;
+  choice.search = {settings.search_paths, settings.strict};
+  return choice;
+}
+
+SceneListing list_choices(const std::string& scene, const Settings& settings) {
+  if (!offers_choices(scene, reading(settings))) return {};
+  Diagnostics diagnostics;
+  return list_scene(scene, reading(settings), diagnostics);
+}
+
+void print_listing(const std::string& scene, const Settings& settings, bool as_json) {
+  Diagnostics diagnostics;
+  const SceneListing listing = list_scene(scene, reading(settings), diagnostics);
   const std::pair<const char*, const std::vector<std::string>*> kinds[] = {{"cameras", &listing.cameras},
                                                                            {"variants", &listing.variants},
                                                                            {"animations", &listing.animations},

@@ -2,10 +2,16 @@
 
 #include <string>
 
+#include "alhazen/alhazen.h"
+#include "io/read_options.h"
+
 namespace alhazen {
 
-/// Prints the choices for --camera, --variant and --animation, and the lights, of a scene file. `confine`: read no
-/// files outside its folder.
-void print_listing(const std::string& scene, bool confine, bool as_json);
+/// The choices that a scene file offers, read as `settings` say (confined, search paths). Nothing for formats that
+/// offer none.
+SceneListing list_choices(const std::string& scene, const Settings& settings);
+
+/// Prints the choices for --camera, --variant and --animation, and the lights.
+void print_listing(const std::string& scene, const Settings& settings, bool as_json);
 
 }  // namespace alhazen

@@ -75,7 +75,7 @@ int run_subcommand(int argc, char** argv) {
   int exit_code = alhazen::exit_done;
   const auto add_subcommands = [&](alhazen::Command& program) {
     alhazen::register_render(program, exit_code);
-    alhazen::register_compare(program);
+    alhazen::register_compare(program, exit_code);
     alhazen::register_devices(program);
     alhazen::register_info(program);
     alhazen::register_study(program, exit_code);

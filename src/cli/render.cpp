@@ -240,7 +240,7 @@ void warn_of_patterns(const RenderOptions& o, Diagnostics& diagnostics) {
 
 int run(RenderOptions& options) {
   if (options.list) {
-    print_listing(options.scene, options.settings.confine, false);
+    print_listing(options.scene, options.settings, false);
     return exit_done;
   }
   parse_output_options(options);

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace alhazen {
+#include "io/find_file.h"
 
-class InputRecord;
+namespace alhazen {
 
 /// Empty options leave the choice to the file. Instead of a name, a number from 0 in the order of SceneListing may be
 /// given.
@@ -27,6 +27,7 @@ struct ReadOptions {
   std::shared_ptr<InputRecord> record = nullptr;
   /// For how many seconds the shutter is open; absent: as the file says, or 0.
   std::optional<double> shutter_seconds = std::nullopt;
+  FileSearch search = {};
   /// Whether nothing is selected that glTF files alone offer.
   bool is_default() const { return camera.empty() && variant.empty() && animation.empty(); }
   bool has_motion_blur() const { return shutter_seconds && *shutter_seconds > 0; }

@@ -14,6 +14,7 @@
 #include "io/pbrt/pbrt.h"
 #include "io/ply/ply.h"
 #include "scene/default_view.h"
+#include "scene/kind_names.h"
 #include "scene/shutter.h"
 
 namespace alhazen {
@@ -61,6 +62,7 @@ namespace {
 Scene read_by_format(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
   InputPath input = path_beside(path, path, options.confine);
   input.scope.record = options.record;
+  check_search_folders(options.search, input.scope);
   const bool is_standard_input = path == standard_input_name;
   const std::string format = is_standard_input ? "pbrt" : format_of(input);
   if (options.time && !std::isfinite(*options.time))
@@ -70,8 +72,9 @@ Scene read_by_format(const std::string& path, const ReadOptions& options, Diagno
   if (format == "gltf") return read_gltf(input, options, diagnostics);
   if (!options.is_default())
     throw InputError({path}, "cameras, variants and animations can be chosen for glTF files only");
-  Scene scene = is_standard_input  ? parse_pbrt(standard_input(), "standard input", input.scope, diagnostics)
-                : format == "pbrt" ? read_pbrt(input, diagnostics)
+  Scene scene = is_standard_input  ? parse_pbrt(standard_input(), "standard input", input.scope, diagnostics,
+                                                   options.search)
+                : format == "pbrt" ? read_pbrt(input, diagnostics, options.search)
                                    : scene_around(read_ply(input, diagnostics), path, options.aspect);
   if (options.time || options.shutter_seconds) set_shutter(scene, options.time, options.shutter_seconds);
   return scene;
@@ -97,14 +100,34 @@ std::vector<Camera> read_camera_path(const std::string& path, const ReadOptions&
   return format_of(input) == "gltf" ? read_gltf_camera_path(input, options, times) : std::vector<Camera>{};
 }
 
+namespace {
+
+/// What has no name is called by its kind and its place in the file.
+SceneListing names_in(const Scene& scene) {
+  SceneListing listing;
+  listing.cameras.emplace_back(camera_name(scene.camera.kind));
+  for (const Light& light : scene.lights) listing.lights.push_back(light_name(light));
+  for (const ShapeGroup& group : scene.groups)
+    for (const Shape& shape : group.shapes)
+      if (shape.emission) listing.lights.push_back("area light, " + shape.where.to_string());
+  return listing;
+}
+
+}  // namespace
+
+bool offers_choices(const std::string& path, const ReadOptions& options) {
+  if (path == standard_input_name) return false;
+  return format_of(path_beside(path, path, options.confine)) == "gltf";
+}
+
 SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
   const InputPath input = path_beside(path, path, options.confine);
-  if (path != standard_input_name && format_of(input) == "gltf") return list_gltf(input, diagnostics);
-  // These formats offer no choices, but unreadable files are reported all the same.
+  if (path != standard_input_name && format_of(input) == "gltf")
+    return list_gltf(input, diagnostics, options.search);
   ReadOptions only_read;
   only_read.confine = options.confine;
-  read_scene(path, only_read, diagnostics);
-  return {};
+  only_read.search = options.search;
+  return names_in(read_scene(path, only_read, diagnostics));
 }
 
 InputPath path_beside(const std::string& scene, const std::string& path, bool confine) {

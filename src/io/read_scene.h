@@ -24,6 +24,8 @@ inline Scene read_scene(const std::string& path, Diagnostics& diagnostics) { ret
 /// once; empty for any other scene. Throws InputError.
 std::vector<Camera> read_camera_path(const std::string& path, const ReadOptions& options,
                                      const std::vector<double>& times);
+/// Whether the file is glTF, the only format that offers choices. Throws InputError if it is none that is read.
+bool offers_choices(const std::string& path, const ReadOptions& options);
 
 /// The choices for `options`. Throws InputError.
 SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics);

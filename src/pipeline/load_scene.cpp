@@ -18,6 +18,7 @@ ReadOptions read_options(const Settings& settings) {
                       settings.animation_time,
                       aspect_of(settings.width, settings.height),
                       settings.confine};
+  options.search = {settings.search_paths, settings.strict};
   if (settings.shutter) options.shutter_seconds = *settings.shutter / settings.frames_per_second;
   return options;
 }

@@ -200,6 +200,23 @@ Codec quality() {
           }};
 }
 
+/// Folders with colons between them.
+Codec folder_list() {
+  return {[](const Settings& s) {
+            std::string text;
+            for (const std::string& folder : s.search_paths) text += (text.empty() ? "" : ":") + folder;
+            return text;
+          },
+          [](Settings& s, const std::string& text) {
+            for (size_t begin = 0; begin <= text.size();) {
+              const size_t end = std::min(text.find(':', begin), text.size());
+              if (begin == end) refuse("search-path", text, "the name of a folder, or several with colons between");
+              s.search_paths.push_back(text.substr(begin, end - begin));
+              begin = end + 1;
+            }
+          }};
+}
+
 Codec layer_list() {
   return {[](const Settings& s) {
             std::string text;
@@ -415,6 +432,12 @@ std::vector<SettingEntry> image_settings() {
                    name(&Settings::variant))),
       common(entry(SettingGroup::scene, "confine", "", "",
                    "Read no files outside the folder of the scene: for untrusted scenes", flag(&Settings::confine))),
+      common(
+          entry(SettingGroup::scene, "search-path", "", "DIR[:DIR]",
+                "Look for files that the scene names in these folders too, after its own; may be given more than once",
+                folder_list(), true)),
+      entry(SettingGroup::scene, "strict", "", "",
+            "A texture image that is not there is an error, instead of magenta and a warning", flag(&Settings::strict)),
       of_samples(order_of_samples, entry(group, "sampler", "", "NAME",
                                          "sobol, zsobol (noise that looks finer; plans for --spp samples, which a "
                                          "checkpoint cannot change) or independent",

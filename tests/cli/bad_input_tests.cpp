@@ -138,8 +138,7 @@ TEST_F(BadInput, MalformedPbrt) {
   expect_bad_world("AttributeBegin", {"bad.pbrt:2:1", "not closed"});
   expect_bad_world("Material \"diffuse\" \"rgb reflectance\" [ 1 2 ]", {"bad.pbrt:2:20"});
   expect_bad_world("NamedMaterial \"gold\"\nShape \"sphere\"", {"bad.pbrt:2:1", "gold"});
-  expect_bad_world("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"missing.png\"",
-                   {"bad.pbrt:2:", "missing.png"});
+  expect_bad_world("LightSource \"projection\" \"string filename\" \"missing.png\"", {"bad.pbrt:2:", "missing.png"});
   expect_bad_world("Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 nan 1 0 ] \"integer indices\" [ 0 1 2 ]",
                    {"bad.pbrt:2:", "nan"});
   expect_bad_world("Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 1e60 1e60 1e60 ] \"integer indices\" [ 0 1 2 ]",

@@ -68,6 +68,8 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--transparent-background", "--transparent-glass", "--exr-compression", "--exr-parts", "--exr-tiles",
       // Tested in command_line_tests.cpp:
       "--config",
+      // Tested in missing_images_tests.cpp:
+      "--search-path", "--strict",
       // Tested in help_tests.cpp:
       "--help-all",
       // Tested in quality_tests.cpp:

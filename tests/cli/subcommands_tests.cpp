@@ -123,10 +123,10 @@ TEST_F(Subcommands, DevicesListsTheBackends) {
 TEST_F(Subcommands, InfoSaysWhatASceneHolds) {
   const CommandResult table = run({"info", "scene.pbrt"});
   EXPECT_EQ(table.exit_code, 0) << table.everything();
-  EXPECT_NE(table.out.find("triangles       36"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("36 triangles"), std::string::npos) << table.out;
   const nlohmann::json j = only_json(run({"info", "scene.pbrt", "--json"}).out);
   EXPECT_EQ(j["triangles"], 36);
-  EXPECT_EQ(j["lights"], 2);
+  EXPECT_EQ(j["lights"].size(), 1u) << "of two triangles";
   EXPECT_EQ(j["width"], 24);
   EXPECT_EQ(j["filter"], "box");
   EXPECT_EQ(j["spp"], 8);

@@ -185,6 +185,14 @@ std::vector<Value> read_all(const Document& document, Buffers& buffers, const Js
 
 }  // namespace
 
+uint64_t element_bytes(const Document& document, const Json& accessor) {
+  return read_layout(document, accessor).element_bytes();
+}
+
+uint64_t component_bytes(const Document& document, const Json& object, uint64_t component_type) {
+  return size_of_component(document, object, component_type);
+}
+
 size_t Accessors::count(uint32_t index) const {
   return read_layout(document_, document_.item("accessors", index)).count;
 }

@@ -33,4 +33,9 @@ class Accessors {
   Buffers& buffers_;
 };
 
+/// Bytes of one element, whose type and component type must be known ones.
+uint64_t element_bytes(const Document& document, const Json& accessor);
+/// Bytes of a number of type `component_type` (5120, ...); `object` is where it is named.
+uint64_t component_bytes(const Document& document, const Json& object, uint64_t component_type);
+
 }  // namespace alhazen::gltf

@@ -4,6 +4,22 @@
 
 namespace alhazen::gltf {
 
+namespace {
+
+/// Bytes of a buffer without data; a file of a few bytes must not take all memory.
+constexpr uint64_t max_zero_bytes = uint64_t{1} << 28;
+
+}  // namespace
+
+/// The first buffer of a .glb file has its chunk or is malformed.
+bool Buffers::is_without_data(uint32_t index) const {
+  return document_.item("buffers", index).find("uri") == nullptr && !(index == 0 && document_.is_binary());
+}
+
+bool Buffers::has_no_data(uint32_t view) const {
+  return is_without_data(document_.required_index(document_.item("bufferViews", view), "buffer", "buffers"));
+}
+
 std::span<const uint8_t> Buffers::buffer(uint32_t index) {
   const Json& description = document_.item("buffers", index);
   const uint64_t length = document_.required_whole(description, "byteLength");
@@ -13,10 +29,17 @@ std::span<const uint8_t> Buffers::buffer(uint32_t index) {
     auto entry = buffers_.find(index);
     if (entry == buffers_.end()) entry = buffers_.emplace(index, load_uri(document_, *uri).bytes).first;
     bytes = entry->second;
-  } else if (index == 0 && document_.binary_chunk()) {
+  } else if (is_without_data(index)) {
+    if (length > max_zero_bytes)
+      document_.fail(description, "the buffer of " + std::to_string(length) + " bytes has no data: it needs a \"uri\"");
+    document_.warn(description,
+                   "the buffer has no data, neither a \"uri\" nor the binary chunk of a .glb file: its "
+                   "bytes are read as 0, and what is made of them is not seen");
+    bytes = buffers_.try_emplace(index, static_cast<size_t>(length)).first->second;
+  } else if (document_.binary_chunk()) {
     bytes = *document_.binary_chunk();
   } else {
-    document_.fail(description, "the buffer has no data: neither \"uri\" nor the binary chunk of a .glb file");
+    document_.fail(description, "the buffer has no data: the .glb file has no binary chunk");
   }
   if (bytes.size() < length)
     document_.fail(description,

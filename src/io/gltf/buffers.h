@@ -21,9 +21,12 @@ class Buffers {
 
   /// The bytes of a buffer view, decompressed if it uses EXT_meshopt_compression. Spans remain valid.
   const BufferView& view(uint32_t index);
+  /// Whether the file gives no data for the buffer of a view: neither "uri" nor the binary chunk. Its bytes are then 0.
+  bool has_no_data(uint32_t view) const;
 
  private:
   std::span<const uint8_t> buffer(uint32_t index);
+  bool is_without_data(uint32_t index) const;
   std::span<const uint8_t> range(const Json& object);
   BufferView decompress(const Json& compression);
 

@@ -17,7 +17,7 @@ uint32_t little_endian(std::span<const uint8_t> bytes, size_t at) {
          uint32_t{bytes[at + 3]} << 24;
 }
 
-bool is_binary(std::span<const uint8_t> bytes) {
+bool has_binary_header(std::span<const uint8_t> bytes) {
   return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
 }
 
@@ -32,9 +32,14 @@ const std::vector<Json> no_items;
 }  // namespace
 
 Document::Document(std::span<const uint8_t> bytes, const InputPath& path, const std::string& folder,
-                   Diagnostics& diagnostics)
-    : path_(path.name), folder_(folder), scope_(path.scope), diagnostics_(diagnostics) {
-  if (is_binary(bytes))
+                   Diagnostics& diagnostics, const FileSearch& search)
+    : path_(path.name),
+      folder_(folder),
+      scope_(path.scope),
+      search_(search),
+      is_binary_(has_binary_header(bytes)),
+      diagnostics_(diagnostics) {
+  if (is_binary_)
     read_container(bytes);
   else
     root_ = parse_json(text_of(bytes), path_);

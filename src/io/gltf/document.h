@@ -13,6 +13,7 @@
 
 #include "core/math/vec.h"
 #include "files/input_file.h"
+#include "io/find_file.h"
 #include "io/gltf/json.h"
 #include "util/diagnostics.h"
 
@@ -21,7 +22,8 @@ namespace alhazen::gltf {
 class Document {
  public:
   /// `bytes` are those of a .gltf or .glb file and must outlive the document; other files are relative to `folder`.
-  Document(std::span<const uint8_t> bytes, const InputPath& path, const std::string& folder, Diagnostics& diagnostics);
+  Document(std::span<const uint8_t> bytes, const InputPath& path, const std::string& folder, Diagnostics& diagnostics,
+           const FileSearch& search = {});
 
   const Json& root() const { return root_; }
   /// Values may be changed as long as nobody holds a reference to one that moves.
@@ -30,7 +32,9 @@ class Document {
   /// For the files that the document refers to.
   const InputScope& scope() const { return scope_; }
   const std::string& folder() const { return folder_; }
-  /// The binary chunk of a .glb file, or null.
+  const FileSearch& search() const { return search_; }
+  bool is_binary() const { return is_binary_; }
+  /// The binary chunk of a .glb file, if there is one.
   const std::optional<std::span<const uint8_t>>& binary_chunk() const { return binary_chunk_; }
   Diagnostics& diagnostics() const { return diagnostics_; }
 
@@ -70,6 +74,8 @@ class Document {
 
   std::string path_, folder_;
   InputScope scope_;
+  FileSearch search_;
+  bool is_binary_ = false;
   Diagnostics& diagnostics_;
   Json root_;
   std::optional<std::span<const uint8_t>> binary_chunk_;

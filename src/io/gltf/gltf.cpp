@@ -245,6 +245,8 @@ class SceneReader {
       const MaterialUse& use = materials_.use(material_index(primitive), has_vertex_colours(document_, primitive));
       const auto mesh = meshes_.read(primitive, use, placement.deformation);
       if (!mesh) continue;
+      const std::string name = document_.string(document_.item("meshes", placement.mesh), "name");
+      if (!name.empty()) scene_.meshes[*mesh].name = name;
       Shape shape;
       shape.mesh = *mesh;
       shape.material = use.material;
@@ -338,7 +340,7 @@ bool is_glb(std::span<const uint8_t> bytes) { return bytes.size() >= 4 && std::m
 
 Scene parse_gltf(std::span<const uint8_t> bytes, const InputPath& path, const std::string& folder,
                  const ReadOptions& options, Diagnostics& diagnostics) {
-  gltf::Document document(bytes, path, folder, diagnostics);
+  gltf::Document document(bytes, path, folder, diagnostics, options.search);
   try {
     gltf::check_extensions(document);
     gltf::validate(document);
@@ -413,7 +415,7 @@ std::vector<Camera> read_gltf_camera_path(const InputPath& path, const ReadOptio
                                           const std::vector<double>& times) {
   Diagnostics ignored;  // whoever reads the scene warns
   const std::vector<uint8_t> bytes = gltf::read_main_file(path);
-  const gltf::Document document(bytes, path, gltf::folder_of(path.name), ignored);
+  const gltf::Document document(bytes, path, gltf::folder_of(path.name), ignored, options.search);
   gltf::validate(document);
   const gltf::Json* animation = gltf::chosen_animation(document, options);
   gltf::Buffers buffers(document);
@@ -432,9 +434,9 @@ std::vector<Camera> read_gltf_camera_path(const InputPath& path, const ReadOptio
   return cameras;
 }
 
-SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics) {
+SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics, const FileSearch& search) {
   const std::vector<uint8_t> bytes = gltf::read_main_file(path);
-  const gltf::Document document(bytes, path, gltf::folder_of(path.name), diagnostics);
+  const gltf::Document document(bytes, path, gltf::folder_of(path.name), diagnostics, search);
   gltf::validate(document);
   gltf::Buffers buffers(document);
   gltf::Accessors accessors(document, buffers);

@@ -26,7 +26,7 @@ std::vector<Camera> read_gltf_camera_path(const InputPath& path, const ReadOptio
                                           const std::vector<double>& times);
 
 /// The names among which ReadOptions choose.
-SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics);
+SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics, const FileSearch& search = {});
 
 /// Returns whether the bytes begin a .glb file.
 bool is_glb(std::span<const uint8_t> bytes);

@@ -178,6 +178,19 @@ std::optional<ImageTexels> Textures::decode(const Json& image, const std::string
   return is_webp ? decode_webp(name, bytes) : decode_jpeg(name, bytes);
 }
 
+/// What counts instead of an image that is nowhere: magenta for colours, else as if there were no texture.
+uint32_t Textures::replace_missing(const Json& at, const std::string& file, Texels texels) {
+  const std::string problem = "there is no image " + file;
+  if (document_.search().strict) document_.fail(at, problem + search_hint(document_.search()));
+  document_.warn(at, problem +
+                         ": magenta is shown in place of its colours, and values other than colours count as if "
+                         "there were no texture" +
+                         search_hint(document_.search()));
+  if (texels != Texels::srgb) return no_index;
+  scene_.images.push_back(missing_image(file));
+  return static_cast<uint32_t>(scene_.images.size() - 1);
+}
+
 uint32_t Textures::load(uint32_t source, Texels texels) {
   const auto [entry, is_new] = images_.try_emplace({source, texels}, no_index);
   if (!is_new) return entry->second;
@@ -186,10 +199,15 @@ uint32_t Textures::load(uint32_t source, Texels texels) {
   Resource resource;
   std::span<const uint8_t> bytes;
   if (const Json* uri = image.find("uri")) {
-    resource = load_uri(document_, *uri);
+    std::optional<Resource> found = find_uri(document_, *uri);
+    if (!found) return entry->second = replace_missing(*uri, "'" + uri->string + "'", texels);
+    resource = std::move(*found);
     bytes = resource.bytes;
   } else {
-    bytes = buffers_.view(document_.required_index(image, "bufferView", "bufferViews")).bytes;
+    const uint32_t view = document_.required_index(image, "bufferView", "bufferViews");
+    if (buffers_.has_no_data(view))
+      return entry->second = replace_missing(image, "number " + std::to_string(source), texels);
+    bytes = buffers_.view(view).bytes;
   }
   std::string name = document_.place(image).to_string() + ": image " + std::to_string(source);
   if (image.find("uri") != nullptr && resource.name != "a data URI") name = resource.name;

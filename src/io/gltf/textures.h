@@ -44,6 +44,7 @@ class Textures {
   uint32_t add(Texture&& texture);
   uint32_t scene_image(const Json& texture, Texels texels);
   uint32_t load(uint32_t source, Texels texels);
+  uint32_t replace_missing(const Json& at, const std::string& file, Texels texels);
   std::optional<ImageTexels> decode(const Json& image, const std::string& name, std::span<const uint8_t> bytes,
                                     Texels texels) const;
   void set_sampler(const Json& texture, Texture& node) const;

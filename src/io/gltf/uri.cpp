@@ -77,7 +77,7 @@ bool has_scheme(std::string_view uri) {
 
 }  // namespace
 
-Resource load_uri(const Document& document, const Json& uri) {
+std::optional<Resource> find_uri(const Document& document, const Json& uri) {
   if (uri.kind != JsonKind::string) document.fail(uri, "\"uri\" must be a string");
   if (uri.string.starts_with("data:")) return data_of(document, uri);
   if (has_scheme(uri.string))
@@ -85,21 +85,27 @@ Resource load_uri(const Document& document, const Json& uri) {
   const std::string decoded = percent_decoded(uri.string);
   if (uri.string.empty() || decoded.find('\0') != decoded.npos || std::filesystem::path(decoded).is_absolute())
     document.fail(uri, "the path " + alhazen::quoted(decoded) + " must be a relative one");
-  const std::filesystem::path folder = document.folder();
-  InputPath path((folder / decoded).string(), document.scope());
-  InputProblem problem = input_problem(path);
-  if (!problem.message.empty() && decoded != uri.string && !std::filesystem::path(uri.string).is_absolute()) {
+  const auto look_for = [&](const std::string& name) {
+    return find_file(document.folder(), name, document.scope(), document.search());
+  };
+  FoundFile found = look_for(decoded);
+  if (!found.problem.message.empty() && decoded != uri.string && !std::filesystem::path(uri.string).is_absolute()) {
     // Some exporters do not percent-encode.
-    InputPath as_written((folder / uri.string).string(), document.scope());
-    if (input_problem(as_written).message.empty()) {
-      path = std::move(as_written);
-      problem = {};
-    }
+    FoundFile as_written = look_for(uri.string);
+    if (as_written.problem.message.empty()) found = std::move(as_written);
   }
-  if (problem.is_missing)
-    document.fail(uri, "the file " + alhazen::quoted(decoded) + " does not exist; it must be beside the glTF file");
-  if (!problem.message.empty()) document.fail(uri, "the file " + alhazen::quoted(decoded) + " " + problem.message);
-  return {read_bytes(path), path.name};
+  if (found.problem.is_missing) return std::nullopt;
+  if (!found.problem.message.empty())
+    document.fail(uri, "the file " + alhazen::quoted(decoded) + " " + found.problem.message);
+  return Resource{read_bytes(found.path), found.path.name};
+}
+
+Resource load_uri(const Document& document, const Json& uri) {
+  std::optional<Resource> resource = find_uri(document, uri);
+  if (!resource)
+    document.fail(uri, "the file " + alhazen::quoted(percent_decoded(uri.string)) +
+                           " does not exist; it must be beside the glTF file" + search_hint(document.search()));
+  return std::move(*resource);
 }
 
 }  // namespace alhazen::gltf

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "io/gltf/accessors.h"
+#include "io/gltf/validate_extensions.h"
+
 namespace alhazen::gltf {
 
 namespace {
@@ -28,6 +31,7 @@ class Validator {
     each("animations", [&](const Json& o) { check_animation(o); });
     each("scenes", [&](const Json& o) { check_indices(o, "nodes", "nodes"); });
     d_.index(d_.root(), "scene", "scenes");
+    validate_extensions(d_);
   }
 
  private:
@@ -64,18 +68,61 @@ class Validator {
     if (offset > size || length > size - offset)
       d_.fail(o, "the buffer view ends at byte " + std::to_string(offset + length) + " of a buffer of " +
                      std::to_string(size) + " bytes");
+    const uint64_t stride = d_.whole(o, "byteStride").value_or(4);
+    if (stride < 4 || stride > 252) d_.fail(o, "\"byteStride\" must be from 4 to 252, not " + std::to_string(stride));
+  }
+
+  struct ViewSize {
+    uint64_t length = 0, stride = 0;  ///< bytes; stride 0: tightly packed
+  };
+
+  /// After decompression.
+  ViewSize size_of_view(uint32_t index) const {
+    const Json& view = d_.item("bufferViews", index);
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+      if (const Json* compression = d_.extension(view, name)) {
+        const uint64_t stride = d_.required_whole(*compression, "byteStride");
+        const uint64_t count = d_.required_whole(*compression, "count");
+        // Whether the two are sensible is checked where the view is decompressed.
+        const bool fits = stride <= 256 && count <= uint64_t{1} << 40;
+        return {fits ? stride * count : d_.required_whole(view, "byteLength"), stride};
+      }
+    return {d_.required_whole(view, "byteLength"), d_.whole(view, "byteStride").value_or(0)};
+  }
+
+  /// Written so that it cannot overflow, whatever the file contains.
+  void check_fits(const Json& o, const ViewSize& view, uint64_t count, uint64_t element, bool is_strided) {
+    const uint64_t offset = d_.whole(o, "byteOffset").value_or(0);
+    const uint64_t stride = is_strided && view.stride != 0 ? view.stride : element;
+    if (stride < element)
+      d_.fail(o, "elements of " + std::to_string(element) + " bytes overlap in a buffer view whose stride is " +
+                     std::to_string(stride));
+    if (offset > view.length || element > view.length - offset ||
+        (count - 1) > (view.length - offset - element) / stride)
+      d_.fail(o, "the accessor's " + std::to_string(count) + " elements do not fit into its buffer view of " +
+                     std::to_string(view.length) + " bytes");
   }
 
   void check_accessor(const Json& o) {
-    d_.index(o, "bufferView", "bufferViews");
-    if (d_.required_whole(o, "count") == 0) d_.fail(o, "the accessor is empty: \"count\" must be at least 1");
+    const auto view = d_.index(o, "bufferView", "bufferViews");
+    const uint64_t count = d_.required_whole(o, "count");
+    if (count == 0) d_.fail(o, "the accessor is empty: \"count\" must be at least 1");
     d_.required_whole(o, "componentType");
+    const uint64_t element = element_bytes(d_, o);
+    if (view) check_fits(o, size_of_view(*view), count, element, true);
     const Json* sparse = d_.object(o, "sparse");
     if (sparse == nullptr) return;
+    const uint64_t replaced = d_.required_whole(*sparse, "count");
+    if (replaced == 0 || replaced > count)
+      d_.fail(*sparse, "\"sparse\" must replace at least one element and at most all of them");
     for (const char* part : {"indices", "values"}) {
       const Json* object = d_.object(*sparse, part);
       if (object == nullptr) d_.fail(*sparse, "\"sparse\" needs \"indices\" and \"values\"");
-      d_.required_index(*object, "bufferView", "bufferViews");
+      const uint32_t from = d_.required_index(*object, "bufferView", "bufferViews");
+      const bool is_indices = part[0] == 'i';
+      const uint64_t size =
+          is_indices ? component_bytes(d_, *object, d_.required_whole(*object, "componentType")) : element;
+      check_fits(*object, size_of_view(from), replaced, size, false);
     }
   }
 
@@ -141,7 +188,13 @@ class Validator {
 
   void check_skin(const Json& o) {
     check_indices(o, "joints", "nodes");
-    d_.index(o, "inverseBindMatrices", "accessors");
+    const auto matrices = d_.index(o, "inverseBindMatrices", "accessors");
+    if (const Json* joints = d_.list(o, "joints"); joints != nullptr && matrices) {
+      const uint64_t count = d_.required_whole(d_.item("accessors", *matrices), "count");
+      if (count < joints->items.size())
+        d_.fail(o, "the skin has " + std::to_string(joints->items.size()) + " joints and only " +
+                       std::to_string(count) + " inverse bind matrices");
+    }
     d_.index(o, "skeleton", "nodes");
   }
 

@@ -1,6 +1,5 @@
 #include "io/pbrt/build.h"
 
-#include <filesystem>
 #include <utility>
 
 #include "io/pbrt/materials.h"
@@ -34,13 +33,22 @@ void Build::warn_replaced(const ParameterList& list, const std::string& instead)
 
 InputPath Build::existing_file(const Place& place, const std::string& name) const {
   if (name.empty()) fail(place, "the name of a file is empty");
-  InputPath path((std::filesystem::path(folder) / name).string(), scope);
-  const InputProblem problem = input_problem(path);
-  if (problem.is_missing)
-    fail(place, "there is no file \"" + name + "\" (looked for " + path.name +
-                    "); paths are relative to the folder of the scene file");
-  if (!problem.message.empty()) fail(place, "the file \"" + name + "\" " + problem.message);
-  return path;
+  FoundFile found = find_file(folder, name, scope, search);
+  if (found.problem.is_missing)
+    fail(place, "there is no file \"" + name + "\" (looked for " + found.path.name +
+                    "); paths are relative to the folder of the scene file" + search_hint(search));
+  if (!found.problem.message.empty()) fail(place, "the file \"" + name + "\" " + found.problem.message);
+  return found.path;
+}
+
+std::optional<InputPath> Build::existing_image(const Place& place, const std::string& name,
+                                               const std::string& instead) {
+  if (name.empty() || search.strict) return existing_file(place, name);
+  const FoundFile found = find_file(folder, name, scope, search);
+  if (!found.problem.is_missing) return existing_file(place, name);
+  warn(place,
+       "there is no image \"" + name + "\" (looked for " + found.path.name + "): " + instead + search_hint(search));
+  return std::nullopt;
 }
 
 uint32_t Build::constant_texture(const Vec3d& value) {

@@ -14,6 +14,7 @@
 
 #include "colour/spectrum.h"
 #include "files/input_file.h"
+#include "io/find_file.h"
 #include "io/pbrt/parameters.h"
 #include "scene/scene.h"
 
@@ -80,6 +81,7 @@ struct Build {
   Transform after_look_at;
   std::string folder;  ///< relative paths are resolved from here
   InputScope scope;    ///< of all files that the scene refers to
+  FileSearch search;
 
   GraphicsState state;
   bool in_world = false;
@@ -115,8 +117,13 @@ struct Build {
   /// Warns that `directive` is not supported; `instead` says what the reader does instead.
   void warn_replaced(const ParameterList& list, const std::string& instead);
 
-  /// The file `name`, relative to the scene's folder. Throws, with the location `place`, if it cannot be read.
+  /// The file `name`, in the scene's folder or one of `search`. Throws, with the location `place`, if it cannot be
+  /// read.
   InputPath existing_file(const Place& place, const std::string& name) const;
+
+  /// The same for an image of a texture. If there is no such file, and that is no error, warns that it is replaced as
+  /// `instead` says, and returns nothing.
+  std::optional<InputPath> existing_image(const Place& place, const std::string& name, const std::string& instead);
 
   /// A texture with a constant value.
   uint32_t constant_texture(const Vec3d& value);

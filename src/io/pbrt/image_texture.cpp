@@ -1,5 +1,6 @@
 #include "io/pbrt/image_texture.h"
 
+#include <optional>
 #include <utility>
 
 #include "images/read_scalar_texture.h"
@@ -50,9 +51,14 @@ ImageTexels read_scalar(Build& build, ParameterList& list, const InputPath& path
   return std::move(scalar.texels);
 }
 
+/// Absent if there is no such image.
 uint32_t image_index(Build& build, ParameterList& list, TextureEncoding encoding, bool is_float) {
   const std::string name = list.string("filename", "");
-  const InputPath path = build.existing_file(list.place_of("filename"), name);
+  const std::optional<InputPath> found =
+      build.existing_image(list.place_of("filename"), name,
+                           is_float ? "the float texture is 1 everywhere" : "magenta is shown in its place");
+  if (!found) return no_index;
+  const InputPath& path = *found;
   const auto [entry, is_new] = build.images_by_key.try_emplace({path.name, static_cast<int>(encoding), is_float}, 0u);
   if (is_new) {
     build.diagnostics.activity().begin("reading textures", build.scene.images.size() + 1);
@@ -73,6 +79,12 @@ void read_image_texture(Build& build, ParameterList& list, bool is_float, Textur
   texture.invert = list.boolean("invert", false);
   list.ignore({"maxanisotropy"});
   texture.image = image_index(build, list, read_encoding(build, list), is_float);
+  if (texture.image != no_index) return;
+  // Whatever `scale` and `invert` say.
+  Texture constant;
+  constant.name = texture.name;
+  constant.value = is_float ? splat(1.0) : missing_colour;
+  texture = std::move(constant);
 }
 
 }  // namespace alhazen::pbrt

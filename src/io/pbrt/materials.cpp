@@ -245,7 +245,10 @@ const std::map<std::string, KnownMaterial> known_materials{
 /// `"string normalmap"`: the image of normals, whose values are linear.
 uint32_t read_normal_map(Build& build, ParameterList& list) {
   if (!list.has("normalmap")) return no_index;
-  const InputPath path = build.existing_file(list.place_of("normalmap"), list.string("normalmap", ""));
+  const std::optional<InputPath> found =
+      build.existing_image(list.place_of("normalmap"), list.string("normalmap", ""), "the surface has no normal map");
+  if (!found) return no_index;
+  const InputPath& path = *found;
   const auto [entry, is_new] =
       build.images_by_key.try_emplace({path.name, static_cast<int>(TextureEncoding::data), false}, 0u);
   if (is_new) {
