@@ -61,7 +61,7 @@ TEST(GltfUnused, AccessorsMustFitIntoTheirViews) {
       f.add_accessor(accessor);
     });
   };
-  EXPECT_EQ(with({}), "");
+  EXPECT_EQ(with(json::object()), "");
   EXPECT_NE(with({{"count", 3}}).find("do not fit"), std::string::npos);
   EXPECT_NE(with({{"byteOffset", 4}}).find("do not fit"), std::string::npos);
   EXPECT_NE(with({{"byteOffset", 9007199254740991}}).find("do not fit"), std::string::npos);
