@@ -183,9 +183,8 @@ class PassLoop {
       if (guiding_) guiding_->begin_pass(film_, samples_done_);
       const IntegratorKind integrator = guiding_ ? guiding_->integrator() : settings_.integrator;
       if (guiding_) scene_.view.guide = guiding_->view();
-      backend_.render_pass(RenderPass<Real>{scene_, select_sample_kernel<Real>(integrator, settings_.sampler),
-                                            settings_, film_, control_, samples_done_, size, integrator,
-                                            guiding_ ? &*guiding_ : nullptr});
+      backend_.render_pass(RenderPass<Real>{scene_, kernel_of(integrator), settings_, film_, control_, samples_done_,
+                                            size, integrator, guiding_ ? &*guiding_ : nullptr});
       const double seconds = seconds_since(start);
       elapsed_ += seconds;
       has_current_state_ = false;
@@ -199,6 +198,11 @@ class PassLoop {
         saved = Clock::now();
       }
     }
+  }
+
+  SampleKernel<Real> kernel_of(IntegratorKind integrator) const {
+    return events_.kernel ? SampleKernel<Real>(events_.kernel->kernel)
+                          : select_sample_kernel<Real>(integrator, settings_.sampler);
   }
 
   bool is_done() const { return samples_done_ == settings_.samples_per_pixel || unfinished_ == 0; }
@@ -345,7 +349,8 @@ Rendering render_in_precision(Scene&& scene, const RenderSettings& settings, dou
   if (is_on_gpu) diagnostics.activity().begin("starting the GPU");
   std::future<void> started = start_backend(*backend, settings, is_on_gpu);
   const int build_threads = is_on_gpu ? 0 : settings.threads;
-  CompileOptions options{settings.width, settings.height, build_threads, backend->wanted_layouts(settings)};
+  CompileOptions options{settings.width, settings.height, build_threads,
+                         events.kernel ? events.kernel->layouts : backend->wanted_layouts(settings)};
   options.texture_budget = settings.texture_budget;
   options.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
   CompiledScene<Real> flat = compile_scene<Real>(std::move(scene), options, diagnostics);
