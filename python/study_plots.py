@@ -132,7 +132,7 @@ def draw_headline(study):
         axes.set_xscale("log")
     scale = ", logarithmic axis" if axes.get_xscale() == "log" else ""
     doubt = "; ?: in doubt" if any(cell.get("doubt") for cell in cells) else ""
-    axes.set_xlabel(f"speedup over one core, float{scale} (bars: median; whiskers: fastest and slowest repeat{doubt})",
+    axes.set_xlabel(f"speedup over one core, float{scale} (whiskers: fastest and slowest repeat{doubt})",
                     fontsize=9.5)
     save(figure, study.into, "headline")
 
@@ -183,7 +183,12 @@ def draw_batches(study):
     axes.set_yticks(positions, rows)
     axes.grid(axis="y", visible=False)
     axes.margins(x=0.12)
-    axes.set_xlabel("nanoseconds per camera sample, float (?: in doubt)")
+    values = [cell["nanoseconds_per_sample"] for cell in cells]
+    is_log = max(values) > 30 * min(values)
+    if is_log:
+        axes.set_xscale("log")
+        axes.set_xlim(min(values) / 2, 4 * max(values))
+    axes.set_xlabel(f"nanoseconds per camera sample, float{', logarithmic axis' if is_log else ''} (?: in doubt)")
     axes.legend(loc="lower right")
     save(figure, study.into, "batches")
 

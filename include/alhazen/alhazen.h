@@ -131,8 +131,9 @@ struct ReachedNoise {
   double mean_samples = 0;  ///< per pixel
 };
 
-/// Planes of linear values, rows from the top down: R, G, B (radiance, linear sRGB) and the requested layers (albedo.R,
-/// .G, .B; normal.X, .Y, .Z; depth.Z; bounces.Y; samples.Y; variance.Y; noisy.R, .G, .B).
+/// Planes of linear values, rows from the top down: R, G, B (linear sRGB) and the layers asked for (albedo.R, .G, .B;
+/// normal.X, .Y, .Z; depth.Z; bounces.Y; samples.Y; variance.Y; noisy.R, .G, .B). Stopped before any sample: none, 0 x
+/// 0.
 struct RenderedImage {
   int width = 0, height = 0;
   std::vector<std::string> channels;

@@ -88,12 +88,13 @@ bool record(const Outcome& outcome, const Image* reference, const Study& study, 
   return true;
 }
 
-/// "Table 3, 4 dynamic, float" for the first cell that shows a trial, or its baseline.
+/// "Table 3: 4 dynamic, float" for the first cell that shows a trial.
 std::string cell_of(const Study& study, const std::string& trial) {
   for (const Table& table : study.tables)
     for (const Cell& cell : table.cells)
       if (cell.trial == trial)
-        return fmt::format("{}: {}, {}", table.title.substr(0, table.title.find(':')), cell.row, cell.column);
+        return fmt::format("{}: {}, {}", table.title.starts_with("Table ") ? table.title.substr(0, 7) : table.id,
+                           cell.row, cell.column);
   return "what speedups relate to";
 }
 
@@ -144,10 +145,11 @@ class Rounds {
     now_.cell = cell_of(study_, trial.key);
     now_.trial = trial.key;
     now_.seconds = elapsed();
-    // The first runs include a warm-up and overestimate the time left, so the second round uses its own times.
-    if (now_.done > 0)
-      now_.seconds_left = now_.seconds / static_cast<double>(now_.done) *
+    // Runs that were disturbed take time as well.
+    if (tries_ > 0)
+      now_.seconds_left = now_.seconds / static_cast<double>(tries_) *
                           static_cast<double>(now_.total - std::min(now_.done, now_.total));
+    ++tries_;
     events_.progress(now_);
     if (warm_.insert(trial.key).second) warm_up(trial.work, scene_, events_.go_on);
     if (!events_.go_on()) return false;
@@ -181,6 +183,7 @@ class Rounds {
   Clock::time_point start_ = Clock::now();
   double saved_ = 0;
   bool has_unsaved_ = false;
+  size_t tries_ = 0;  ///< runs so far, also those that were disturbed
 };
 
 }  // namespace

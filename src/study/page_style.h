@@ -49,9 +49,19 @@ code { font: 13px ui-monospace, "DejaVu Sans Mono", monospace; background: var(-
   :root { --ink: #e4e8ec; --soft: #9aa7b3; --line: #303841; --paper: #1a2027; --shade: #12161b; --accent: #63c1dd;
     --bar: #214754; }
 }
-@media (max-width: 640px) { dl { grid-template-columns: 1fr; } main { padding: 16px 10px; } section { padding: 16px 12px; }
-  h1 { font-size: 24px; } .cards { grid-template-columns: 1fr 1fr; gap: 8px; } .card { padding: 10px 12px; }
-  .card b { font-size: 22px; } td.row { white-space: normal; min-width: 8em; } th, td { padding: 6px; } }
+@media (max-width: 640px) {
+  dl { grid-template-columns: 1fr; }
+  main { padding: 16px 10px; }
+  section { padding: 16px 12px; }
+  h1 { font-size: 24px; }
+  .cards { grid-template-columns: 1fr 1fr; gap: 8px; }
+  .card { padding: 10px 12px; }
+  .card b { font-size: 22px; }
+  td.row { white-space: normal; min-width: 8em; }
+  th, td { padding: 6px; }
+  figure { overflow-x: auto; }
+  figure img, .drawing svg { max-width: none; width: 600px; }
+}
 @media print { body { background: #ffffff; } section { break-inside: avoid; } }
 )CSS";
 

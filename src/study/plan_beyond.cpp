@@ -52,7 +52,7 @@ void plan_batches(Plan& plan) {
       plan.add(Table{"batches",
                      fmt::format("What batches bring, {} threads", plan.processors()),
                      "The forms of Table 2 and the tiles, with the same bits: a path at a time, and in "
-                     "batches of up to 1,024 paths that go on together, so that SIMD instructions and "
+                     "batches, of which many paths are in flight together, so that SIMD instructions and "
                      "prefetches serve many rays. A reduction works on one block of 4 samples at a time, and "
                      "its batches are no larger. One core first; dynamic schedule, float. "
                      "Speedups are over the same form a path at a time.",
