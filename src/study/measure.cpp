@@ -129,8 +129,7 @@ class Rounds {
       if (is_repeated) ++now_.total;
       if (done++ == 0) study_.conditions.push_back({start, load_average(), megahertz()});
       if (!run_trial(trial)) return false;
-      has_unsaved_ = true;
-      if (elapsed() - saved_ > save_interval) save();
+      if (has_unsaved_ && elapsed() - saved_ > save_interval) save();
     }
     return true;
   }
@@ -156,6 +155,7 @@ class Rounds {
     const Outcome outcome = run_work(trial.work, scene_, trial.work.is_compared && trial.rmse < 0, events_.go_on);
     if (outcome.status == TrialStatus::not_run) return false;
     const bool counts = record(outcome, reference_, study_, trial);
+    has_unsaved_ |= counts;
     if (outcome.status != TrialStatus::ok)
       now_.total -= std::min(now_.total - now_.done, static_cast<size_t>(study_.scale.repeats) - trial.seconds.size());
     else if (counts)

@@ -116,7 +116,7 @@ class Report {
     check_target(json_path(options_));
     const size_t runs_before = count_runs(study_);
     const bool is_complete = render_images() && measure_trials();
-    if (!is_complete && count_runs(study_) == runs_before) {
+    if (!is_complete && !has_saved_ && count_runs(study_) == runs_before) {
       std::error_code ignored;
       if (is_new_folder) fs::remove(options_.output, ignored);
       return {};

@@ -166,7 +166,7 @@ TEST_F(StudyReport, InterruptedItKeepsWhatItHasAndGoesOn) {
     CommandOptions options;
     options.folder = folder_.path();
     const CommandResult interrupted = run_script(
-        "$ALHAZEN study report --quick --scene scene.pbrt --size 200 --spp 16 --repeats 2 -o out --only table1,table3 "
+        "$ALHAZEN study report --quick --scene scene.pbrt --size 250 --spp 4 --repeats 2 -o out --only table1,table3 "
         "2>err & p=$!\nfor i in $(seq 1200); do test -e out/study.json && break; sleep 0.05; done\n"
         "kill -" +
             signal + " $p; wait $p; echo $?",
@@ -180,11 +180,11 @@ TEST_F(StudyReport, InterruptedItKeepsWhatItHasAndGoesOn) {
         EXPECT_NE(text(file).find("this study is incomplete, "), std::string::npos) << file;
     }
     // Another size is another study; the same command goes on.
-    const std::vector<std::string> again{"--output", "out", "--only", "table1,table3", "--spp", "16"};
+    const std::vector<std::string> again{"--output", "out", "--only", "table1,table3"};
     const CommandResult other = report(again, {}, "150");
     EXPECT_EQ(other.exit_code, 2) << other.everything();
-    EXPECT_NE(other.err.find("width: 200, now 150"), std::string::npos) << other.err;
-    const CommandResult resumed = report(again, {}, "200");
+    EXPECT_NE(other.err.find("width: 250, now 150"), std::string::npos) << other.err;
+    const CommandResult resumed = report(again, {}, "250");
     EXPECT_EQ(resumed.exit_code, 0) << resumed.everything();
     EXPECT_NE(resumed.err.find("continuing the study in out: "), std::string::npos) << resumed.err;
     const nlohmann::json second = json("out/study.json");
