@@ -208,7 +208,7 @@ TEST_F(StudyReport, OtherProgramsAreNoticed) {
   options.folder = folder_.path();
   const CommandResult result = run_script(
       "for i in $(seq $((2 * $(nproc)))); do (while :; do :; done) & load=\"$load $!\"; done\n"
-      "$ALHAZEN study report --quick --scene scene.pbrt --size 100 --spp 16 --repeats 2 -o out --only table1 2>err\n"
+      "$ALHAZEN study report --quick --scene scene.pbrt --size 64 --spp 8 --repeats 2 -o out --only table1 2>err\n"
       "echo $?; kill $load",
       options);
   EXPECT_EQ(result.out, "0\n") << result.everything() << text("err");
