@@ -146,7 +146,8 @@ class Tuning {
         if (candidate.rounds == 0 && run == 0) warm_up(candidate.work, scene_, events_.go_on);
         candidate.work.settings.samples_per_pixel = samples;
         Outcome outcome = run_work(candidate.work, scene_, false, events_.go_on);
-        while (is_disturbed(outcome) && round.repeated < max_repeated && elapsed() <= budget_) {
+        // Not in the first round, which has most engines: the budget must let each of them run.
+        while (candidate.rounds > 0 && is_disturbed(outcome) && round.repeated < max_repeated && elapsed() <= budget_) {
           ++round.repeated;
           outcome = run_work(candidate.work, scene_, false, events_.go_on);
         }
