@@ -80,18 +80,25 @@ def error_of_speedup(cell):
 
 
 def bars(axes, labels, cells, colours, unit="x"):
+    """Horizontal bars from 0; hollow ones are in doubt, since other programs disturbed their runs."""
     positions = np.arange(len(cells))[::-1]
     values = [cell["speedup"] for cell in cells]
     errors = np.array([error_of_speedup(cell) for cell in cells]).T
-    axes.barh(positions, values, color=colours, xerr=errors, error_kw={"ecolor": "#5c6773", "elinewidth": 1, "capsize": 2})
+    drawn = axes.barh(positions, values, color=colours, xerr=errors,
+                      error_kw={"ecolor": "#5c6773", "elinewidth": 1, "capsize": 2})
+    for bar, cell in zip(drawn, cells):
+        if cell.get("doubt"):
+            bar.set(edgecolor=bar.get_facecolor(), facecolor="white", linestyle="--")
     axes.set_yticks(positions, labels)
     axes.grid(axis="y", visible=False)
-    wide = max(values) > 20 * min(values)
-    if wide:
-        axes.set_xscale("log")
-    for position, value, error in zip(positions, values, errors[1]):
-        axes.annotate(short(value) + unit, (value + error, position), xytext=(4, 0), textcoords="offset points", va="center")
+    for position, value, error, cell in zip(positions, values, errors[1], cells):
+        axes.annotate(short(value) + unit + mark(cell), (value + error, position), xytext=(4, 0),
+                      textcoords="offset points", va="center")
     axes.margins(x=0.12)
+
+
+def mark(cell):
+    return " ?" if cell.get("doubt") else ""
 
 
 def draw_headline(study):
@@ -111,7 +118,7 @@ def draw_headline(study):
     for label, table, is_member, colour in families:
         members = [cell for cell in study.cells(table, "float", ["speedup"]) if is_member(cell["row"])]
         if members:
-            best = max(members, key=lambda cell: cell["speedup"])
+            best = max(members, key=lambda cell: (not cell.get("doubt"), cell["speedup"]))
             labels.append(label if label and table not in ("table4", "table5") else
                           f"{label}, {best['row']}" if label else best["row"])
             cells.append(best)
@@ -121,29 +128,69 @@ def draw_headline(study):
     figure, axes = plt.subplots(figsize=(8.6, 0.9 + 0.42 * len(cells)))
     bars(axes, labels, cells, colours)
     axes.axvline(1, color="#5c6773", linewidth=1)
-    axes.set_xlabel("speedup over one core, float (bars: median; whiskers: fastest and slowest repeat)")
+    if max(cell["speedup"] for cell in cells) > 20:
+        axes.set_xscale("log")
+    scale = ", logarithmic axis" if axes.get_xscale() == "log" else ""
+    doubt = "; ?: in doubt" if any(cell.get("doubt") for cell in cells) else ""
+    axes.set_xlabel(f"speedup over one core, float{scale} (whiskers: fastest and slowest repeat{doubt})",
+                    fontsize=9.5)
     save(figure, study.into, "headline")
 
 
 def draw_forms(study):
+    """Both axes are linear and equal, so that the bars of here and of the report compare."""
     cells = [cell for cell in study.cells("table2", having=["speedup", "report"]) if cell["report"][0].get("seconds")]
     if len(cells) < 2:
         return
-    report = {cell["row"]: cell["report"][0]["seconds"] for cell in cells}
+    report = {cell["row"]: 10524 / cell["report"][0]["seconds"] for cell in cells}
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 2.6))
     names = [cell["row"] for cell in cells]
     bars(left, names, cells, COLOURS["blue"])
     left.set_title("here: speedup over one core")
     positions = np.arange(len(cells))[::-1]
-    right.barh(positions, [10524 / report[name] for name in names], color=COLOURS["grey"])
+    right.barh(positions, [report[name] for name in names], color=COLOURS["grey"])
     for position, name in zip(positions, names):
-        right.annotate(f"{10524 / report[name]:.2f}x", (10524 / report[name], position), xytext=(4, 0),
-                       textcoords="offset points", va="center")
+        right.annotate(f"{report[name]:.2f}x", (report[name], position), xytext=(4, 0), textcoords="offset points",
+                       va="center")
     right.set_yticks(positions, ["" for _ in names])
     right.grid(axis="y", visible=False)
-    right.margins(x=0.15)
     right.set_title("the report: cuda2, 8 threads, float")
+    largest = max([cell["speedup"] for cell in cells] + list(report.values()))
+    for axes in (left, right):
+        axes.set_xlim(0, 1.2 * largest)
     save(figure, study.into, "forms")
+
+
+def draw_batches(study):
+    """Times of one sample: the same form a path at a time and in batches."""
+    columns = study.columns("batches")
+    cells = study.cells("batches", having=["nanoseconds_per_sample"])
+    if not cells:
+        return
+    rows = list(dict.fromkeys(cell["row"] for cell in cells))
+    figure, axes = plt.subplots(figsize=(8.6, 3.2))
+    positions, height = np.arange(len(rows))[::-1], 0.38
+    for i, column in enumerate(columns):
+        of_row = {cell["row"]: cell for cell in study.cells("batches", column, ["nanoseconds_per_sample"])}
+        for position, row in zip(positions, rows):
+            if row not in of_row:
+                continue
+            value = of_row[row]["nanoseconds_per_sample"]
+            axes.barh(position + (0.5 - i) * height, value, height, color=CYCLE[i])
+            axes.annotate(short(value) + " ns" + mark(of_row[row]), (value, position + (0.5 - i) * height),
+                          xytext=(4, 0), textcoords="offset points", va="center", fontsize=9)
+        axes.barh(0, 0, color=CYCLE[i], label=column)
+    axes.set_yticks(positions, rows)
+    axes.grid(axis="y", visible=False)
+    axes.margins(x=0.12)
+    values = [cell["nanoseconds_per_sample"] for cell in cells]
+    is_log = max(values) > 30 * min(values)
+    if is_log:
+        axes.set_xscale("log")
+        axes.set_xlim(min(values) / 2, 4 * max(values))
+    axes.set_xlabel(f"nanoseconds per camera sample, float{', logarithmic axis' if is_log else ''} (?: in doubt)")
+    axes.legend(loc="lower right")
+    save(figure, study.into, "batches")
 
 
 def draw_scaling(study):
@@ -263,34 +310,42 @@ def draw_queries(study):
 
 
 def draw_depth(study, table, name):
+    """Rays and time of a camera sample, each on a linear axis, where 2^D explodes, and beside it on a logarithmic one,
+    where it is a line and the small values can be read."""
     needed = ["rays_per_sample", "nanoseconds_per_sample"]
     columns = [column for column in study.columns(table) if study.cells(table, column, needed)]
     if not columns:
         return
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.6))
-    for column in columns:
-        cells = study.cells(table, column, needed)
-        depths = [int(cell["row"]) for cell in cells]
-        colour, line = {"branching": ("orange", "-"), "recursive": ("green", "--")}.get(column.split()[0], ("blue", "-"))
-        style = {"marker": "o", "markersize": 4, "linewidth": 1.6, "label": column, "linestyle": line,
-                 "color": COLOURS[colour]}
-        left.plot(depths, [cell["rays_per_sample"] for cell in cells], **style)
-        right.plot(depths, [cell["nanoseconds_per_sample"] / 1000 for cell in cells], **style)
+    figure, all_axes = plt.subplots(2, 2, figsize=(8.6, 6.4), sharex=True)
     depths = np.arange(1, 13)
     most = max(cell["rays_per_sample"] for cell in study.cells(table, having=needed))
     shown = depths[2.0 ** depths - 1 <= 2 * most]
-    left.plot(shown, 2.0 ** shown - 1, color="#98a4af", linestyle=":", label="all of them branch: $2^D - 1$")
-    for axes, title in ((left, "rays per camera sample"), (right, "microseconds per camera sample")):
-        axes.set_yscale("log")
-        axes.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
-        axes.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
-        low, high = axes.get_ylim()
-        if high < 50 * low:
-            axes.yaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
-        axes.set_xticks(depths[1::2])
-        axes.set_xlabel("D, maximum number of segments")
-        axes.set_title(title)
-    left.legend(fontsize=9)
+    quantities = (("rays per camera sample", lambda cell: cell["rays_per_sample"]),
+                  ("microseconds per camera sample", lambda cell: cell["nanoseconds_per_sample"] / 1000))
+    for row, (title, value) in zip(all_axes, quantities):
+        for axes, is_log in zip(row, (False, True)):
+            for column in columns:
+                cells = study.cells(table, column, needed)
+                colour, line = {"branching": ("orange", "-"), "recursive": ("green", "--")}.get(column.split()[0],
+                                                                                               ("blue", "-"))
+                axes.plot([int(cell["row"]) for cell in cells], [value(cell) for cell in cells], marker="o", markersize=4,
+                          linewidth=1.6, label=column, linestyle=line, color=COLOURS[colour])
+            if title.startswith("rays"):
+                axes.plot(shown, 2.0 ** shown - 1, color="#98a4af", linestyle=":", label="all of them branch: $2^D - 1$")
+            axes.set_title(f"{title}: {'logarithmic' if is_log else 'linear'} axis", fontsize=10)
+            axes.set_xticks(depths[1::2])
+            if not is_log:
+                axes.set_ylim(bottom=0)
+                continue
+            axes.set_yscale("log")
+            axes.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+            axes.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+            low, high = axes.get_ylim()
+            if high < 50 * low:
+                axes.yaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
+    for axes in all_axes[1]:
+        axes.set_xlabel("D, maximum number of segments of a path")
+    all_axes[0][0].legend(fontsize=9)
     save(figure, study.into, name)
 
 
@@ -304,8 +359,8 @@ def draw_objects(study):
                   markersize=4, linewidth=1.6, label=column)
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_xlabel("spheres")
-    axes.set_ylabel("nanoseconds per ray")
+    axes.set_xlabel("spheres, logarithmic axis")
+    axes.set_ylabel("nanoseconds per ray, logarithmic axis")
     axes.legend()
     save(figure, study.into, "objects")
 
@@ -324,8 +379,8 @@ def draw_error(study):
     if axes.lines:
         axes.set_xscale("log")
         axes.set_yscale("log")
-        axes.set_xlabel("seconds")
-        axes.set_ylabel("RMSE")
+        axes.set_xlabel("seconds, logarithmic axis (S: samples per pixel)")
+        axes.set_ylabel("RMSE, logarithmic axis")
         axes.legend()
         save(figure, study.into, "error")
     plt.close(figure)
@@ -336,7 +391,7 @@ def main():
         sys.exit(__doc__.strip())
     set_style()
     study = Study(Path(sys.argv[1]), Path(sys.argv[-1]))
-    plots = {"headline": draw_headline, "forms": draw_forms, "scaling": draw_scaling,
+    plots = {"headline": draw_headline, "forms": draw_forms, "batches": draw_batches, "scaling": draw_scaling,
              "blocks": lambda s: draw_gpu(s, "table4", "blocks"), "chunks": lambda s: draw_gpu(s, "table5", "chunks"),
              "figure3": draw_figure3, "balance": draw_balance, "queries": draw_queries,
              "depth": lambda s: draw_depth(s, "depth", "depth"), "glass": lambda s: draw_depth(s, "glass", "glass"),

@@ -24,6 +24,7 @@ int main(int argc, char** argv) try {
   });
   for (const std::string& warning : image.warnings) std::printf("warning: %s\n", warning.c_str());
 
+  if (image.planes.empty()) return std::printf("cancelled before the first sample\n"), 0;
   const float *red = image.plane("R"), *depth = image.plane("depth.Z");
   const int centre = image.height / 2 * image.width + image.width / 2;
   std::printf("%d x %d pixels, %s; in the centre red is %.3f and the depth %.3f\n", image.width, image.height,

@@ -155,7 +155,7 @@ struct ReachedNoise {
 
 /// Planes of linear values, rows from the top down: R, G, B (radiance, linear sRGB), A if the background is
 /// transparent, and the requested layers by the channels of docs/layers.md (albedo.R, .G, .B; normal.X, .Y, .Z;
-/// depth.Z; ...).
+/// depth.Z; ...). Stopped before any sample: none, 0 x 0.
 struct RenderedImage {
   int width = 0, height = 0;
   std::vector<std::string> channels;

@@ -19,12 +19,15 @@ RenderedImage render(const std::string& scene_file, const Settings& settings, co
   const RenderSettings resolved = resolve_settings(settings, loaded.scene);
   const Rendering rendering =
       render_scene(std::move(loaded.scene), resolved, loaded.seconds, RenderEvents{progress, {}, {}}, diagnostics);
-  Image means = image_of(rendering.source());
   RenderedImage image;
-  image.width = means.width;
-  image.height = means.height;
-  image.channels = std::move(means.channels);
-  image.planes = std::move(means.planes);
+  // A film without samples is black, and would look like an image.
+  if (rendering.has_samples()) {
+    Image means = image_of(rendering.source());
+    image.width = means.width;
+    image.height = means.height;
+    image.channels = std::move(means.channels);
+    image.planes = std::move(means.planes);
+  }
   const RenderStatistics& statistics = rendering.statistics;
   image.complete = statistics.complete;
   image.denoiser = statistics.denoiser;

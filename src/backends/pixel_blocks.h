@@ -2,6 +2,8 @@
 
 // Blocks of samples on the CPU backends: requests, batches and statistics.
 
+#include <time.h>
+
 #include <chrono>
 #include <vector>
 
@@ -9,17 +11,36 @@
 
 namespace alhazen {
 
-/// Adds the time between its construction and its destruction to the busy seconds of a thread.
+/// Adds the time between its construction and its destruction to the busy seconds of a thread, and what the thread ran
+/// of it to its processor seconds. Both must happen on that thread.
 class BusyTimer {
  public:
-  explicit BusyTimer(ThreadStatistics& statistics) : statistics_(statistics), start_(Clock::now()) {}
-  ~BusyTimer() { statistics_.busy_seconds += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  /// To read the processor time is a system call: spans of microseconds do without.
+  explicit BusyTimer(ThreadStatistics& statistics, bool reads_processor_time = true)
+      : statistics_(statistics),
+        reads_processor_time_(reads_processor_time),
+        processor_start_(reads_processor_time ? processor_seconds() : 0),
+        start_(Clock::now()) {}
+  ~BusyTimer() {
+    statistics_.busy_seconds += std::chrono::duration<double>(Clock::now() - start_).count();
+    if (reads_processor_time_) statistics_.processor_seconds += processor_seconds() - processor_start_;
+  }
   BusyTimer(const BusyTimer&) = delete;
   BusyTimer& operator=(const BusyTimer&) = delete;
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  /// User and system time of the calling thread.
+  static double processor_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+
   ThreadStatistics& statistics_;
+  bool reads_processor_time_;
+  double processor_start_;
   Clock::time_point start_;
 };
 

@@ -31,7 +31,8 @@ void print_json(const study::StudyComparison& c) {
                        {"b_nanoseconds", change.b},
                        {"ratio", change.ratio()},
                        {"a_speedup", change.a_speedup},
-                       {"b_speedup", change.b_speedup}});
+                       {"b_speedup", change.b_speedup},
+                       {"doubt", change.doubt}});
   const nlohmann::ordered_json j{{"differences", c.differences},
                                  {"compared", c.compared},
                                  {"by_chance", c.by_chance},
@@ -49,7 +50,7 @@ void print_list(const study::StudyComparison& c) {
               study::short_number(change.a), study::short_number(change.b));
     if (change.a_speedup > 0 && change.b_speedup > 0)
       print_out("; speedup {} to {}", study::times_text(change.a_speedup), study::times_text(change.b_speedup));
-    print_out("\n");
+    print_out("{}\n", change.doubt.empty() ? "" : "; in doubt: " + change.doubt);
   }
   for (const std::string& state : c.states) print_out("{}\n", state);
   print_out("{} of {} cells changed beyond noise; {} would by chance, at most\n", c.changes.size(), c.compared,
@@ -67,8 +68,8 @@ void run(const StudyCompareOptions& o) {
 void register_study_compare(Command& study) {
   Command command = study.add_subcommand("compare", "Report differences of two studies beyond noise");
   auto o = std::make_shared<StudyCompareOptions>();
-  command.add_option("A", o->a, "a study.json, or the folder that holds it").required().value_name("");
-  command.add_option("B", o->b, "a later one").required().value_name("");
+  command.add_option("A", o->a, "The folder of a study, or its study.json").required().value_name("");
+  command.add_option("B", o->b, "A later one").required().value_name("");
   command.add_option("--threshold", o->threshold, "Ignore smaller changes (5)")
       .within(0.0, 1000.0)
       .value_name("PERCENT");

@@ -63,7 +63,8 @@ class ReportPrinter {
     last_ = now.seconds;
     const std::string left = now.seconds_left >= 0 ? ", about " + format_seconds(now.seconds_left) + " left" : "";
     const std::string line =
-        fmt::format("round {} of {}: {} of {} runs{}: {}", now.round, now.rounds, now.done, now.total, left, now.trial);
+        fmt::format("round {} of {}: {} of {} runs{}: {}", std::min(now.round, now.rounds), now.rounds, now.done,
+                    now.total, left, now.round > now.rounds ? now.cell + ", again" : now.cell);
     tell_progress(is_terminal_ ? fmt::format("\r{:.110}\x1b[K", line) : line + "\n");
     is_open_ = is_terminal_;
   }

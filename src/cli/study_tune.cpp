@@ -90,7 +90,12 @@ int run(TuneOptions& o) {
     tell("interrupted: nothing is stored\n");
     return exit_interrupted;
   }
-  if (o.store || o.store_default) store(o, outcome, to_string(settings.integrator));
+  if (!o.store && !o.store_default) return exit_done;
+  if (const std::string reason = study::why_not_to_store(outcome); !reason.empty()) {
+    tell("nothing is stored: {}\n", printable(reason));
+    return exit_failed;
+  }
+  store(o, outcome, to_string(settings.integrator));
   return exit_done;
 }
 

@@ -17,7 +17,8 @@ struct alignas(128) ThreadStatistics {
   uint64_t shadow_rays = 0;
   uint64_t nonfinite_samples = 0;  ///< samples that were NaN or infinite and counted as black
   double busy_seconds = 0;
-  SampleCounters counters;  ///< zero in builds that do not count
+  double processor_seconds = 0;  ///< of the busy time, what the thread ran on a processor; 0: not measured
+  SampleCounters counters;       ///< zero in builds that do not count
 };
 
 class RenderControl {

@@ -184,9 +184,8 @@ class PassLoop {
       if (guiding_) guiding_->begin_pass(film_, samples_done_);
       const IntegratorKind integrator = guiding_ ? guiding_->integrator() : settings_.integrator;
       if (guiding_) scene_.view.guide = guiding_->view();
-      backend_.render_pass(RenderPass<Real>{scene_, select_sample_kernel<Real>(integrator, settings_.sampler),
-                                            settings_, film_, control_, samples_done_, size, integrator,
-                                            guiding_ ? &*guiding_ : nullptr});
+      backend_.render_pass(RenderPass<Real>{scene_, kernel_of(integrator), settings_, film_, control_, samples_done_,
+                                            size, integrator, guiding_ ? &*guiding_ : nullptr});
       const double seconds = seconds_since(start);
       elapsed_ += seconds;
       has_current_state_ = false;
@@ -200,6 +199,11 @@ class PassLoop {
         saved = Clock::now();
       }
     }
+  }
+
+  SampleKernel<Real> kernel_of(IntegratorKind integrator) const {
+    return events_.kernel ? SampleKernel<Real>(events_.kernel->kernel)
+                          : select_sample_kernel<Real>(integrator, settings_.sampler);
   }
 
   bool is_done() const { return samples_done_ == settings_.samples_per_pixel || unfinished_ == 0; }
@@ -340,11 +344,12 @@ template <class Real>
 class RendererOf final : public SceneRenderer {
  public:
   RendererOf(Scene&& scene, const RenderSettings& settings, double load_seconds, bool for_cameras,
-             Diagnostics& diagnostics)
+             const std::optional<KernelChoice>& kernel, Diagnostics& diagnostics)
       : settings_(settings), diagnostics_(diagnostics), scene_name_(scene.name) {
     const Clock::time_point start = Clock::now();
     make_backend();
-    CompileOptions options{settings.width, settings.height, build_threads(), backend_->wanted_layouts(settings)};
+    CompileOptions options{settings.width, settings.height, build_threads(),
+                           kernel ? kernel->layouts : backend_->wanted_layouts(settings)};
     options.texture_budget = settings.texture_budget;
     options.names_objects = wants_names(settings.aovs);
     options.for_cameras = for_cameras;
@@ -472,23 +477,24 @@ void check_settings(const Scene& scene, const RenderSettings& settings, Diagnost
 }
 
 std::unique_ptr<SceneRenderer> make_renderer(Scene&& scene, const RenderSettings& settings, double load_seconds,
-                                             bool for_cameras, Diagnostics& diagnostics) {
+                                             bool for_cameras, const std::optional<KernelChoice>& kernel,
+                                             Diagnostics& diagnostics) {
   check_settings(scene, settings, diagnostics);
   if (settings.precision == Precision::single)
-    return std::make_unique<RendererOf<float>>(std::move(scene), settings, load_seconds, for_cameras, diagnostics);
-  return std::make_unique<RendererOf<double>>(std::move(scene), settings, load_seconds, for_cameras, diagnostics);
+    return std::make_unique<RendererOf<float>>(std::move(scene), settings, load_seconds, for_cameras, kernel, diagnostics);
+  return std::make_unique<RendererOf<double>>(std::move(scene), settings, load_seconds, for_cameras, kernel, diagnostics);
 }
 
 }  // namespace
 
 std::unique_ptr<SceneRenderer> make_scene_renderer(Scene&& scene, const RenderSettings& settings, double load_seconds,
                                                    Diagnostics& diagnostics) {
-  return make_renderer(std::move(scene), settings, load_seconds, true, diagnostics);
+  return make_renderer(std::move(scene), settings, load_seconds, true, {}, diagnostics);
 }
 
 Rendering render_scene(Scene&& scene, const RenderSettings& settings, double load_seconds, const RenderEvents& events,
                        Diagnostics& diagnostics) {
-  return make_renderer(std::move(scene), settings, load_seconds, false, diagnostics)->render(events);
+  return make_renderer(std::move(scene), settings, load_seconds, false, events.kernel, diagnostics)->render(events);
 }
 
 }  // namespace alhazen

@@ -6,16 +6,26 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
+#include "compile/compile_scene.h"
 #include "render/denoiser.h"
 #include "render/film.h"
+#include "render/sample_kernel.h"
 #include "render/settings.h"
 #include "render/statistics.h"
 #include "scene/scene.h"
 
 namespace alhazen {
+
+/// A kernel instead of the one that the settings select, and the BVHs that it traces rays by. Its precision and sampler
+/// must be those of the settings.
+struct KernelChoice {
+  RawKernel kernel = nullptr;
+  BvhLayouts layouts;
+};
 
 struct RenderEvents {
   /// Called about ten times a second, and once at the end, from its own thread. Returning false stops the render. So
@@ -25,6 +35,8 @@ struct RenderEvents {
   std::function<void(const RenderStatistics&)> started;
   /// Called between passes, on the thread that called render_scene, if `diagnostics` has a new warning.
   std::function<void()> warned;
+  /// For comparisons of kernels on CPUs.
+  std::optional<KernelChoice> kernel = {};
 };
 
 class Rendering {

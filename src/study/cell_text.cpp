@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/disturbance.h"
+
 namespace alhazen::study {
 
 std::string short_number(double value) {
@@ -76,12 +78,8 @@ CellText text_of(const Study& study, const Table& table, const Cell& cell) {
   }
   set_value(table, trial, text);
   const auto add_note = [&](const std::string& note) { text.note += (text.note.empty() ? "" : "; ") + note; };
-  if (trial.seconds.size() < static_cast<size_t>(study.scale.repeats))
-    add_note(fmt::format("measured {} of {} times", trial.seconds.size(), study.scale.repeats));
-  const auto disturbed = std::count_if(trial.processor_fractions.begin(), trial.processor_fractions.end(),
-                                       [](double fraction) { return fraction < min_processor_fraction; });
-  if (disturbed > 0)
-    add_note(fmt::format("in {} of {} runs other programs used processors", disturbed, trial.seconds.size()));
+  text.doubt = doubt_of(study, cell);
+  if (!text.doubt.empty()) add_note("in doubt: " + text.doubt);
   if (const double speedup = speedup_of(study, table, cell); speedup > 0) text.speedup = times_text(speedup);
   return text;
 }

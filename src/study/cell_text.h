@@ -16,6 +16,7 @@ struct CellText {
   std::string speedup;  ///< "1.97x"; empty: none
   std::string report;   ///< "cuda2 3127 s (3.09x), cuda3 4409 s (2.30x)"
   std::string note;     ///< why there is no value, or a remark
+  std::string doubt;    ///< why the value or the speedup is in doubt; also in the note
 };
 
 CellText text_of(const Study& study, const Table& table, const Cell& cell);

@@ -46,7 +46,8 @@ void note_differences(const StudyJson& a, const StudyJson& b, StudyComparison& c
                                                        {"/build/compiler", "compiler"},
                                                        {"/build/flags", "flags"},
                                                        {"/scene/hash", "scene"},
-                                                       {"/scale/name", "level"}};
+                                                       {"/scale/name", "level"},
+                                                       {"/complete", "complete"}};
   for (const auto& [pointer, name] : facts) {
     const StudyJson& in_a = a.at(StudyJson::json_pointer(pointer));
     const StudyJson& in_b = b.at(StudyJson::json_pointer(pointer));
@@ -76,6 +77,15 @@ double probability_by_chance(const Measured& a, const Measured& b) {
   return 2 * std::exp(std::lgamma(n + 1) + std::lgamma(m + 1) - std::lgamma(n + m + 1));
 }
 
+/// Why the times of two cells cannot be compared; empty if they can.
+std::string doubt_of(const Measured& a, const Measured& b) {
+  std::string doubt;
+  for (const auto& [cell, name] : {std::pair{&a, "the first"}, {&b, "the second"}})
+    if (const std::string text = cell->cell.value("doubt", ""); !text.empty())
+      doubt += fmt::format("{}{}: {}", doubt.empty() ? "" : "; ", name, text);
+  return doubt;
+}
+
 void compare_cells(const StudyJson& a, const StudyJson& b, double threshold, StudyComparison& comparison) {
   const std::map<std::string, Measured> in_a = cells_of(a), in_b = cells_of(b);
   double probabilities = 0;
@@ -97,7 +107,8 @@ void compare_cells(const StudyJson& a, const StudyJson& b, double threshold, Stu
     if (!is_beyond_noise(cell_a, cell_b, threshold)) continue;
     const auto median = [](const Measured& m) { return m.cell.at("seconds").at("median").get<double>() * unit_of(m); };
     comparison.changes.push_back({cell_a.table, cell_a.row, cell_a.column, median(cell_a), median(cell_b),
-                                  cell_a.cell.value("speedup", 0.0), cell_b.cell.value("speedup", 0.0)});
+                                  cell_a.cell.value("speedup", 0.0), cell_b.cell.value("speedup", 0.0),
+                                  doubt_of(cell_a, cell_b)});
   }
   for (const auto& [key, cell_b] : in_b)
     if (!in_a.contains(key))

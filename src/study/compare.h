@@ -12,6 +12,7 @@ struct Change {
   std::string table, row, column;
   double a = 0, b = 0;                  ///< medians: nanoseconds per sample, or per ray if the table is in rays
   double a_speedup = 0, b_speedup = 0;  ///< 0: none
+  std::string doubt;                    ///< why this may be no change: other programs disturbed one of them
   double ratio() const { return b / a; }
 };
 

@@ -1,12 +1,12 @@
 #include "study/conclusions.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "study/cell_text.h"
+#include "study/disturbance.h"
 #include "study/names.h"
 #include "study/report_figures.h"
 
@@ -14,28 +14,13 @@ namespace alhazen::study {
 
 namespace {
 
-/// The measured trial of a cell, or null.
-const Trial* trial_at(const Study& study, const std::string& table_id, const std::string& row,
-                      const std::string& column) {
-  const Table* table = study.table(table_id);
-  const Cell* cell = table ? table->find(row, column) : nullptr;
-  const Trial* trial = cell ? study.find(cell->trial) : nullptr;
-  return trial && trial->has_times() ? trial : nullptr;
-}
-
-double speedup_at(const Study& study, const std::string& table_id, const std::string& row, const std::string& column) {
-  const Table* table = study.table(table_id);
-  const Cell* cell = table ? table->find(row, column) : nullptr;
-  return cell ? speedup_of(study, *table, *cell) : 0;
-}
-
-/// The fastest row of a table in a column, and its speedup.
+/// The fastest row of a table in a column, of those that are not in doubt, and its speedup.
 std::pair<std::string, double> fastest_row(const Study& study, const std::string& table_id, const std::string& column) {
   std::pair<std::string, double> best;
   const Table* table = study.table(table_id);
   if (!table) return best;
   for (const Cell& cell : table->cells) {
-    const double speedup = cell.column == column ? speedup_of(study, *table, cell) : 0;
+    const double speedup = cell.column == column ? trusted_speedup_of(study, *table, cell) : 0;
     if (speedup > best.second) best = {cell.row, speedup};
   }
   return best;
@@ -52,42 +37,64 @@ class Conclusions {
   explicit Conclusions(const Study& study) : study_(study), all_(std::to_string(study.machine.processors)) {}
 
   std::vector<Conclusion> take() {
-    precision();
-    schedule();
-    forms();
-    crowding();
-    gpus();
-    figure3();
-    queries();
-    objects();
-    depth();
-    glass();
-    error();
+    for (const auto conclude :
+         {&Conclusions::precision, &Conclusions::schedule, &Conclusions::forms, &Conclusions::crowding,
+          &Conclusions::batches, &Conclusions::gpus, &Conclusions::figure3, &Conclusions::queries,
+          &Conclusions::objects, &Conclusions::depth, &Conclusions::glass, &Conclusions::error}) {
+      doubts_.clear();
+      (this->*conclude)();
+    }
     return std::move(list_);
   }
 
  private:
-  /// Adds a conclusion, with a remark if its runs were disturbed.
-  void add(const std::string& title, const std::string& text, const char* table_id = "") {
-    const bool is_disturbed = has_disturbed_runs(table_id);
-    list_.push_back({title, text + (is_disturbed ? " (Other programs disturbed some of these runs.)" : "")});
+  /// Adds a conclusion, or why it is withheld: what it is drawn from must not be in doubt.
+  void add(const std::string& title, const std::string& text) {
+    if (doubts_.empty()) return list_.push_back({title, text, false});
+    std::string reason = doubts_.front();
+    if (doubts_.size() > 1) reason += fmt::format("; and {} more", doubts_.size() - 1);
+    withhold(title, reason + ". The same command with --resume measures such runs again");
   }
 
-  bool has_disturbed_runs(const char* table_id) const {
+  void withhold(const std::string& title, const std::string& reason) {
+    list_.push_back({title, "Withheld: " + reason + ".", true});
+  }
+
+  /// Notes that the next conclusion is drawn from a cell.
+  void use(const Table& table, const Cell& cell) {
+    const std::string doubt = doubt_of(study_, cell);
+    if (doubt.empty()) return;
+    const std::string text = fmt::format("{}, {}, {}: {}", table.id, cell.row, cell.column, doubt);
+    if (std::find(doubts_.begin(), doubts_.end(), text) == doubts_.end()) doubts_.push_back(text);
+  }
+
+  const Cell* cell_at(const Table* table, const std::string& row, const std::string& column) {
+    const Cell* cell = table ? table->find(row, column) : nullptr;
+    if (cell) use(*table, *cell);
+    return cell;
+  }
+
+  /// The measured trial of a cell, or null.
+  const Trial* trial_at(const std::string& table_id, const std::string& row, const std::string& column) {
+    const Cell* cell = cell_at(study_.table(table_id), row, column);
+    const Trial* trial = cell ? study_.find(cell->trial) : nullptr;
+    return trial && trial->has_times() ? trial : nullptr;
+  }
+
+  double speedup_at(const std::string& table_id, const std::string& row, const std::string& column) {
     const Table* table = study_.table(table_id);
-    if (!table) return false;
-    for (const Cell& cell : table->cells)
-      for (const double fraction : study_.find(cell.trial)->processor_fractions)
-        if (fraction < min_processor_fraction) return true;
-    return false;
+    const Cell* cell = cell_at(table, row, column);
+    return cell ? speedup_of(study_, *table, *cell) : 0;
   }
 
   void precision() {
-    const Trial* in_float = trial_at(study_, "table1", name::iterative, "float");
-    const Trial* in_double = trial_at(study_, "table1", name::iterative, "double");
+    const Trial* in_float = trial_at("table1", name::iterative, "float");
+    const Trial* in_double = trial_at("table1", name::iterative, "double");
     if (!in_float || !in_double) return;
     const double ratio = cost_of(*in_double, Measure::seconds) / cost_of(*in_float, Measure::seconds);
     std::string text = fmt::format("On one core double takes {:.2f} times as long as float.", ratio);
+    if (!are_separated(*in_float, *in_double, Measure::seconds))
+      text = fmt::format("On one core double and float differ no more than their repeats do ({:.2f} times).", ratio);
     const std::vector<ReportFigure> floats = report_figures("table1", name::recursive, "float"),
                                     doubles = report_figures("table1", name::recursive, "double");
     for (size_t i = 0; i < floats.size() && i < doubles.size(); ++i)
@@ -97,62 +104,96 @@ class Conclusions {
   }
 
   void schedule() {
-    const double fixed = speedup_at(study_, "table3", all_ + " static", "float");
-    const double dynamic = speedup_at(study_, "table3", all_ + " dynamic", "float");
-    if (fixed == 0 || dynamic == 0) return;
+    const std::string static_row = all_ + " static", dynamic_row = all_ + " dynamic";
+    const double fixed = speedup_at("table3", static_row, "float"),
+                 dynamic = speedup_at("table3", dynamic_row, "float");
+    const Trial *in_static = trial_at("table3", static_row, "float"),
+                *in_dynamic = trial_at("table3", dynamic_row, "float");
+    if (fixed == 0 || dynamic == 0 || !in_static || !in_dynamic) return;
+    const double ratio = dynamic / fixed;
+    // Both schedules do the same work, so all that a schedule changes is how evenly threads share it.
+    const double of_static = busiest_over_mean(*in_static), of_dynamic = busiest_over_mean(*in_dynamic);
+    const double explained = of_static / of_dynamic;
+    if (doubts_.empty() && std::abs(std::log(ratio / explained)) > std::log1p(max_unexplained))
+      return withhold("Schedule.",
+                      fmt::format("on {} threads a dynamic schedule of rows measured {:.2f} times as fast as a static "
+                                  "one, but how evenly the threads were busy explains a factor of {:.2f} alone. "
+                                  "Something else slowed some of these runs",
+                                  all_, ratio, explained));
     std::string text =
-        fmt::format("On {} threads a dynamic schedule of rows is {} a static one: {} against {} over one core.", all_,
-                    compared(dynamic / fixed, "as fast as", "slower than"), times_text(dynamic), times_text(fixed));
-    const Trial* busy_static = trial_at(study_, "balance", "rows static", "float");
-    const Trial* busy_dynamic = trial_at(study_, "balance", "rows dynamic", "float");
-    if (busy_static && busy_dynamic)
-      text += fmt::format(
-          " Why: with the static one the busiest thread works {:.2f} times the mean, with the dynamic one {:.2f} "
-          "times.",
-          busiest_over_mean(*busy_static), busiest_over_mean(*busy_dynamic));
-    add("Schedule.", text, "table3");
+        are_separated(*in_static, *in_dynamic, Measure::seconds)
+            ? fmt::format("On {} threads a dynamic schedule of rows is {} a static one: {} against {} over one core.",
+                          all_, compared(ratio, "as fast as", "slower than"), times_text(dynamic), times_text(fixed))
+            : fmt::format(
+                  "On {} threads a dynamic and a static schedule of rows differ no more than their repeats "
+                  "do: {} and {} over one core.",
+                  all_, times_text(dynamic), times_text(fixed));
+    text += fmt::format(
+        " Why: with the static one the busiest thread works {:.2f} times the mean, with the dynamic one {:.2f} times.",
+        of_static, of_dynamic);
+    add("Schedule.", text);
   }
 
   void forms() {
     const Table* table = study_.table("table2");
     if (!table) return;
-    std::vector<std::pair<double, std::string>> order;
-    for (const Cell& cell : table->cells)
-      if (const double speedup = speedup_of(study_, *table, cell); speedup > 0) order.emplace_back(speedup, cell.row);
+    std::vector<std::pair<double, const Cell*>> order;
+    for (const Cell& cell : table->cells) {
+      use(*table, cell);
+      if (const double speedup = speedup_of(study_, *table, cell); speedup > 0) order.emplace_back(speedup, &cell);
+    }
     if (order.size() < 4) return;
-    std::sort(order.rbegin(), order.rend());
-    std::string text = "From the fastest form of OpenMP to the slowest:";
-    for (const auto& [speedup, row] : order)
-      text += fmt::format("{} {} ({})", row == order.front().second ? "" : ",", row, times_text(speedup));
-    add("Loops.", text + ". In the report: rows, rows+reduction, collapse, reduction.", "table2");
+    std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::string text = "From the fastest form of OpenMP to the slowest, all a path at a time:", equal;
+    for (size_t i = 0; i < order.size(); ++i) {
+      text += fmt::format("{} {} ({})", i == 0 ? "" : ",", order[i].second->row, times_text(order[i].first));
+      if (i > 0 && !are_separated(*study_.find(order[i - 1].second->trial), *study_.find(order[i].second->trial),
+                                  Measure::seconds))
+        equal += fmt::format(" {} and {} differ no more than their repeats do.", order[i - 1].second->row,
+                             order[i].second->row);
+    }
+    add("Loops.", text + "." + equal + " In the report: rows (3.45x), rows+reduction, collapse, reduction (2.25x).");
+  }
+
+  void batches() {
+    const Table* table = study_.table("batches");
+    if (!table) return;
+    std::string text;
+    for (const std::string& row : table->rows()) {
+      const double speedup = speedup_at("batches", row, name::batches);
+      if (speedup > 0) text += fmt::format("{} {} {}", text.empty() ? "" : ",", row, times_text(speedup));
+    }
+    if (!text.empty())
+      add("Batches.", "Over a path at a time, batches make the same form faster or slower by:" + text + ".");
   }
 
   void crowding() {
     const int processors = study_.machine.processors;
-    const double own = speedup_at(study_, "table3", all_ + " static", "float");
-    const double more = speedup_at(study_, "table3", "12 static", "float");
-    const double own_dynamic = speedup_at(study_, "table3", all_ + " dynamic", "float");
-    const double more_dynamic = speedup_at(study_, "table3", "12 dynamic", "float");
+    const double own = speedup_at("table3", all_ + " static", "float");
+    const double more = speedup_at("table3", "12 static", "float");
+    const double own_dynamic = speedup_at("table3", all_ + " dynamic", "float");
+    const double more_dynamic = speedup_at("table3", "12 dynamic", "float");
     if (processors >= 12 || own == 0 || more == 0 || own_dynamic == 0 || more_dynamic == 0) return;
     add("Threads.",
         fmt::format(
             "12 threads on {} processors: static goes from {} to {}, since each thread's part is smaller and the "
             "system divides the processors among them; dynamic from {} to {}.",
-            processors, times_text(own), times_text(more), times_text(own_dynamic), times_text(more_dynamic)),
-        "table3");
+            processors, times_text(own), times_text(more), times_text(own_dynamic), times_text(more_dynamic)));
   }
 
   void gpus() {
     const auto [block, pixel] = fastest_row(study_, "table4", "float");
     const auto [chunks, chunked] = fastest_row(study_, "table5", "float");
     if (pixel > 0 && chunked > 0) {
+      trial_at("table4", block, "float");
+      trial_at("table5", chunks, "float");
       std::string text =
           fmt::format("One thread per pixel is fastest in blocks of {} ({} over one core, float), chunks in {} ({}).",
                       block, times_text(pixel), chunks, times_text(chunked));
-      const double persistent = speedup_at(study_, "engines", name::cuda_persistent, "float");
+      const double persistent = speedup_at("engines", name::cuda_persistent, "float");
       if (persistent > 0)
         text += fmt::format(" Persistent threads that take work from a queue: {}.", times_text(persistent));
-      const double optix = speedup_at(study_, "optix", name::optix, "float");
+      const double optix = speedup_at("optix", name::optix, "float");
       if (optix > 0) text += fmt::format(" OptiX: {}.", times_text(optix));
       add("GPU.", text);
       return;
@@ -167,13 +208,13 @@ class Conclusions {
   }
 
   void queries() {
-    const double wide = speedup_at(study_, "queries", name::wide_bvh, "float");
-    const double binary = speedup_at(study_, "queries", name::binary_bvh, "float");
+    const double wide = speedup_at("queries", name::wide_bvh, "float");
+    const double binary = speedup_at("queries", name::binary_bvh, "float");
     if (wide == 0 || binary == 0) return;
     std::string text = fmt::format(
         "On this scene a binary BVH answers rays {} the linear scan over {} objects, the wide one with SIMD {}",
         compared(binary, "as fast as", "slower than"), study_.scene.spheres + study_.scene.triangles, times_text(wide));
-    const double embree = speedup_at(study_, "queries", name::embree, "float");
+    const double embree = speedup_at("queries", name::embree, "float");
     if (embree > 0) text += fmt::format(", Embree {}", times_text(embree));
     add("Tree.", text + " (float, one thread, shading included).");
   }
@@ -183,13 +224,12 @@ class Conclusions {
     if (!table) return;
     std::string growth;
     for (const std::string& column : table->columns) {
-      const Trial *few = trial_at(study_, "objects", "10", column),
-                  *many = trial_at(study_, "objects", "1000000", column);
+      const Trial *few = trial_at("objects", "10", column), *many = trial_at("objects", "1000000", column);
       if (!few || !many) continue;
       const double ratio = cost_of(*many, Measure::nanoseconds_per_ray) / cost_of(*few, Measure::nanoseconds_per_ray);
       growth += fmt::format("{} {} times as long with {}", growth.empty() ? "" : ",", short_number(ratio), column);
     }
-    const double million = speedup_at(study_, "objects", "1000000", name::wide_bvh);
+    const double million = speedup_at("objects", "1000000", name::wide_bvh);
     if (growth.empty() || million == 0) return;
     add("Objects.", fmt::format("From 10 spheres to a million a ray takes{}: there the BVH is {} the linear scan.",
                                 growth, compared(million, "as fast as", "slower than")));
@@ -198,8 +238,8 @@ class Conclusions {
   void depth() {
     const Table* table = study_.table("depth");
     if (!table) return;
-    const Trial* branching = trial_at(study_, "depth", "12", table->columns.front());
-    const Trial* iterative = trial_at(study_, "depth", "12", table->columns.back());
+    const Trial* branching = trial_at("depth", "12", table->columns.front());
+    const Trial* iterative = trial_at("depth", "12", table->columns.back());
     if (!branching || !iterative) return;
     const auto rays = [](const Trial& t) { return static_cast<double>(t.rays) / static_cast<double>(t.samples); };
     add("Depth.",
@@ -211,9 +251,9 @@ class Conclusions {
   }
 
   void glass() {
-    const Trial* branching = trial_at(study_, "glass", "12", name::branching);
-    const Trial* before = trial_at(study_, "glass", "11", name::branching);
-    const Trial* iterative = trial_at(study_, "glass", "12", name::iterative);
+    const Trial* branching = trial_at("glass", "12", name::branching);
+    const Trial* before = trial_at("glass", "11", name::branching);
+    const Trial* iterative = trial_at("glass", "12", name::iterative);
     if (!branching || !before || !iterative) return;
     const auto rays = [](const Trial& t) { return static_cast<double>(t.rays) / static_cast<double>(t.samples); };
     add("Glass.",
@@ -230,12 +270,12 @@ class Conclusions {
   void error() {
     const Table* table = study_.table("error");
     if (!table || table->rows().empty()) return;
-    const Trial* slow = trial_at(study_, "error", table->rows().back(), "iterative");
+    const Trial* slow = trial_at("error", table->rows().back(), "iterative");
     if (!slow || slow->rmse <= 0) return;
     const double time = spread_of(slow->seconds).median;
     const Trial* before = nullptr;
     for (const std::string& row : table->rows()) {
-      const Trial* trial = trial_at(study_, "error", row, "path");
+      const Trial* trial = trial_at("error", row, "path");
       if (!trial || trial->rmse <= 0) return;
       if (trial->rmse > slow->rmse) {
         before = trial;
@@ -247,50 +287,27 @@ class Conclusions {
       if (!before) {
         add("Equal error.",
             fmt::format("{}is below already at S = {}, after {}: at least {} times as fast.", start,
-                        trial->samples_per_pixel, seconds_text(after_time), short_number(time / after_time)),
-            "error");
+                        trial->samples_per_pixel, seconds_text(after_time), short_number(time / after_time)));
         return;
       }
       const double at = std::log(before->rmse / slow->rmse) / std::log(before->rmse / trial->rmse);
       const double before_time = spread_of(before->seconds).median;
       const double wanted = before_time * std::pow(after_time / before_time, at);
-      add("Equal error.",
-          fmt::format("{}reaches in {}: {} times as fast (interpolated between S = {} and {}).", start,
-                      seconds_text(wanted), short_number(time / wanted), before->samples_per_pixel,
-                      trial->samples_per_pixel),
-          "error");
+      add("Equal error.", fmt::format("{}reaches in {}: {} times as fast (interpolated between S = {} and {}).", start,
+                                      seconds_text(wanted), short_number(time / wanted), before->samples_per_pixel,
+                                      trial->samples_per_pixel));
       return;
     }
   }
 
+  /// Relative difference of a ratio of times and what explains it, from which on it is not explained.
+  static constexpr double max_unexplained = 0.15;
+
   const Study& study_;
   std::string all_;
+  std::vector<std::string> doubts_;  ///< about what the next conclusion is drawn from
   std::vector<Conclusion> list_;
 };
-
-}  // namespace
-
-namespace {
-
-struct Disturbance {
-  size_t made_again = 0, kept = 0, runs = 0;
-};
-
-Disturbance disturbance_of(const Study& study) {
-  Disturbance d;
-  for (const Trial& trial : study.trials) {
-    d.made_again += trial.disturbed_seconds.size();
-    d.runs += trial.seconds.size();
-    for (const double fraction : trial.processor_fractions) d.kept += fraction < min_processor_fraction;
-  }
-  return d;
-}
-
-std::string text_of(const Disturbance& d) {
-  if (d.made_again + d.kept == 0) return "no run had less than nine tenths of the processors that it could use";
-  return fmt::format("runs that other programs disturbed: {} repeated, {} among the figures and marked", d.made_again,
-                     d.kept);
-}
 
 /// "OpenMP rows, 12 threads, static" for a row of Table 3.
 std::string name_of_row(const std::string& table, const std::string& prefix, const std::string& row) {
@@ -332,65 +349,6 @@ std::string figure3_text(const Study& study) {
       "2.5, from 9 or 10 to 4.",
       w.naive.smallest_mean(), w.naive.largest_mean(), w.naive.mean(), w.chunks_x, w.chunks_y,
       w.chunked.smallest_mean(), w.chunked.largest_mean(), w.naive.largest_mean() / w.chunked.largest_mean());
-}
-
-double usual_noise(const Study& study) {
-  std::vector<double> noises;
-  for (const Trial& trial : study.trials) {
-    if (!trial.has_times() || trial.seconds.size() < 2) continue;
-    const Spread spread = spread_of(trial.seconds);
-    noises.push_back((spread.max - spread.min) / 2 / spread.median);
-  }
-  return noises.empty() ? 0 : spread_of(noises).median;
-}
-
-std::string disturbance_warning(const Study& study) {
-  const Disturbance d = disturbance_of(study);
-  if (d.kept * 20 < d.runs || d.runs == 0) return {};
-  return fmt::format(
-      "in {} of {} runs other programs used processors of this machine: the marked times are too long, and so "
-      "are speedups computed from them; the same command with --resume repeats those runs",
-      d.kept, d.runs);
-}
-
-std::string image_sizes_of(const Study& study, const Table& table) {
-  std::vector<std::string> sizes;
-  for (const Cell& cell : table.cells) {
-    const Trial* t = study.find(cell.trial);
-    if (!t || !t->has_times()) continue;
-    const std::string size = fmt::format("{} x {} pixels, S = {}", t->width, t->height, t->samples_per_pixel);
-    if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
-  }
-  return sizes.empty() || sizes.size() > 2 ? "" : fmt::format("{}.", fmt::join(sizes, "; or "));
-}
-
-std::vector<std::string> facts_of(const Study& study) {
-  const Machine& m = study.machine;
-  const SceneFacts& s = study.scene;
-  double min_load = 0, max_load = 0;
-  for (const Conditions& c : study.conditions) {
-    min_load = &c == &study.conditions.front() ? c.load : std::min(min_load, c.load);
-    max_load = std::max(max_load, c.load);
-  }
-  std::vector<std::string> lines{
-      fmt::format("{}, {} processors, {}, {:.0f} GiB; {}", m.processor, m.processors, m.instructions, m.memory_gib,
-                  m.system),
-      fmt::format("Alhazen {}, {}, {}", m.version, m.compiler, m.flags),
-      fmt::format("{} (hash {}): {} spheres, {} triangles; lights: {}; D = {}", s.name, s.hash, s.spheres, s.triangles,
-                  s.lights, s.segments),
-      fmt::format(
-          "{}: level {}; CPU {} x {} pixels, S = {}; GPU {} x {}, S = {}; {} repeats in turn, {:.0f} s in all{}",
-          study.date, study.scale.name, study.scale.width ? study.scale.width : s.width,
-          study.scale.height ? study.scale.height : s.height, study.scale.samples, s.width, s.height,
-          study.scale.gpu_samples, study.scale.repeats, study.seconds,
-          study.is_complete ? "" : "; interrupted: missing cells are marked")};
-  if (const double noise = usual_noise(study); noise > 0)
-    lines.push_back(fmt::format(
-        "Half the spread of a usual cell over its repeats is {:.1f} % of its median; load average {:.1f} to "
-        "{:.1f}, {:.0f} MHz; {}",
-        100 * noise, min_load, max_load, study.conditions.empty() ? 0 : study.conditions.back().megahertz,
-        text_of(disturbance_of(study))));
-  return lines;
 }
 
 }  // namespace alhazen::study

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "files/input_file.h"
 #include "study/json.h"
 #include "study/plots.h"
 #include "study/read_json.h"
@@ -56,8 +57,8 @@ void refuse_other_than_studies(const std::string& path) {
 
 const std::vector<std::string>& study_file_names() {
   static const std::vector<std::string> all = [] {
-    std::vector<std::string> names{"study.json",  "tables.csv",        "tables.md",          "index.html",
-                                   "figure2.png", "figure3-naive.pfm", "figure3-chunked.pfm"};
+    std::vector<std::string> names{"study.json",  "tables.csv",  "tables.md",         "index.html",
+                                   "figure1.svg", "figure2.png", "figure3-naive.pfm", "figure3-chunked.pfm"};
     for (const Plot& plot : all_plots())
       for (const char* extension : plot_extensions) names.push_back(std::string(plot.name) + extension);
     return names;
@@ -86,6 +87,16 @@ void check_folder(const std::string& folder, bool resume, bool overwrite) {
     throw InputError({folder},
                      "there is a study in this folder: give --resume to continue it, --overwrite to replace it, "
                      "or another --output");
+}
+
+bool holds_incomplete_study(const std::string& folder) {
+  const std::string path = in_folder(folder, "study.json");
+  if (!is_there(path) || !input_problem(path).message.empty()) return false;
+  try {
+    return read_study_json(path).value("complete", nlohmann::json()) == false;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 void refuse_inputs(const std::string& folder, const InputRecord& inputs) {

@@ -20,6 +20,9 @@ std::string in_folder(const std::string& folder, const std::string& name);
 /// `resume` or `overwrite`, one that holds a study.
 void check_folder(const std::string& folder, bool resume, bool overwrite);
 
+/// Whether the folder holds a study that was interrupted.
+bool holds_incomplete_study(const std::string& folder);
+
 /// Throws InputError if one of the study's files, by any name, is one of `inputs`.
 void refuse_inputs(const std::string& folder, const InputRecord& inputs);
 

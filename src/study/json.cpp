@@ -1,10 +1,14 @@
 #include "study/json.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
 #include <filesystem>
 #include <vector>
 
 #include "files/input_file.h"
+#include "study/disturbance.h"
 #include "study/read_json.h"
 
 namespace alhazen::study {
@@ -37,13 +41,14 @@ Json seconds_json(const std::vector<double>& seconds) {
   return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}, {"samples", seconds}};
 }
 
-Json trial_json(const Trial& t) {
+Json trial_json(const Trial& t, int repeats) {
   Json j{{"key", t.key}, {"status", to_string(t.status)}};
   if (!t.reason.empty()) j["reason"] = t.reason;
   if (t.seconds.empty()) return j;
   j["seconds"] = seconds_json(t.seconds);
   j["busy_seconds"] = t.busy_seconds;
   j["processor_shares"] = t.processor_fractions;
+  j["involuntary_switches"] = t.switches;
   if (!t.disturbed_seconds.empty()) j["disturbed_seconds"] = t.disturbed_seconds;
   j["build_seconds"] = t.build_seconds;
   j["width"] = t.width;
@@ -53,6 +58,7 @@ Json trial_json(const Trial& t) {
   j["rays"] = t.rays;
   j["shadow_rays"] = t.shadow_rays;
   if (t.rmse >= 0) j["rmse"] = t.rmse;
+  if (const std::string doubt = doubt_of(t, repeats); !doubt.empty()) j["doubt"] = doubt;
   return j;
 }
 
@@ -87,6 +93,7 @@ Json cell_json(const Study& study, const Table& table, const Cell& cell) {
       j["gini"] = gini_of_busy(trial);
     }
     if (trial.rmse >= 0) j["rmse"] = trial.rmse;
+    if (const std::string doubt = doubt_of(study, cell); !doubt.empty()) j["doubt"] = doubt;
   }
   if (!cell.report.empty()) j["report"] = report_json(cell.report);
   return j;
@@ -136,15 +143,16 @@ Json to_json(const Study& study) {
   for (const Conditions& c : study.conditions)
     conditions.push_back({{"seconds", c.seconds}, {"load", c.load}, {"megahertz", c.megahertz}});
   for (const Table& table : study.tables) tables.push_back(table_json(study, table));
-  for (const Trial& trial : study.trials) trials.push_back(trial_json(trial));
+  for (const Trial& trial : study.trials) trials.push_back(trial_json(trial, study.scale.repeats));
   const SceneFacts& s = study.scene;
   Json j{{"schema", schema_name},
          {"version", study.machine.version},
          {"date", study.date},
          {"complete", study.is_complete},
+         {"runs", {{"measured", study.runs_measured()}, {"planned", study.runs_planned()}}},
          {"seconds", study.seconds},
          {"machine", machine_json(study.machine)},
-         {"build", {{"compiler", study.machine.compiler}, {"flags", study.machine.flags}}},
+         {"build", {{"compiler", study.machine.compiler}, {"flags", study.machine.flags}, {"id", study.machine.build}}},
          {"scene",
           {{"name", s.name},
            {"hash", s.hash},
@@ -188,18 +196,13 @@ nlohmann::json read_study_json(const std::string& given) {
 
 namespace {
 
-/// The size of the images belongs to the scale as much as its name: other sizes are other trials.
-bool is_same_scale(const nlohmann::json& j, const Scale& scale) {
-  return j.at("name") == scale.name && j.at("width") == scale.width && j.at("height") == scale.height &&
-         j.at("samples") == scale.samples && j.at("gpu_samples") == scale.gpu_samples;
-}
-
 void read_runs(const nlohmann::json& j, Trial& trial) {
   trial.seconds = j.at("seconds").at("samples").get<std::vector<double>>();
   trial.busy_seconds = j.at("busy_seconds").get<std::vector<std::vector<double>>>();
   trial.processor_fractions = j.at("processor_shares").get<std::vector<double>>();
+  trial.switches = j.at("involuntary_switches").get<std::vector<uint64_t>>();
   const size_t runs = trial.seconds.size();
-  if (trial.busy_seconds.size() != runs || trial.processor_fractions.size() != runs)
+  if (trial.busy_seconds.size() != runs || trial.processor_fractions.size() != runs || trial.switches.size() != runs)
     throw nlohmann::json::other_error::create(501, "the runs of a trial do not match", &j);
   if (j.contains("disturbed_seconds")) trial.disturbed_seconds = j.at("disturbed_seconds").get<std::vector<double>>();
   trial.build_seconds = j.at("build_seconds");
@@ -230,17 +233,30 @@ void forget_failures(Trial& trial) {
   if (trial.status != TrialStatus::ok) trial.status = TrialStatus::not_run;
   trial.reason.clear();
   trial.disturbed_seconds.clear();
-  size_t kept = 0;
-  for (size_t i = 0; i < trial.seconds.size(); ++i) {
-    if (trial.processor_fractions[i] < min_processor_fraction) continue;
-    trial.seconds[kept] = trial.seconds[i];
-    std::swap(trial.busy_seconds[kept], trial.busy_seconds[i]);
-    trial.processor_fractions[kept++] = trial.processor_fractions[i];
-  }
-  trial.seconds.resize(kept);
-  trial.busy_seconds.resize(kept);
-  trial.processor_fractions.resize(kept);
-  if (kept == 0) trial.status = TrialStatus::not_run;
+  const std::vector<bool> repeated = runs_to_repeat(trial);
+  for (size_t i = repeated.size(); i-- > 0;)
+    if (repeated[i]) trial.erase_run(i);
+  if (trial.seconds.empty()) trial.status = TrialStatus::not_run;
+}
+
+/// What must be the same for two runs to be of one study: its name, and its values in the earlier study and now.
+std::vector<std::string> differences_of(const nlohmann::json& earlier, const Study& study) {
+  const Machine& m = study.machine;
+  const std::string no_id;
+  std::vector<std::string> differences;
+  const auto compare = [&](const char* name, const nlohmann::json& then, const nlohmann::json& now) {
+    if (then != now) differences.push_back(fmt::format("{}: {}, now {}", name, then.dump(), now.dump()));
+  };
+  compare("version", earlier.at("version"), m.version);
+  if (earlier.at("version") == m.version && earlier.at("build").value("id", no_id) != m.build)
+    differences.emplace_back("another build of the program");
+  compare("processor", earlier.at("machine").at("processor"), m.processor);
+  compare("processors", earlier.at("machine").at("processors"), m.processors);
+  compare("scene, by its hash", earlier.at("scene").at("hash"), study.scene.hash);
+  const Json scale = scale_json(study.scale);
+  for (const auto& [name, value] : earlier.at("scale").items())
+    if (name != "repeats") compare(name == "name" ? "level" : name.c_str(), value, nlohmann::json(scale.at(name)));
+  return differences;
 }
 
 }  // namespace
@@ -254,13 +270,11 @@ std::vector<std::string> tables_of(const nlohmann::json& study, const std::strin
 }
 
 void resume_from(const nlohmann::json& earlier, const std::string& path, Study& study) try {
-  if (earlier.at("scene").at("hash") != study.scene.hash || !is_same_scale(earlier.at("scale"), study.scale) ||
-      earlier.at("machine").at("processor") != study.machine.processor ||
-      earlier.at("machine").at("processors") != study.machine.processors ||
-      earlier.at("version") != study.machine.version)
+  if (const std::vector<std::string> differences = differences_of(earlier, study); !differences.empty())
     throw InputError({path},
-                     "this study is of another scene, scale, machine or version, and cannot be continued: give the "
-                     "same ones, or another --output");
+                     fmt::format("this study cannot be continued, since its runs would not be comparable ({}): "
+                                 "run the same program and command again, or give --overwrite or another --output",
+                                 fmt::join(differences, "; ")));
   for (const auto& j : earlier.at("trials")) {
     const std::string key = j.at("key");
     for (Trial& trial : study.trials) {

@@ -22,7 +22,7 @@ std::vector<std::string> tables_of(const nlohmann::json& study, const std::strin
 
 /// Copies what an earlier run measured to the trials of `study`, and of Figure 3 the numbers that its files do not
 /// hold. Trials with is_asked, which are measured now, receive only undisturbed runs; the others receive all. Throws
-/// InputError if that run had another scene, scale, machine or version.
+/// InputError, which names the differences, if that run had another scene, scale, machine, version or build.
 void resume_from(const nlohmann::json& earlier, const std::string& path, Study& study);
 
 /// A number for JSON: null if it is not finite.

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "render/backend.h"
+#include "study/build_id.h"
 
 namespace alhazen::study {
 
@@ -66,6 +67,7 @@ Machine this_machine() {
 #endif
   m.flags = ALHAZEN_BUILD_FLAGS;
   m.version = version();
+  m.build = build_id();
   for (const auto& backend : all_backends()) {
     const BackendStatus status = backend->status();
     m.engines.push_back({backend->traits().name, status.available, status.details, status.devices});

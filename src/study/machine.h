@@ -22,6 +22,7 @@ struct Machine {
   std::string system;
   std::string governor;  ///< frequency governor; empty: unknown
   std::string compiler, flags, version;
+  std::string build;  ///< build_id()
   std::vector<Engine> engines;
 };
 

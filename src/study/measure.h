@@ -13,6 +13,7 @@ namespace alhazen::study {
 struct Measuring {
   int round = 1, rounds = 1;
   size_t done = 0, total = 0;  ///< runs over all rounds, without those that are impossible
+  std::string cell;            ///< the first one that shows the next trial
   std::string trial;           ///< key of the next trial
   double seconds = 0;          ///< since the start
   double seconds_left = -1;    ///< estimated from the runs so far; negative: unknown

@@ -7,6 +7,10 @@ namespace alhazen::study::name {
 inline constexpr const char* branching = "branching (Algorithm 2)";
 inline constexpr const char* recursive = "recursive (Algorithm 3)";
 inline constexpr const char* iterative = "iterative (Algorithm 5)";
+inline constexpr const char* one_core = "one core";
+inline constexpr const char* single = "a path at a time";
+inline constexpr const char* batches = "in batches";
+inline constexpr const char* core_in_batches = "one core, batches";
 inline constexpr const char* wide_bvh = "wide BVH, SIMD";
 inline constexpr const char* binary_bvh = "binary BVH";
 inline constexpr const char* embree = "Embree";

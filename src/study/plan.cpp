@@ -42,6 +42,12 @@ Work Plan::on_cpu(const std::string& backend, const std::string& precision, int 
   return work;
 }
 
+Work Plan::path_at_a_time(const std::string& backend, const std::string& precision, int threads) const {
+  Work work = on_cpu(backend, precision, threads);
+  work.queries = Queries::path_at_a_time;
+  return work;
+}
+
 Work Plan::on_gpu(const std::string& backend, const std::string& precision) const {
   Work work;
   work.settings.backend = backend;

@@ -22,8 +22,13 @@ class Plan {
   /// CPU settings at the study's scale, with `iterative` and the scene's D.
   Work on_cpu(const std::string& backend, const std::string& precision, int threads) const;
   Work on_gpu(const std::string& backend, const std::string& precision) const;
-  /// Serial and `iterative`: the baseline of speedups.
-  std::string serial(const std::string& precision) { return add(on_cpu("serial", precision, 1)); }
+  /// The same, a path at a time: every form of the report's loops then runs the same kernel, and takes no advantage of
+  /// batches, which are as large as its loops allow.
+  Work path_at_a_time(const std::string& backend, const std::string& precision, int threads) const;
+  /// One core, `iterative`, a path at a time: what the speedups of the report's tables relate to.
+  std::string one_core(const std::string& precision) { return add(path_at_a_time("serial", precision, 1)); }
+  /// The same in batches: the fastest that one core does.
+  std::string one_core_in_batches(const std::string& precision) { return add(on_cpu("serial", precision, 1)); }
   /// The edge of a square image with 4 samples per pixel for a linear scan over that many objects.
   int64_t linear_size(uint64_t objects, int64_t largest) const;
 

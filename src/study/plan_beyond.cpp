@@ -15,18 +15,20 @@ void plan_engines(Plan& plan) {
   Table& table =
       plan.add(Table{"engines",
                      "Engines and schedules that the report does not have",
-                     "Tiles of 16 x 16 pixels, Embree, and two schedules of CUDA: persistent threads that take "
-                     "samples from a queue, and a wavefront with one kernel per stage over queues. "
-                     "Embree supports float only.",
+                     "Batches of paths on one core, tiles of 16 x 16 pixels, Embree, and two schedules of CUDA: "
+                     "persistent threads that take samples from a queue, and a wavefront with one kernel per stage "
+                     "over queues. Those of the CPU take paths in batches, and their speedups are over a path at a "
+                     "time, like all others. Embree supports float only.",
                      "engine",
                      Measure::seconds,
                      {"double", "float"},
                      {}});
   const auto add = [&](const std::string& row, Work work) {
-    add_cell(table, row, work.settings.precision, plan.add(work), plan.serial(work.settings.precision));
+    add_cell(table, row, work.settings.precision, plan.add(work), plan.one_core(work.settings.precision));
   };
   const int all = plan.processors();
   for (const char* precision : {"double", "float"}) {
+    add(name::core_in_batches, plan.on_cpu("serial", precision, 1));
     Work tiles = plan.on_cpu("openmp", precision, all);
     tiles.settings.strategy = "tiles";
     tiles.settings.schedule = "dynamic";
@@ -43,6 +45,31 @@ void plan_engines(Plan& plan) {
       work.settings.strategy = strategy;
       add(fmt::format("CUDA {}", strategy), work);
     }
+}
+
+void plan_batches(Plan& plan) {
+  Table& table =
+      plan.add(Table{"batches",
+                     fmt::format("What batches bring, {} threads", plan.processors()),
+                     "The forms of Table 2 and the tiles, with the same bits: a path at a time, and in "
+                     "batches, of which many paths are in flight together, so that SIMD instructions and "
+                     "prefetches serve many rays. A reduction works on one block of 4 samples at a time, and "
+                     "its batches are no larger. One core first; dynamic schedule, float. "
+                     "Speedups are over the same form a path at a time.",
+                     "form",
+                     Measure::seconds,
+                     {name::single, name::batches},
+                     {}});
+  for (const char* strategy : {"", "rows", "collapse", "rows+reduction", "reduction", "tiles"}) {
+    const bool is_serial = std::string(strategy).empty();
+    Work work = plan.path_at_a_time(is_serial ? "serial" : "openmp", "float", plan.processors());
+    work.settings.strategy = strategy;
+    if (!is_serial) work.settings.schedule = "dynamic";
+    const std::string single = plan.add(work), row = is_serial ? name::one_core : strategy;
+    work.queries = Queries::of_backend;
+    add_cell(table, row, name::single, single, single);
+    add_cell(table, row, name::batches, plan.add(work), single);
+  }
 }
 
 void plan_queries(Plan& plan) {
@@ -70,7 +97,7 @@ void plan_queries(Plan& plan) {
     add_cell(table, "linear scan", precision, baseline, baseline,
              fmt::format("{0} x {0} pixels, S = 4", linear.settings.width));
     add_cell(table, name::binary_bvh, precision, plan.add(binary), baseline);
-    add_cell(table, name::wide_bvh, precision, plan.serial(precision), baseline);
+    add_cell(table, name::wide_bvh, precision, plan.one_core_in_batches(precision), baseline);
     if (std::string(precision) == "float") {
       Work embree = plan.on_cpu("embree", "float", 1);
       embree.settings.strategy = "tiles";
@@ -84,7 +111,8 @@ void plan_balance(Plan& plan) {
       "balance",
       fmt::format("Load balance, {} threads", plan.processors()),
       "Time that each thread is busy, from its start to the end of its last row or tile: the maximum over the mean (1: "
-      "all end together), and the Gini coefficient (0: all equal). Medians over the repeats.",
+      "all end together), and the Gini coefficient (0: all equal). Medians over the repeats. A path at a time; rows "
+      "are those of Table 3.",
       "strategy, schedule",
       Measure::load_balance,
       {"double", "float"},
@@ -92,10 +120,10 @@ void plan_balance(Plan& plan) {
   for (const char* strategy : {"rows", "tiles"})
     for (const char* schedule : {"static", "dynamic", "guided"})
       for (const char* precision : {"double", "float"}) {
-        Work work = plan.on_cpu("openmp", precision, plan.processors());
+        Work work = plan.path_at_a_time("openmp", precision, plan.processors());
         work.settings.strategy = strategy;
         work.settings.schedule = schedule;
-        add_cell(table, fmt::format("{} {}", strategy, schedule), precision, plan.add(work), plan.serial(precision));
+        add_cell(table, fmt::format("{} {}", strategy, schedule), precision, plan.add(work), plan.one_core(precision));
       }
 }
 
@@ -103,8 +131,8 @@ void plan_depth(Plan& plan) {
   Table& table = plan.add(Table{"depth",
                                 "Cost against depth: O(2^D) against O(D)",
                                 "Algorithm 2 follows both rays at glass, so the rays of a path may double with every "
-                                "segment; Algorithms 3 and 5 choose one of them. One thread, float. Rays are per "
-                                "camera sample.",
+                                "segment; Algorithms 3 and 5 choose one of them. D is the maximum number of segments "
+                                "of a path. One thread, a path at a time, float. Rays are per camera sample.",
                                 "D",
                                 Measure::seconds,
                                 {name::branching, name::recursive, name::iterative},
@@ -115,6 +143,7 @@ void plan_depth(Plan& plan) {
     for (size_t i = table.columns.size(); i-- > 0;) {
       Work work = plan.on_cpu("serial", "float", 1);
       work.settings.integrator = table.columns[i].substr(0, table.columns[i].find(' '));
+      if (table.columns[i] == name::iterative) work.queries = Queries::path_at_a_time;
       work.settings.max_depth = depth - 1;
       work.settings.width = work.settings.height = plan.scale().depth_size;
       work.settings.samples_per_pixel = plan.scale().depth_samples;
@@ -126,15 +155,16 @@ void plan_depth(Plan& plan) {
 }
 
 void plan_glass(Plan& plan) {
-  Table& table =
-      plan.add(Table{"glass",
-                     "The worst case of depth: nothing but glass",
-                     "A dense cloud of 1000 glass spheres, from which hardly any path escapes: every segment "
-                     "of Algorithm 2 branches. One thread, float.",
-                     "D",
-                     Measure::seconds,
-                     {name::branching, name::iterative},
-                     {}});
+  Table& table = plan.add(
+      Table{"glass",
+            "The worst case of depth: nothing but glass",
+            "A dense cloud of 1000 glass spheres, from which hardly any path escapes: every segment "
+            "of Algorithm 2 branches. D is the maximum number of segments of a path. One thread, a path at a time, "
+            "float.",
+            "D",
+            Measure::seconds,
+            {name::branching, name::iterative},
+            {}});
   table.shows_rays = true;
   for (int depth = 1; depth <= 12; ++depth) {
     Work work = plan.on_cpu("serial", "float", 1);
@@ -143,7 +173,9 @@ void plan_glass(Plan& plan) {
     work.settings.max_depth = depth - 1;
     work.settings.width = work.settings.height = plan.scale().depth_size / 4;
     work.settings.samples_per_pixel = plan.scale().depth_samples;
+    work.queries = Queries::path_at_a_time;
     const std::string baseline = plan.add(work);
+    work.queries = Queries::of_backend;  // its kernel takes a path at a time anyway
     work.settings.integrator = "branching";
     add_cell(table, std::to_string(depth), table.columns[0], plan.add(work), baseline);
     add_cell(table, std::to_string(depth), table.columns[1], baseline, baseline);
@@ -183,18 +215,19 @@ void plan_objects(Plan& plan) {
 }
 
 void plan_error(Plan& plan) {
-  Table& table = plan.add(
-      Table{"error",
-            "Time to equal error",
-            fmt::format("The report's algorithms find light by BSDF sampling alone; `path` also samples lights "
-                        "(next-event estimation with multiple importance sampling). RMSE over "
-                        "red, green and blue against {} samples per pixel of `path` with another seed; "
-                        "{} x {} pixels, all threads, float.",
-                        plan.scale().reference_samples, plan.scale().error_size, plan.scale().error_size),
-            "S",
-            Measure::error,
-            {"iterative", "path"},
-            {}});
+  Table& table =
+      plan.add(Table{"error",
+                     "Time to equal error",
+                     fmt::format("S is the number of samples per pixel. The report's algorithms find light by BSDF "
+                                 "sampling alone; `path` also samples lights "
+                                 "(next-event estimation with multiple importance sampling). RMSE over "
+                                 "red, green and blue against {} samples per pixel of `path` with another seed; "
+                                 "{} x {} pixels, all threads, float.",
+                                 plan.scale().reference_samples, plan.scale().error_size, plan.scale().error_size),
+                     "S",
+                     Measure::error,
+                     {"iterative", "path"},
+                     {}});
   for (int64_t samples = 4; samples <= 256; samples *= 4)
     for (const std::string& integrator : table.columns) {
       Work work = plan.on_cpu("openmp", "float", plan.processors());
@@ -212,6 +245,7 @@ void plan_error(Plan& plan) {
 
 void plan_beyond(Plan& plan) {
   plan_engines(plan);
+  plan_batches(plan);
   plan_queries(plan);
   plan_balance(plan);
   plan_depth(plan);

@@ -131,6 +131,7 @@ const std::vector<Plot>& all_plots() {
       {"headline", "headline", "How many times as fast as one core"},
       {"scaling", "table3", "Speedup by threads and schedule"},
       {"forms", "table2", "Four forms of OpenMP"},
+      {"batches", "batches", "Time of a sample, a path at a time and in batches"},
       {"blocks", "table4", "CUDA by block size"},
       {"chunks", "table5", "CUDA by block and chunks"},
       {"figure3", "figure3", "Mean number of bounces of every thread"},

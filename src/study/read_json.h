@@ -1,6 +1,6 @@
 #pragma once
 
-// Reads the JSON files that the program itself has written, but others may have changed.
+// Reads the JSON files that the program itself has written, but others may have changed, and the text of new ones.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -26,6 +26,12 @@ Json read_json(const std::string& path, const std::string& advice) {
   Json json = Json::parse(bytes.begin(), bytes.end(), check_depth, false);
   if (json.is_discarded()) throw InputError({path}, "this is not JSON: " + advice);
   return json;
+}
+
+/// The text of a file. What is not UTF-8, as in a path, is replaced.
+template <class Json>
+std::string json_text(const Json& json) {
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace alhazen::study

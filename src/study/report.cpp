@@ -14,6 +14,7 @@
 #include "render/checkpoint.h"
 #include "render/renderer.h"
 #include "study/conclusions.h"
+#include "study/disturbance.h"
 #include "study/folder.h"
 #include "study/json.h"
 #include "study/plan.h"
@@ -85,12 +86,9 @@ void keep_wanted(const ReportOptions& options, const std::vector<std::string>& e
 /// Gives a trial that is measured again the earlier results that have no successor yet.
 void restore(const Trial& earlier, Trial& trial) {
   if (trial.status == TrialStatus::not_run && trial.seconds.empty()) trial = earlier;
-  for (size_t i = 0; i < earlier.seconds.size() && trial.seconds.size() < earlier.seconds.size(); ++i) {
-    if (earlier.processor_fractions[i] >= min_processor_fraction) continue;
-    trial.seconds.push_back(earlier.seconds[i]);
-    trial.busy_seconds.push_back(earlier.busy_seconds[i]);
-    trial.processor_fractions.push_back(earlier.processor_fractions[i]);
-  }
+  const std::vector<bool> repeated = runs_to_repeat(earlier);
+  for (size_t i = 0; i < repeated.size() && trial.seconds.size() < repeated.size(); ++i)
+    if (repeated[i]) trial.add_run(earlier, i);
 }
 
 size_t count_runs(const Study& study) {
@@ -101,7 +99,10 @@ size_t count_runs(const Study& study) {
 
 class Report {
  public:
-  Report(const ReportOptions& options, const ReportEvents& events) : options_(options), events_(events) {}
+  Report(const ReportOptions& options, const ReportEvents& events) : options_(options), events_(events) {
+    // The same command again goes on where it was interrupted.
+    if (!options.resume && !options.overwrite) options_.resume = holds_incomplete_study(options.output);
+  }
 
   ReportOutcome run() {
     check_options(options_);
@@ -115,7 +116,7 @@ class Report {
     check_target(json_path(options_));
     const size_t runs_before = count_runs(study_);
     const bool is_complete = render_images() && measure_trials();
-    if (!is_complete && count_runs(study_) == runs_before) {
+    if (!is_complete && !has_saved_ && count_runs(study_) == runs_before) {
       std::error_code ignored;
       if (is_new_folder) fs::remove(options_.output, ignored);
       return {};
@@ -131,6 +132,7 @@ class Report {
     study_.scale = options_.scale;
     study_.scene = facts_of(scene_, options_.scene);
     plan_study(study_);
+    renders_figure3_ = is_wanted(options_, figure3);
     if (!options_.resume) return keep_wanted(options_, {}, study_);
     const std::string path = json_path(options_);
     const nlohmann::json earlier = read_study_json(path);
@@ -140,7 +142,9 @@ class Report {
     resume_from(earlier, path, earlier_);
     resume_from(earlier, path, study_);
     study_.is_complete = false;
-    renders_figure3_ = is_wanted(options_, figure3) || (earlier.contains("figure3") && !read_figure3());
+    events_.stage(fmt::format("continuing the study in {}: {} of {} runs are measured", options_.output,
+                              study_.runs_measured(), study_.runs_planned()));
+    renders_figure3_ |= earlier.contains("figure3") && !read_figure3();
   }
 
   /// Reads the work of each thread from the files of an earlier run. Returns false if they are missing or damaged.
@@ -172,7 +176,7 @@ class Report {
 
   std::vector<std::string> write_all() {
     const Study study = study_to_save();
-    if (const std::string warning = disturbance_warning(study); !warning.empty()) events_.warning(warning);
+    for (const std::string& warning : warnings_of(study)) events_.warning(warning);
     events_.stage("writing tables, plots and the page");
     std::vector<std::string> files =
         write_study(study, options_.output, {events_.go_on, [&] { finish_save(); }, events_.warning});
@@ -279,7 +283,7 @@ class Report {
 
   std::string file(const char* name) const { return in_folder(options_.output, name); }
 
-  const ReportOptions& options_;
+  ReportOptions options_;
   const ReportEvents& events_;
   Clock::time_point start_ = Clock::now();
   Scene scene_;
@@ -287,7 +291,7 @@ class Report {
   std::optional<Image> figure2_;  ///< written with the study
   Study earlier_;                 ///< what is continued; else empty
   Study study_;
-  bool renders_figure3_ = is_wanted(options_, figure3);
+  bool renders_figure3_ = false;
   bool has_new_figure3_ = false;
   bool has_saved_ = false;
   std::set<std::string> reported_;  ///< failures of `attempt` that were reported

@@ -16,7 +16,8 @@ struct ReportOptions {
   std::string output = "study";  ///< a folder
   Scale scale;
   std::vector<std::string> only;  ///< ids of tables and figures to measure; empty: all
-  bool resume = false;            ///< continues the study in the folder, and keeps its other parts
+  bool resume = false;            ///< continues the study in the folder, and keeps its other parts; so does an
+                                  ///< incomplete study without `overwrite`
   bool overwrite = false;         ///< replaces it by another
   std::string command;            ///< the command line, for the page
 };

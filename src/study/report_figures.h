@@ -10,6 +10,11 @@
 
 namespace alhazen::study {
 
+inline constexpr const char* report_title = "Accelerating Ray Tracing";
+inline constexpr const char* report_authors =
+    "Wei-Lun Huang (Center for Data Science), Maksat Kuanyshbay (Department of Mathematics) and YiTao Long (Department "
+    "of Computer Science), New York University";
+
 /// Empty if the report has no figure there.
 std::vector<ReportFigure> report_figures(const std::string& table, const std::string& row, const std::string& column);
 

@@ -16,7 +16,8 @@ struct Outcome {
   TrialStatus status = TrialStatus::not_run;  ///< not_run: it was stopped
   std::string reason;
   RenderStatistics statistics;
-  double processor_seconds = 0;  ///< of all threads of this process, while it rendered
+  double processor_fraction = 1;  ///< that the CPU's threads received (disturbance.h)
+  uint64_t switches = 0;          ///< involuntary context switches of all threads while it rendered
   std::optional<Image> image;
 };
 

@@ -67,6 +67,17 @@ Scale full_scale() {
   return s;
 }
 
+size_t Study::runs_measured() const {
+  size_t runs = 0;
+  for (const Trial& trial : trials) runs += std::min(trial.seconds.size(), static_cast<size_t>(scale.repeats));
+  return runs;
+}
+
+size_t Study::runs_planned() const {
+  const auto can_run = [](const Trial& t) { return t.status == TrialStatus::not_run || t.status == TrialStatus::ok; };
+  return static_cast<size_t>(std::count_if(trials.begin(), trials.end(), can_run)) * static_cast<size_t>(scale.repeats);
+}
+
 const Trial* Study::find(const std::string& key) const {
   const auto at = std::find_if(trials.begin(), trials.end(), [&](const Trial& t) { return t.key == key; });
   return at == trials.end() ? nullptr : &*at;

@@ -90,6 +90,9 @@ struct Study {
   double seconds = 0;  ///< total time of the study
   bool is_complete = false;
 
+  /// Runs of all trials, without those that cannot be run.
+  size_t runs_measured() const;
+  size_t runs_planned() const;
   const Trial* find(const std::string& key) const;
   const Table* table(const std::string& id) const;
 };

@@ -13,8 +13,9 @@ int64_t segments_of(const Settings& settings) { return settings.max_depth < 0 ? 
 std::string command_options(const Work& work) {
   std::string options;
   if (work.objects > 0) options = fmt::format("[{} {}spheres]", work.objects, work.is_glass ? "glass " : "");
-  if (work.queries == Queries::linear_scan) options += (options.empty() ? "" : " ") + std::string("[linear scan]");
-  if (work.queries == Queries::binary_bvh) options += (options.empty() ? "" : " ") + std::string("[binary BVH]");
+  const char* const names[] = {"", "[a path at a time]", "[linear scan]", "[binary BVH]"};
+  if (work.queries != Queries::of_backend)
+    options += (options.empty() ? "" : " ") + std::string(names[static_cast<size_t>(work.queries)]);
   for (const char* name : {"backend", "strategy", "schedule", "threads", "block", "chunk", "precision", "integrator",
                            "max-depth", "size", "spp"}) {
     const std::string value = setting_text(work.settings, name);
@@ -38,12 +39,19 @@ std::string to_string(TrialStatus status) {
   return "failed";
 }
 
-double processor_fraction(double processor_seconds, double seconds, const std::vector<double>& busy_seconds,
-                          int processors) {
-  double busy = 0;
-  for (const double thread : busy_seconds) busy += thread;
-  const double possible = std::min(busy, seconds * processors);
-  return possible > 0 ? processor_seconds / possible : 1;
+void Trial::add_run(const Trial& other, size_t run) {
+  seconds.push_back(other.seconds[run]);
+  busy_seconds.push_back(other.busy_seconds[run]);
+  processor_fractions.push_back(other.processor_fractions[run]);
+  switches.push_back(other.switches[run]);
+}
+
+void Trial::erase_run(size_t run) {
+  const auto at = static_cast<std::ptrdiff_t>(run);
+  seconds.erase(seconds.begin() + at);
+  busy_seconds.erase(busy_seconds.begin() + at);
+  processor_fractions.erase(processor_fractions.begin() + at);
+  switches.erase(switches.begin() + at);
 }
 
 Spread spread_of(std::vector<double> values) {

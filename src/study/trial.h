@@ -10,8 +10,9 @@
 
 namespace alhazen::study {
 
-/// How ray queries are answered: by the backend, or by something slower with the serial backend and `iterative` only.
-enum class Queries { of_backend, linear_scan, binary_bvh };
+/// How samples are taken: in batches of many paths, as backends on CPUs do, or with `iterative` alone by something
+/// slower, a path at a time or with other ray queries (query_kernels.h).
+enum class Queries { of_backend, path_at_a_time, linear_scan, binary_bvh };
 
 struct Work {
   Settings settings;  ///< backend, strategy, ... as on the command line
@@ -38,8 +39,9 @@ struct Trial {
   std::vector<double> seconds;                    ///< of the render phase, in the order of measurement
   std::vector<std::vector<double>> busy_seconds;  ///< the same, per thread
   std::vector<double> processor_fractions;        ///< processor_fraction of each run
-  std::vector<double> disturbed_seconds;  ///< of runs that were repeated, since other programs used the processors
-  double build_seconds = 0;               ///< of the BVH, in the last run
+  std::vector<uint64_t> switches;                 ///< involuntary context switches during each run
+  std::vector<double> disturbed_seconds;          ///< of runs that were replaced by others (disturbance.h)
+  double build_seconds = 0;                       ///< of the BVH, in the last run
   int64_t width = 0, height = 0;
   uint64_t samples_per_pixel = 0;
   uint64_t samples = 0, rays = 0, shadow_rays = 0;
@@ -52,17 +54,14 @@ struct Trial {
            seconds.size() < static_cast<size_t>(repeats);
   }
   bool has_times() const { return status == TrialStatus::ok && !seconds.empty(); }
+
+  void add_run(const Trial& other, size_t run);
+  void erase_run(size_t run);
 };
 
 struct Spread {
   double median = 0, min = 0, max = 0;
 };
-
-/// The fraction of the processor time available to its threads that a run received: 1 if it had the machine to itself.
-double processor_fraction(double processor_seconds, double seconds, const std::vector<double>& busy_seconds,
-                          int processors);
-/// Runs that received a smaller fraction were disturbed by other programs.
-inline constexpr double min_processor_fraction = 0.9;
 
 /// The spread of at least one value.
 Spread spread_of(std::vector<double> values);

@@ -1,5 +1,7 @@
 #include "study/tune.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -7,6 +9,7 @@
 
 #include "core/film/block_sum.h"
 #include "render/backend.h"
+#include "study/disturbance.h"
 
 namespace alhazen::study {
 
@@ -16,6 +19,10 @@ using Clock = std::chrono::steady_clock;
 
 /// Runs of each candidate per round.
 constexpr int runs_a_round = 3;
+/// Maximum number of disturbed runs of each candidate per round that are repeated.
+constexpr int max_repeated = 3;
+/// Maximum number of rounds, each of twice as many samples, to separate the last two.
+constexpr int max_final_rounds = 4;
 /// Minimum relative gain over the default for another engine to win.
 constexpr double min_gain = 0.02;
 /// Minimum size of the images: pixels of the shorter side.
@@ -57,6 +64,12 @@ void add_cuda(const Settings& asked, std::vector<Candidate>& list) {
     for (const char* chunk : {"2x2", "4x4", "5x5"}) add("chunk", block, chunk);
 }
 
+/// Whether all runs of `a` are faster than all of `b`.
+bool is_faster(const Candidate& a, const Candidate& b) {
+  return !a.costs.empty() && !b.costs.empty() &&
+         *std::max_element(a.costs.begin(), a.costs.end()) < *std::min_element(b.costs.begin(), b.costs.end());
+}
+
 class Tuning {
  public:
   Tuning(const Scene& scene, const Settings& asked, double budget, const TuneEvents& events)
@@ -74,8 +87,11 @@ class Tuning {
       std::erase_if(running, [&](size_t i) { return !outcome_.candidates[i].problem.empty(); });
       if (running.empty()) break;
       sort_by_cost(running);
-      outcome_.is_complete = running.size() <= 2;
-      if (outcome_.is_complete) break;
+      outcome_.is_complete |= running.size() <= 2;
+      if (outcome_.is_complete) {
+        if (++final_rounds_ == max_final_rounds || is_decided(running)) break;
+        continue;
+      }
       running.resize((running.size() + 1) / 2);
       keep_default(running);
     }
@@ -111,35 +127,62 @@ class Tuning {
     }
   }
 
+  /// What a candidate measured in a round.
+  struct Round {
+    std::vector<double> costs;
+    size_t disturbed = 0;
+    int repeated = 0;
+  };
+
   /// Returns false if the budget or the user ended it.
   bool run_round(const std::vector<size_t>& running, int64_t samples) {
-    std::vector<std::vector<double>> costs(outcome_.candidates.size());
+    std::vector<Round> rounds(outcome_.candidates.size());
     for (int run = 0; run < runs_a_round; ++run)
       for (const size_t index : running) {
         Candidate& candidate = outcome_.candidates[index];
+        Round& round = rounds[index];
         if (!candidate.problem.empty()) continue;
-        if (!events_.go_on() || elapsed() > budget_) return keep_round(costs, run > 0);
+        if (!events_.go_on() || elapsed() > budget_) return keep_round(rounds, run > 0);
         if (candidate.rounds == 0 && run == 0) warm_up(candidate.work, scene_, events_.go_on);
         candidate.work.settings.samples_per_pixel = samples;
-        const Outcome outcome = run_work(candidate.work, scene_, false, events_.go_on);
-        if (outcome.status == TrialStatus::not_run) return keep_round(costs, run > 0);
-        if (outcome.status != TrialStatus::ok)
+        Outcome outcome = run_work(candidate.work, scene_, false, events_.go_on);
+        // Not in the first round, which has most engines: the budget must let each of them run.
+        while (candidate.rounds > 0 && is_disturbed(outcome) && round.repeated < max_repeated && elapsed() <= budget_) {
+          ++round.repeated;
+          outcome = run_work(candidate.work, scene_, false, events_.go_on);
+        }
+        if (outcome.status == TrialStatus::not_run) return keep_round(rounds, run > 0);
+        if (outcome.status != TrialStatus::ok) {
           candidate.problem = outcome.reason;
-        else
-          costs[index].push_back(outcome.statistics.render_seconds * 1e9 /
-                                 static_cast<double>(outcome.statistics.camera_samples));
+          continue;
+        }
+        round.costs.push_back(outcome.statistics.render_seconds * 1e9 /
+                              static_cast<double>(outcome.statistics.camera_samples));
+        round.disturbed += is_disturbed(outcome);
       }
-    keep_round(costs, true);
+    keep_round(rounds, true);
     return true;
   }
 
-  /// Keeps the costs of a round if all candidates have run at least once. Always returns false, for the caller to
+  static bool is_disturbed(const Outcome& outcome) {
+    return outcome.status == TrialStatus::ok && outcome.processor_fraction < min_processor_fraction;
+  }
+
+  /// Whether further rounds would tell no more about the last two.
+  bool is_decided(const std::vector<size_t>& running) const {
+    for (const size_t i : running)
+      if (outcome_.candidates[i].disturbed > 0) return false;
+    return running.size() < 2 || is_faster(outcome_.candidates[running.front()], outcome_.candidates[running.back()]);
+  }
+
+  /// Keeps what a round measured if all candidates have run at least once. Always returns false, for the caller to
   /// return.
-  bool keep_round(const std::vector<std::vector<double>>& costs, bool counts) {
+  bool keep_round(const std::vector<Round>& rounds, bool counts) {
     if (!counts) return false;
-    for (size_t i = 0; i < costs.size(); ++i)
-      if (!costs[i].empty()) {
-        outcome_.candidates[i].costs = costs[i];
+    for (size_t i = 0; i < rounds.size(); ++i)
+      if (!rounds[i].costs.empty()) {
+        outcome_.candidates[i].costs = rounds[i].costs;
+        outcome_.candidates[i].disturbed = rounds[i].disturbed;
         ++outcome_.candidates[i].rounds;
       }
     return false;
@@ -190,10 +233,36 @@ class Tuning {
   double budget_;
   const TuneEvents& events_;
   TuneOutcome outcome_;
+  int final_rounds_ = 0;
   Clock::time_point start_ = Clock::now();
 };
 
 }  // namespace
+
+size_t TuneOutcome::open() const {
+  return static_cast<size_t>(std::count_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+    return c.problem.empty() && c.rounds == candidates[winner].rounds;
+  }));
+}
+
+std::string why_not_to_store(const TuneOutcome& outcome) {
+  if (!outcome.is_complete)
+    return fmt::format("the budget ended while {} engines were left: give a larger --budget", outcome.open());
+  const Candidate& winner = outcome.candidates[outcome.winner];
+  for (size_t i = 0; i < outcome.candidates.size(); ++i) {
+    const Candidate& other = outcome.candidates[i];
+    if (!other.problem.empty() || other.rounds != winner.rounds) continue;
+    if (other.disturbed > 0)
+      return fmt::format("other programs used the processors in {} of the last {} runs of {}: tune on a quiet machine",
+                         other.disturbed, other.costs.size(), command_options(other.work));
+    if (i != outcome.winner && !is_faster(winner, other))
+      return fmt::format(
+          "the last two engines differ no more than their runs do, {:.1f} and {:.1f} ns per sample: "
+          "without an entry, --backend auto takes its own choice, which is as fast",
+          winner.cost(), other.cost());
+  }
+  return {};
+}
 
 double Candidate::cost() const { return costs.empty() ? 0 : spread_of(costs).median; }
 

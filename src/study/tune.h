@@ -17,6 +17,7 @@ struct Candidate {
   Work work;
   std::string problem;        ///< why it cannot compete; empty if it can
   std::vector<double> costs;  ///< nanoseconds per sample, in its last round
+  size_t disturbed = 0;       ///< number of those runs that other programs disturbed
   int rounds = 0;             ///< number of its rounds
   bool is_default = false;    ///< selected by `--backend auto` without tuning
 
@@ -29,7 +30,14 @@ struct TuneOutcome {
   int64_t width = 0, height = 0;      ///< of the timed images
   double seconds = 0;
   bool is_complete = false;  ///< false if the budget ended before two were left
+
+  /// Number of engines that ran in the last round.
+  size_t open() const;
 };
+
+/// Why the winner should not be stored: too many engines were left, other programs disturbed its runs or those of the
+/// other one, or not all of its runs are faster. Empty if it may be.
+std::string why_not_to_store(const TuneOutcome& outcome);
 
 struct TuneEvents {
   GoOn go_on;

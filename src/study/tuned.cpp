@@ -158,9 +158,7 @@ void store_tuned(const std::string& path, const TunedEntry& entry) {
   entries.push_back(entry);
   Json list = Json::array();
   for (const TunedEntry& each : entries) list.push_back(entry_json(each));
-  write_text(
-      path,
-      Json{{"schema", tuned_schema}, {"entries", list}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_text(path, json_text(Json{{"schema", tuned_schema}, {"entries", list}}));
 }
 
 RenderSettings resolve_with_tuned(const Settings& asked, const Scene& scene, const std::string& scene_path,

@@ -5,9 +5,11 @@
 #include <filesystem>
 
 #include "files/atomic_file.h"
+#include "study/figure1.h"
 #include "study/folder.h"
 #include "study/json.h"
 #include "study/plots.h"
+#include "study/read_json.h"
 
 namespace alhazen::study {
 
@@ -29,8 +31,7 @@ void write_grey_pfm(const std::string& path, int width, int height, const std::v
 }
 
 void write_json(const Study& study, const std::string& folder) {
-  write_text(in_folder(folder, "study.json"),
-             to_json(study).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_text(in_folder(folder, "study.json"), json_text(to_json(study)));
 }
 
 namespace {
@@ -60,6 +61,7 @@ std::vector<std::string> write_study(const Study& study, const std::string& fold
     write_json(study, folder);
     events.has_saved_study();
   });
+  attempt("figure1.svg", [&](const std::string& path) { write_text(path, figure1_svg()); });
   attempt("tables.csv", [&](const std::string& path) { write_text(path, csv_of(study)); });
   attempt("tables.md", [&](const std::string& path) { write_text(path, markdown_of(study)); });
   const std::string problem = draw_plots(folder, events.go_on);

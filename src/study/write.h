@@ -25,7 +25,8 @@ struct WriteEvents {
   std::function<void(const std::string&)> warning;
 };
 
-/// Writes study.json, tables.csv, tables.md, index.html, and plots if possible. Returns the names of the files.
+/// Writes study.json, figure1.svg, tables.csv, tables.md, index.html, and plots if possible. Returns the names of the
+/// files.
 std::vector<std::string> write_study(const Study& study, const std::string& folder, const WriteEvents& events);
 
 std::string csv_of(const Study& study);

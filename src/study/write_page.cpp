@@ -9,6 +9,8 @@
 
 #include "study/cell_text.h"
 #include "study/conclusions.h"
+#include "study/disturbance.h"
+#include "study/figure1.h"
 #include "study/page_style.h"
 #include "study/plots.h"
 #include "study/write.h"
@@ -75,11 +77,11 @@ std::string plots_of(const std::string& section, const std::string& folder) {
   return html;
 }
 
-/// The largest speedup in a column of a table, to scale bars.
+/// The largest speedup in a column of a table of those that are not in doubt, to scale bars.
 double max_speedup(const Study& study, const Table& table, const std::string& column) {
   double largest = 0;
   for (const Cell& cell : table.cells)
-    if (cell.column == column) largest = std::max(largest, speedup_of(study, table, cell));
+    if (cell.column == column) largest = std::max(largest, trusted_speedup_of(study, table, cell));
   return largest;
 }
 
@@ -97,18 +99,19 @@ bool has_one_baseline(const Table& table, const std::string& column) {
 std::string html_cell(const Study& study, const Table& table, const Cell& cell, double largest, Footnotes& notes) {
   const CellText text = text_of(study, table, cell);
   const double speedup = speedup_of(study, table, cell);
-  const bool is_best = speedup > 0 && speedup == largest && table.measure != Measure::load_balance &&
-                       has_one_baseline(table, cell.column);
+  const bool is_best = speedup > 0 && speedup == largest && text.doubt.empty() &&
+                       table.measure != Measure::load_balance && has_one_baseline(table, cell.column);
   std::string html = fmt::format("<td{}><b>{}",
-                                 !text.is_measured ? " class=\"none\""
-                                 : is_best         ? " class=\"best\""
-                                                   : "",
+                                 !text.is_measured     ? " class=\"none\""
+                                 : is_best             ? " class=\"best\""
+                                 : !text.doubt.empty() ? " class=\"doubt\""
+                                                       : "",
                                  escaped(text.value));
   if (const size_t note = notes.number_of(text.note)) html += fmt::format("<sup>{}</sup>", note);
   html += "</b>";
   if (!text.speedup.empty())
-    html += fmt::format(" <span class=\"speedup\" style=\"--filled:{:.0f}%\">{}</span>", 100 * speedup / largest,
-                        escaped(text.speedup));
+    html += fmt::format(" <span class=\"speedup\" style=\"--filled:{:.0f}%\">{}</span>",
+                        largest > 0 ? std::min(100.0, 100 * speedup / largest) : 0, escaped(text.speedup));
   if (!text.spread.empty()) html += fmt::format("<small>{}</small>", escaped(text.spread));
   return html + "</td>";
 }
@@ -157,11 +160,12 @@ std::string card(const std::string& number, const std::string& text) {
 std::string cards(const Study& study, const Headline& headline) {
   std::string html;
   if (headline.speedup > 0)
-    html += card(times_text(headline.speedup), "as fast as one core: " + headline.engine + ", the fastest here");
+    html += card(times_text(headline.speedup),
+                 "as fast as one core a path at a time: " + headline.engine + ", the fastest here");
   const auto speedup = [&](const char* id, const char* row, const char* column) {
     const Table* table = study.table(id);
     const Cell* cell = table ? table->find(row, column) : nullptr;
-    return cell ? speedup_of(study, *table, *cell) : 0;
+    return cell ? trusted_speedup_of(study, *table, *cell) : 0;
   };
   if (const double tree = speedup("queries", "wide BVH, SIMD", "float"); tree > 0)
     html += card(times_text(tree), "as fast by the wide BVH as by the linear scan, on this scene");
@@ -178,9 +182,14 @@ std::string section(const std::string& id, const std::string& title, const std::
 }
 
 std::string figures(const Study& study, const std::string& folder) {
-  std::string html;
-  const std::string picture = embedded_image(fs::path(folder) / "figure2.png", "image/png",
-                                             fmt::format("{}, S = {}", study.scene.name, study.scale.image_samples));
+  // SVG in the page itself is sharp, and its text can be read aloud and searched.
+  std::string html = section("figure1", "Figure 1: the problem",
+                             fmt::format("<figure class=\"drawing\">{}<figcaption>{}</figcaption></figure>\n",
+                                         figure1_svg(), escaped(figure1_text())));
+  const std::string picture =
+      embedded_image(fs::path(folder) / "figure2.png", "image/png",
+                     fmt::format("{}, S = {} samples per pixel, paths of at most D = {} segments", study.scene.name,
+                                 study.scale.image_samples, study.scene.segments));
   if (!picture.empty()) html += section("figure2", "Figure 2: the image", picture);
   if (study.work_per_thread.is_there())
     html +=
@@ -203,18 +212,18 @@ std::string html_of(const Study& study, const std::string& folder) {
       "href=\"data:,\">\n"
       "<style>{}</style></head>\n<body><main>\n<p class=\"above\">alhazen study: what accelerates ray tracing here, "
       "and "
-      "why</p>\n<h1>{}</h1>\n<ul class=\"facts\">",
-      escaped(headline.text), page_style, escaped(headline.text));
+      "why</p>\n<h1>{}</h1>\n<p>{}</p>\n<p>{}</p>\n<ul class=\"facts\">",
+      escaped(headline.text), page_style, escaped(headline.text), escaped(reproduced_text(study)), symbols_text);
   for (const std::string& line : facts_of(study)) html += fmt::format("<li>{}</li>", escaped(line));
   html += "</ul>\n";
-  if (const std::string warning = disturbance_warning(study); !warning.empty())
+  for (const std::string& warning : warnings_of(study))
     html += "<p class=\"warning\">Careful: " + escaped(warning) + ".</p>\n";
   html += cards(study, headline);
   html += plots_of("headline", folder).empty() ? "" : section("headline", "At a glance", plots_of("headline", folder));
   std::string conclusions;
   for (const Conclusion& c : conclusions_of(study))
-    conclusions +=
-        fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(c.title.substr(0, c.title.size() - 1)), escaped(c.text));
+    conclusions += fmt::format("<dt>{}</dt><dd{}>{}</dd>\n", escaped(c.title.substr(0, c.title.size() - 1)),
+                               c.is_withheld ? " class=\"withheld\"" : "", escaped(c.text));
   if (!conclusions.empty()) html += section("conclusions", "What to conclude", "<dl>" + conclusions + "</dl>\n");
   html += figures(study, folder);
   for (const Table& table : study.tables)
@@ -227,11 +236,14 @@ std::string html_of(const Study& study, const std::string& folder) {
       "a "
       "few samples, then all cells were run in rounds, in a different order each, so that other activity on the "
       "machine "
-      "affected all alike. A run in which other programs used more than a tenth of the processors available to it was "
-      "repeated, a few times at most. The figures are medians, with minimum and maximum. A speedup is a ratio of "
+      "affected all alike. A run in which a thread lost more than a tenth of its time to other programs was replaced, "
+      "and "
+      "so was the slowest where repeats differed by more than a tenth, at most as often as each cell is run. What is "
+      "still in doubt is marked, and conclusions that need it are withheld. The figures are medians, with minimum and "
+      "maximum. A speedup is a ratio of "
       "median times per camera sample, or per ray if the table says so. Nothing is extrapolated: only what a cell "
       "states "
-      "was run.</p><p>The report is &quot;Accelerating Ray Tracing&quot; by Huang, Kuanyshbay and Long. All numbers of "
+      "was run.</p><p>All numbers of "
       "this page are in <code>study.json</code> beside it; <code>alhazen study compare</code> compares two of "
       "them.</p>");
   return html + "</main></body></html>\n";

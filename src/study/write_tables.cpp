@@ -4,6 +4,8 @@
 
 #include "study/cell_text.h"
 #include "study/conclusions.h"
+#include "study/disturbance.h"
+#include "study/figure1.h"
 #include "study/write.h"
 
 namespace alhazen::study {
@@ -44,6 +46,7 @@ bool has_speedups(const Table& table) {
 
 std::string markdown_cell(const CellText& text, Footnotes& notes) {
   std::string value = text.value;
+  if (!text.doubt.empty()) value += "?";
   if (text.is_measured) value += " (" + text.spread + ")";
   if (const size_t note = notes.number_of(text.note)) value += fmt::format(" [{}]", note);
   return value;
@@ -80,7 +83,7 @@ std::string markdown_table(const Study& study, const Table& table) {
 std::string csv_of(const Study& study) {
   std::string text =
       "table,row,column,status,reason,median_seconds,min_seconds,max_seconds,repeats,width,height,spp,camera_samples,"
-      "rays,speedup,rmse,note,options\n";
+      "rays,speedup,rmse,doubt,note,options\n";
   for (const Table& table : study.tables)
     for (const Cell& cell : table.cells) {
       const Trial& t = *study.find(cell.trial);
@@ -96,17 +99,16 @@ std::string csv_of(const Study& study) {
       } else {
         text += ",,,,,,,,,,";
       }
-      text += fmt::format(",{},{}\n", quoted(cell.note), quoted(cell.trial));
+      text += fmt::format(",{},{},{}\n", quoted(doubt_of(study, cell)), quoted(cell.note), quoted(cell.trial));
     }
   return text;
 }
 
 std::string markdown_of(const Study& study) {
-  std::string text = "# " + headline_of(study).text + "\n\n";
+  std::string text = fmt::format("# {}\n\n{}\n\n{}\n\n", headline_of(study).text, reproduced_text(study), symbols_text);
   for (const std::string& line : facts_of(study)) text += line + "  \n";
-  if (const std::string warning = disturbance_warning(study); !warning.empty())
-    text += "\n**Careful:** " + warning + ".\n";
-  text += "\n## What to conclude\n\n";
+  for (const std::string& warning : warnings_of(study)) text += "\n**Careful:** " + warning + ".\n";
+  text += "\n![" + figure1_text() + "](figure1.svg)\n\n## What to conclude\n\n";
   for (const Conclusion& conclusion : conclusions_of(study))
     text += fmt::format("- **{}** {}\n", conclusion.title, conclusion.text);
   for (const Table& table : study.tables)

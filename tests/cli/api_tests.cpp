@@ -136,6 +136,22 @@ TEST_F(Api, ProgressCanCancel) {
   }
 }
 
+/// A limit of no time ends some renders before their first sample: a black image would look like one.
+TEST_F(Api, WithoutSamplesThereIsNoImage) {
+  Settings settings;
+  settings.aovs = {"samples"};
+  settings.time_limit = 1e-9;
+  for (int i = 0; i < 5; ++i) {
+    const RenderedImage image = render(scene_, settings);
+    EXPECT_FALSE(image.complete);
+    EXPECT_EQ(image.planes.size(), image.channels.size());
+    EXPECT_EQ(image.planes.empty(), image.width == 0);
+    if (const float* samples = image.plane("samples.Y")) {
+      EXPECT_GT(*std::max_element(samples, samples + 144), 0.0f);
+    }
+  }
+}
+
 /// An exception that left the progress thread would end the process.
 TEST_F(Api, ExceptionsOfTheProgressReachTheCaller) {
   struct NoException {};

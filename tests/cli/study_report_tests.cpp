@@ -44,7 +44,7 @@ std::string three_digits(double value) {
 TEST_F(StudyReport, SpeedupsOfAllTablesAreThoseOfTheTimes) {
   without_plots();
   const CommandResult result =
-      report({"--output", "out", "--only", "table1,table2,table3,table4,optix,engines,queries,balance"});
+      report({"--output", "out", "--only", "table1,table2,table3,table4,optix,engines,batches,queries,balance"});
   ASSERT_EQ(result.exit_code, 0) << result.everything();
   const nlohmann::json study = json("out/study.json");
   EXPECT_EQ(study["schema"], "alhazen-study-1");
@@ -150,33 +150,80 @@ TEST_F(StudyReport, RefusesWhatItCannotDo) {
   EXPECT_EQ(report({"--output", "out", "--only", "table1", "--resume"}).exit_code, 2);
 }
 
+/// Whether a run is among those of a trial, or among those that others have replaced.
+bool holds_run(const nlohmann::json& trial, const nlohmann::json& seconds) {
+  for (const nlohmann::json& list : {trial["seconds"]["samples"], trial.value("disturbed_seconds", nlohmann::json())})
+    for (const nlohmann::json& run : list)
+      if (run == seconds) return true;
+  return false;
+}
+
+/// A study that is killed loses at most two seconds of it.
 TEST_F(StudyReport, InterruptedItKeepsWhatItHasAndGoesOn) {
   without_plots();
-  const std::vector<std::string> arguments{"--output", "out", "--only", "table1,table3"};
-  CommandOptions options;
-  options.folder = folder_.path();
-  // The first round is saved when it ends.
-  const CommandResult interrupted = run_script(
-      "$ALHAZEN study report --quick --scene scene.pbrt --size 150 --spp 4 --repeats 2 -o out --only table1,table3 "
-      "2>err & p=$!\nfor i in $(seq 1200); do test -e out/study.json && break; sleep 0.05; done\n"
-      "kill -INT $p; wait $p; echo $?",
-      options);
-  EXPECT_EQ(interrupted.out, "130\n") << interrupted.everything() << text("err");
-  const nlohmann::json first = json("out/study.json");
-  EXPECT_EQ(first["complete"], false);
-  std::vector<std::string> again = arguments;
-  again.emplace_back("--resume");
-  const CommandResult resumed = report(again, {}, "150");
-  EXPECT_EQ(resumed.exit_code, 0) << resumed.everything();
-  const nlohmann::json second = json("out/study.json");
-  EXPECT_EQ(second["complete"], true);
-  const auto before = trials_of(first);
-  for (const auto& [key, trial] : trials_of(second)) {
-    EXPECT_EQ(trial["seconds"]["samples"].size(), 2u) << key;
-    if (before.at(key).contains("seconds") && before.at(key)["processor_shares"][0] >= 0.9) {
-      EXPECT_EQ(trial["seconds"]["samples"][0], before.at(key)["seconds"]["samples"][0]) << key;
+  for (const std::string signal : {"INT", "KILL"}) {
+    std::filesystem::remove_all(folder_.file("out"));
+    CommandOptions options;
+    options.folder = folder_.path();
+    const CommandResult interrupted = run_script(
+        "$ALHAZEN study report --quick --scene scene.pbrt --size 250 --spp 4 --repeats 2 -o out --only table1 "
+        "2>err & p=$!\nfor i in $(seq 1200); do test -e out/study.json && break; sleep 0.05; done\n"
+        "kill -" +
+            signal + " $p; wait $p; echo $?",
+        options);
+    EXPECT_EQ(interrupted.out, signal == "INT" ? "130\n" : "137\n") << interrupted.everything() << text("err");
+    const nlohmann::json first = json("out/study.json");
+    EXPECT_EQ(first["complete"], false);
+    EXPECT_LT(first["runs"]["measured"], first["runs"]["planned"]);
+    if (signal == "INT") {
+      for (const char* file : {"out/tables.md", "out/index.html"})
+        EXPECT_NE(text(file).find("this study is incomplete, "), std::string::npos) << file;
+    }
+    // Another size is another study; the same command goes on.
+    const std::vector<std::string> again{"--output", "out", "--only", "table1"};
+    const CommandResult other = report(again, {}, "150");
+    EXPECT_EQ(other.exit_code, 2) << other.everything();
+    EXPECT_NE(other.err.find("width: 250, now 150"), std::string::npos) << other.err;
+    const CommandResult resumed = report(again, {}, "250");
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.everything();
+    EXPECT_NE(resumed.err.find("continuing the study in out: "), std::string::npos) << resumed.err;
+    const nlohmann::json second = json("out/study.json");
+    EXPECT_EQ(second["complete"], true);
+    EXPECT_EQ(second["runs"]["measured"], second["runs"]["planned"]);
+    EXPECT_EQ(text("out/tables.md").find("incomplete"), std::string::npos);
+    const auto after = trials_of(second);
+    for (const auto& [key, trial] : trials_of(first)) {
+      EXPECT_EQ(after.at(key)["seconds"]["samples"].size(), 2u) << key;
+      const bool has_one = trial.contains("seconds") && trial["seconds"]["samples"].size() == 1;
+      if (!has_one || trial["processor_shares"][0] < 0.9) continue;
+      EXPECT_TRUE(holds_run(after.at(key), trial["seconds"]["samples"][0])) << key;
     }
   }
+}
+
+/// Two other programs for each processor take more than half of it.
+TEST_F(StudyReport, OtherProgramsAreNoticed) {
+  without_plots();
+  CommandOptions options;
+  options.folder = folder_.path();
+  const CommandResult result = run_script(
+      "for i in $(seq $((2 * $(nproc)))); do (while :; do :; done) & load=\"$load $!\"; done\n"
+      "$ALHAZEN study report --quick --scene scene.pbrt --size 64 --spp 8 --repeats 2 -o out --only table1 2>err\n"
+      "echo $?; kill $load",
+      options);
+  EXPECT_EQ(result.out, "0\n") << result.everything() << text("err");
+  EXPECT_NE(text("err").find("warning: the times of 4 of 4 works are not those of the machine alone"),
+            std::string::npos)
+      << text("err");
+  const nlohmann::json study = json("out/study.json");
+  for (const nlohmann::json& cell : study["tables"][0]["cells"]) EXPECT_FALSE(cell.value("doubt", "").empty()) << cell;
+  for (const nlohmann::json& trial : study["trials"]) {
+    EXPECT_EQ(trial["seconds"]["samples"].size(), 2u) << trial;
+    EXPECT_EQ(trial["disturbed_seconds"].size(), 2u) << trial;
+    EXPECT_GT(trial["involuntary_switches"][0], 0) << trial;
+  }
+  for (const char* file : {"out/tables.md", "out/index.html"})
+    EXPECT_NE(text(file).find("Withheld: table1, iterative (Algorithm 5), float: "), std::string::npos) << file;
 }
 
 TEST_F(StudyReport, WithoutPythonThereIsAllButPlots) {
@@ -186,7 +233,7 @@ TEST_F(StudyReport, WithoutPythonThereIsAllButPlots) {
   EXPECT_NE(result.err.find("python3-matplotlib"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("complete without them"), std::string::npos) << result.err;
   EXPECT_FALSE(exists("out/figure3.png"));
-  for (const char* file : {"study.json", "tables.csv", "tables.md", "index.html", "figure3-naive.pfm"})
+  for (const char* file : {"study.json", "tables.csv", "tables.md", "index.html", "figure1.svg", "figure3-naive.pfm"})
     EXPECT_TRUE(exists(std::string("out/") + file)) << file;
 }
 
@@ -407,7 +454,9 @@ TEST_F(StudyReport, ThePageHoldsItsPlots) {
   EXPECT_EQ(count(page, "<img "), 7u);
   EXPECT_EQ(count(page, "src=\"data:"), 7u);
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
-  EXPECT_EQ(page.find("url("), std::string::npos);
+  EXPECT_EQ(count(page, "url("), count(page, "url(#"));
+  EXPECT_EQ(count(page, "<svg "), 1u);  // Figure 1
+  EXPECT_NE(page.find("Wei-Lun Huang"), std::string::npos);
 
   const std::string browser = chromium();
   if (browser.empty()) GTEST_SKIP() << "there is no Chromium here to open the page with";

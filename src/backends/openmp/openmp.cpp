@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "backends/pixel_blocks.h"
@@ -22,10 +23,13 @@ void reduce_pixel(const RenderPass<Real>& pass, int x, int y) {
   if (first >= count) return;  // without starting a team
 #pragma omp parallel num_threads(pass.settings.threads)
   {
-    // A nested parallel region has a team of one thread. Its work counts for the thread of the outer team.
-    const int index = omp_get_level() > 1 ? omp_get_ancestor_thread_num(1) : omp_get_thread_num();
-    ThreadStatistics& statistics = pass.control.thread(index);
-    const BusyTimer timer(statistics);
+    // A nested parallel region has a team of one thread. Its work counts for the thread of the outer team, which also
+    // times it.
+    const bool is_nested = omp_get_level() > 1;
+    ThreadStatistics& statistics =
+        pass.control.thread(is_nested ? omp_get_ancestor_thread_num(1) : omp_get_thread_num());
+    std::optional<BusyTimer> timer;
+    if (!is_nested) timer.emplace(statistics, false);
     PartedLight<Real> parts_of_block[samples_per_block];
     PartedLight<Real>* const parts = pass.film.view().light ? parts_of_block : nullptr;
 #pragma omp for schedule(static) nowait
@@ -65,11 +69,13 @@ void render_collapsed(const RenderPass<Real>& pass) {
   {
     ThreadStatistics& statistics = pass.control.thread(omp_get_thread_num());
     const BusyTimer timer(statistics);
+    // One batch for all pixels of the thread: those of a single pixel are few.
+    BlockBatch<Real> batch(pass, statistics);
 #pragma omp for collapse(2) schedule(runtime) nowait
     for (int y = window.y0; y < window.y1; ++y)
       for (int x = window.x0; x < window.x1; ++x) {
         if (pass.control.is_stopped() || pass.film.is_finished(x, y)) continue;
-        BlockBatch<Real>(pass, statistics).add_pixel(x, y);
+        batch.add_pixel(x, y);
         pass.control.add_samples(pass.sample_count);
       }
   }
@@ -80,11 +86,15 @@ void render_collapsed(const RenderPass<Real>& pass) {
 template <class Real>
 void render_rows_with_reduction(const RenderPass<Real>& pass) {
   const PixelWindow& window = pass.film.window();
-#pragma omp parallel for schedule(runtime) num_threads(pass.settings.threads)
-  for (int y = window.y0; y < window.y1; ++y) {
-    if (pass.control.is_stopped()) continue;
-    for (int x = window.x0; x < window.x1; ++x) reduce_pixel(pass, x, y);
-    pass.control.add_samples(pass.film.unfinished(window.x0, window.x1, y, y + 1) * pass.sample_count);
+#pragma omp parallel num_threads(pass.settings.threads)
+  {
+    const BusyTimer timer(pass.control.thread(omp_get_thread_num()));
+#pragma omp for schedule(runtime) nowait
+    for (int y = window.y0; y < window.y1; ++y) {
+      if (pass.control.is_stopped()) continue;
+      for (int x = window.x0; x < window.x1; ++x) reduce_pixel(pass, x, y);
+      pass.control.add_samples(pass.film.unfinished(window.x0, window.x1, y, y + 1) * pass.sample_count);
+    }
   }
 }
 
