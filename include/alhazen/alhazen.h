@@ -45,6 +45,7 @@ struct Settings {
   std::string variant;    ///< glTF: a name or a number of KHR_materials_variants; empty: none
   std::string animation;  ///< glTF: a name or a number; empty: the first if `animation_time` is given
   std::optional<double> animation_time;  ///< glTF: seconds; absent: no animation is applied
+  std::vector<std::string> definitions;  ///< Mitsuba: NAME=VALUE, each replaces $NAME and the scene's default for it
   /// draft, good or final: sets those of `samples_per_pixel`, `noise` and `denoiser` that are left open
   /// (docs/noise.md has the values). Empty: good for a glTF file if all three are left open, otherwise none of them.
   std::string quality;

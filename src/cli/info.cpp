@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/listing.h"
+#include "cli/setting_options.h"
 #include "cli/subcommands.h"
 #include "compile/compile_scene.h"
 #include "pipeline/load_scene.h"
@@ -21,7 +22,8 @@ namespace {
 
 struct InfoOptions {
   std::string scene;
-  bool json = false, list = false, confine = false;
+  bool json = false, list = false;
+  Settings asked;  ///< definitions and confinement
 };
 
 std::string name_of(FilterType type) {
@@ -32,12 +34,11 @@ std::string name_of(FilterType type) {
 
 void show(const InfoOptions& options) {
   if (options.list) {
-    print_listing(options.scene, options.confine, options.json);
+    print_listing(options.scene, options.asked, options.json);
     return;
   }
   Diagnostics diagnostics;
-  Settings asked;
-  asked.confine = options.confine;
+  const Settings& asked = options.asked;
   Scene scene = load_scene(options.scene, asked, diagnostics).scene;
   const RenderSettings settings = resolve_settings(asked, scene);
   const size_t materials = scene.materials.size(), textures = scene.textures.size(), images = scene.images.size(),
@@ -83,10 +84,13 @@ void show(const InfoOptions& options) {
 void register_info(Command& program) {
   Command command = program.add_subcommand("info", "Read a scene and describe its contents");
   auto options = std::make_shared<InfoOptions>();
-  command.add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)").required().value_name("");
+  command.add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb, .xml) or model (.obj, .ply, .stl)")
+      .required()
+      .value_name("");
   command.add_flag("--json", options->json, "One JSON object instead of the list");
   command.add_flag("--list", options->list, "Cameras, variants, animations and lights of a glTF file instead");
-  command.add_flag("--confine", options->confine, "Read nothing outside the folder of the scene");
+  command.add_flag("--confine", options->asked.confine, "Read nothing outside the folder of the scene");
+  add_setting_option(command, options->asked, "define");
   command.on_run([options] { show(*options); });
 }
 

@@ -10,10 +10,11 @@
 
 namespace alhazen {
 
-void print_listing(const std::string& scene, bool confine, bool as_json) {
+void print_listing(const std::string& scene, const Settings& settings, bool as_json) {
   Diagnostics diagnostics;
   ReadOptions choice;
-  choice.confine = confine;
+  choice.confine = settings.confine;
+  choice.definitions = settings.definitions;
   const SceneListing listing = list_scene(scene, choice, diagnostics);
   const std::pair<const char*, const std::vector<std::string>*> kinds[] = {{"cameras", &listing.cameras},
                                                                            {"variants", &listing.variants},

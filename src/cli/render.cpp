@@ -192,7 +192,7 @@ int finish(RenderOptions& options, const Rendering& rendering, bool fits_exposur
 
 int run(RenderOptions& options) {
   if (options.list) {
-    print_listing(options.scene, options.settings.confine, false);
+    print_listing(options.scene, options.settings, false);
     return exit_done;
   }
   parse_output_options(options);
@@ -258,7 +258,9 @@ void add_running_options(Command& command, RenderOptions& o, const char* group) 
 void register_render(Command& program, int& exit_code) {
   Command command = program.add_subcommand("render", "Render a scene to images");
   auto options = std::make_shared<RenderOptions>();
-  command.add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)").required().value_name("");
+  command.add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb, .xml) or model (.obj, .ply, .stl)")
+      .required()
+      .value_name("");
   Settings& settings = options->settings;
   add_output_options(command, *options, "Output");
   add_setting_options(command, settings, SettingGroup::output, "Output");

@@ -18,13 +18,9 @@ LoadedScene load_scene(const std::string& path, const Settings& settings, Diagno
   diagnostics.activity().begin("reading the scene");
   LoadedScene loaded;
   loaded.inputs = std::make_shared<InputRecord>();
-  const ReadOptions choice{settings.camera,
-                           settings.variant,
-                           settings.animation,
-                           settings.animation_time,
-                           aspect_of(settings.width, settings.height),
-                           settings.confine,
-                           loaded.inputs};
+  const ReadOptions choice{settings.camera,         settings.variant,     settings.animation,
+                           settings.animation_time, settings.definitions, aspect_of(settings.width, settings.height),
+                           settings.confine,        loaded.inputs};
   loaded.scene = read_scene(path, choice, diagnostics);
   loaded.inputs->refuse(settings.checkpoint, "the checkpoint");
   if (!settings.environment.empty()) {
