@@ -1,5 +1,5 @@
-# Decoders of compressed meshes and of WebP pictures in glTF files, where their libraries are. A file that needs a missing
-# one is refused with the name of the package.
+# Decoders of compressed meshes and of WebP pictures in glTF files, and the parser of XML scenes, where their libraries
+# are. A file that needs a missing one is refused with the name of the package.
 
 find_package(draco QUIET CONFIG)
 find_package(meshoptimizer QUIET CONFIG)
@@ -13,6 +13,11 @@ if(WEBP_INCLUDE_DIR AND WEBP_LIBRARY)
 else()
   set(ALHAZEN_WITH_WEBP OFF)
   message(STATUS "WebP is off: install libwebp-dev to read WebP pictures of glTF files")
+endif()
+find_package(EXPAT QUIET)
+set(ALHAZEN_WITH_EXPAT ${EXPAT_FOUND})
+if(NOT ALHAZEN_WITH_EXPAT)
+  message(STATUS "Expat is off: install libexpat1-dev to read Mitsuba scenes")
 endif()
 if(NOT ALHAZEN_WITH_DRACO)
   message(STATUS "Draco is off: install libdraco-dev to read meshes of glTF files that it compressed")
@@ -29,6 +34,9 @@ function(alhazen_link_decoders target)
   if(ALHAZEN_WITH_MESHOPTIMIZER)
     target_compile_definitions(${target} PRIVATE ALHAZEN_WITH_MESHOPTIMIZER)
     target_link_libraries(${target} PRIVATE meshoptimizer::meshoptimizer)
+  endif()
+  if(ALHAZEN_WITH_EXPAT)
+    target_link_libraries(${target} PRIVATE EXPAT::EXPAT)
   endif()
   if(ALHAZEN_WITH_WEBP)
     target_compile_definitions(${target} PRIVATE ALHAZEN_WITH_WEBP)

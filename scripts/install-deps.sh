@@ -7,7 +7,7 @@ packages=(
   g++ cmake ninja-build
   libopenexr-dev libpng-dev libjpeg-dev zlib1g-dev libstb-dev
   nlohmann-json3-dev libcli11-dev libfmt-dev
-  libdraco-dev libmeshoptimizer-dev libwebp-dev
+  libdraco-dev libmeshoptimizer-dev libwebp-dev libexpat1-dev
 )
 if [[ ${1:-} != --program ]]; then
   packages+=(libembree-dev libgtest-dev libbenchmark-dev clang-format python3 python3-matplotlib)
@@ -16,7 +16,7 @@ fi
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
   echo "install-deps: this is not Debian or Ubuntu. Install these yourself, under the names they have here: a C++20" \
     "compiler with OpenMP (GCC 12 or later), CMake 3.25, Ninja, OpenEXR 3, libpng, libjpeg, zlib, stb, nlohmann-json," \
-    "CLI11, fmt, Embree, Draco, meshoptimizer and libwebp where they are wanted; for the tests GoogleTest, Google Benchmark, clang-format and Python 3 with matplotlib." >&2
+    "CLI11, fmt, Embree, Draco, meshoptimizer, libwebp and Expat where they are wanted; for the tests GoogleTest, Google Benchmark, clang-format and Python 3 with matplotlib." >&2
   exit 1
 fi
 

@@ -58,6 +58,7 @@ struct Settings {
   /// as they are moved; a warning says which motion is not: of cameras, lights, skins and morph targets.
   std::optional<double> shutter;
   double frames_per_second = 24;
+  std::vector<std::string> definitions;  ///< Mitsuba: NAME=VALUE, each replaces $NAME and the scene's default for it
   /// draft, good or final: sets those of `samples_per_pixel`, `noise` and `denoiser` that are left open
   /// (docs/noise.md has the values). Empty: good for a glTF file if all three are left open, otherwise none of them.
   std::string quality;

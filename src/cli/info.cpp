@@ -45,11 +45,13 @@ void show(const InfoOptions& options) {
 void register_info(Command& program) {
   Command command = program.add_subcommand("info", "Read a scene and describe its contents");
   auto options = std::make_shared<InfoOptions>();
-  command.add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply)").required().value_name("");
+  command.add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb, .xml) or model (.obj, .ply, .stl)")
+      .required()
+      .value_name("");
   command.add_flag("--json", options->json, "One JSON object instead of the report; docs/formats.md has its keys");
   command.add_flag("--all", options->all, "Every object, material, light and image, not only the first 20 of each");
   command.add_flag("--list", options->list, "Cameras, variants, animations and lights instead, with their numbers");
-  for (const char* name : {"camera", "time", "animation", "variant", "confine", "search-path", "strict"})
+  for (const char* name : {"camera", "time", "animation", "variant", "define", "confine", "search-path", "strict"})
     add_setting_option(command, options->settings, name);
   command.on_run([options] { show(*options); });
 }

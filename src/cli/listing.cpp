@@ -13,6 +13,7 @@ namespace alhazen {
 static ReadOptions reading(const Settings& settings) {
   ReadOptions choice;
   choice.confine = settings.confine;
+  choice.definitions = settings.definitions;
   choice.search = {settings.search_paths, settings.strict};
   return choice;
 }

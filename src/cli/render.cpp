@@ -341,7 +341,9 @@ void add_running_options(Command& command, RenderOptions& o, const char* group) 
 void register_render(Command& program, int& exit_code) {
   Command command = program.add_subcommand("render", "Render a scene to images");
   auto options = std::make_shared<RenderOptions>();
-  command.add_option("SCENE", options->scene, "Scene (.pbrt, .gltf, .glb) or mesh (.ply); - for pbrt on standard input")
+  command
+      .add_option("SCENE", options->scene,
+                  "Scene (.pbrt, .gltf, .glb, .xml) or model (.obj, .ply, .stl); - for pbrt on standard input")
       .required()
       .value_name("");
   Settings& settings = options->settings;

@@ -1,5 +1,6 @@
 #include "io/read_scene.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -8,12 +9,16 @@
 #include <stdexcept>
 
 #include "core/math/bounds.h"
+#include "files/byte_source.h"
 #include "files/standard_input.h"
 #include "images/image.h"
 #include "io/gltf/gltf.h"
+#include "io/mitsuba/mitsuba.h"
+#include "io/model.h"
+#include "io/obj/obj_model.h"
 #include "io/pbrt/pbrt.h"
 #include "io/ply/ply.h"
-#include "scene/default_view.h"
+#include "io/stl/stl.h"
 #include "scene/kind_names.h"
 #include "scene/shutter.h"
 
@@ -21,43 +26,45 @@ namespace alhazen {
 
 namespace {
 
-/// A mesh as a model without camera and lights is shown.
-Scene scene_around(Mesh&& mesh, const std::string& path, double aspect) {
-  Scene scene;
-  scene.name = path;
-  scene.up = {0, 1, 0};
-  scene.samples_per_pixel = 64;
-  scene.quality = "good";
-  Bounds3<double> box;
-  for (const Vec3d& p : mesh.positions) box.extend(p);
-  if (box.is_empty() || mesh.indices.empty()) throw InputError({path}, "the mesh has no faces, so there is no image");
-  scene.meshes.push_back(std::move(mesh));
-  Shape shape;
-  shape.mesh = 0;
-  shape.where = {path};
-  scene.groups[0].shapes.push_back(shape);
-  fit_camera(scene, aspect);
-  add_neutral_light(scene);
-  return scene;
+/// The format of formats that begin in a certain way; empty for others.
+std::string format_of_content(const InputPath& input) {
+  std::array<char, 512> bytes{};
+  FileSource file(input);
+  std::string_view head(bytes.data(), file.read(bytes.data(), bytes.size()));
+  if (head.starts_with("glTF")) return "gltf";
+  if (head.starts_with("ply\n") || head.starts_with("ply\r")) return "ply";
+  if (head.starts_with("\xef\xbb\xbf")) head.remove_prefix(3);
+  head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size()));
+  if (head.starts_with("<?xml") || head.starts_with("<scene") || head.starts_with("<!--")) return "xml";
+  if (head.starts_with("solid ")) return "stl";
+  return {};
 }
 
 std::string format_of(const InputPath& input) {
   const std::string& path = input.name;
   std::string extension = extension_of(path);
   if (extension == "gz") extension = extension_of(std::filesystem::path(path).stem().string());
-  if (extension == "pbrt" || extension == "ply") return extension;
+  for (const char* known : {"pbrt", "ply", "xml", "obj", "stl"})
+    if (extension == known) return extension;
   if (extension == "gltf" || extension == "glb") return "gltf";
-  std::array<char, 4> head{};
-  InputFile file(input);
-  if (std::string_view(head.data(), file.read(head.data(), head.size())) == "glTF") return "gltf";
+  const std::string format = format_of_content(input);
+  if (!format.empty()) return format;
   throw InputError({path},
-                   "the format is unknown by this name: give a .pbrt scene, a .gltf or .glb scene, or a .ply mesh "
-                   "(.pbrt and .ply also as .gz)");
+                   "the format is unknown by this name and by its first bytes: give a .pbrt, .gltf, .glb or .xml "
+                   "(Mitsuba) scene, or a .obj, .ply or .stl model (all but glTF also as .gz)");
 }
 
 }  // namespace
 
 namespace {
+
+/// A mesh or an OBJ file, with a camera and light.
+Scene read_model(const std::string& format, const InputPath& input, const std::string& path, double aspect,
+                 Diagnostics& diagnostics) {
+  if (format == "obj") return read_obj_model(input, aspect, diagnostics);
+  Mesh mesh = format == "stl" ? read_stl(input, diagnostics) : read_ply(input, diagnostics, PlyColours::displayed);
+  return model_of(std::move(mesh), path, aspect);
+}
 
 Scene read_by_format(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
   InputPath input = path_beside(path, path, options.confine);
@@ -69,13 +76,16 @@ Scene read_by_format(const std::string& path, const ReadOptions& options, Diagno
     throw InputError("the time of the animation must be a finite number of seconds");
   if (options.shutter_seconds && !(*options.shutter_seconds >= 0 && std::isfinite(*options.shutter_seconds)))
     throw InputError("the time that the shutter is open must be 0 or more seconds");
+  if (format != "xml" && !options.definitions.empty())
+    throw InputError({path}, "parameters can be defined (-D) for Mitsuba scenes only");
   if (format == "gltf") return read_gltf(input, options, diagnostics);
   if (!options.is_default())
     throw InputError({path}, "cameras, variants and animations can be chosen for glTF files only");
-  Scene scene = is_standard_input  ? parse_pbrt(standard_input(), "standard input", input.scope, diagnostics,
-                                                   options.search)
+  Scene scene = is_standard_input
+                    ? parse_pbrt(standard_input(), "standard input", input.scope, diagnostics, options.search)
                 : format == "pbrt" ? read_pbrt(input, diagnostics, options.search)
-                                   : scene_around(read_ply(input, diagnostics), path, options.aspect);
+                : format == "xml"  ? read_mitsuba(input, options, diagnostics)
+                                   : read_model(format, input, path, options.aspect, diagnostics);
   if (options.time || options.shutter_seconds) set_shutter(scene, options.time, options.shutter_seconds);
   return scene;
 }
@@ -122,11 +132,11 @@ bool offers_choices(const std::string& path, const ReadOptions& options) {
 
 SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
   const InputPath input = path_beside(path, path, options.confine);
-  if (path != standard_input_name && format_of(input) == "gltf")
-    return list_gltf(input, diagnostics, options.search);
+  if (path != standard_input_name && format_of(input) == "gltf") return list_gltf(input, diagnostics, options.search);
   ReadOptions only_read;
   only_read.confine = options.confine;
   only_read.search = options.search;
+  only_read.definitions = options.definitions;
   return names_in(read_scene(path, only_read, diagnostics));
 }
 

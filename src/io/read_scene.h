@@ -1,7 +1,7 @@
 #pragma once
 
-// The single entry point for scene files: it selects the reader by the name's extension, and recognises
-// .glb files of any name by their first bytes.
+// The single entry point for scene files: it selects the reader by the name's extension, and where that is unknown by
+// the first bytes of the file.
 
 #include <string>
 #include <vector>
@@ -15,8 +15,9 @@ namespace alhazen {
 /// This name stands for a pbrt scene on standard input. Names in it are relative to the working folder.
 inline constexpr const char* standard_input_name = "-";
 
-/// Reads a scene (.pbrt, .pbrt.gz, .gltf, .glb), or a mesh alone (.ply, .ply.gz), to which it adds a camera and a sky.
-/// Throws InputError, also if `options` select something that the format does not offer.
+/// Reads a scene (.pbrt, .gltf, .glb, .xml), or a model (.obj, .ply, .stl), to which it adds a camera and neutral
+/// light. All but glTF may be compressed by gzip (.gz). Throws InputError, also if `options` select something that the
+/// format does not offer.
 Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics);
 inline Scene read_scene(const std::string& path, Diagnostics& diagnostics) { return read_scene(path, {}, diagnostics); }
 

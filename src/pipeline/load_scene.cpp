@@ -12,12 +12,14 @@ namespace alhazen {
 
 ReadOptions read_options(const Settings& settings) {
   for (const char* name : {"time", "fps", "shutter"}) check_setting(settings, name);
-  ReadOptions options{settings.camera,
-                      settings.variant,
-                      settings.animation,
-                      settings.animation_time,
-                      aspect_of(settings.width, settings.height),
-                      settings.confine};
+  ReadOptions options;
+  options.camera = settings.camera;
+  options.variant = settings.variant;
+  options.animation = settings.animation;
+  options.time = settings.animation_time;
+  options.definitions = settings.definitions;
+  options.aspect = aspect_of(settings.width, settings.height);
+  options.confine = settings.confine;
   options.search = {settings.search_paths, settings.strict};
   if (settings.shutter) options.shutter_seconds = *settings.shutter / settings.frames_per_second;
   return options;

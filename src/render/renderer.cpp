@@ -481,8 +481,10 @@ std::unique_ptr<SceneRenderer> make_renderer(Scene&& scene, const RenderSettings
                                              Diagnostics& diagnostics) {
   check_settings(scene, settings, diagnostics);
   if (settings.precision == Precision::single)
-    return std::make_unique<RendererOf<float>>(std::move(scene), settings, load_seconds, for_cameras, kernel, diagnostics);
-  return std::make_unique<RendererOf<double>>(std::move(scene), settings, load_seconds, for_cameras, kernel, diagnostics);
+    return std::make_unique<RendererOf<float>>(std::move(scene), settings, load_seconds, for_cameras, kernel,
+                                               diagnostics);
+  return std::make_unique<RendererOf<double>>(std::move(scene), settings, load_seconds, for_cameras, kernel,
+                                              diagnostics);
 }
 
 }  // namespace

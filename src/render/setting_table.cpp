@@ -232,6 +232,25 @@ Codec layer_list() {
           }};
 }
 
+/// Definitions of parameters, separated by semicolons, since their values may have commas.
+Codec definition_list() {
+  return {[](const Settings& s) {
+            std::string text;
+            for (const std::string& definition : s.definitions) text += (text.empty() ? "" : ";") + definition;
+            return text;
+          },
+          [](Settings& s, const std::string& text) {
+            for (size_t begin = 0; begin <= text.size();) {
+              const size_t end = std::min(text.find(';', begin), text.size());
+              const std::string definition = text.substr(begin, end - begin);
+              const size_t equals = definition.find('=');
+              if (equals == std::string::npos || equals == 0) refuse("define", text, "NAME=VALUE, for example spp=64");
+              s.definitions.push_back(definition);
+              begin = end + 1;
+            }
+          }};
+}
+
 SettingEntry entry(SettingGroup group, const char* name, const char* other_flags, const char* value_name,
                    std::string help, Codec codec, bool is_list = false) {
   return {group, name, other_flags, value_name, std::move(help), is_list, std::move(codec.text), std::move(codec.set)};
@@ -430,6 +449,8 @@ std::vector<SettingEntry> image_settings() {
       common(entry(SettingGroup::scene, "variant", "", "NAME",
                    "glTF: the materials of this variant, by name or number; without it each mesh's own",
                    name(&Settings::variant))),
+      entry(SettingGroup::scene, "define", "-D", "NAME=VALUE",
+            "Mitsuba: what $NAME stands for in the scene; may be repeated", definition_list(), true),
       common(entry(SettingGroup::scene, "confine", "", "",
                    "Read no files outside the folder of the scene: for untrusted scenes", flag(&Settings::confine))),
       common(

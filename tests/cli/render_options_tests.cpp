@@ -76,6 +76,8 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--quality",
       // Tested in gltf_tests.cpp:
       "--camera", "--time", "--animation", "--variant", "--list",
+      // Tested in mitsuba_tests.cpp:
+      "--define",
       // Tested in hostile_input_tests.cpp:
       "--confine"};
   const CommandResult help = run({"render", "--help-all"});

@@ -19,7 +19,8 @@ struct Plan {
   uint64_t plausible_bytes = 0;
 };
 
-Plan make_plan(const PlyHeader& header, const std::string& name, uint64_t bytes, Diagnostics& diagnostics) {
+Plan make_plan(const PlyHeader& header, const std::string& name, uint64_t bytes, PlyColours colours,
+               Diagnostics& diagnostics) {
   Plan plan;
   plan.plausible_bytes = bytes;
   plan.vertices = header.find("vertex");
@@ -27,7 +28,7 @@ Plan make_plan(const PlyHeader& header, const std::string& name, uint64_t bytes,
   if (plan.vertices->count >= no_index)
     throw InputError({name, plan.vertices->line},
                      "too many vertices; there can be " + std::to_string(no_index - 1) + " at most");
-  plan.layout = vertex_layout(*plan.vertices, name, diagnostics);
+  plan.layout = vertex_layout(*plan.vertices, name, colours, diagnostics);
   return plan;
 }
 
@@ -65,10 +66,10 @@ void read_rows(Values values, const PlyHeader& header, const Plan& plan, Mesh& m
 
 }  // namespace
 
-Mesh parse_ply(ByteSource& source, const std::string& name, Diagnostics& diagnostics) {
+Mesh parse_ply(ByteSource& source, const std::string& name, Diagnostics& diagnostics, PlyColours colours) {
   InputBuffer input(source);
   const PlyHeader header = read_ply_header(input, name);
-  const Plan plan = make_plan(header, name, source.plausible_size(), diagnostics);
+  const Plan plan = make_plan(header, name, source.plausible_size(), colours, diagnostics);
 
   Mesh mesh;
   mesh.name = name;

@@ -5,11 +5,13 @@
 #include <string>
 
 #include "files/byte_source.h"
+#include "io/ply/ply.h"
 #include "scene/scene.h"
 
 namespace alhazen {
 
 /// As read_ply (io/ply/ply.h); `name` replaces the file in messages.
-Mesh parse_ply(ByteSource& source, const std::string& name, Diagnostics& diagnostics);
+Mesh parse_ply(ByteSource& source, const std::string& name, Diagnostics& diagnostics,
+               PlyColours colours = PlyColours::none);
 
 }  // namespace alhazen

@@ -5,9 +5,9 @@
 
 namespace alhazen {
 
-Mesh read_ply(const InputPath& path, Diagnostics& diagnostics) {
+Mesh read_ply(const InputPath& path, Diagnostics& diagnostics, PlyColours colours) {
   FileSource source(path);
-  return parse_ply(source, path.name, diagnostics);
+  return parse_ply(source, path.name, diagnostics, colours);
 }
 
 }  // namespace alhazen

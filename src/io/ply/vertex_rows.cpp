@@ -1,7 +1,9 @@
 #include "io/ply/vertex_rows.h"
 
+#include <cmath>
 #include <limits>
 
+#include "images/image.h"
 #include "util/diagnostics.h"
 
 namespace alhazen {
@@ -12,6 +14,9 @@ constexpr std::array<const char*, 3> position_names{"x", "y", "z"};
 constexpr std::array<const char*, 3> normal_names{"nx", "ny", "nz"};
 constexpr std::array<std::array<const char*, 2>, 4> uv_names{
     {{"u", "v"}, {"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}}};
+
+constexpr std::array<std::array<const char*, 3>, 2> colour_names{
+    {{"red", "green", "blue"}, {"diffuse_red", "diffuse_green", "diffuse_blue"}}};
 
 bool has_scalar(const PlyElement& element, const char* name) {
   const int property = element.find(name);
@@ -32,6 +37,26 @@ void assign(VertexLayout& layout, const PlyElement& element, const Names& names,
         static_cast<VertexSlot>(first_slot + static_cast<int>(i));
 }
 
+/// The value of a property of that type that stands for 1: integers have the range of the type.
+double unit_of(PlyType type) {
+  if (!is_integer(type)) return 1;
+  const bool is_signed = type == PlyType::int8 || type == PlyType::int16 || type == PlyType::int32;
+  return std::ldexp(1.0, 8 * static_cast<int>(size_of(type)) - (is_signed ? 1 : 0)) - 1;
+}
+
+void assign_colours(VertexLayout& layout, const PlyElement& element, PlyColours wanted) {
+  for (const auto& names : colour_names) {
+    if (layout.colours != PlyColours::none || count_scalars(element, names) < names.size()) continue;
+    assign(layout, element, names, slot_red);
+    const PlyType type = element.properties[static_cast<size_t>(element.find(names[0]))].type;
+    layout.colours = is_integer(type) ? wanted : PlyColours::linear;
+    layout.colour_unit = unit_of(type);
+    const int alpha = element.find("alpha");
+    if (alpha >= 0 && has_scalar(element, "alpha") && element.properties[static_cast<size_t>(alpha)].type == type)
+      layout.slots[static_cast<size_t>(alpha)] = slot_alpha;
+  }
+}
+
 /// Converts to float. Doubles beyond its range become infinite, since the conversion itself is undefined for them.
 float to_float(double value) {
   constexpr double largest = static_cast<double>(std::numeric_limits<float>::max());
@@ -41,7 +66,8 @@ float to_float(double value) {
 
 }  // namespace
 
-VertexLayout vertex_layout(const PlyElement& element, const std::string& name, Diagnostics& diagnostics) {
+VertexLayout vertex_layout(const PlyElement& element, const std::string& name, PlyColours colours,
+                           Diagnostics& diagnostics) {
   const SourceLocation where{name, element.line};
   for (const char* const axis : position_names)
     if (!has_scalar(element, axis))
@@ -62,21 +88,38 @@ VertexLayout vertex_layout(const PlyElement& element, const std::string& name, D
     layout.uvs = true;
     assign(layout, element, names, slot_u);
   }
+  if (colours != PlyColours::none) assign_colours(layout, element, colours);
   return layout;
 }
 
 VertexRows::VertexRows(const VertexLayout& layout, uint64_t expected, Mesh& mesh)
-    : mesh_(mesh), normals_(layout.normals), uvs_(layout.uvs) {
+    : mesh_(mesh),
+      normals_(layout.normals),
+      uvs_(layout.uvs),
+      colours_(layout.colours),
+      colour_unit_(layout.colour_unit) {
   const size_t count = static_cast<size_t>(expected);
   mesh_.positions.reserve(count);
   if (normals_) mesh_.normals.reserve(count);
   if (uvs_) mesh_.uvs.reserve(count);
+  if (colours_ != PlyColours::none) mesh_.colours.reserve(count);
 }
 
 void VertexRows::add(const Row& row) {
   mesh_.positions.push_back({row[slot_x], row[slot_y], row[slot_z]});
   if (normals_) add_normal(row);
   if (uvs_) add_uv(row);
+  if (colours_ != PlyColours::none) add_colour(row);
+}
+
+/// Values that are not from 0 to 1 are clamped, NaN to 0.
+void VertexRows::add_colour(const Row& row) {
+  std::array<float, 4> colour{};
+  for (size_t i = 0; i < 4; ++i) {
+    const double value = std::fmin(std::fmax(row[slot_red + i] / colour_unit_, 0), 1);
+    colour[i] = static_cast<float>(i < 3 && colours_ == PlyColours::displayed ? srgb_decode(value) : value);
+  }
+  mesh_.colours.push_back(colour);
 }
 
 void VertexRows::add_normal(const Row& row) {

@@ -15,7 +15,6 @@ namespace {
 static_assert(counts_samples == has_counters<SampleRecord<float>>);
 static_assert(!has_counters<PathRecord<float>>);
 static_assert(counts_samples || std::is_empty_v<RecordCounters>);
-static_assert(counts_samples || sizeof(BlockSum<float>) == 18 * sizeof(float));
 
 SampleCounters some_counters() {
   SampleCounters counters;

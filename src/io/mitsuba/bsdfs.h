@@ -1,0 +1,15 @@
+#pragma once
+
+// BSDFs.
+
+#include "io/mitsuba/build.h"
+
+namespace alhazen::mitsuba {
+
+/// The BSDF that `property` holds, read once for each object.
+ReadBsdf read_bsdf(Build& build, const Property& property);
+
+/// The BSDF of shapes that name none: diffuse with reflectance 0.5.
+ReadBsdf default_bsdf(Build& build);
+
+}  // namespace alhazen::mitsuba
