@@ -51,8 +51,8 @@ void parse_exr_options(RenderOptions& o) {
     throw InputError("unknown pixel type '" + o.exr_type + "': it may be half, float");
   how.pixel_type = o.exr_type == "float" ? ExrPixelType::single : ExrPixelType::half;
   how.compression = parse_compression(o.exr_compression);
-  if (how.tile_size != 0 && (how.tile_size < 8 || how.tile_size > 4096))
-    throw InputError("--exr-tiles must be from 8 to 4096 pixels, for example 64");
+  if (how.tile_size != 0 && (how.tile_size < 8 || how.tile_size > 1024))
+    throw InputError("--exr-tiles must be from 8 to 1024 pixels, for example 64");
   const bool loses = how.compression == ExrCompression::dwaa || how.compression == ExrCompression::dwab;
   if (!loses || how.has_parts) return;
   for (const std::string& layer : o.settings.aovs)
@@ -90,6 +90,8 @@ void warn_of_options_without_effect(const RenderOptions& o, const RenderSettings
     if (is_given && !writes("exr")) warn(option, "no EXR is written");
   if (settings.asked.transparent_glass && !settings.has_alpha && !settings.aovs.alpha)
     warn("transparent-glass", "the background is not transparent; give --transparent-background as well");
+  if (settings.has_alpha && !writes("exr") && !writes("png") && settings.asked.checkpoint.empty())
+    diagnostics.warn({}, "only EXR and PNG hold the alpha of --transparent-background; the background becomes black");
   warn_of_display_options(o.display, o.output.paths, settings.noise_curve.has_value(), warn);
   if (settings.backend == "serial" && settings.asked.threads > 1)
     warn("threads", "the backend 'serial' takes samples on one; give --backend openmp for more");

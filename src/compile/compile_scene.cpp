@@ -148,6 +148,7 @@ class SceneCompiler {
   }
 
   void place_shapes() {
+    if (options_.names_objects) name_instances(scene_);
     group_moving_meshes(scene_);
     const std::vector<bool> is_object = find_objects(scene_, options_.max_copied_triangles);
     check_placements(is_object);

@@ -1,6 +1,7 @@
 #include "compile/scene_names.h"
 
 #include "core/shapes/shape_records.h"
+#include "util/printable.h"
 
 namespace alhazen {
 
@@ -22,10 +23,19 @@ const char* kind_name(ShapeType type) {
 
 }  // namespace
 
-uint32_t NameTable::id_of(const std::string& name) {
+/// Names are written into headers, where bytes that are no UTF-8 would spoil all of them.
+uint32_t NameTable::id_of(const std::string& file_name) {
+  const std::string name = printable(file_name);
   const auto [entry, is_new] = ids_.try_emplace(name, static_cast<uint32_t>(names_.size() + 1));
   if (is_new) names_.push_back(name);
   return entry->second;
+}
+
+void name_instances(Scene& scene) {
+  std::vector<uint32_t> counts(scene.groups.size());
+  for (Instance& instance : scene.instances)
+    if (instance.name.empty() && instance.group < counts.size() && !scene.groups[instance.group].name.empty())
+      instance.name = scene.groups[instance.group].name + "." + std::to_string(++counts[instance.group]);
 }
 
 SceneNames::SceneNames(const Scene& scene) : scene_(scene) {}
@@ -45,11 +55,7 @@ uint32_t SceneNames::object_id(const Instance& instance) {
   uint32_t& id = object_ids_[&instance];
   if (id == no_id) {
     std::string name = instance.name;
-    if (name.empty()) {
-      const std::string& group = scene_.groups[instance.group].name;
-      const std::string kind = group.empty() ? "instance" : group;
-      name = kind + "." + std::to_string(++counts_[kind]);
-    }
+    if (name.empty()) name = "mesh." + std::to_string(++counts_["mesh"]);
     id = objects_.id_of(name);
   }
   return id;

@@ -22,8 +22,12 @@ class NameTable {
   std::vector<std::string> names_;  ///< by id - 1
 };
 
+/// Gives instances of named groups their names, with numbers: `tree.1`. Before moving meshes get groups of their own,
+/// whose instances keep them.
+void name_instances(Scene& scene);
+
 /// Names the objects and materials of a scene. What a file leaves without a name is called by its kind and a number,
-/// counted among those without names: `sphere.1`. An instance is one object, named after its group: `tree.12`.
+/// counted among those without names: `sphere.1`. An instance is one object (name_instances).
 class SceneNames {
  public:
   explicit SceneNames(const Scene& scene);

@@ -113,7 +113,7 @@ float linear_value(const ImageTexels& texels, size_t i) {
 }  // namespace
 
 Image read_image(const InputPath& path) {
-  if (image_format(path) == ImageFormat::exr) return read_exr(path);
+  if (image_format(path) == ImageFormat::exr) return read_exr(path, true);
   const ImageTexels texels = read_texture(path, TextureEncoding::automatic);
   Image image{texels.width, texels.height, {"R", "G", "B"}, {}};
   const size_t count = static_cast<size_t>(texels.width) * static_cast<size_t>(texels.height);

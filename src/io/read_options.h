@@ -19,7 +19,7 @@ struct ReadOptions {
   std::string variant;                   ///< of KHR_materials_variants; empty: the materials without the extension
   std::string animation;                 ///< empty: the first; used only if `time` is given
   std::optional<double> time;            ///< seconds, when the shutter opens; absent: no animation is applied
-  std::vector<std::string> definitions;  ///< Mitsuba: NAME=VALUE for $NAME
+  std::vector<std::string> definitions = {};  ///< Mitsuba: NAME=VALUE for $NAME
   /// Aspect ratio (width over height) of the requested image, used if the file has no camera; 0: none is requested.
   double aspect = 0;
   /// Whether the files that the scene refers to must be in its folder (files/confinement.h).

@@ -22,7 +22,7 @@ namespace alhazen {
 namespace {
 
 /// The last character counts versions of the format.
-constexpr char file_magic[8] = {'a', 'h', 'z', 'e', 'n', 'k', 't', '4'};
+constexpr char file_magic[8] = {'a', 'h', 'z', 'e', 'n', 'k', 't', '5'};
 
 struct Header {
   char magic[8];

@@ -163,7 +163,10 @@ class Layers {
     const Vec3d displacement = convert<double>(f.displacement[i]) / static_cast<double>(f.points[i]);
     // Points are recorded throughout the shutter interval, so their mean is that of its middle.
     const Vec3d middle = point(f, i);
-    const Vec2d open = scene.project(middle - displacement * 0.5), close = scene.project(middle + displacement * 0.5);
+    const Vec3d from = middle - displacement * 0.5, to = middle + displacement * 0.5;
+    const auto is_before = [&](const Vec3d& p) { return dot(p - scene.eye, scene.forward) > 0; };
+    if (scene.kind == CameraKind::perspective && !(is_before(from) && is_before(to))) return;
+    const Vec2d open = scene.project(from), close = scene.project(to);
     const double x = close.x - open.x, y = open.y - close.y;
     if (!std::isfinite(x) || !std::isfinite(y)) return;
     put(x, out);
@@ -187,7 +190,7 @@ class Layers {
                      [&](uint32_t a, uint32_t b) { return coverage.weights[a] > coverage.weights[b]; });
     for (uint32_t k = 0; k < std::min<uint32_t>(count, cryptomatte_levels); ++k) {
       const Real weight = coverage.weights[order[k]];
-      if (!(weight > 0)) break;
+      if (!(weight > 0 && coverage.total > 0)) break;
       const std::string& name = names.at(coverage.ids[order[k]] - 1);
       out[2 * k] = cryptomatte_id(murmur3_32(name));
       put(std::min(weight / coverage.total, Real(1)), out + 2 * k + 1);
@@ -200,7 +203,7 @@ std::vector<std::string> visible_names(const Coverage<Real>* plane, size_t pixel
                                        const std::vector<std::string>& names) {
   std::vector<bool> is_visible(names.size() + 1);
   for (size_t i = 0; i < pixels; ++i)
-    for (const uint32_t id : plane[i].ids) is_visible[id] = true;
+    for (const uint32_t id : plane[i].ids) is_visible.at(id) = true;
   std::vector<std::string> visible;
   for (size_t id = 1; id < is_visible.size(); ++id)
     if (is_visible[id]) visible.push_back(names[id - 1]);

@@ -195,6 +195,8 @@ void resolve_background(const Settings& asked, RenderSettings& s) {
   if (asked.transparent_glass && s.integrator != IntegratorKind::path)
     throw InputError("transparent glass needs the integrator 'path', and this is '" + to_string(s.integrator) +
                      "': leave out --transparent-glass, or give --integrator path");
+  if (asked.transparent_glass && s.guiding != GuidingMode::off)
+    throw InputError("transparent glass cannot be combined with path guiding: leave out --transparent-glass or --guiding");
 }
 
 /// Needs to know the layers and the denoiser.
@@ -286,12 +288,12 @@ RenderSettings resolve_settings(const Settings& user, const Scene& scene) {
   if (s.aovs.components && s.integrator != IntegratorKind::path)
     throw InputError("components of the light need the integrator 'path', and this is '" + to_string(s.integrator) +
                      "': leave out the layer 'components', or give --integrator path");
-  resolve_background(asked, s);
   if (asked.time_limit < 0 || !std::isfinite(asked.time_limit)) throw InputError("the time limit must not be negative");
   if (!(asked.checkpoint_seconds >= 0) || !std::isfinite(asked.checkpoint_seconds))
     throw InputError("the time between checkpoints must be a finite number of seconds, not negative");
   resolve_noise(asked, scene, s);
   resolve_guiding(asked, s);
+  resolve_background(asked, s);
   check_clamp(asked, s);
   s.texture_budget =
       static_cast<uint64_t>(in_range(asked.texture_budget, 0, int64_t{1} << 30, "the budget of textures")) << 20;

@@ -27,7 +27,7 @@ struct Circle {
   Vec normal(Vec at) const { return unit(at - centre); }
 };
 
-constexpr int width = 720, height = 400;
+constexpr int figure_width = 720, figure_height = 400;
 constexpr double ground = 352;
 constexpr Vec camera{62, 222};
 constexpr Circle light{{292, 52}, 20}, diffuse{{372, 296}, 56}, mirror{{478, 118}, 44}, glass{{540, 268}, 56};
@@ -119,7 +119,7 @@ std::string objects() {
   std::string svg = fmt::format(
       "<rect x=\"0\" y=\"{0}\" width=\"{1}\" height=\"{2}\" fill=\"#e9edf0\"/>\n<line x1=\"0\" y1=\"{0}\" x2=\"{1}\" "
       "y2=\"{0}\" stroke=\"#98a4af\"/>\n",
-      ground, width, height - ground);
+      ground, figure_width, figure_height - ground);
   svg += circle(diffuse, "fill=\"#f0c9a6\" stroke=\"#d9762b\"");
   svg += circle(mirror, "fill=\"url(#ball)\" stroke=\"#5c6773\"");
   svg += circle(glass, "fill=\"#dcecf2\" stroke=\"#0b6e8f\"");
@@ -191,7 +191,7 @@ std::string figure1_svg() {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
       "font-family=\"system-ui, 'DejaVu Sans', sans-serif\" font-size=\"13\">\n<title>{2}</title>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-      width, height, figure1_text());
+      figure_width, figure_height, figure1_text());
   svg += arrowheads() + objects() + image_grid() + glass_path() + mirror_path() + diffuse_path();
   svg += fmt::format(
       "<path d=\"M{0} {1}l-26 -15v30z\" fill=\"{2}\"/><circle cx=\"{0}\" cy=\"{1}\" r=\"5\" "

@@ -118,6 +118,31 @@ TEST(Alpha, OfGlassIsOneUnlessItIsTransparent) {
   EXPECT_NEAR(mean(plane(glass, "R")), mean(plane(glass, "A")), 1e-5);
 }
 
+TEST(Alpha, OfThinGlassOfGltfIsTheSame) {
+  Scene scene = seen("Material \"diffuse\"\n" + rectangle(-1, 1, -1, 1));
+  const auto constant = [&](double value) {
+    scene.textures.emplace_back().value = splat(value);
+    return static_cast<uint32_t>(scene.textures.size() - 1);
+  };
+  Settings settings = transparent();
+  settings.transparent_glass = true;
+  settings.samples_per_pixel = 256;
+  Material glass;
+  glass.kind = MaterialKind::principled;
+  glass.principled.transmission = constant(1);
+  glass.principled.roughness = constant(0);
+  scene.materials.at(scene.groups[0].shapes[0].material) = glass;
+  EXPECT_NEAR(mean(plane(render_bits(scene, settings), "A")), 0.04, 0.03);
+  // Light that leaves diffuse transmission is no background.
+  Material leaf;
+  leaf.kind = MaterialKind::principled;
+  leaf.principled.diffuse_transmission = constant(1);
+  scene.materials.at(scene.groups[0].shapes[0].material) = leaf;
+  const Outcome outcome = render_bits(scene, settings);
+  EXPECT_EQ(min(plane(outcome, "A")), 1);
+  EXPECT_GT(mean(plane(outcome, "R")), 0.8);
+}
+
 TEST(Alpha, OfMirrorsIsOne) {
   Settings settings = transparent();
   settings.transparent_glass = true;

@@ -53,8 +53,9 @@ template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_COLD bool record_background(const SceneView<Real>& scene, const PathState<Real>& path,
                                                Record& record) {
   if (path.vertex > 0 && !scene.sees_through_glass) return false;
-  const Vec3<Real> tint = min(path.throughput * path.eta_scale, splat(Real(1)));
-  record.transparency = (tint.x + tint.y + tint.z) * Real(1.0 / 3);
+  const Vec3<Real> tint = path.throughput * path.eta_scale;
+  if (!is_finite(tint)) return false;  // then the radiance is not finite either, and the sample counts as such
+  record.transparency = min((tint.x + tint.y + tint.z) * Real(1.0 / 3), Real(1));
   return scene.hides_background;
 }
 

@@ -177,8 +177,11 @@ ALHAZEN_HD bool transmits_sharply(const Bsdf<Real>& bsdf) {
       return bsdf.dielectric.alpha <= Real(max_sharp_alpha);
     case MaterialKind::anisotropic_dielectric:
       return is_sharp(bsdf.anisotropic_dielectric.alpha);
-    case MaterialKind::principled:
-      return is_sharp(bsdf.principled.glass > 0 ? bsdf.principled.alpha : bsdf.principled.through_alpha);
+    case MaterialKind::principled: {
+      const PrincipledBsdf<Real>& b = bsdf.principled;
+      if (!is_zero(b.diffuse_through)) return false;  // directions of that lobe are not told apart
+      return b.glass > 0 ? is_sharp(b.alpha) : !is_zero(b.through) && is_sharp(b.through_alpha);
+    }
     default:
       return false;
   }

@@ -46,7 +46,9 @@ ImageTexels decode_pfm(const std::string& path, std::span<const uint8_t> bytes);
 
 /// Reads all channels of the first part that has colours (else a luminance, else any single channel, else of the first
 /// part), whatever their type. The image is the data window.
-Image read_exr(const InputPath& path);
+/// With `all_parts`, the channels of the other parts of the same pixels follow those of the image part, whose names
+/// begin with that of their part if they name no layer themselves.
+Image read_exr(const InputPath& path, bool all_parts = false);
 
 /// The channels of an image's colour: red, green, blue, or one of grey three times; and its alpha, or -1.
 struct ColourChannels {

@@ -1,4 +1,4 @@
-// Reads EXR: every channel of one part, as float.
+// Reads EXR: every channel of one part, or of all parts, as float.
 
 #include <ImathBox.h>
 #include <ImfChannelList.h>
@@ -133,7 +133,48 @@ int image_part(const Imf::MultiPartInputFile& file) {
   return best;
 }
 
-Image read_image_part(const std::string& path, std::span<const uint8_t> bytes) {
+/// Appends the channels of a part to `image`, whose size is that of the part.
+void read_part(Imf::MultiPartInputFile& file, int number, const std::vector<ExrChannel>& channels, Image& image) {
+  const Imath::Box2i window = file.header(number).dataWindow();
+  const size_t first = image.planes.size();
+  Imf::FrameBuffer frame;
+  for (const ExrChannel& channel : channels) {
+    image.planes.emplace_back(static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
+    const size_t columns = static_cast<size_t>((image.width + channel.x_sampling - 1) / channel.x_sampling);
+    frame.insert(channel.name, Imf::Slice::Make(Imf::FLOAT, image.planes.back().data(), window, sizeof(float),
+                                                columns * sizeof(float), channel.x_sampling, channel.y_sampling));
+  }
+  Imf::InputPart part(file, number);
+  part.setFrameBuffer(frame);
+  part.readPixels(window.min.y, window.max.y);
+  for (size_t c = 0; c < channels.size(); ++c)
+    if (channels[c].x_sampling > 1 || channels[c].y_sampling > 1)
+      spread(image.planes[first + c], image.width, image.height, channels[c]);
+}
+
+/// The name of a channel beside those of other parts.
+std::string layered_name(const Imf::Header& header, const std::string& channel) {
+  const bool is_layered = channel.find('.') != std::string::npos || !header.hasName();
+  return is_layered ? channel : header.name() + "." + channel;
+}
+
+void read_other_parts(const std::string& path, Imf::MultiPartInputFile& file, int image_part, uint64_t file_size,
+                      Image& image) {
+  for (int number = 0; number < file.parts(); ++number) {
+    const Imf::Header& header = file.header(number);
+    if (number == image_part || (header.hasType() && Imf::isDeepData(header.type()))) continue;
+    if (header.dataWindow() != file.header(image_part).dataWindow()) continue;
+    std::vector<ExrChannel> channels = channels_of(header);
+    check_header(path, header, channels.size(), file_size);
+    std::erase_if(channels, [&](const ExrChannel& channel) {
+      return image.channel(layered_name(header, channel.name)) >= 0;
+    });
+    for (const ExrChannel& channel : channels) image.channels.push_back(layered_name(header, channel.name));
+    read_part(file, number, channels, image);
+  }
+}
+
+Image read_image_parts(const std::string& path, std::span<const uint8_t> bytes, bool all_parts) {
   check_attributes(path, bytes);
   MemoryStream stream(path, bytes);
   Imf::MultiPartInputFile file(stream);
@@ -146,29 +187,18 @@ Image read_image_part(const std::string& path, std::span<const uint8_t> bytes) {
 
   Image image{static_cast<int>(width), static_cast<int>(height), {}, {}};
   image.chromaticities = chromaticities_of(header);
-  Imf::FrameBuffer frame;
-  for (const ExrChannel& channel : channels) {
-    image.channels.push_back(channel.name);
-    image.planes.emplace_back(static_cast<size_t>(width * height));
-    const size_t columns = static_cast<size_t>((width + channel.x_sampling - 1) / channel.x_sampling);
-    frame.insert(channel.name, Imf::Slice::Make(Imf::FLOAT, image.planes.back().data(), window, sizeof(float),
-                                                columns * sizeof(float), channel.x_sampling, channel.y_sampling));
-  }
-  Imf::InputPart part(file, number);
-  part.setFrameBuffer(frame);
-  part.readPixels(window.min.y, window.max.y);
-  for (size_t c = 0; c < channels.size(); ++c)
-    if (channels[c].x_sampling > 1 || channels[c].y_sampling > 1)
-      spread(image.planes[c], image.width, image.height, channels[c]);
+  for (const ExrChannel& channel : channels) image.channels.push_back(channel.name);
+  read_part(file, number, channels, image);
+  if (all_parts) read_other_parts(path, file, number, bytes.size(), image);
   return image;
 }
 
 }  // namespace
 
-Image read_exr(const InputPath& input) {
+Image read_exr(const InputPath& input, bool all_parts) {
   const std::string& path = input.name;
   try {
-    return read_image_part(path, read_bytes(input));
+    return read_image_parts(path, read_bytes(input), all_parts);
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -72,7 +72,7 @@ std::vector<ExrPlane> make_planes(const ImageSource& source, const WriteOptions&
     const bool single = options.pixel_type == ExrPixelType::single || is_always_single(channel, options);
     planes.push_back({channel, single ? Imf::FLOAT : Imf::HALF, {}});
     planes.back().block.resize(planes.back().value_size() * static_cast<size_t>(source.width) *
-                               static_cast<size_t>(rows_per_block(options)));
+                               static_cast<size_t>(std::min(rows_per_block(options), source.height)));
   }
   return planes;
 }

@@ -8,6 +8,19 @@
 
 namespace alhazen::mitsuba {
 
+namespace {
+
+constexpr size_t max_value_bytes = size_t{1} << 20;
+constexpr size_t max_replaced_bytes = size_t{1} << 26;
+
+/// Throws if a text is too long with the values of its parameters.
+void limit_value(size_t bytes, const Place& place) {
+  if (bytes > max_value_bytes)
+    fail(place, "with the values of its parameters ($NAME) an attribute has over 1 MiB; shorten the values");
+}
+
+}  // namespace
+
 Definitions::Definitions(const std::vector<std::string>& given) {
   for (const std::string& definition : given) {
     const size_t equals = std::min(definition.find('='), definition.size());
@@ -37,9 +50,19 @@ std::string Definitions::replace(const std::string& text, const Place& place) {
     }
     used_.insert(best->first);
     replaced += best->second;
+    limit_value(replaced.size(), place);
     at = dollar + 1 + best->first.size();
   }
-  return replaced + text.substr(at);
+  replaced += text.substr(at);
+  count(replaced.size(), place);
+  return replaced;
+}
+
+void Definitions::count(size_t bytes, const Place& place) {
+  limit_value(bytes, place);
+  replaced_bytes_ += bytes;
+  if (replaced_bytes_ > max_replaced_bytes)
+    fail(place, "the attributes with parameters ($NAME) have over 64 MiB in all; use fewer or shorter values");
 }
 
 void Definitions::require_use(const std::string& scene) const {

@@ -23,14 +23,19 @@ class Definitions {
 
   /// Sets a value unless there is one.
   void set_default(const std::string& name, const std::string& value) { values_.emplace(name, value); }
-  /// Replaces every $NAME, of several names that fit by the longest. Throws InputError for one that is not defined.
+  /// Replaces every $NAME, of several names that fit by the longest. Throws InputError for one that is not defined, and
+  /// for texts that grow without measure, as values may contain others twice.
   std::string replace(const std::string& text, const Place& place);
   /// Throws InputError if the scene has no use for a value that was given.
   void require_use(const std::string& scene) const;
 
  private:
+  /// Counts a text that has been replaced.
+  void count(size_t bytes, const Place& place);
+
   std::map<std::string, std::string, std::less<>> values_;
   std::set<std::string> given_, used_;
+  size_t replaced_bytes_ = 0;  ///< of all texts with $NAME so far
 };
 
 /// Throws if the element has other attributes than these, or lacks one whose name begins with '!'.

@@ -16,8 +16,8 @@ namespace alhazen::mitsuba {
 namespace {
 
 constexpr size_t max_include_depth = 16;
-/// Bounds the memory of files that include others many times.
-constexpr size_t max_elements = 10'000'000;
+/// Bounds the stack of the readers, which call themselves for objects within objects.
+constexpr uint32_t max_height = 128;
 
 const std::set<std::string_view> object_tags{"integrator", "sensor",  "film",  "rfilter", "sampler", "emitter",
                                              "bsdf",       "texture", "shape", "medium",  "phase",   "volume"};
@@ -38,10 +38,11 @@ std::string in_snake_case(const std::string& name) {
 /// Turns elements into objects, in the order of the files.
 class Loader {
  public:
-  Loader(Document& document, Definitions& definitions) : document_(document), definitions_(definitions) {}
+  Loader(Document& document, Definitions& definitions, XmlBudget& budget)
+      : document_(document), definitions_(definitions), budget_(budget) {}
 
   void load(const std::shared_ptr<const SourceText>& source, const std::string& folder) {
-    Element root = parse_xml(source);
+    Element root = parse_xml(source, budget_);
     if (root.tag != "scene")
       fail(root.place, "the root element is <" + root.tag + ">, not <scene>: this is not a Mitsuba scene");
     document_.objects.push_back({"scene", "scene", {}, root.place, {}});
@@ -57,33 +58,45 @@ class Loader {
         if (found == ids_.end()) fail(property.place, "no object has the id " + quoted(property.reference));
         property.object = found->second;
       }
-    std::vector<State> states(document_.objects.size(), State::unseen);
-    refuse_cycles(0, states);
+    limit_heights();
   }
 
  private:
-  enum class State : char { unseen, open, done };
-
-  /// References nest like elements, but without a limit, so that this keeps a stack of its own.
-  void refuse_cycles(uint32_t root, std::vector<State>& states) const {
-    std::vector<std::pair<uint32_t, size_t>> stack{{root, 0}};
-    states[root] = State::open;
+  /// Throws if an object contains itself, or if objects are nested too deep. References nest like elements, but without
+  /// a limit, so that this keeps a stack of its own.
+  void limit_heights() const {
+    constexpr uint32_t unseen = 0, open = max_height + 1;  // others are heights: 1 for objects without objects
+    std::vector<uint32_t> heights(document_.objects.size(), unseen);
+    std::vector<std::pair<uint32_t, size_t>> stack{{0, 0}};
+    heights[0] = open;
     while (!stack.empty()) {
       const uint32_t index = stack.back().first;
       const std::vector<Property>& properties = document_.objects[index].properties;
       if (stack.back().second == properties.size()) {
-        states[index] = State::done;
+        heights[index] = height_over(properties, heights);
         stack.pop_back();
         continue;
       }
       const Property& property = properties[stack.back().second++];
-      if (property.kind != ValueKind::object || states[property.object] == State::done) continue;
-      if (states[property.object] == State::open)
+      if (property.kind != ValueKind::object) continue;
+      if (heights[property.object] == open)
         fail(property.place, "the object contains itself, through its reference to " + quoted(property.reference));
-      if (stack.size() >= 512) fail(property.place, "references are nested over 512 deep");
-      states[property.object] = State::open;
+      if (heights[property.object] != unseen) continue;
+      heights[property.object] = open;
       stack.emplace_back(property.object, 0);
     }
+  }
+
+  /// The height of an object from those of the objects in it.
+  static uint32_t height_over(const std::vector<Property>& properties, const std::vector<uint32_t>& heights) {
+    uint32_t height = 1;
+    for (const Property& property : properties) {
+      if (property.kind != ValueKind::object) continue;
+      height = std::max(height, heights[property.object] + 1);
+      if (height > max_height)
+        fail(property.place, "objects are nested over 128 deep, with those that references name; nest fewer");
+    }
+    return height;
   }
 
   void load_scene(Element& root, uint32_t object, const std::string& folder) {
@@ -112,11 +125,7 @@ class Loader {
   }
 
   void load_children(Element& parent, uint32_t object, const std::string& folder) {
-    for (Element& child : parent.children) {
-      if (++elements_ > max_elements)
-        fail(child.place, "the scene has over 10 million elements with those it includes");
-      load_child(child, object, folder);
-    }
+    for (Element& child : parent.children) load_child(child, object, folder);
   }
 
   void load_child(Element& element, uint32_t parent, const std::string& folder) {
@@ -174,7 +183,7 @@ class Loader {
     document_.folders.insert(document_.folders.begin(), folder);
     const InputPath path = document_.existing_file(element.place, *element.find("filename"));
     document_.folders.erase(document_.folders.begin());
-    Element root = parse_xml(read_text(path));
+    Element root = parse_xml(read_text(path, budget_), budget_);
     if (root.tag != "scene") fail(root.place, "the root element of an included file must be <scene>");
     const std::string inner = std::filesystem::path(path.name).parent_path().string();
     if (std::find(document_.folders.begin(), document_.folders.end(), inner) == document_.folders.end())
@@ -309,17 +318,19 @@ class Loader {
 
   Document& document_;
   Definitions& definitions_;
+  XmlBudget& budget_;
   std::map<std::string, uint32_t> ids_;
-  size_t elements_ = 0, depth_ = 0;
+  size_t depth_ = 0;
   bool is_version_1_ = false;
 };
 
 Document load(const std::shared_ptr<const SourceText>& source, const std::string& folder, const InputScope& scope,
-              const std::vector<std::string>& given) {
+              const std::vector<std::string>& given, const FileSearch& search, XmlBudget& budget) {
   Document document;
   document.scope = scope;
+  document.search = search;
   Definitions definitions(given);
-  Loader loader(document, definitions);
+  Loader loader(document, definitions, budget);
   loader.load(source, folder);
   loader.resolve_references();
   definitions.require_use(source->name);
@@ -339,17 +350,22 @@ InputPath Document::existing_file(const Place& place, const std::string& name) c
     if (looked_for.find(path.name) == std::string::npos) looked_for += (looked_for.empty() ? "" : ", ") + path.name;
   }
   if (!problem.empty()) fail(place, "the file \"" + name + "\" " + problem);
+  FoundFile elsewhere = find_file(folders.front(), name, scope, search);
+  if (elsewhere.problem.message.empty()) return elsewhere.path;
   fail(place, "there is no file \"" + name + "\" (looked for " + looked_for +
-                  "); paths are relative to the folder of the scene file and to those of <path>");
+                  "); paths are relative to the folder of the scene file and to those of <path>" + search_hint(search));
 }
 
-Document read_document(const InputPath& path, const std::vector<std::string>& definitions) {
-  return load(read_text(path), std::filesystem::path(path.name).parent_path().string(), path.scope, definitions);
+Document read_document(const InputPath& path, const std::vector<std::string>& definitions, const FileSearch& search) {
+  XmlBudget budget;
+  return load(read_text(path, budget), std::filesystem::path(path.name).parent_path().string(), path.scope, definitions,
+              search, budget);
 }
 
 Document parse_document(const std::string& text, const std::string& name, const std::string& folder,
-                        const std::vector<std::string>& definitions) {
-  return load(std::make_shared<const SourceText>(SourceText{name, text}), folder, {}, definitions);
+                        const std::vector<std::string>& definitions, const FileSearch& search) {
+  XmlBudget budget;
+  return load(std::make_shared<const SourceText>(SourceText{name, text}), folder, {}, definitions, search, budget);
 }
 
 }  // namespace alhazen::mitsuba

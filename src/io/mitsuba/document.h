@@ -11,6 +11,7 @@
 
 #include "core/math/vec.h"
 #include "files/input_file.h"
+#include "io/find_file.h"
 #include "io/mitsuba/xml.h"
 #include "scene/transform.h"
 
@@ -58,16 +59,18 @@ struct Document {
   /// includes.
   std::vector<std::string> folders;
   InputScope scope;
+  FileSearch search;  ///< where files are looked up that are in none of the folders
 
   /// The file `name`. Throws InputError, with the location `place`, if it cannot be read.
   InputPath existing_file(const Place& place, const std::string& name) const;
 };
 
 /// `definitions` are NAME=VALUE, which count before those of <default>. Throws InputError.
-Document read_document(const InputPath& path, const std::vector<std::string>& definitions);
+Document read_document(const InputPath& path, const std::vector<std::string>& definitions,
+                       const FileSearch& search = {});
 
 /// The same for a text in memory, whose files are looked up in `folder`.
 Document parse_document(const std::string& text, const std::string& name, const std::string& folder,
-                        const std::vector<std::string>& definitions);
+                        const std::vector<std::string>& definitions, const FileSearch& search = {});
 
 }  // namespace alhazen::mitsuba

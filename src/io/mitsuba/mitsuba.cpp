@@ -68,13 +68,14 @@ Scene build_scene(Document document, const std::string& name, const ReadOptions&
 }  // namespace mitsuba
 
 Scene read_mitsuba(const InputPath& path, const ReadOptions& options, Diagnostics& diagnostics) {
-  return mitsuba::build_scene(mitsuba::read_document(path, options.definitions), path.name, options, diagnostics);
+  return mitsuba::build_scene(mitsuba::read_document(path, options.definitions, options.search), path.name, options,
+                              diagnostics);
 }
 
 Scene parse_mitsuba(const std::string& text, const std::string& name, const std::string& folder,
                     const ReadOptions& options, Diagnostics& diagnostics) {
-  return mitsuba::build_scene(mitsuba::parse_document(text, name, folder, options.definitions), name, options,
-                              diagnostics);
+  return mitsuba::build_scene(mitsuba::parse_document(text, name, folder, options.definitions, options.search), name,
+                              options, diagnostics);
 }
 
 }  // namespace alhazen

@@ -16,7 +16,6 @@ namespace {
 
 /// Length of the excerpt in bytes; spectra may make lines of kilobytes.
 constexpr size_t excerpt_width = 100;
-constexpr size_t max_text_bytes = size_t{1} << 30;
 
 std::string excerpt_at(const Place& place) {
   if (!place.source || place.line <= 0) return {};
@@ -44,13 +43,15 @@ void fail(const Place& place, const std::string& message) {
   throw InputError(place.location(), message, excerpt_at(place));
 }
 
-std::shared_ptr<const SourceText> read_text(const InputPath& path) {
+std::shared_ptr<const SourceText> read_text(const InputPath& path, XmlBudget& budget) {
   FileSource file(path);
   SourceText source{path.name, {}};
   std::vector<char> chunk(size_t{1} << 18);
   while (const size_t count = file.read(chunk.data(), chunk.size())) {
-    if (source.text.size() + count > max_text_bytes)
-      throw InputError({path.name}, "the scene has over 1 GiB of XML; move its meshes to files of their own");
+    if (count > budget.bytes)
+      throw InputError({path.name},
+                       "the scene has over 1 GiB of XML with what it includes; move its meshes to files of their own");
+    budget.bytes -= count;
     source.text.append(chunk.data(), count);
   }
   return std::make_shared<const SourceText>(std::move(source));
@@ -71,8 +72,8 @@ constexpr size_t max_depth = 128;
 /// Builds the tree from the events of Expat. Exceptions must not pass through its C code, so they wait in `failure`.
 class TreeBuilder {
  public:
-  explicit TreeBuilder(const std::shared_ptr<const SourceText>& source)
-      : source_(source), parser_(XML_ParserCreate(nullptr)) {
+  TreeBuilder(const std::shared_ptr<const SourceText>& source, XmlBudget& budget)
+      : source_(source), budget_(budget), parser_(XML_ParserCreate(nullptr)) {
     if (parser_ == nullptr) throw std::bad_alloc();
     XML_SetUserData(parser_, this);
     XML_SetElementHandler(
@@ -131,6 +132,8 @@ class TreeBuilder {
 
   void open(const char* name, const char** attributes) {
     if (open_.size() >= max_depth) fail(here(), "elements are nested over 128 deep");
+    if (budget_.elements == 0) fail(here(), "the scene has over 10 million elements with those it includes");
+    --budget_.elements;
     // The vector of a parent does not grow while one of its children is open, so the pointers stay valid.
     Element& element = open_.empty() ? root_ : open_.back()->children.emplace_back();
     element.tag = name;
@@ -147,6 +150,7 @@ class TreeBuilder {
   }
 
   std::shared_ptr<const SourceText> source_;
+  XmlBudget& budget_;
   XML_Parser parser_;
   std::exception_ptr failure_;
   Element root_;
@@ -157,13 +161,15 @@ class TreeBuilder {
 
 bool reads_xml() { return true; }
 
-Element parse_xml(const std::shared_ptr<const SourceText>& source) { return TreeBuilder(source).run(); }
+Element parse_xml(const std::shared_ptr<const SourceText>& source, XmlBudget& budget) {
+  return TreeBuilder(source, budget).run();
+}
 
 #else
 
 bool reads_xml() { return false; }
 
-Element parse_xml(const std::shared_ptr<const SourceText>& source) {
+Element parse_xml(const std::shared_ptr<const SourceText>& source, XmlBudget&) {
   throw InputError(
       {source->name},
       "this build of alhazen reads no XML: install libexpat1-dev and build it again to read Mitsuba scenes");

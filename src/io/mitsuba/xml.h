@@ -19,8 +19,14 @@ struct SourceText {
   std::string text;
 };
 
-/// Reads a whole text, decompressed if it is gzip data. Throws InputError, also if it is over 1 GiB.
-std::shared_ptr<const SourceText> read_text(const InputPath& path);
+/// What a scene may still take, with the files that it includes: small files may include others many times.
+struct XmlBudget {
+  size_t bytes = size_t{1} << 30;
+  size_t elements = 10'000'000;
+};
+
+/// Reads a whole text, decompressed if it is gzip data. Throws InputError, also if the budget does not suffice.
+std::shared_ptr<const SourceText> read_text(const InputPath& path, XmlBudget& budget);
 
 /// A location in a text: the start of an element. Lines and columns (in bytes) count from 1.
 struct Place {
@@ -48,7 +54,8 @@ struct Element {
 bool reads_xml();
 
 /// Returns the root element. Throws InputError with the location: text that is not well-formed XML, text between
-/// elements, a document type declaration (and with it all entities but the five of XML), elements nested over 128 deep.
-Element parse_xml(const std::shared_ptr<const SourceText>& source);
+/// elements, a document type declaration (and with it all entities but the five of XML), elements nested over 128 deep,
+/// more elements than the budget has.
+Element parse_xml(const std::shared_ptr<const SourceText>& source, XmlBudget& budget);
 
 }  // namespace alhazen::mitsuba
