@@ -318,8 +318,8 @@ class SceneReader {
   std::optional<Motion> motion_;  ///< if the shutter stays open
   std::vector<Placement> placements_;
   std::map<std::string, size_t> uses_;
-  std::set<std::string> moving_;              ///< keys of placements of which one moves
-  std::map<uint32_t, uint32_t> two_sided_;    ///< by material: its copy with both sides
+  std::set<std::string> moving_;            ///< keys of placements of which one moves
+  std::map<uint32_t, uint32_t> two_sided_;  ///< by material: its copy with both sides
   std::optional<size_t> variant_;
   bool emits_ = false;
 };
