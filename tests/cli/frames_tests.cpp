@@ -79,9 +79,9 @@ TEST_F(Frames, StatisticsNameTheirFrame) {
 }
 
 TEST_F(Frames, ProgressNamesTheFrame) {
-  const CommandResult result = moving({"--frames", "2..3", "-o", "f_##.exr", "--progress", "json", "-q"});
-  ASSERT_EQ(result.exit_code, 0) << result.everything();
-  const CommandResult shown = moving({"--frames", "4..5", "-o", "f_##.exr", "--progress", "json"});
+  const CommandResult shown = run({"render", "moving.gltf", "--size", "24x24", "--spp", "4", "--frames", "4..5", "-o",
+                                   "f_##.exr", "--progress", "json"});
+  ASSERT_EQ(shown.exit_code, 0) << shown.everything();
   EXPECT_NE(shown.err.find("\"frame\":5,\"frame_index\":2,\"frame_count\":2"), std::string::npos) << shown.err;
 }
 

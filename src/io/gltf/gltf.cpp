@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <new>
+#include <set>
 #include <stdexcept>
 
 #include "images/codecs/image_bytes.h"
@@ -192,6 +193,7 @@ class SceneReader {
       placement.key.clear();
     }
     if (!placement.key.empty()) ++uses_[placement.key];
+    if (placement.motion.is_moving()) moving_.insert(placement.key);
     placements_.push_back(std::move(placement));
   }
 
@@ -239,6 +241,25 @@ class SceneReader {
     return document_.index(primitive, "material", "materials");
   }
 
+  bool moves(const Placement& placement) const {
+    return placement.motion.is_moving() || (!placement.key.empty() && moving_.contains(placement.key));
+  }
+
+  /// Light does not reach the front of a one-sided surface in a moving instance, so it gets both sides there.
+  uint32_t two_sided(uint32_t material, const Json& where) {
+    if (material == no_index || scene_.materials[material].double_sided) return material;
+    document_.warn(where,
+                   "a one-sided mesh that moves while the shutter is open is rendered with both sides, so it is seen "
+                   "from behind, too");
+    const auto [entry, is_new] = two_sided_.try_emplace(material, static_cast<uint32_t>(scene_.materials.size()));
+    if (is_new) {
+      Material copy = scene_.materials[material];
+      copy.double_sided = true;
+      scene_.materials.push_back(std::move(copy));
+    }
+    return entry->second;
+  }
+
   std::vector<Shape> shapes(const Placement& placement) {
     std::vector<Shape> result;
     for (const Json& primitive : primitives(placement.mesh)) {
@@ -249,7 +270,7 @@ class SceneReader {
       if (!name.empty()) scene_.meshes[*mesh].name = name;
       Shape shape;
       shape.mesh = *mesh;
-      shape.material = use.material;
+      shape.material = moves(placement) ? two_sided(use.material, primitive) : use.material;
       shape.emission = use.emission;
       shape.where = document_.place(primitive);
       result.push_back(shape);
@@ -308,6 +329,8 @@ class SceneReader {
   std::optional<Motion> motion_;  ///< if the shutter stays open
   std::vector<Placement> placements_;
   std::map<std::string, size_t> uses_;
+  std::set<std::string> moving_;            ///< keys of placements of which one moves
+  std::map<uint32_t, uint32_t> two_sided_;  ///< by material: its copy with both sides
   std::optional<size_t> variant_;
   bool emits_ = false;
 };
