@@ -72,9 +72,10 @@ void parse_output_options(RenderOptions& o) {
 }  // namespace
 
 void warn_of_options_without_effect(const RenderOptions& o, const RenderSettings& settings, Diagnostics& diagnostics) {
+  const std::vector<std::string> formats = o.output.format_names();
   const auto writes = [&](const char* extension) {
-    return std::any_of(o.output.paths.begin(), o.output.paths.end(),
-                       [&](const std::string& path) { return extension_of(path) == extension; });
+    return std::any_of(formats.begin(), formats.end(),
+                       [&](const std::string& name) { return extension_of(name) == extension; });
   };
   const auto warn = [&](const std::string& option, const std::string& reason) {
     diagnostics.warn({}, "--" + option + " has no effect: " + reason);
@@ -92,7 +93,7 @@ void warn_of_options_without_effect(const RenderOptions& o, const RenderSettings
     warn("transparent-glass", "the background is not transparent; give --transparent-background as well");
   if (settings.has_alpha && !writes("exr") && !writes("png") && settings.asked.checkpoint.empty())
     diagnostics.warn({}, "only EXR and PNG hold the alpha of --transparent-background; the background becomes black");
-  warn_of_display_options(o.display, o.output.paths, settings.noise_curve.has_value(), warn);
+  warn_of_display_options(o.display, formats, settings.noise_curve.has_value(), warn);
   if (settings.backend == "serial" && settings.asked.threads > 1)
     warn("threads", "the backend 'serial' takes samples on one; give --backend openmp for more");
 }
@@ -184,7 +185,7 @@ void print_end(const RenderOptions& options, const OutputReport& outputs, const 
     for (const std::string& path : outputs.written)
       line += (&path == &outputs.written[0] ? "; wrote " : ", ") +
               (path == standard_output_name ? "standard output" : printable(path));
-    if (statistics.display) tell("{}", display_lines(*statistics.display));
+    if (statistics.display && !frame) tell("{}", display_lines(*statistics.display));
     tell("{}\n", line);
   }
   const std::string json = options.stats == "json" ? statistics.to_json() : "";
@@ -198,8 +199,8 @@ namespace {
 /// Writes the images and reports the result. An image without samples is not written, since an older one is better.
 int finish(RenderOptions& options, Rendering& rendering) {
   const bool is_empty = !rendering.has_samples();
-  const std::vector<std::string>& paths = options.output.paths;
-  if (!is_empty && std::any_of(paths.begin(), paths.end(), is_displayed_format))
+  const std::vector<std::string> formats = options.output.format_names();
+  if (!is_empty && std::any_of(formats.begin(), formats.end(), is_displayed_format))
     rendering.statistics.display = choose_display(rendering, options.output.display, options.output.how);
   const OutputReport outputs = is_empty ? OutputReport{} : write_outputs(options.output, rendering);
   print_end(options, outputs, rendering.statistics);
@@ -214,11 +215,13 @@ int finish(RenderOptions& options, Rendering& rendering) {
 }
 
 /// Standard output can take one image, and nothing beside it.
-void check_standard_output(const RenderOptions& o) {
+void check_standard_output(RenderOptions& o) {
   const std::vector<std::string>& paths = o.output.paths;
   const bool is_used = std::find(paths.begin(), paths.end(), standard_output_name) != paths.end();
   if (!o.format.empty() && !has_written_extension("image." + o.format))
-    throw InputError("unknown --format '" + o.format + "': it may be exr, png, pfm");
+    throw InputError("unknown --format '" + o.format + "': it may be the extension of " + written_extensions());
+  if (!o.format.empty()) o.output.standard_output_format = extension_of("image." + o.format);
+  if (o.output.standard_output_format == "jpeg") o.output.standard_output_format = "jpg";
   if (!is_used) {
     if (!o.format.empty()) throw InputError("--format is for -o -, and other files have it in their names");
     return;
@@ -257,7 +260,7 @@ int run(RenderOptions& options) {
   Scene& scene = loaded.scene;
   const RenderSettings settings = study::resolve_with_tuned(options.settings, scene, options.scene, diagnostics);
   options.output.paths = choose_outputs(options.output.paths, scene.film.filename, options.scene, diagnostics);
-  check_sizes(options.output.paths, settings.window);
+  check_sizes(options.output.format_names(), settings.window);
   warn_of_options_without_effect(options, settings, diagnostics);
   warn_of_patterns(options, diagnostics);
   const std::string scene_file = options.scene == standard_input_name ? "" : options.scene;
@@ -295,7 +298,7 @@ void add_output_options(Command& command, RenderOptions& o, const char* group) {
       .value_name("FILE")
       .group(group)
       .common();
-  command.add_option("--format", o.format, "What -o - writes: png (the default), exr or pfm")
+  command.add_option("--format", o.format, "What -o - writes: png (the default), exr, jpg, hdr or pfm")
       .value_name("NAME")
       .group(group);
   command.add_option("--exr-type", o.exr_type, "half or float").value_name("NAME").group(group);

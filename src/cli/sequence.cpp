@@ -103,7 +103,11 @@ RenderSettings preview_of(const RenderSettings& settings) {
   const auto scaled = [&](int size) { return std::max(1, static_cast<int>(std::lround(size * scale))); };
   small.width = scaled(settings.width);
   small.height = scaled(settings.height);
-  small.window = {0, small.width, 0, small.height};
+  const auto inside = [&](int value, int size) { return std::clamp(static_cast<int>(value * scale), 0, size); };
+  const PixelWindow& window = settings.window;
+  small.window = {inside(window.x0, small.width - 1), 0, inside(window.y0, small.height - 1), 0};
+  small.window.x1 = std::max(small.window.x0 + 1, inside(window.x1, small.width));
+  small.window.y1 = std::max(small.window.y0 + 1, inside(window.y1, small.height));
   small.samples_per_pixel = 16;
   small.asked.noise = 0;
   small.noise_curve.reset();
@@ -127,7 +131,7 @@ class Sequence {
   int run() {
     leave_out_existing();
     if (pending_.empty() && plan_.videos.empty()) return exit_done;
-    if (pending_.empty() && has_png()) return write_videos_of_files();
+    if (pending_.empty() && writes(is_displayed_format)) return write_videos_of_files();
     ActivityPrinter activity(diagnostics_.activity(), printer_);
     events_.progress = [this](const Progress& progress) {
       printer_.show(progress);
@@ -161,8 +165,10 @@ class Sequence {
 
  private:
   void leave_out_existing() {
+    // Frames of a video are premultiplied by their alpha, and those that are read back from PNG would not be.
+    const bool reads_none = overwrites_ || (!plan_.videos.empty() && options_.settings.transparent_background);
     for (const int64_t frame : plan_.frames)
-      if (overwrites_ || !plan_.has_files_of(frame)) pending_.push_back(frame);
+      if (reads_none || !plan_.has_files_of(frame)) pending_.push_back(frame);
     const size_t skipped = plan_.frames.size() - pending_.size();
     if (skipped > 0 && !options_.quiet)
       tell("{} of {} frames are there and are left as they are; --overwrite renders them again\n", skipped,
@@ -194,7 +200,7 @@ class Sequence {
         for (Camera& camera : cameras_) camera = placed_camera(settings, camera, loaded.scene);
         loaded.scene.camera = first;
         compile(std::move(loaded), settings);
-      } else if (has_display() && may_choose_display()) {
+      } else if (may_choose_display()) {
         fit_exposure_by_frame_0();
       }
     }
@@ -207,16 +213,14 @@ class Sequence {
     const std::vector<std::string> paths = plan_.paths_of(plan_.frames.front());
     return std::any_of(paths.begin(), paths.end(), is);
   }
-  bool has_png() const {
-    return writes([](const std::string& path) { return extension_of(path) == "png"; });
-  }
   /// Whether anything is written as displays show it.
   bool has_display() const { return writes(is_displayed_format) || !plan_.videos.empty(); }
 
-  /// Whether the exposure or the white balance may be left to the image, before the scene is known.
+  /// Whether the exposure or the white balance may be left to the image, before the scene is known. A noise target may
+  /// have the same exposure.
   bool may_choose_display() const {
     const DisplayChoice& choice = options_.output.display;
-    return options_.display.exposure.empty() || choice.exposure != ExposureRule::given || choice.estimates_white;
+    return !options_.settings.noise_exposure || (has_display() && choice.estimates_white);
   }
 
   /// No frame may replace a file that the scene is read from.
@@ -237,6 +241,7 @@ class Sequence {
     described.output.paths = plan_.paths_of(plan_.frames.front());
     if (!plan_.videos.empty()) described.output.paths.push_back("video.png");  // options for PNG are for videos too
     warn_of_options_without_effect(described, resolved, diagnostics_);
+    check_sizes(plan_.paths_of(plan_.frames.front()), resolved.window);
     DisplayChoice& choice = options_.output.display;
     if (loaded.scene.film.fits_exposure && options_.display.exposure.empty()) choice.exposure = ExposureRule::fitting;
     fits_exposure_ = resolved.noise_exposure != ExposureRule::given ||
@@ -254,7 +259,8 @@ class Sequence {
     if (!preview.has_samples()) return;
     DisplayChoice choice = std::exchange(options_.output.display, {});
     if (choice.exposure == ExposureRule::given) choice.exposure = settings.noise_exposure;
-    choose_display(preview, choice, options_.output.how);
+    display_ = choose_display(preview, choice, options_.output.how);
+    if (has_display() && !options_.quiet) tell("{}", display_lines(*display_));
   }
 
   void use_exposure(RenderSettings& settings) const {
@@ -294,11 +300,11 @@ class Sequence {
     if (!fits_exposure_) return;
     const RenderSettings small = preview_of(resolved);
     const Camera camera = loaded.scene.camera;
-    choose_exposure(*make_scene_renderer(std::move(loaded.scene), small, 0, diagnostics_), &camera, small);
+    choose_exposure(*make_scene_renderer(std::move(loaded.scene), small, 0, diagnostics_), &camera, resolved);
   }
 
   int render_frame(int64_t frame, size_t index) {
-    const Rendering rendering = rendering_of(frame);
+    Rendering rendering = rendering_of(frame);
     printer_.finish();
     warnings_.show();
     const RenderStatistics& statistics = rendering.statistics;
@@ -310,6 +316,8 @@ class Sequence {
     }
     OutputOptions output = options_.output;
     output.paths = plan_.paths_of(frame);
+    if (has_display())
+      rendering.statistics.display = display_ ? *display_ : choose_display(rendering, output.display, output.how);
     const OutputReport report = write_outputs(output, rendering);
     print_end(options_, report, statistics, fmt::format("frame {} ({} of {}): ", frame, index, pending_.size()), frame);
     if (!report.failures.empty()) return exit_failed;
@@ -337,19 +345,22 @@ class Sequence {
     ++frames_of_videos_;
   }
 
-  /// A frame that is there already: of its PNG as it is, else of another file as that would be written.
+  /// A frame that is there already: of its PNG or JPEG as it is, else of another file as that would be written.
   void add_file_to_videos(int64_t frame) {
     if (plan_.videos.empty()) return;
     std::vector<std::string> paths = plan_.paths_of(frame);
-    const auto png =
-        std::find_if(paths.begin(), paths.end(), [](const std::string& path) { return extension_of(path) == "png"; });
-    const std::string& path = png == paths.end() ? paths[0] : *png;
+    std::stable_partition(paths.begin(), paths.end(), is_displayed_format);
+    std::stable_partition(paths.begin(), paths.end(),
+                          [](const std::string& path) { return extension_of(path) == "png"; });
+    const std::string& path = paths[0];
     const Image image = read_image(path);
     add_to_videos(image.width, image.height,
-                  display_bytes(path, source_of(image), png == paths.end() ? options_.output.how : WriteOptions{}));
+                  display_bytes(path, source_of(image),
+                                is_displayed_format(path) ? WriteOptions{} : options_.output.how));
   }
 
   int write_videos_of_files() {
+    check_files(plan_.videos, {}, {}, InputRecord{});
     for (const int64_t frame : plan_.frames) add_file_to_videos(frame);
     return finish_videos();
   }
@@ -366,7 +377,9 @@ class Sequence {
     printer_.finish();
     warnings_.show();
     if (plan_.images.empty()) finish_videos();  // else they are made when all frames are there
-    tell("interrupted: the frames that are finished are kept; the same command renders the others\n");
+    tell("interrupted: {}\n", plan_.images.empty()
+                                   ? "the video has the frames so far; the same command begins again"
+                                   : "the frames that are finished are kept; the same command renders the others");
     return exit_interrupted;
   }
 
@@ -384,6 +397,7 @@ class Sequence {
   std::unique_ptr<SceneRenderer> renderer_;  ///< if there are cameras; refers to settings_
   bool is_started_ = false, is_prepared_ = false;
   bool fits_exposure_ = false;  ///< the first frame decides how all are displayed
+  std::optional<DisplayStatistics> display_;  ///< by the first frame
   std::vector<std::unique_ptr<VideoWriter>> videos_;
   size_t frames_of_videos_ = 0;
 };

@@ -113,21 +113,27 @@ void check_files(const std::vector<std::string>& outputs, const std::string& che
 
 namespace {
 
+std::string format_name(const std::string& path, const OutputOptions& options) {
+  return path == standard_output_name ? "image." + options.standard_output_format : path;
+}
+
 void write_output(const std::string& path, const OutputOptions& options, const Rendering& rendering) {
+  const std::string format = format_name(path, options);
   const RenderSettings& settings = rendering.statistics.settings;
   WriteOptions how = options.how;
   how.metadata = metadata_of(rendering.statistics);
-  if (extension_of(path) == "exr") how.metadata.merge(rendering.layer_metadata());
-  if (is_displayed_format(path)) how.metadata["display"] = display_text(how);
+  if (extension_of(format) == "exr") how.metadata.merge(rendering.layer_metadata());
+  if (is_displayed_format(format)) how.metadata["display"] = display_text(how);
   how.x_offset = settings.window.x0;
   how.y_offset = settings.window.y0;
   how.full_width = settings.width;
   how.full_height = settings.height;
   if (path != standard_output_name) return write_image(path, rendering.source(), how);
 #define ALHAZEN_WRITE(name) \
-  if (options.standard_output_format == #name) write_##name(path, rendering.source(), how);
+  if (extension_of(format) == #name) return write_##name(path, rendering.source(), how);
   ALHAZEN_WRITTEN_FORMATS(ALHAZEN_WRITE)
 #undef ALHAZEN_WRITE
+  throw RenderError("no image is written as ." + extension_of(format));
 }
 
 /// Pipes may wait for their reader for long, so files are written before them.
@@ -138,6 +144,12 @@ bool is_file(const std::string& path) {
 }
 
 }  // namespace
+
+std::vector<std::string> OutputOptions::format_names() const {
+  std::vector<std::string> names;
+  for (const std::string& path : paths) names.push_back(format_name(path, *this));
+  return names;
+}
 
 OutputReport write_outputs(const OutputOptions& options, const Rendering& rendering) {
   std::vector<std::string> order = options.paths;

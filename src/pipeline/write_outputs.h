@@ -19,8 +19,11 @@ inline constexpr const char* standard_output_name = "-";
 struct OutputOptions {
   std::vector<std::string> paths;
   WriteOptions how;
-  std::string standard_output_format = "png";  ///< an extension of written_extensions()
+  std::string standard_output_format = "png";  ///< an extension of written_extensions(), without the dot
   DisplayChoice display;                       ///< what of `how` is left to the image
+
+  /// Names whose extensions say how each output is written, in the order of `paths`.
+  std::vector<std::string> format_names() const;
 };
 
 /// Returns the requested paths, else the scene's own file name in the current folder, else, with a warning if the scene

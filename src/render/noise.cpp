@@ -175,12 +175,16 @@ double darkest_luminance(const FilmView<Real>& film, size_t pixels) {
 
 /// The exposure of the image so far, as it would be displayed.
 template <class Real>
-double exposure_of(const FilmView<Real>& film, int width, int height, ExposureRule rule) {
+double exposure_of(const FilmView<Real>& film, int width, int height, ExposureRule rule, bool has_alpha) {
   ExposureMeter meter(width, height, true);
   size_t i = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x, ++i)
-      meter.add(x, y, convert<double>(film.radiance_sum(i).mean()), static_cast<double>(film.coverage(i)));
+      {
+        const double coverage = static_cast<double>(film.coverage(i));
+        const Vec3d radiance = convert<double>(film.radiance_sum(i).mean());
+        meter.add(x, y, has_alpha && coverage > 0 ? radiance / coverage : radiance, coverage);
+      }
   return meter.exposure(rule);
 }
 
@@ -267,7 +271,7 @@ void NoiseEstimate<Real>::measure_pixels(const RenderSettings& settings) {
   const double darkest = settings.noise_curve ? 0 : darkest_luminance(film, pixels);
   std::optional<DisplayCurve> curve = settings.noise_curve;
   if (curve && settings.noise_exposure != ExposureRule::given)
-    curve->scale = portable_exp2(exposure_of(film, width_, height_, settings.noise_exposure));
+    curve->scale = portable_exp2(exposure_of(film, width_, height_, settings.noise_exposure, settings.has_alpha));
   for (size_t i = 0; i < pixels; ++i) {
     const PixelMean mean = pixel_mean(film, i);
     if (!mean.is_known || !std::isfinite(mean.by_blocks) || !std::isfinite(mean.luminance))
