@@ -354,9 +354,9 @@ class Sequence {
                           [](const std::string& path) { return extension_of(path) == "png"; });
     const std::string& path = paths[0];
     const Image image = read_image(path);
-    add_to_videos(image.width, image.height,
-                  display_bytes(path, source_of(image),
-                                is_displayed_format(path) ? WriteOptions{} : options_.output.how));
+    add_to_videos(
+        image.width, image.height,
+        display_bytes(path, source_of(image), is_displayed_format(path) ? WriteOptions{} : options_.output.how));
   }
 
   int write_videos_of_files() {
@@ -378,8 +378,8 @@ class Sequence {
     warnings_.show();
     if (plan_.images.empty()) finish_videos();  // else they are made when all frames are there
     tell("interrupted: {}\n", plan_.images.empty()
-                                   ? "the video has the frames so far; the same command begins again"
-                                   : "the frames that are finished are kept; the same command renders the others");
+                                  ? "the video has the frames so far; the same command begins again"
+                                  : "the frames that are finished are kept; the same command renders the others");
     return exit_interrupted;
   }
 
@@ -396,7 +396,7 @@ class Sequence {
   std::vector<Camera> cameras_;              ///< of plan_.frames; empty: each frame reads the scene
   std::unique_ptr<SceneRenderer> renderer_;  ///< if there are cameras; refers to settings_
   bool is_started_ = false, is_prepared_ = false;
-  bool fits_exposure_ = false;  ///< the first frame decides how all are displayed
+  bool fits_exposure_ = false;                ///< the first frame decides how all are displayed
   std::optional<DisplayStatistics> display_;  ///< by the first frame
   std::vector<std::unique_ptr<VideoWriter>> videos_;
   size_t frames_of_videos_ = 0;

@@ -10,6 +10,7 @@
 #include "study/cell_text.h"
 #include "study/compare.h"
 #include "study/json.h"
+#include "util/printable.h"
 
 namespace alhazen {
 
@@ -42,17 +43,17 @@ void print_json(const study::StudyComparison& c) {
 }
 
 void print_list(const study::StudyComparison& c) {
-  for (const std::string& difference : c.differences) print_out("different {}\n", difference);
+  for (const std::string& difference : c.differences) print_out("different {}\n", printable(difference));
   for (const study::Change& change : c.changes) {
     const double ratio = change.ratio();
-    print_out("{:<10} {:<28} {:<24} {:>9} {}, {} to {} ns", change.table, change.row, change.column,
-              fmt::format("{:.3f}x", ratio > 1 ? ratio : 1 / ratio), ratio > 1 ? "slower" : "faster",
-              study::short_number(change.a), study::short_number(change.b));
+    print_out("{:<10} {:<28} {:<24} {:>9} {}, {} to {} ns", printable(change.table), printable(change.row),
+              printable(change.column), fmt::format("{:.3f}x", ratio > 1 ? ratio : 1 / ratio),
+              ratio > 1 ? "slower" : "faster", study::short_number(change.a), study::short_number(change.b));
     if (change.a_speedup > 0 && change.b_speedup > 0)
       print_out("; speedup {} to {}", study::times_text(change.a_speedup), study::times_text(change.b_speedup));
-    print_out("{}\n", change.doubt.empty() ? "" : "; in doubt: " + change.doubt);
+    print_out("{}\n", change.doubt.empty() ? "" : "; in doubt: " + printable(change.doubt));
   }
-  for (const std::string& state : c.states) print_out("{}\n", state);
+  for (const std::string& state : c.states) print_out("{}\n", printable(state));
   print_out("{} of {} cells changed beyond noise; {} would by chance, at most\n", c.changes.size(), c.compared,
             c.by_chance);
 }

@@ -104,7 +104,9 @@ int run(TuneOptions& o) {
 void register_study_tune(Command& study, int& exit_code) {
   Command command = study.add_subcommand("tune", "Find the fastest engine for a scene on this machine");
   auto o = std::make_shared<TuneOptions>();
-  command.add_option("SCENE", o->scene, "Scene (.pbrt) or mesh (.ply), also as .gz").required().value_name("");
+  command.add_option("SCENE", o->scene, "Scene (.pbrt, .gltf, .glb, .xml) or model (.obj, .ply, .stl)")
+      .required()
+      .value_name("");
   command.add_option("--budget", o->budget, "Time to spend (60)").within(1.0, 1e6).value_name("SECONDS");
   command.add_flag("--store", o->store, "Store the result, for --backend auto and this scene");
   command.add_flag("--store-default", o->store_default, "Store it for every scene that has no entry of its own");

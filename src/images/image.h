@@ -107,8 +107,8 @@ inline constexpr int max_jpeg_side = 65500;
 /// `path` if one is missing or the image has no pixels.
 std::array<size_t, 3> rgb_channels(const std::string& path, const ImageSource& source);
 
-/// Reads EXR (all channels of its parts that have the size of its image, unchanged) and the formats of read_texture (as R, G, B; files of up to 16
-/// bits are decoded to linear). Throws InputError.
+/// Reads EXR (all channels of its parts that have the size of its image, unchanged) and the formats of read_texture (as
+/// R, G, B; files of up to 16 bits are decoded to linear). Throws InputError.
 Image read_image(const InputPath& path);
 
 /// The extension of a path in lower case, without the dot.

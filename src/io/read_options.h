@@ -16,9 +16,9 @@ namespace alhazen {
 /// given.
 struct ReadOptions {
   std::string camera;
-  std::string variant;                   ///< of KHR_materials_variants; empty: the materials without the extension
-  std::string animation;                 ///< empty: the first; used only if `time` is given
-  std::optional<double> time;            ///< seconds, when the shutter opens; absent: no animation is applied
+  std::string variant;                        ///< of KHR_materials_variants; empty: the materials without the extension
+  std::string animation;                      ///< empty: the first; used only if `time` is given
+  std::optional<double> time;                 ///< seconds, when the shutter opens; absent: no animation is applied
   std::vector<std::string> definitions = {};  ///< Mitsuba: NAME=VALUE for $NAME
   /// Aspect ratio (width over height) of the requested image, used if the file has no camera; 0: none is requested.
   double aspect = 0;

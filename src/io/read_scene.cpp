@@ -59,11 +59,15 @@ std::string format_of(const InputPath& input) {
 namespace {
 
 /// A mesh or an OBJ file, with a camera and light.
-Scene read_model(const std::string& format, const InputPath& input, const std::string& path, double aspect,
+Scene read_model(const std::string& format, const InputPath& input, const std::string& path, const ReadOptions& options,
                  Diagnostics& diagnostics) {
-  if (format == "obj") return read_obj_model(input, aspect, diagnostics);
+  if (format == "obj") return read_obj_model(input, options.aspect, diagnostics, options.search);
   Mesh mesh = format == "stl" ? read_stl(input, diagnostics) : read_ply(input, diagnostics, PlyColours::displayed);
-  return model_of(std::move(mesh), path, aspect);
+  return model_of(std::move(mesh), path, options.aspect);
+}
+
+void refuse_definitions(const std::string& path, const ReadOptions& options) {
+  if (!options.definitions.empty()) throw InputError({path}, "parameters can be defined (-D) for Mitsuba scenes only");
 }
 
 Scene read_by_format(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
@@ -76,8 +80,7 @@ Scene read_by_format(const std::string& path, const ReadOptions& options, Diagno
     throw InputError("the time of the animation must be a finite number of seconds");
   if (options.shutter_seconds && !(*options.shutter_seconds >= 0 && std::isfinite(*options.shutter_seconds)))
     throw InputError("the time that the shutter is open must be 0 or more seconds");
-  if (format != "xml" && !options.definitions.empty())
-    throw InputError({path}, "parameters can be defined (-D) for Mitsuba scenes only");
+  if (format != "xml") refuse_definitions(path, options);
   if (format == "gltf") return read_gltf(input, options, diagnostics);
   if (!options.is_default())
     throw InputError({path}, "cameras, variants and animations can be chosen for glTF files only");
@@ -85,7 +88,7 @@ Scene read_by_format(const std::string& path, const ReadOptions& options, Diagno
                     ? parse_pbrt(standard_input(), "standard input", input.scope, diagnostics, options.search)
                 : format == "pbrt" ? read_pbrt(input, diagnostics, options.search)
                 : format == "xml"  ? read_mitsuba(input, options, diagnostics)
-                                   : read_model(format, input, path, options.aspect, diagnostics);
+                                   : read_model(format, input, path, options, diagnostics);
   if (options.time || options.shutter_seconds) set_shutter(scene, options.time, options.shutter_seconds);
   return scene;
 }
@@ -132,7 +135,11 @@ bool offers_choices(const std::string& path, const ReadOptions& options) {
 
 SceneListing list_scene(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
   const InputPath input = path_beside(path, path, options.confine);
-  if (path != standard_input_name && format_of(input) == "gltf") return list_gltf(input, diagnostics, options.search);
+  if (path != standard_input_name && format_of(input) == "gltf") {
+    check_search_folders(options.search, input.scope);
+    refuse_definitions(path, options);
+    return list_gltf(input, diagnostics, options.search);
+  }
   ReadOptions only_read;
   only_read.confine = options.confine;
   only_read.search = options.search;

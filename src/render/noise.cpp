@@ -179,12 +179,11 @@ double exposure_of(const FilmView<Real>& film, int width, int height, ExposureRu
   ExposureMeter meter(width, height, true);
   size_t i = 0;
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x, ++i)
-      {
-        const double coverage = static_cast<double>(film.coverage(i));
-        const Vec3d radiance = convert<double>(film.radiance_sum(i).mean());
-        meter.add(x, y, has_alpha && coverage > 0 ? radiance / coverage : radiance, coverage);
-      }
+    for (int x = 0; x < width; ++x, ++i) {
+      const double coverage = static_cast<double>(film.coverage(i));
+      const Vec3d radiance = convert<double>(film.radiance_sum(i).mean());
+      meter.add(x, y, has_alpha && coverage > 0 ? radiance / coverage : radiance, coverage);
+    }
   return meter.exposure(rule);
 }
 
@@ -288,6 +287,21 @@ void NoiseEstimate<Real>::measure_pixels(const RenderSettings& settings) {
     errors_[i] = finite_square(error);
     const double of_halves = error * (mean.by_halves / mean.by_blocks);
     of_halves_[i] = of_halves < 1e30 ? static_cast<float>(of_halves) : errors_[i];
+  }
+  if (settings.has_alpha) measure_alpha();
+}
+
+/// Colours alone would finish the edges of what is dark before their alpha is known. Its variance is at most that of
+/// independent samples that are either covered or not.
+template <class Real>
+void NoiseEstimate<Real>::measure_alpha() {
+  const FilmView<Real> film = film_.view();
+  for (size_t i = 0; i < errors_.size(); ++i) {
+    if (film.samples[i] == 0) continue;
+    const float alpha = std::clamp(static_cast<float>(film.coverage(i)), 0.0f, 1.0f);
+    const float error = alpha * (1 - alpha) / static_cast<float>(film.samples[i]);
+    errors_[i] = std::max(errors_[i], error);
+    of_halves_[i] = std::max(of_halves_[i], error);
   }
 }
 

@@ -52,6 +52,7 @@ class NoiseEstimate {
 
  private:
   void measure_pixels(const RenderSettings& settings);
+  void measure_alpha();
   void join_neighbours();
 
   const Film<Real>& film_;

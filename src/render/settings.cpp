@@ -196,7 +196,8 @@ void resolve_background(const Settings& asked, RenderSettings& s) {
     throw InputError("transparent glass needs the integrator 'path', and this is '" + to_string(s.integrator) +
                      "': leave out --transparent-glass, or give --integrator path");
   if (asked.transparent_glass && s.guiding != GuidingMode::off)
-    throw InputError("transparent glass cannot be combined with path guiding: leave out --transparent-glass or --guiding");
+    throw InputError(
+        "transparent glass cannot be combined with path guiding: leave out --transparent-glass or --guiding");
 }
 
 /// Needs to know the layers and the denoiser.

@@ -71,8 +71,9 @@ TEST_F(LayerOptions, EveryCompressionKeepsTheImage) {
   for (const char* compression : {"none", "rle", "zips", "zip", "piz", "dwaa", "dwab"}) {
     SCOPED_TRACE(compression);
     for (const char* tiles : {"0", "16"}) {
-      ASSERT_EQ(ball({"-o", "a.exr", "--aov", "albedo", "--exr-compression", compression, "--exr-tiles", tiles}).exit_code,
-                0);
+      ASSERT_EQ(
+          ball({"-o", "a.exr", "--aov", "albedo", "--exr-compression", compression, "--exr-tiles", tiles}).exit_code,
+          0);
       const Image a = image("a.exr");
       ASSERT_EQ(a.channels, expected.channels);
       const bool loses = std::string(compression).starts_with("dwa");
@@ -85,7 +86,8 @@ TEST_F(LayerOptions, EveryCompressionKeepsTheImage) {
 
 TEST_F(LayerOptions, PartsHoldTheLayersAndTheirNames) {
   const std::vector<std::string> layers{"--aov", "depth,object,cryptomatte,normal", "--transparent-background"};
-  std::vector<std::string> whole{"-o", "whole.exr"}, parts{"-o", "parts.exr", "--exr-parts", "--exr-compression", "dwaa"};
+  std::vector<std::string> whole{"-o", "whole.exr"},
+      parts{"-o", "parts.exr", "--exr-parts", "--exr-compression", "dwaa"};
   whole.insert(whole.end(), layers.begin(), layers.end());
   parts.insert(parts.end(), layers.begin(), layers.end());
   ASSERT_EQ(ball(whole).exit_code, 0);
@@ -101,8 +103,7 @@ TEST_F(LayerOptions, PartsHoldTheLayersAndTheirNames) {
   const Imf::MultiPartInputFile file(folder_.file("parts.exr").c_str());
   std::vector<std::string> names;
   for (int i = 0; i < file.parts(); ++i) names.push_back(file.header(i).name());
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"rgba", "normal", "depth", "object", "CryptoObject", "CryptoMaterial"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"rgba", "normal", "depth", "object", "CryptoObject", "CryptoMaterial"}));
   const auto* objects = file.header(3).findTypedAttribute<Imf::StringAttribute>("object");
   ASSERT_NE(objects, nullptr);
   EXPECT_EQ(objects->value(), "{\"sphere.1\":1}");
@@ -136,7 +137,8 @@ TEST_F(LayerOptions, BadOnesAreErrorsAndIdleOnesWarnings) {
             std::string::npos);
   EXPECT_NE(error_of({"-o", "a.exr", "--transparent-glass", "--integrator", "iterative"}).find("needs the integrator"),
             std::string::npos);
-  EXPECT_NE(error_of({"-o", "a.exr", "--transparent-glass", "--guiding", "on"}).find("path guiding"), std::string::npos);
+  EXPECT_NE(error_of({"-o", "a.exr", "--transparent-glass", "--guiding", "on"}).find("path guiding"),
+            std::string::npos);
   EXPECT_FALSE(exists("a.exr"));
   const CommandResult idle =
       ball({"-o", "a.png", "--exr-tiles", "16", "--exr-parts", "--exr-compression", "piz", "--transparent-glass"});

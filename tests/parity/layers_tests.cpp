@@ -177,6 +177,18 @@ TEST(Alpha, StaysBetween0And1WithNegativeFilterWeights) {
   }
 }
 
+TEST(Alpha, IsKnownWhereANoiseTargetFinishesPixels) {
+  // A black surface has no noise but that of its edge.
+  Settings settings = transparent();
+  settings.aovs = {"samples"};
+  settings.samples_per_pixel = 1024;
+  settings.noise = 0.05;
+  const std::string black = "Material \"diffuse\" \"rgb reflectance\" [ 0 0 0 ]\n";
+  const Outcome outcome = render_bits(seen(black + rectangle(-0.4375, 1, -1, 1)), settings);
+  EXPECT_GE(plane(outcome, "samples.Y")[8 * 16 + 4], 64);  // half covered
+  EXPECT_NEAR(plane(outcome, "A")[8 * 16 + 4], 0.5, 0.1);
+}
+
 TEST(Alpha, HasTheSameBitsOnEveryEngine) {
   for (const char* name : {"materials", "environments"}) {
     SCOPED_TRACE(name);

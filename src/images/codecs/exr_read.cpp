@@ -166,9 +166,8 @@ void read_other_parts(const std::string& path, Imf::MultiPartInputFile& file, in
     if (header.dataWindow() != file.header(image_part).dataWindow()) continue;
     std::vector<ExrChannel> channels = channels_of(header);
     check_header(path, header, channels.size(), file_size);
-    std::erase_if(channels, [&](const ExrChannel& channel) {
-      return image.channel(layered_name(header, channel.name)) >= 0;
-    });
+    std::erase_if(channels,
+                  [&](const ExrChannel& channel) { return image.channel(layered_name(header, channel.name)) >= 0; });
     for (const ExrChannel& channel : channels) image.channels.push_back(layered_name(header, channel.name));
     read_part(file, number, channels, image);
   }

@@ -6,7 +6,7 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// Bytes of a buffer without data; a file of a few bytes must not take all memory.
+/// Bytes of all buffers without data; a file of a few bytes must not take all memory.
 constexpr uint64_t max_zero_bytes = uint64_t{1} << 28;
 
 }  // namespace
@@ -20,6 +20,18 @@ bool Buffers::has_no_data(uint32_t view) const {
   return is_without_data(document_.required_index(document_.item("bufferViews", view), "buffer", "buffers"));
 }
 
+/// The bytes of a buffer without data.
+std::span<const uint8_t> Buffers::zeros(uint32_t index, const Json& description, uint64_t length) {
+  if (const auto entry = buffers_.find(index); entry != buffers_.end()) return entry->second;
+  if (length > max_zero_bytes - zero_bytes_)
+    document_.fail(description, "the buffer of " + std::to_string(length) + " bytes has no data: it needs a \"uri\"");
+  zero_bytes_ += length;
+  document_.warn(description,
+                 "the buffer has no data, neither a \"uri\" nor the binary chunk of a .glb file: its "
+                 "bytes are read as 0, and what is made of them is not seen");
+  return buffers_.try_emplace(index, static_cast<size_t>(length)).first->second;
+}
+
 std::span<const uint8_t> Buffers::buffer(uint32_t index) {
   const Json& description = document_.item("buffers", index);
   const uint64_t length = document_.required_whole(description, "byteLength");
@@ -30,12 +42,7 @@ std::span<const uint8_t> Buffers::buffer(uint32_t index) {
     if (entry == buffers_.end()) entry = buffers_.emplace(index, load_uri(document_, *uri).bytes).first;
     bytes = entry->second;
   } else if (is_without_data(index)) {
-    if (length > max_zero_bytes)
-      document_.fail(description, "the buffer of " + std::to_string(length) + " bytes has no data: it needs a \"uri\"");
-    document_.warn(description,
-                   "the buffer has no data, neither a \"uri\" nor the binary chunk of a .glb file: its "
-                   "bytes are read as 0, and what is made of them is not seen");
-    bytes = buffers_.try_emplace(index, static_cast<size_t>(length)).first->second;
+    bytes = zeros(index, description, length);
   } else if (document_.binary_chunk()) {
     bytes = *document_.binary_chunk();
   } else {

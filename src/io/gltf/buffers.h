@@ -27,11 +27,13 @@ class Buffers {
  private:
   std::span<const uint8_t> buffer(uint32_t index);
   bool is_without_data(uint32_t index) const;
+  std::span<const uint8_t> zeros(uint32_t index, const Json& description, uint64_t length);
   std::span<const uint8_t> range(const Json& object);
   BufferView decompress(const Json& compression);
 
   const Document& document_;
   std::map<uint32_t, std::vector<uint8_t>> buffers_;
+  uint64_t zero_bytes_ = 0;  ///< of all buffers without data so far
   std::map<uint32_t, BufferView> views_;
   std::map<uint32_t, std::vector<uint8_t>> decompressed_;
 };

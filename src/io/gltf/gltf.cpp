@@ -245,7 +245,8 @@ class SceneReader {
     return placement.motion.is_moving() || (!placement.key.empty() && moving_.contains(placement.key));
   }
 
-  /// Light does not reach the front of a one-sided surface in a moving instance, so it gets both sides there.
+  /// A moving mesh is an object, whose backs are not opened to light (compile/open_backs.h): what the camera sees
+  /// through them would be black. So it gets both sides.
   uint32_t two_sided(uint32_t material, const Json& where) {
     if (material == no_index || scene_.materials[material].double_sided) return material;
     document_.warn(where,

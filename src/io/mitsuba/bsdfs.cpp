@@ -226,16 +226,24 @@ ReadBsdf read_two_sided(Build& build, ObjectReader& reader) {
   return nested[0];
 }
 
-/// A copy of a material, of a mix with copies of what it mixes, after `change`.
+/// A copy of a material, of a mix with copies of what it mixes, after `change`. `copies` has those made so far, by the
+/// material, as mixes may share parts.
 template <class Change>
-uint32_t changed(Build& build, uint32_t index, const Change& change) {
+uint32_t changed(Build& build, uint32_t index, const Change& change, std::map<uint32_t, uint32_t>& copies) {
+  if (const auto copy = copies.find(index); copy != copies.end()) return copy->second;
   Material material = build.scene.materials[index];
   if (material.kind == MaterialKind::mix)
-    for (uint32_t& part : material.mixed) part = changed(build, part, change);
+    for (uint32_t& part : material.mixed) part = changed(build, part, change, copies);
   else
     change(material);
   build.scene.materials.push_back(std::move(material));
-  return static_cast<uint32_t>(build.scene.materials.size() - 1);
+  return copies[index] = static_cast<uint32_t>(build.scene.materials.size() - 1);
+}
+
+template <class Change>
+uint32_t changed(Build& build, uint32_t index, const Change& change) {
+  std::map<uint32_t, uint32_t> copies;
+  return changed(build, index, change, copies);
 }
 
 /// `bsdf` where a random number is below `opacity`, and nothing elsewhere.
@@ -255,21 +263,56 @@ ReadBsdf read_mask(Build& build, ObjectReader& reader) {
   return masked(build, nested, scalar_texture(build, reader, "opacity", 0.5));
 }
 
+/// The texture `a` where `weight` is 0, and `b` where it is 1.
+uint32_t blended(Build& build, uint32_t a, uint32_t b, uint32_t weight) {
+  if (a == b) return a;
+  const std::optional<Vec3d> x = constant_value(build, a), y = constant_value(build, b),
+                             w = constant_value(build, weight);
+  if (x && y && w) return build.constant_texture(lerp(*x, *y, std::clamp(w->x, 0.0, 1.0)));
+  Texture texture;
+  texture.kind = TextureKind::mix;
+  texture.inputs = {a, b, weight};
+  return build.add_texture(texture);
+}
+
+uint32_t alpha_of(Build& build, const ReadBsdf& bsdf) {
+  const uint32_t alpha = build.scene.materials[bsdf.material].alpha;
+  return alpha == no_index ? build.constant_texture(white) : alpha;
+}
+
+/// The opacity of a mix counts, not those of its parts: it is that of both, and of the light that is stopped each part
+/// has the fraction that it stops.
+void blend_opacities(Build& build, ObjectReader& reader, const std::vector<ReadBsdf>& parts, Material& mix) {
+  const uint32_t a = alpha_of(build, parts[0]), b = alpha_of(build, parts[1]), weight = mix.amount;
+  const std::optional<Vec3d> x = constant_value(build, a), y = constant_value(build, b),
+                             w = constant_value(build, weight);
+  if (x == std::optional<Vec3d>(white) && x == y) return;
+  mix.alpha = blended(build, a, b, weight);
+  if (a == b) return;
+  if (!x || !y || !w) {
+    build.warn(reader.place(),
+               "the BSDFs of a 'blendbsdf' differ in their opacity ('mask'), and that or 'weight' is a texture: the "
+               "surface is as opaque as in Mitsuba, but what it reflects is mixed by 'weight' alone");
+    return;
+  }
+  const double opacity = constant_value(build, mix.alpha)->x;
+  if (opacity > 0) mix.amount = build.constant_texture(splat(std::clamp(w->x, 0.0, 1.0) * y->x / opacity));
+}
+
 ReadBsdf read_blend(Build& build, ObjectReader& reader) {
   const std::vector<ReadBsdf> nested = nested_bsdfs(build, reader, 2, 2);
   if (!reader.has("weight")) fail(reader.place(), reader.name() + " needs its 'weight'");
   const uint32_t weight = scalar_texture(build, reader, "weight", 0.5);
   if (nested[0].material == no_index) return masked(build, nested[1], weight);
   if (nested[1].material == no_index) {
-    Texture rest;
-    rest.kind = TextureKind::mix;
-    rest.inputs = {build.constant_texture(white), build.constant_texture({}), weight};
-    return masked(build, nested[0], build.add_texture(rest));
+    const uint32_t all = build.constant_texture(white), nothing = build.constant_texture({});
+    return masked(build, nested[0], blended(build, all, nothing, weight));
   }
   Material material;
   material.kind = MaterialKind::mix;
   material.amount = weight;
   material.mixed = {nested[0].material, nested[1].material};
+  blend_opacities(build, reader, nested, material);
   return add_material(build, reader, material, nested[0].is_black_behind || nested[1].is_black_behind);
 }
 

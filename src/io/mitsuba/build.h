@@ -31,11 +31,13 @@ struct Build {
   std::map<uint32_t, ReadBsdf> bsdfs;                              ///< by object
   std::map<std::pair<uint32_t, bool>, uint32_t> textures;          ///< by object and whether it is a scalar
   std::map<uint32_t, uint32_t> groups;                             ///< by object, a shape group
+  std::map<uint32_t, uint64_t> merged_shapes;                      ///< by object, a merge: how many shapes it makes
   std::map<std::tuple<std::string, bool, bool>, uint32_t> images;  ///< by file, whether it is raw and a scalar
   std::map<std::string, uint32_t> meshes;                          ///< by file and how it is read
   std::map<std::array<double, 3>, uint32_t> constants;
   uint32_t default_material = no_index;
   bool has_warned_of_backs = false;
+  uint64_t shape_count = 0;  ///< of the scene and its groups, with those of merges
 
   void warn(const Place& place, const std::string& message) { diagnostics.warn(place.location(), message); }
 

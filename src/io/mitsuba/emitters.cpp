@@ -54,8 +54,8 @@ bool read_directional(Build& build, ObjectReader& reader, Light& light) {
 /// The image that a spot light projects as it falls on a square about its axis, out to the angle of its cone: with as
 /// many rows as columns, and with the falloff between `falloff_start` and `cone_angle`, linear in the angle.
 ImageTexels spot_image(const ImageTexels& image, const Light& light) {
-  constexpr int least = 512;  // for a round edge
-  const int side = std::max({image.width, image.height, least});
+  constexpr int least = 512, most = 4096;  // for a round edge; a long narrow image must not become a huge square
+  const int side = std::min(std::max({image.width, image.height, least}), most);
   ImageTexels spot;
   spot.width = spot.height = side;
   spot.srgb = false;

@@ -42,20 +42,33 @@ void add_smooth_normals(Mesh& mesh, const std::vector<uint32_t>& points) {
   }
 }
 
-std::vector<std::pair<Mesh, std::vector<uint32_t>>> read_file(Build& build, ObjectReader& reader,
-                                                              const InputPath& path) {
-  std::vector<std::pair<Mesh, std::vector<uint32_t>>> meshes;
-  if (reader.object().type == "obj") {
+/// A mesh as it is in a file.
+struct FileMesh {
+  Mesh mesh;
+  std::vector<uint32_t> points;   ///< which vertices are one point; empty: each is its own
+  bool has_face_normals = false;  ///< the file says that it is flat
+};
+
+std::vector<FileMesh> read_file(Build& build, const std::string& type, const InputPath& path, uint64_t index) {
+  std::vector<FileMesh> meshes;
+  if (type == "obj") {
     for (obj::Part& part : obj::read_obj(path, obj::Division::none, build.diagnostics).parts)
-      meshes.emplace_back(std::move(part.mesh), std::move(part.points));
-  } else if (reader.object().type == "ply") {
-    meshes.emplace_back(read_ply(path, build.diagnostics, PlyColours::linear), std::vector<uint32_t>{});
+      meshes.push_back({std::move(part.mesh), std::move(part.points)});
+  } else if (type == "ply") {
+    meshes.push_back({read_ply(path, build.diagnostics, PlyColours::linear), {}});
   } else {
-    const int64_t index = reader.integer("shape_index", 0);
-    if (index < 0) fail(reader.place_of("shape_index"), "'shape_index' must not be negative");
-    meshes.emplace_back(read_serialized(path, static_cast<uint64_t>(index)), std::vector<uint32_t>{});
+    SerializedMesh serialized = read_serialized(path, index);
+    meshes.push_back({std::move(serialized.mesh), {}, serialized.has_face_normals});
   }
   return meshes;
+}
+
+/// Which mesh of the file is meant; only files of type serialized have several.
+uint64_t read_shape_index(ObjectReader& reader) {
+  if (reader.object().type != "serialized") return 0;
+  const int64_t index = reader.integer("shape_index", 0);
+  if (index < 0) fail(reader.place_of("shape_index"), "'shape_index' must not be negative");
+  return static_cast<uint64_t>(index);
 }
 
 /// A mesh that is made only once.
@@ -74,10 +87,17 @@ uint32_t shared(Build& build, const std::string& key, const Make& make) {
 std::vector<ReadMesh> read_mesh_file(Build& build, ObjectReader& reader) {
   if (!reader.has("filename")) fail(reader.place(), reader.name() + " needs <string name=\"filename\" value=\"...\"/>");
   const InputPath path = build.document.existing_file(reader.place_of("filename"), reader.text("filename", ""));
-  const bool is_flat = reader.boolean("face_normals", false);
-  const bool flips_uvs = reader.boolean("flip_tex_coords", reader.object().type == "obj");
-  const std::string key = reader.object().type + (is_flat ? " flat" : " smooth") + (flips_uvs ? " flipped " : " ") +
-                          std::to_string(reader.integer("shape_index", 0)) + " " + path.name + " ";
+  const std::string& type = reader.object().type;
+  // Only where the scene says nothing does the file count.
+  const bool file_decides = type == "serialized" && !reader.has("face_normals");
+  const bool wants_flat = reader.boolean("face_normals", false);
+  const bool flips_uvs = reader.boolean("flip_tex_coords", type == "obj");
+  const uint64_t shape_index = read_shape_index(reader);
+  const std::string key = type +
+                          (file_decides ? " as stored"
+                           : wants_flat ? " flat"
+                                        : " smooth") +
+                          (flips_uvs ? " flipped " : " ") + std::to_string(shape_index) + " " + path.name + " ";
   std::vector<ReadMesh> read;
   for (size_t i = 0;; ++i) {
     const auto own = build.meshes.find(key + std::to_string(i) + " own");
@@ -87,10 +107,11 @@ std::vector<ReadMesh> read_mesh_file(Build& build, ObjectReader& reader) {
   }
   if (!read.empty()) return read;
   build.diagnostics.activity().begin("reading meshes", build.scene.meshes.size() + 1);
-  for (auto& [mesh, points] : read_file(build, reader, path)) {
+  for (auto& [mesh, points, has_face_normals] : read_file(build, type, path, shape_index)) {
     if (mesh.indices.empty()) continue;
     if (flips_uvs)
       for (Vec2f& uv : mesh.uvs) uv.y = 1 - uv.y;
+    const bool is_flat = file_decides ? has_face_normals : wants_flat;
     if (is_flat) mesh.normals = {};
     const bool is_own = !mesh.normals.empty();
     if (!is_own && !is_flat) add_smooth_normals(mesh, points);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "io/mitsuba/textures.h"
+#include "util/quoted.h"
 
 namespace alhazen::mitsuba {
 
@@ -15,16 +16,26 @@ std::optional<double> constant_number(const Build& build, uint32_t texture) {
   return value->x;
 }
 
+/// A parameter from 0 to `max`. Throws if it is a constant that is not; textures are not looked through.
+uint32_t limited_scalar(Build& build, ObjectReader& reader, const char* name, double fallback, int max = 1) {
+  const uint32_t texture = scalar_texture(build, reader, name, fallback);
+  const std::optional<double> constant = constant_number(build, texture);
+  constexpr double rounding = 1e-9;  // of the luminance of a colour
+  if (constant && !(*constant >= 0 && *constant <= max + rounding))
+    fail(reader.place_of(name), quoted(std::string_view(name)) + " must be from 0 to " + std::to_string(max));
+  return texture;
+}
+
 /// The texture of a parameter that is 0 without it; no_index if it is 0 everywhere.
-uint32_t optional_scalar(Build& build, ObjectReader& reader, const char* name) {
-  const uint32_t texture = scalar_texture(build, reader, name, 0);
+uint32_t optional_scalar(Build& build, ObjectReader& reader, const char* name, int max = 1) {
+  const uint32_t texture = limited_scalar(build, reader, name, 0, max);
   return constant_number(build, texture) == 0.0 ? no_index : texture;
 }
 
 /// Here the lobe has alpha across the tangent, and lerp(alpha, 1, a^2) along it; there alpha / aspect along and alpha *
 /// aspect across, with aspect^2 = 1 - 0.9 a.
 void read_roughness(Build& build, ObjectReader& reader, Principled& principled) {
-  principled.roughness = scalar_texture(build, reader, "roughness", 0.5);
+  principled.roughness = limited_scalar(build, reader, "roughness", 0.5);
   const uint32_t anisotropic = optional_scalar(build, reader, "anisotropic");
   if (anisotropic == no_index) return;
   const std::optional<double> roughness = constant_number(build, principled.roughness);
@@ -44,7 +55,7 @@ void read_roughness(Build& build, ObjectReader& reader, Principled& principled) 
 
 /// (1, 1, 1) at an amount of 0, the base colour scaled to luminance 1 at 1.
 Vec3d tint(Build& build, ObjectReader& reader, const char* name, uint32_t base) {
-  const std::optional<double> amount = constant_number(build, scalar_texture(build, reader, name, 0));
+  const std::optional<double> amount = constant_number(build, limited_scalar(build, reader, name, 0));
   const std::optional<Vec3d> colour = constant_value(build, base);
   if (amount == 0.0) return {1, 1, 1};
   if (!amount || !colour) {
@@ -68,7 +79,7 @@ void read_sheen(Build& build, ObjectReader& reader, Principled& principled) {
 /// Its weight is a quarter there; its alpha is from 0.1 to 0.001, the more the glossier.
 void read_clearcoat(Build& build, ObjectReader& reader, Principled& principled) {
   const uint32_t clearcoat = optional_scalar(build, reader, "clearcoat");
-  const std::optional<double> gloss = constant_number(build, scalar_texture(build, reader, "clearcoat_gloss", 0));
+  const std::optional<double> gloss = constant_number(build, limited_scalar(build, reader, "clearcoat_gloss", 0));
   if (clearcoat == no_index) return;
   if (!gloss)
     build.warn(reader.place_of("clearcoat_gloss"), "a textured 'clearcoat_gloss' is not supported; 0.5 is used");
@@ -130,7 +141,7 @@ Material read_principled_thin(Build& build, ObjectReader& reader) {
   read_sheen(build, reader, principled);
   warn_of_flatness(build, reader);
   principled.transmission = optional_scalar(build, reader, "spec_trans");
-  const uint32_t through = optional_scalar(build, reader, "diff_trans");
+  const uint32_t through = optional_scalar(build, reader, "diff_trans", 2);
   if (through != no_index) {
     // From 0 to 2, of which 2 is all.
     principled.diffuse_transmission = product(build, through, build.constant_texture(splat(0.5)));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace alhazen::mitsuba {
@@ -99,7 +100,7 @@ void read_vertices(Inflater& data, uint64_t count, uint32_t flags, Mesh& mesh) {
       normals_are_sound = normals_are_sound && squared > 0 && std::isfinite(squared);
       mesh.normals.push_back(normal);
     });
-  if (!normals_are_sound || (flags & is_flat) != 0) mesh.normals = {};
+  if (!normals_are_sound) mesh.normals = {};
   bool uvs_are_sound = true;
   if ((flags & has_uvs) != 0)
     read_rows<2>(data, count, doubles, [&](const double* v) {
@@ -129,7 +130,7 @@ uint64_t offset_of(std::span<const uint8_t> bytes, uint64_t index, uint64_t vers
 
 }  // namespace
 
-Mesh read_serialized(const InputPath& path, uint64_t index) {
+SerializedMesh read_serialized(const InputPath& path, uint64_t index) {
   const std::vector<uint8_t> bytes = InputFile(path).read_all();
   const std::string& name = path.name;
   constexpr uint64_t magic = 0x041c;
@@ -159,7 +160,7 @@ Mesh read_serialized(const InputPath& path, uint64_t index) {
                           std::to_string(vertices));
       mesh.indices.push_back(vertex);
     }
-  return mesh;
+  return {std::move(mesh), (flags & is_flat) != 0};
 }
 
 }  // namespace alhazen::mitsuba

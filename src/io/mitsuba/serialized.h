@@ -7,8 +7,13 @@
 
 namespace alhazen::mitsuba {
 
+struct SerializedMesh {
+  Mesh mesh;
+  bool has_face_normals = false;  ///< it is flat, unless the scene says otherwise
+};
+
 /// Reads mesh `index` of the file. Throws InputError with the file: another version, truncated or damaged data, an
 /// index out of range.
-Mesh read_serialized(const InputPath& path, uint64_t index);
+SerializedMesh read_serialized(const InputPath& path, uint64_t index);
 
 }  // namespace alhazen::mitsuba

@@ -25,6 +25,8 @@ struct ShapeRequest {
   bool emits = false;
 };
 
+constexpr uint64_t max_shapes = 10'000'000;
+
 MovingTransform at_rest(const Transform& transform) { return {transform, transform}; }
 
 Shape& add(ShapeRequest& request, const Transform& world_from_object) {
@@ -153,7 +155,27 @@ void warn_of_media(Build& build, ObjectReader& reader) {
     build.warn(medium->place, "participating media are not supported; they are omitted");
 }
 
+/// How many shapes an object makes, itself included, in steps of the reader: merges may name others twice each.
+uint64_t shapes_made(Build& build, uint32_t object) {
+  if (build.document.objects[object].type != "merge") return 1;
+  const auto [entry, is_new] = build.merged_shapes.try_emplace(object, 1u);
+  if (!is_new) return entry->second;
+  for (const Property& property : build.document.objects[object].properties)
+    if (property.kind == ValueKind::object && build.object(property).tag == "shape")
+      entry->second = std::min(entry->second + shapes_made(build, property.object), max_shapes + 1);
+  return entry->second;
+}
+
 void add_to_group(Build& build, uint32_t object, uint32_t group);
+
+/// Adds a shape of the scene or of a group of shapes, unless there are too many.
+void add_limited(Build& build, const Property& property, uint32_t group) {
+  build.shape_count += shapes_made(build, property.object);
+  if (build.shape_count > max_shapes)
+    fail(property.place,
+         "the scene has over 10 million shapes, as shapes of type 'merge' repeat others: use instances");
+  add_to_group(build, property.object, group);
+}
 
 /// The group of an instance, whose shapes are read when the first instance names it.
 uint32_t group_of(Build& build, uint32_t object) {
@@ -163,7 +185,7 @@ uint32_t group_of(Build& build, uint32_t object) {
   const auto group = static_cast<uint32_t>(build.scene.groups.size());
   entry->second = group;
   build.scene.groups.emplace_back().name = reader.object().id;
-  for (const Property* shape : reader.objects("shape")) add_to_group(build, shape->object, group);
+  for (const Property* shape : reader.objects("shape")) add_limited(build, *shape, group);
   reader.reject_unknown();
   return group;
 }
@@ -241,7 +263,7 @@ void add_to_group(Build& build, uint32_t object, uint32_t group) {
 
 }  // namespace
 
-void add_shape(Build& build, const Property& property) { add_to_group(build, property.object, 0); }
+void add_shape(Build& build, const Property& property) { add_limited(build, property, 0); }
 
 void tessellate_for_instances(Build& build) {
   for (const Instance& instance : build.scene.instances) {

@@ -1,7 +1,9 @@
 #include "io/obj/lines.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <set>
 
 #include "util/parse_numbers.h"
 #include "util/quoted.h"
@@ -12,6 +14,16 @@ namespace {
 
 constexpr size_t max_line_bytes = size_t{1} << 26;
 constexpr size_t chunk_bytes = size_t{1} << 18;
+
+/// Whether the arguments of a statement are names: of objects, materials or files.
+bool takes_names(std::string_view statement) {
+  std::string lower(statement);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  static const std::set<std::string_view> others{"o",      "g",    "usemtl", "mtllib", "usemap", "maplib",
+                                                 "newmtl", "bump", "norm",   "disp",   "decal",  "refl"};
+  return lower.starts_with("map_") || others.contains(lower);
+}
 
 }  // namespace
 
@@ -46,7 +58,6 @@ bool Lines::read_line() {
 }
 
 bool Lines::next() {
-  constexpr std::string_view blanks = " \t\v\f";
   while (true) {
     line_.clear();
     number_ = lines_read_ + 1;
@@ -55,15 +66,24 @@ bool Lines::next() {
       line_.back() = ' ';
       if (!read_line()) break;
     }
-    line_.resize(std::min(line_.find('#'), line_.size()));
-    words_.clear();
-    const std::string_view line = line_;
-    for (size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;) {
-      const size_t end = std::min(line.find_first_of(blanks, begin), line.size());
-      words_.push_back({line.substr(begin, end - begin), static_cast<int>(begin) + 1});
-      begin = line.find_first_not_of(blanks, end);
-    }
+    split_line();
     if (!words_.empty()) return true;
+  }
+}
+
+/// Finds the words of `line_`, and cuts a comment off it.
+void Lines::split_line() {
+  constexpr std::string_view blanks = " \t\v\f";
+  words_.clear();
+  const std::string_view line = line_;
+  for (size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;) {
+    if (line[begin] == '#' && (words_.empty() || !takes_names(words_[0].text))) {
+      line_.resize(begin);  // shorter, so that the words remain valid
+      return;
+    }
+    const size_t end = std::min(line.find_first_of(blanks, begin), line.size());
+    words_.push_back({line.substr(begin, end - begin), static_cast<int>(begin) + 1});
+    begin = line.find_first_not_of(blanks, end);
   }
 }
 

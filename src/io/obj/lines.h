@@ -16,7 +16,8 @@ struct Word {
   int column = 0;  ///< in bytes, from 1; of continued lines, as if they were one
 };
 
-/// Reads line by line. `#` begins a comment, and a backslash at the end of a line continues it.
+/// Reads line by line. A backslash at the end of a line continues it. `#` begins a comment at the start of a line, and
+/// also at that of a word where the arguments are numbers: names may have it, as `Material #25` of 3ds Max.
 class Lines {
  public:
   Lines(ByteSource& source, std::string name) : source_(source), name_(std::move(name)) {}
@@ -35,6 +36,7 @@ class Lines {
 
  private:
   bool read_line();
+  void split_line();
 
   ByteSource& source_;
   std::string name_, line_, buffer_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "images/read_scalar_texture.h"
@@ -18,11 +17,12 @@ constexpr Vec3d white{1, 1, 1};
 /// The perceptual roughness whose lobe is about as wide as Blinn and Phong's of that exponent: alpha^2 = 2 / (n + 2).
 double roughness_of(double exponent) { return std::pow(2 / (exponent + 2), 0.25); }
 
-/// Illumination models of glass, in which `d` and `Tf` say what passes.
+/// Illumination models of glass, in which `d` and `Tf` say what passes. Maya writes `illum 4`, `Tf 1 1 1` and `Ni 1`
+/// for every opaque material, so that `Tf` counts only with an index of refraction over 1.
 bool is_glass(const MtlMaterial& description) {
   const int model = description.illumination;
-  return (model == 4 || model == 6 || model == 7 || model == 9) &&
-         (description.opacity.value_or(1) < 1 || description.transmission_filter);
+  if (model != 4 && model != 6 && model != 7 && model != 9) return false;
+  return description.opacity.value_or(1) < 1 || (description.transmission_filter && description.ior.value_or(1) > 1);
 }
 
 }  // namespace
@@ -46,25 +46,35 @@ uint32_t Materials::product(uint32_t a, uint32_t b) {
   return add_node(texture);
 }
 
+uint32_t Materials::replace_missing(const Map& map, const InputPath& path, Texels texels) {
+  const std::string problem = "there is no image " + quoted(map.file) + " (looked for " + path.name + ")";
+  if (search_.strict) throw InputError(map.where, problem + search_hint(search_));
+  const bool is_colour = texels == Texels::colour;
+  const std::string instead = is_colour ? ": magenta is shown in its place" : ": the material is rendered without it";
+  diagnostics_.warn(map.where, problem + instead + search_hint(search_));
+  if (!is_colour) return no_index;
+  scene_.images.push_back(missing_image(map.file));
+  return static_cast<uint32_t>(scene_.images.size() - 1);
+}
+
+uint32_t Materials::load(const Map& map, const FoundFile& found, Texels texels) {
+  if (found.problem.is_missing) return replace_missing(map, found.path, texels);
+  if (!found.problem.message.empty())
+    throw InputError(map.where, "the image " + quoted(map.file) + " " + found.problem.message);
+  diagnostics_.activity().begin("reading textures", scene_.images.size() + 1);
+  ImageTexels image =
+      texels == Texels::scalar
+          ? read_scalar_texture(found.path, TextureEncoding::linear).texels
+          : read_texture(found.path, texels == Texels::data ? TextureEncoding::data : TextureEncoding::automatic);
+  scene_.images.push_back(std::move(image));
+  return static_cast<uint32_t>(scene_.images.size() - 1);
+}
+
 uint32_t Materials::image(const Map& map, Texels texels) {
   if (map.file.empty()) return no_index;
-  const InputPath path((std::filesystem::path(folder_) / map.file).string(), scope_);
-  const auto [entry, is_new] = images_.try_emplace({path.name, texels}, no_index);
-  if (is_new) {
-    const InputProblem problem = input_problem(path);
-    if (problem.is_missing) {
-      diagnostics_.warn(map.where, "there is no image " + quoted(map.file) + " (looked for " + path.name +
-                                       "); the material is rendered without it");
-      return no_index;
-    }
-    diagnostics_.activity().begin("reading textures", scene_.images.size() + 1);
-    ImageTexels image =
-        texels == Texels::scalar
-            ? read_scalar_texture(path, TextureEncoding::linear).texels
-            : read_texture(path, texels == Texels::data ? TextureEncoding::data : TextureEncoding::automatic);
-    entry->second = static_cast<uint32_t>(scene_.images.size());
-    scene_.images.push_back(std::move(image));
-  }
+  const FoundFile found = find_file(folder_, map.file, scope_, search_);
+  const auto [entry, is_new] = images_.try_emplace({found.path.name, texels}, no_index);
+  if (is_new) entry->second = load(map, found, texels);
   if (entry->second == no_index) return no_index;
   Texture texture;
   texture.kind = TextureKind::image;

@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "io/find_file.h"
 #include "io/obj/mtl.h"
 #include "scene/scene.h"
 
@@ -20,8 +21,12 @@ struct MaterialUse {
 /// Adds materials and their images to a scene.
 class Materials {
  public:
-  Materials(Scene& scene, std::string folder, InputScope scope, Diagnostics& diagnostics)
-      : scene_(scene), folder_(std::move(folder)), scope_(std::move(scope)), diagnostics_(diagnostics) {}
+  Materials(Scene& scene, std::string folder, InputScope scope, FileSearch search, Diagnostics& diagnostics)
+      : scene_(scene),
+        folder_(std::move(folder)),
+        scope_(std::move(scope)),
+        search_(std::move(search)),
+        diagnostics_(diagnostics) {}
 
   /// `has_vertex_colours`: they multiply the base colour.
   MaterialUse add(const MtlMaterial& description, bool has_vertex_colours);
@@ -32,7 +37,11 @@ class Materials {
   uint32_t add_node(Texture texture);
   uint32_t constant(const Vec3d& value);
   uint32_t product(uint32_t a, uint32_t b);
-  /// The texture of an image; no_index if it is absent or missing.
+  /// The number of an image that is not there: that of a magenta one for colours, else no_index.
+  uint32_t replace_missing(const Map& map, const InputPath& path, Texels texels);
+  /// The number of an image that is read for the first time, or of what replaces it.
+  uint32_t load(const Map& map, const FoundFile& found, Texels texels);
+  /// The texture of an image; no_index if there is none.
   uint32_t image(const Map& map, Texels texels);
   /// `value`, times the image if there is one.
   uint32_t with_image(const Vec3d& value, const Map& map, Texels texels);
@@ -43,6 +52,7 @@ class Materials {
   Scene& scene_;
   std::string folder_;
   InputScope scope_;
+  FileSearch search_;
   Diagnostics& diagnostics_;
   std::map<std::pair<std::string, Texels>, uint32_t> images_;
 };

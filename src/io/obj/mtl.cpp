@@ -60,11 +60,20 @@ class MtlReader {
       if (materials_.empty()) lines_.fail(0, "a statement before the first 'newmtl' belongs to no material");
       read_statement(keyword);
     }
+    end_material();
     return std::move(materials_);
   }
 
  private:
+  /// `d` counts before `Tr`, whatever their order.
+  void end_material() {
+    if (!materials_.empty() && !materials_.back().opacity && transparency_)
+      materials_.back().opacity = 1 - *transparency_;
+    transparency_.reset();
+  }
+
   void begin_material() {
+    end_material();
     MtlMaterial material;
     material.name = lines_.rest(1);
     material.where = lines_.place();
@@ -77,7 +86,7 @@ class MtlReader {
     if (const auto number = numbers.find(keyword); number != numbers.end())
       material.*number->second = read_number(keyword);
     else if (keyword == "tr")
-      material.opacity = 1 - lines_.number(1);
+      transparency_ = read_number(keyword);
     else if (const auto colour = colours.find(keyword); colour != colours.end())
       material.*colour->second = read_colour(keyword == "ke");
     else if (const auto map = maps.find(keyword); map != maps.end())
@@ -96,6 +105,8 @@ class MtlReader {
     // `d -halo 0.5` depends on the direction, which is not supported.
     const size_t at = keyword == "d" && lines_.words().size() > 2 && lines_.words()[1].text == "-halo" ? 2 : 1;
     const double value = lines_.number(at);
+    if ((keyword == "d" || keyword == "tr") && !(value >= 0 && value <= 1))
+      lines_.fail(at, quoted(lines_.words()[0].text) + " must be from 0 to 1");
     if (value < 0 && keyword != "anisor") lines_.fail(at, quoted(keyword) + " must not be negative");
     return value;
   }
@@ -152,6 +163,7 @@ class MtlReader {
   Lines& lines_;
   Diagnostics& diagnostics_;
   std::vector<MtlMaterial> materials_;
+  std::optional<double> transparency_;  ///< Tr of the last material
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ struct MtlMaterial {
   std::string name;
   SourceLocation where;
   std::optional<Vec3d> diffuse, specular, emission, transmission_filter;  ///< Kd, Ks, Ke, Tf
-  std::optional<double> exponent, ior, opacity;                           ///< Ns, Ni, d or 1 - Tr
+  std::optional<double> exponent, ior, opacity;                           ///< Ns, Ni, d (or else 1 - Tr)
   std::optional<double> roughness, metallic, sheen;                       ///< Pr, Pm, Ps
   std::optional<double> clearcoat, clearcoat_roughness;                   ///< Pc, Pcr
   std::optional<double> anisotropy, anisotropy_rotation;                  ///< aniso, anisor

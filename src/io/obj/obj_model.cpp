@@ -18,14 +18,15 @@ namespace {
 
 class ModelReader {
  public:
-  ModelReader(const InputPath& path, Diagnostics& diagnostics)
+  ModelReader(const InputPath& path, const FileSearch& search, Diagnostics& diagnostics)
       : folder_(std::filesystem::path(path.name).parent_path().string()),
         scope_(path.scope),
+        search_(search),
         diagnostics_(diagnostics) {}
 
   Scene run(File file, const std::string& name, double aspect) {
     for (const Library& library : file.libraries) read_library(library);
-    Materials materials(scene_, folder_, scope_, diagnostics_);
+    Materials materials(scene_, folder_, scope_, search_, diagnostics_);
     for (Part& part : file.parts) {
       if (part.mesh.indices.empty()) continue;
       Shape shape;
@@ -45,25 +46,27 @@ class ModelReader {
  private:
   /// The text is the name of one file, which may have blanks, or else of several.
   void read_library(const Library& library) {
-    if (read_materials(library.text)) return;
+    if (read_materials(library, library.text)) return;
     bool all = true;
     for (size_t begin = 0; begin < library.text.size();) {
       const size_t end = std::min(library.text.find_first_of(" \t", begin), library.text.size());
-      if (end > begin) all = read_materials(library.text.substr(begin, end - begin)) && all;
+      if (end > begin) all = read_materials(library, library.text.substr(begin, end - begin)) && all;
       begin = end + 1;
     }
     if (!all || library.text.empty())
       diagnostics_.warn(library.where, "the materials " + quoted(library.text) + " are not found (looked in " +
                                            quoted(folder_.empty() ? "." : folder_) +
-                                           "); without them surfaces are grey");
+                                           "); without them surfaces are grey" + search_hint(search_));
   }
 
-  bool read_materials(std::string name) {
+  bool read_materials(const Library& library, std::string name) {
     std::replace(name.begin(), name.end(), '\\', '/');
-    const InputPath path((std::filesystem::path(folder_) / name).string(), scope_);
-    const InputProblem problem = input_problem(path);
-    if (problem.is_missing || name.empty()) return false;
-    for (MtlMaterial& material : read_mtl(path, diagnostics_)) {
+    if (name.empty()) return false;
+    const FoundFile found = find_file(folder_, name, scope_, search_);
+    if (found.problem.is_missing) return false;
+    if (!found.problem.message.empty())
+      throw InputError(library.where, "the materials " + quoted(name) + " " + found.problem.message);
+    for (MtlMaterial& material : read_mtl(found.path, diagnostics_)) {
       const std::string key = material.name;
       descriptions_.emplace(key, std::move(material));
     }
@@ -84,6 +87,7 @@ class ModelReader {
 
   std::string folder_;
   InputScope scope_;
+  FileSearch search_;
   Diagnostics& diagnostics_;
   Scene scene_;
   std::map<std::string, MtlMaterial> descriptions_;
@@ -94,14 +98,14 @@ class ModelReader {
 
 }  // namespace obj
 
-Scene read_obj_model(const InputPath& path, double aspect, Diagnostics& diagnostics) {
-  return obj::ModelReader(path, diagnostics)
+Scene read_obj_model(const InputPath& path, double aspect, Diagnostics& diagnostics, const FileSearch& search) {
+  return obj::ModelReader(path, search, diagnostics)
       .run(obj::read_obj(path, obj::Division::named, diagnostics), path.name, aspect);
 }
 
 Scene parse_obj_model(std::string_view text, const std::string& name, Diagnostics& diagnostics) {
   MemorySource source(text);
-  return obj::ModelReader(name, diagnostics)
+  return obj::ModelReader(name, {}, diagnostics)
       .run(obj::parse_obj(source, name, obj::Division::named, diagnostics), name, 0);
 }
 

@@ -1,6 +1,8 @@
 // Mitsuba scenes that cannot be read: XML that is not well-formed, hostile texts, and objects and values that are
 // wrong, each with its location.
 
+#include <algorithm>
+
 #include "support/temporary_folder.h"
 #include "unit/io/mitsuba_support.h"
 
@@ -142,6 +144,72 @@ TEST_F(MitsubaErrors, OfReferences) {
             "s.xml:2:1: an instance takes one shape of type 'shapegroup', by <ref id=\"...\"/>");
 }
 
+/// Parts of a scene that name one another in a row, each before (or after) the one that names it.
+std::string tower(size_t count, bool from_below) {
+  std::vector<std::string> parts{"<bsdf type=\"diffuse\" id=\"b0\"/>\n"};
+  for (size_t i = 1; i < count; ++i)
+    parts.push_back("<bsdf type=\"twosided\" id=\"b" + std::to_string(i) + "\"><ref id=\"b" + std::to_string(i - 1) +
+                    "\"/></bsdf>\n");
+  parts.push_back("<shape type=\"sphere\"><ref id=\"b" + std::to_string(count - 1) + "\"/></shape>\n");
+  if (!from_below) std::reverse(parts.begin(), parts.end());
+  std::string text;
+  for (const std::string& part : parts) text += part;
+  return text;
+}
+
+TEST_F(MitsubaErrors, OfTowersOfReferencesInBothOrders) {
+  const std::string deep = "objects are nested over 128 deep, with those that references name; nest fewer";
+  for (const bool from_below : {true, false}) {
+    // The scene and the shape are parts of the tower.
+    EXPECT_EQ(content_error(tower(126, from_below)), "no error") << from_below;
+    EXPECT_NE(content_error(tower(127, from_below)).find(deep), std::string::npos) << from_below;
+    EXPECT_NE(content_error(tower(100000, from_below)).find(deep), std::string::npos) << from_below;
+  }
+}
+
+TEST_F(MitsubaErrors, OfDefaultsThatDouble) {
+  const auto doubled = [](int times) {
+    std::string text = "<default name=\"a0\" value=\"0123456789abcdef\"/>\n";
+    for (int i = 1; i <= times; ++i) {
+      const std::string before = "$a" + std::to_string(i - 1);
+      text += "<default name=\"a" + std::to_string(i) + "\" value=\"" + before + before + "\"/>\n";
+    }
+    return text;
+  };
+  EXPECT_EQ(content_error(doubled(9)), "no error");
+  EXPECT_EQ(content_error(doubled(60)),
+            "s.xml:19:1: with the values of its parameters ($NAME) an attribute has over 1 MiB; shorten the values");
+  std::string many = doubled(16);
+  for (int i = 0; i < 64; ++i) many += "<default name=\"c" + std::to_string(i) + "\" value=\"$a16\"/>\n";
+  EXPECT_EQ(content_error(many),
+            "s.xml:81:1: the attributes with parameters ($NAME) have over 64 MiB in all; use fewer or shorter values");
+}
+
+TEST_F(MitsubaErrors, OfMergesThatRepeat) {
+  std::string text = "<shape type=\"merge\" id=\"m0\"><shape type=\"cube\"/></shape>\n";
+  for (int i = 1; i < 60; ++i) {
+    const std::string ref = "<ref id=\"m" + std::to_string(i - 1) + "\"/>";
+    text += "<shape type=\"merge\" id=\"m" + std::to_string(i) + "\">" + ref + ref + "</shape>\n";
+  }
+  const std::string last = "<scene version=\"3.0.0\">\n<shape type=\"merge\"><ref id=\"m59\"/></shape>\n";
+  EXPECT_EQ(mitsuba_error(last + text + "</scene>"),
+            "s.xml:2:1: the scene has over 10 million shapes, as shapes of type 'merge' repeat others: use instances");
+}
+
+TEST_F(MitsubaErrors, OfPrincipledParameters) {
+  const auto error_of = [](const std::string& type, const std::string& name, const std::string& value) {
+    return content_error("<bsdf type=\"" + type + "\"><float name=\"" + name + "\" value=\"" + value + "\"/></bsdf>");
+  };
+  for (const char* name : {"roughness", "metallic", "spec_trans", "anisotropic", "clearcoat", "clearcoat_gloss",
+                           "sheen", "sheen_tint", "spec_tint", "flatness"}) {
+    EXPECT_EQ(error_of("principled", name, "1.5"), "s.xml:2:25: '" + std::string(name) + "' must be from 0 to 1");
+    EXPECT_EQ(error_of("principled", name, "1"), "no error") << name;
+    EXPECT_NE(error_of("principled", name, "-1"), "no error") << name;
+  }
+  EXPECT_EQ(error_of("principledthin", "diff_trans", "2"), "no error");
+  EXPECT_EQ(error_of("principledthin", "diff_trans", "2.5"), "s.xml:2:29: 'diff_trans' must be from 0 to 2");
+}
+
 TEST_F(MitsubaErrors, OfDefinitions) {
   const std::string text = with_sensor("<shape type=\"sphere\"><float name=\"radius\" value=\"$size\"/></shape>");
   EXPECT_EQ(mitsuba_error(text),
@@ -160,7 +228,17 @@ TEST_F(MitsubaErrors, OfFiles) {
   };
   EXPECT_EQ(error_of("<shape type=\"obj\"><string name=\"filename\" value=\"a.obj\"/></shape>"),
             "s.xml:2:19: there is no file \"a.obj\" (looked for " + folder.file("a.obj") +
-                "); paths are relative to the folder of the scene file and to those of <path>");
+                "); paths are relative to the folder of the scene file and to those of <path>; --search-path names "
+                "more folders to look in");
+  EXPECT_EQ(mitsuba_error(with_sensor("<shape type=\"obj\"><string name=\"filename\" value=\"a.obj\"/></shape>"), {},
+                          folder.path(), {{folder.path()}, false}),
+            "s.xml:2:19: there is no file \"a.obj\" (looked for " + folder.file("a.obj") +
+                "); paths are relative to the folder of the scene file and to those of <path>; it is not in a folder "
+                "of --search-path either");
+  folder.write_text("b.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+  EXPECT_EQ(error_of("<shape type=\"obj\"><string name=\"filename\" value=\"b.obj\"/>"
+                     "<integer name=\"shape_index\" value=\"0\"/></shape>"),
+            "s.xml:2:57: the shape 'obj' has no parameter 'shape_index'");
   EXPECT_EQ(error_of("<shape type=\"obj\"/>"),
             "s.xml:2:1: the shape 'obj' needs <string name=\"filename\" value=\"...\"/>");
   folder.write_text("loop.xml", "<scene version=\"3.0.0\"><include filename=\"loop.xml\"/></scene>");

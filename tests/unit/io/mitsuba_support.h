@@ -19,9 +19,10 @@ struct ParsedMitsuba {
 };
 
 inline ParsedMitsuba parse_xml_text(const std::string& text, const std::vector<std::string>& definitions = {},
-                                    const std::string& folder = {}) {
+                                    const std::string& folder = {}, const FileSearch& search = {}) {
   Diagnostics diagnostics;
   ReadOptions options;
+  options.search = search;
   options.definitions = definitions;
   ParsedMitsuba parsed{parse_mitsuba(text, "s.xml", folder, options, diagnostics), {}};
   for (const Diagnostics::Warning& warning : diagnostics.warnings()) parsed.warnings.push_back(warning.to_string());
@@ -39,9 +40,9 @@ inline ParsedMitsuba parse_content(const std::string& content) { return parse_xm
 
 /// The first line of the error, without the excerpt.
 inline std::string mitsuba_error(const std::string& text, const std::vector<std::string>& definitions = {},
-                                 const std::string& folder = {}) {
+                                 const std::string& folder = {}, const FileSearch& search = {}) {
   try {
-    parse_xml_text(text, definitions, folder);
+    parse_xml_text(text, definitions, folder, search);
   } catch (const InputError& error) {
     const std::string message = error.what();
     return message.substr(0, message.find('\n'));

@@ -128,6 +128,37 @@ TEST_F(Mitsuba, MasksMultiplyAndNullLeavesTheRest) {
   expect_near(constant(blended, only_material(blended).alpha), {0.25, 0.25, 0.25});
 }
 
+TEST_F(Mitsuba, BlendsAreAsOpaqueAsTheirParts) {
+  const auto blend = [](const std::string& opacity) {
+    return sphere_of(R"(<bsdf type="blendbsdf"><float name="weight" value="0.25"/><bsdf type="diffuse"/>
+      <bsdf type="mask">)" +
+                     opacity + R"(<bsdf type="plastic"/></bsdf></bsdf>)");
+  };
+  const ParsedMitsuba parsed = parse_content(blend(R"(<float name="opacity" value="0.2"/>)"));
+  const Material& mix = only_material(parsed);
+  ASSERT_EQ(mix.kind, MaterialKind::mix);
+  expect_near(constant(parsed, mix.alpha), splat(0.75 + 0.25 * 0.2), 1e-12);
+  expect_near(constant(parsed, mix.amount), splat(0.25 * 0.2 / 0.8), 1e-12);
+  EXPECT_TRUE(parsed.warnings.empty());
+  const ParsedMitsuba textured = parse_content(blend(R"(<texture type="checkerboard" name="opacity"/>)"));
+  EXPECT_EQ(textured.scene.textures.at(only_material(textured).alpha).kind, TextureKind::mix);
+  ASSERT_EQ(textured.warnings.size(), 1u);
+  EXPECT_EQ(textured.warnings[0].find("s.xml:2:22: the BSDFs of a 'blendbsdf' differ in their opacity"), 0u);
+  const ParsedMitsuba opaque = parse_content(blend(R"(<float name="opacity" value="1"/>)"));
+  EXPECT_EQ(only_material(opaque).alpha, no_index);
+}
+
+TEST_F(Mitsuba, PartsThatBlendsShareAreCopiedOnce) {
+  std::string content = "<bsdf type=\"diffuse\" id=\"b0\"/>";
+  for (int i = 1; i < 40; ++i) {
+    const std::string ref = "<ref id=\"b" + std::to_string(i - 1) + "\"/>";
+    content += "<bsdf type=\"blendbsdf\" id=\"b" + std::to_string(i) + "\"><float name=\"weight\" value=\"0.5\"/>" +
+               ref + ref + "</bsdf>";
+  }
+  content += R"(<bsdf type="bumpmap"><texture type="checkerboard"/><ref id="b39"/></bsdf>)";
+  EXPECT_EQ(parse_content(content).scene.materials.size(), 80u);
+}
+
 TEST_F(Mitsuba, BumpsAreSetOnBothPartsOfABlend) {
   const ParsedMitsuba parsed = parse_content(sphere_of(
       R"(<bsdf type="bumpmap"><float name="scale" value="2"/><texture type="checkerboard" name="x"/>
@@ -221,6 +252,60 @@ TEST_F(Mitsuba, MeshesOfFiles) {
   EXPECT_EQ(parsed.scene.meshes[0].normals.size(), 4u) << "smooth without face_normals";
   EXPECT_TRUE(parsed.scene.meshes[1].normals.empty());
   EXPECT_EQ(parsed.scene.meshes[0].uvs[0].y, 1) << "v is flipped for OBJ";
+}
+
+/// A .serialized file of a triangle in the plane z = 0 whose normals are along x.
+Bytes serialized_triangle(uint32_t flags) {
+  Bytes data;
+  const auto put = [&](auto value) {
+    const auto* bytes = reinterpret_cast<const uint8_t*>(&value);
+    data.insert(data.end(), bytes, bytes + sizeof value);
+  };
+  put(flags | 1u);
+  put(uint8_t{0});  // no name
+  put(uint64_t{3});
+  put(uint64_t{1});
+  for (const float coordinate : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) put(coordinate);
+  for (const float coordinate : {1.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 0.f, 0.f}) put(coordinate);
+  for (const uint32_t corner : {0u, 1u, 2u}) put(corner);
+  // Stored, not compressed: a zlib stream of one block.
+  const auto size = static_cast<uint16_t>(data.size());
+  Bytes file{0x1c, 0x04, 4, 0, 0x78, 0x01, 1};
+  for (const unsigned half : {unsigned{size}, ~unsigned{size}})
+    for (const unsigned shift : {0u, 8u}) file.push_back(static_cast<uint8_t>(half >> shift & 0xff));
+  file.insert(file.end(), data.begin(), data.end());
+  return file;
+}
+
+TEST_F(Mitsuba, SerializedMeshesAreFlatWhereTheySaySo) {
+  constexpr uint32_t single = 0x1000, flat = 0x10;
+  const TemporaryFolder folder;
+  folder.write("smooth.serialized", serialized_triangle(single));
+  folder.write("flat.serialized", serialized_triangle(single | flat));
+  const auto normals = [&](const std::string& file, const std::string& more) {
+    return parse_xml_text(with_sensor("<shape type=\"serialized\"><string name=\"filename\" value=\"" + file +
+                                      ".serialized\"/>" + more + "</shape>"),
+                          {}, folder.path())
+        .scene.meshes.at(0)
+        .normals.size();
+  };
+  EXPECT_EQ(normals("smooth", ""), 3u);
+  EXPECT_EQ(normals("flat", ""), 0u);
+  EXPECT_EQ(normals("flat", "<boolean name=\"face_normals\" value=\"false\"/>"), 3u) << "the scene says otherwise";
+  EXPECT_EQ(normals("smooth", "<boolean name=\"face_normals\" value=\"true\"/>"), 0u);
+}
+
+TEST_F(Mitsuba, FilesAreSearchedInFurtherFolders) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.file("scene"));
+  std::filesystem::create_directories(folder.file("more"));
+  folder.write_text("more/a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+  folder.write_text("more/part.xml", "<scene version=\"3.0.0\"><shape type=\"sphere\"/></scene>");
+  const ParsedMitsuba parsed =
+      parse_xml_text(with_sensor(R"(<shape type="obj"><string name="filename" value="C:\models\a.obj"/></shape>
+                     <include filename="part.xml"/>)"),
+                     {}, folder.file("scene"), {{folder.file("more")}, true});
+  EXPECT_EQ(parsed.scene.groups[0].shapes.size(), 2u);
 }
 
 TEST_F(Mitsuba, DefaultsAliasesAndDefinitions) {

@@ -141,13 +141,107 @@ TEST(Obj, WhatIsMissingIsNamedOnce) {
   ASSERT_EQ(parsed.warnings.size(), 2u);
   EXPECT_EQ(parsed.warnings[0], folder.file("m.obj") + ":1:1: the materials 'none.mtl' are not found (looked in '" +
                                     folder.path().substr(0, 40) + (folder.path().size() > 40 ? "...'" : "'") +
-                                    "); without them surfaces are grey");
+                                    "); without them surfaces are grey; --search-path names more folders to look in");
   EXPECT_EQ(parsed.warnings[1], folder.file("m.obj") + ":6:8: no material is named 'a'; its surfaces are grey");
   const ParsedModel image = model_of_folder(folder, "mtllib m.mtl\n" + corners + "usemtl a\nf 1 2 3\n",
                                             "newmtl a\nmap_Kd -s 2 2 1 no such.png\n");
   ASSERT_EQ(image.warnings.size(), 1u);
   EXPECT_EQ(image.warnings[0], folder.file("m.mtl") + ":2:1: there is no image 'no such.png' (looked for " +
-                                   folder.file("no such.png") + "); the material is rendered without it");
+                                   folder.file("no such.png") +
+                                   "): magenta is shown in its place; --search-path names more folders to look in");
+  EXPECT_EQ(image.scene.images.at(0).bytes, (std::vector<uint8_t>{255, 0, 255}));
+  const ParsedModel bump =
+      model_of_folder(folder, "mtllib m.mtl\n" + corners + "usemtl a\nf 1 2 3\n", "newmtl a\nbump no.png\n");
+  ASSERT_EQ(bump.warnings.size(), 1u);
+  EXPECT_EQ(bump.warnings[0], folder.file("m.mtl") + ":2:1: there is no image 'no.png' (looked for " +
+                                  folder.file("no.png") +
+                                  "): the material is rendered without it; --search-path names more folders to look "
+                                  "in");
+  EXPECT_EQ(bump.scene.materials.at(0).displacement, no_index);
+}
+
+TEST(Obj, FilesAreSearchedInFurtherFolders) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.file("model"));
+  std::filesystem::create_directories(folder.file("more"));
+  folder.write_text("model/m.obj", "mtllib m.mtl\n" + corners + "usemtl a\nf 1 2 3\n");
+  folder.write_text("more/m.mtl", "newmtl a\nmap_Kd C:\\maps\\a.ppm\n");
+  ReadOptions options;
+  options.search.folders = {folder.file("more")};
+  const auto read = [&] {
+    Diagnostics diagnostics;
+    return read_scene(folder.file("model/m.obj"), options, diagnostics);
+  };
+  EXPECT_EQ(read().images.at(0).bytes, (std::vector<uint8_t>{255, 0, 255}));
+  options.search.strict = true;
+  try {
+    read();
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.find(folder.file("more/m.mtl") + ":2:1: there is no image 'C:/maps/a.ppm'"), 0u) << message;
+    EXPECT_NE(message.find("; it is not in a folder of --search-path either"), std::string::npos) << message;
+  }
+}
+
+TEST(Obj, WhatIsOutsideTheFolderIsAnErrorWhereItIsNamed) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.file("model"));
+  folder.write_text("m.mtl", "newmtl a\n");
+  folder.write_text("a.png", "x");
+  folder.write_text("model/in.mtl", "newmtl a\nKd 1 1 1\nmap_Kd ../a.png\n");
+  const auto error_place = [&](const std::string& library) {
+    folder.write_text("model/m.obj", corners + "mtllib " + library + "\nusemtl a\nf 1 2 3\n");
+    ReadOptions options;
+    options.confine = true;
+    Diagnostics diagnostics;
+    try {
+      read_scene(folder.file("model/m.obj"), options, diagnostics);
+    } catch (const InputError& error) {
+      return std::string(error.what()).substr(folder.path().size() + 1, 48);
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(error_place("../m.mtl").substr(0, 40), "model/m.obj:5:1: the materials '../m.mtl");
+  EXPECT_EQ(error_place("in.mtl").substr(0, 37), "model/in.mtl:3:1: the image '../a.png");
+}
+
+TEST(Obj, OpaqueMaterialsOfMayaAreNotGlass) {
+  const TemporaryFolder folder;
+  const auto material = [&](const std::string& mtl) {
+    return model_of_folder(folder, "mtllib m.mtl\n" + corners + "usemtl a\nf 1 2 3\n", "newmtl a\n" + mtl)
+        .scene.materials.at(0);
+  };
+  const std::string maya = "illum 4\nKd 0.50 0.50 0.50\nKa 0.00 0.00 0.00\nTf 1.00 1.00 1.00\n";
+  EXPECT_EQ(material(maya + "Ni 1.00\n").principled.transmission, no_index);
+  EXPECT_EQ(material(maya).principled.transmission, no_index);
+  EXPECT_NE(material(maya + "Ni 1.50\n").principled.transmission, no_index);
+  EXPECT_NE(material(maya + "Ni 1.00\nd 0.5\n").principled.transmission, no_index);
+}
+
+TEST(Obj, OpacityCountsBeforeTransparency) {
+  const TemporaryFolder folder;
+  const auto opacity = [&](const std::string& mtl) {
+    const Scene scene = model_of_folder(folder, "mtllib m.mtl\n" + corners + "usemtl a\nf 1 2 3\n", mtl).scene;
+    const uint32_t alpha = scene.materials.at(0).alpha;
+    return alpha == no_index ? 1 : scene.textures.at(alpha).value.x;
+  };
+  EXPECT_EQ(opacity("newmtl a\nd 0.25\nTr 0.5\n"), 0.25);
+  EXPECT_EQ(opacity("newmtl a\nTr 0.5\nd 0.25\n"), 0.25);
+  EXPECT_EQ(opacity("newmtl a\nTr 0.75\nnewmtl b\nd 1\n"), 0.25);
+  EXPECT_EQ(opacity("newmtl b\nTr 0.75\nnewmtl a\n"), 1);
+}
+
+TEST(Obj, NamesMayHaveNumberSigns) {
+  const obj::File file = parse(
+      "# comment\nmtllib my#1.mtl\nv 0 0 0 # first\nv 1 0 0 #\nv 1 1 0\n#v 9 9 9\no Box #2\n"
+      "usemtl Material #25\nf 1 2 3 # face\n");
+  EXPECT_EQ(file.libraries.at(0).text, "my#1.mtl");
+  ASSERT_EQ(file.parts.size(), 1u);
+  EXPECT_EQ(file.parts[0].object, "Box #2");
+  EXPECT_EQ(file.parts[0].material, "Material #25");
+  EXPECT_EQ(error_of("v 0 0 # 1\n"), "m.obj:1:7: a number is missing after 'v'");
+  EXPECT_EQ(error_of("v 0 0 1#2\n"), "m.obj:1:7: '1#2' is not a finite number");
 }
 
 TEST(Obj, ErrorsOfMaterials) {
@@ -167,6 +261,8 @@ TEST(Obj, ErrorsOfMaterials) {
             "m.mtl:2:4: colours as 'spectral' are not supported; give red, green and blue");
   EXPECT_EQ(error("newmtl a\nmap_Kd -zoom 3 a.png\n"), "m.mtl:2:8: unknown option '-zoom' of an image");
   EXPECT_EQ(error("newmtl a\nmap_Kd -s 1 1\n"), "m.mtl:2:14: the name of the image is missing");
+  EXPECT_EQ(error("newmtl a\nd 1.5\n"), "m.mtl:2:3: 'd' must be from 0 to 1");
+  EXPECT_EQ(error("newmtl a\nTr -0.5\n"), "m.mtl:2:4: 'Tr' must be from 0 to 1");
   EXPECT_EQ(error("newmtl a\nNs\n"), "m.mtl:2:3: a number is missing after 'Ns'");
 }
 
