@@ -57,7 +57,7 @@ struct ClosedMesh {
       scene.groups[1].shapes.push_back(shape);
       for (const double x : {0.0, 1e4}) {
         const Transform there = Transform::translate({x, x, 0});
-        scene.instances.push_back({1, {there * place.start, there * place.end}, false, {}});
+        scene.instances.push_back({1, {there * place.start, there * place.end}, false, {}, {}});
       }
     } else {
       shape.world_from_object = {place.start, place.start};
