@@ -21,7 +21,7 @@ void render(benchmark::State& state, const std::string& scene) {
   uint64_t rays = 0;
   const auto take = [&] {
     kernel(recorded.flat.view, nullptr, 0, bench_segments, requests.data(), static_cast<uint32_t>(requests.size()),
-           sums.data(), false);
+           sums.data(), {.first_hit = false});
     for (size_t i = 0; i < requests.size(); ++i) rays += sums[i].segments + sums[i].shadow_rays;
     requests.clear();
   };

@@ -259,6 +259,7 @@ NoiseEstimate<Real>::NoiseEstimate(const RenderSettings& settings, const Film<Re
       height_(film.window().height()) {
   measure_pixels(settings);
   join_neighbours();
+  if (settings.has_alpha) measure_alpha();
 }
 
 template <class Real>
@@ -288,7 +289,6 @@ void NoiseEstimate<Real>::measure_pixels(const RenderSettings& settings) {
     const double of_halves = error * (mean.by_halves / mean.by_blocks);
     of_halves_[i] = of_halves < 1e30 ? static_cast<float>(of_halves) : errors_[i];
   }
-  if (settings.has_alpha) measure_alpha();
 }
 
 /// Colours alone would finish the edges of what is dark before their alpha is known. Its variance is at most that of

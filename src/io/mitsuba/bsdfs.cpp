@@ -286,7 +286,7 @@ void blend_opacities(Build& build, ObjectReader& reader, const std::vector<ReadB
   const uint32_t a = alpha_of(build, parts[0]), b = alpha_of(build, parts[1]), weight = mix.amount;
   const std::optional<Vec3d> x = constant_value(build, a), y = constant_value(build, b),
                              w = constant_value(build, weight);
-  if (x == std::optional<Vec3d>(white) && x == y) return;
+  if (x && y && x->x >= 1 && y->x >= 1) return;
   mix.alpha = blended(build, a, b, weight);
   if (a == b) return;
   if (!x || !y || !w) {

@@ -238,7 +238,7 @@ TEST_F(MitsubaErrors, OfFiles) {
   folder.write_text("b.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
   EXPECT_EQ(error_of("<shape type=\"obj\"><string name=\"filename\" value=\"b.obj\"/>"
                      "<integer name=\"shape_index\" value=\"0\"/></shape>"),
-            "s.xml:2:57: the shape 'obj' has no parameter 'shape_index'");
+            "s.xml:2:58: the shape 'obj' has no parameter 'shape_index'");
   EXPECT_EQ(error_of("<shape type=\"obj\"/>"),
             "s.xml:2:1: the shape 'obj' needs <string name=\"filename\" value=\"...\"/>");
   folder.write_text("loop.xml", "<scene version=\"3.0.0\"><include filename=\"loop.xml\"/></scene>");

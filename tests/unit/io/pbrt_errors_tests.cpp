@@ -111,7 +111,6 @@ const std::vector<Malformed> malformed{
      {"spectrum", "float texture"}},
     {"WorldBegin Texture \"t\" \"colour\" \"constant\"", "1:12", {"float or spectrum"}},
     {"WorldBegin Texture \"t\" \"float\" \"imagmap\"", "1:12", {"unknown texture", "\"imagemap\""}},
-    {"WorldBegin Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"no.png\"", "1:43", {"no file \"no.png\""}},
     {"WorldBegin Texture \"t\" \"float\" \"constant\"\nTexture \"t\" \"float\" \"constant\"", "2:1", {"twice"}},
     {"WorldBegin Texture \"t\" \"float\" \"checkerboard\" \"integer dimension\" 4", "1:47", {"2 or 3"}},
     {"WorldBegin Material \"diffuse\" \"rgb reflectance\" [ 1 1 ]", "1:31", {"three values"}},
