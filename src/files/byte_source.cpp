@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <new>
 
 #include "util/diagnostics.h"
 
@@ -50,6 +51,7 @@ size_t FileSource::read(char* into, size_t capacity) {
   int status = Z_OK;
   const char* const message = gzerror(handle_->file, &status);
   if (status == Z_ERRNO) throw InputError({path_}, std::string("cannot be read: ") + std::strerror(errno));
+  if (status == Z_MEM_ERROR) throw std::bad_alloc();
   // zlib reports a truncated compressed stream as the end of the file, with this status.
   if (status == Z_BUF_ERROR) throw InputError({path_}, "the compressed data end early; the file is truncated");
   if (count < 0) throw InputError({path_}, "the compressed data are damaged: " + without_path(message));

@@ -301,7 +301,6 @@ void NoiseEstimate<Real>::measure_alpha() {
     const float alpha = std::clamp(static_cast<float>(film.coverage(i)), 0.0f, 1.0f);
     const float error = alpha * (1 - alpha) / static_cast<float>(film.samples[i]);
     errors_[i] = std::max(errors_[i], error);
-    of_halves_[i] = std::max(of_halves_[i], error);
   }
 }
 

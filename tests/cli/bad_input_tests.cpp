@@ -212,8 +212,8 @@ TEST_F(BadInput, FilesThatAreNoScenes) {
   expect_error({"render", "folder.pbrt", "-o", "target.exr"}, 2, {"folder.pbrt: ", "folder"}, Place::file);
   expect_error({"render", ".", "-o", "target.exr"}, 2, {".: "}, Place::file);
   expect_error({"render", "/dev/null", "-o", "target.exr"}, 2, {"/dev/null: "}, Place::file);
-  folder_.write_text("scene.obj", "v 0 0 0\n");
-  expect_error({"render", "scene.obj", "-o", "target.exr"}, 2, {"scene.obj: ", ".pbrt"}, Place::file);
+  folder_.write_text("scene.blend", "v 0 0 0\n");
+  expect_error({"render", "scene.blend", "-o", "target.exr"}, 2, {"scene.blend: ", ".pbrt"}, Place::file);
   expect_error({"render", "", "-o", "target.exr"}, 2, {});
   folder_.write_text("photo.png", "no picture");
   expect_bad_scene("bad.pbrt", "WorldBegin Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"photo.png\"",
@@ -229,7 +229,8 @@ TEST_F(BadInput, ListsOfWhatCannotBeRead) {
   }
   const CommandResult result = run({"info", "scene.pbrt", "--list"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.out, "cameras: 0\nvariants: 0\nanimations: 0\nlights: 0\n");
+  EXPECT_EQ(result.out,
+            "cameras: 1\n  0 perspective\nvariants: 0\nanimations: 0\nlights: 1\n  0 area light, scene.pbrt:34:3\n");
 }
 
 TEST_F(BadInput, OddScenesAreWarnedOf) {

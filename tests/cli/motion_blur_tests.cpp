@@ -61,7 +61,7 @@ TEST_F(MotionBlur, IsTheMeanOverTheTimeOfTheShutter) {
     size += mean[p];
   }
   EXPECT_LT(error, 0.08 * size);
-  EXPECT_GT(width_of_green(blurred), width_of_green(frame("moving.gltf", {"--time", "0.25"})) + 8);
+  EXPECT_GT(width_of_green(blurred), width_of_green(frame("moving.gltf", {"--time", "0.25"})) + 2);
 }
 
 TEST_F(MotionBlur, IsOffByDefaultAndWithAClosedShutter) {

@@ -21,12 +21,12 @@ TEST_F(StandardStreams, HaveTheBitsOfFiles) {
   const CommandResult png = script("cat scene.pbrt | $ALHAZEN render - -o - --spp 2 > b.png");
   EXPECT_EQ(png.exit_code, 0) << png.everything();
   EXPECT_NE(png.err.find("wrote standard output"), std::string::npos) << png.err;
-  EXPECT_EQ(bytes("b.png"), bytes("a.png"));
+  EXPECT_EQ(image("b.png").planes, image("a.png").planes);  // the text in them names the scene
   ASSERT_EQ(script("$ALHAZEN render scene.pbrt -q -o - --format pfm --spp 2 | cat > b.pfm").exit_code, 0);
   EXPECT_EQ(bytes("b.pfm"), bytes("a.pfm"));
   ASSERT_EQ(script("$ALHAZEN render - -q -o - --format exr -o c.png --spp 2 < scene.pbrt > b.exr").exit_code, 0);
   EXPECT_EQ(image("b.exr").width, 24);
-  EXPECT_EQ(bytes("c.png"), bytes("a.png"));
+  EXPECT_EQ(image("c.png").planes, image("a.png").planes);
 }
 
 TEST_F(StandardStreams, NamesInASceneAreRelativeToTheWorkingFolder) {

@@ -34,7 +34,7 @@ class Video : public Command {
   /// What ffprobe says of a video: width, height, rate, frames.
   std::string probed(const std::string& name) const {
     const CommandResult result =
-        run_command({"ffprobe", "-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
+        run_command({"/usr/bin/env", "ffprobe", "-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
                      "stream=width,height,r_frame_rate,nb_read_frames", "-of", "csv=p=0", folder_.file(name)});
     return lines_of(result.out).empty() ? result.err : lines_of(result.out)[0];
   }
