@@ -19,6 +19,7 @@ namespace alhazen::mitsuba {
 namespace {
 
 constexpr Vec3d white{1, 1, 1};
+constexpr double min_opaque = 1 - 1e-9;  ///< a luminance of 1 may be rounded down
 
 ReadBsdf add_material(Build& build, const ObjectReader& reader, Material material, bool is_black_behind) {
   material.name = reader.object().id;
@@ -250,7 +251,7 @@ uint32_t changed(Build& build, uint32_t index, const Change& change) {
 ReadBsdf masked(Build& build, ReadBsdf bsdf, uint32_t opacity) {
   if (bsdf.material == no_index) return bsdf;
   const std::optional<Vec3d> constant = constant_value(build, opacity);
-  if (constant && constant->x >= 1) return bsdf;
+  if (constant && constant->x >= min_opaque) return bsdf;
   if (constant && constant->x <= 0) return {};
   Material material = build.scene.materials[bsdf.material];
   material.alpha = material.alpha == no_index ? opacity : product(build, material.alpha, opacity);
@@ -286,7 +287,7 @@ void blend_opacities(Build& build, ObjectReader& reader, const std::vector<ReadB
   const uint32_t a = alpha_of(build, parts[0]), b = alpha_of(build, parts[1]), weight = mix.amount;
   const std::optional<Vec3d> x = constant_value(build, a), y = constant_value(build, b),
                              w = constant_value(build, weight);
-  if (x && y && x->x >= 1 && y->x >= 1) return;
+  if (x && y && x->x >= min_opaque && y->x >= min_opaque) return;
   mix.alpha = blended(build, a, b, weight);
   if (a == b) return;
   if (!x || !y || !w) {

@@ -145,7 +145,8 @@ TEST_F(Mitsuba, BlendsAreAsOpaqueAsTheirParts) {
   ASSERT_EQ(textured.warnings.size(), 1u);
   EXPECT_EQ(textured.warnings[0].find("s.xml:2:22: the BSDFs of a 'blendbsdf' differ in their opacity"), 0u);
   const ParsedMitsuba opaque = parse_content(blend(R"(<float name="opacity" value="1"/>)"));
-  EXPECT_EQ(only_material(opaque).alpha, no_index);
+  EXPECT_EQ(only_material(opaque).kind, MaterialKind::mix);
+  EXPECT_EQ(only_material(opaque).alpha, no_index) << constant(opaque, only_material(opaque).alpha).x;
 }
 
 TEST_F(Mitsuba, PartsThatBlendsShareAreCopiedOnce) {
