@@ -47,23 +47,25 @@ ALHAZEN_HD ALHAZEN_COLD void record_escape(const PathState<Real>& path, Record& 
     record.keep_first_hit(FirstHit<Real>{albedo_in_specular(path, splat(Real(1))), -path.ray.direction, Real(0)});
 }
 
-/// Records that a path shows the background, seen directly or through glass, whose tint is not transparent. Returns
-/// whether the background is hidden there.
+/// Records that a path shows the background through glass, whose tint is not transparent. Returns whether the
+/// background is hidden there.
 template <class Real, class Record>
-ALHAZEN_HD ALHAZEN_COLD bool record_background(const SceneView<Real>& scene, const PathState<Real>& path,
-                                               Record& record) {
-  if (path.vertex > 0 && !scene.sees_through_glass) return false;
+ALHAZEN_HD ALHAZEN_COLD bool record_glass(const SceneView<Real>& scene, const PathState<Real>& path, Record& record) {
   const Vec3<Real> tint = path.throughput * path.eta_scale;
   if (!is_finite(tint)) return false;  // then the radiance is not finite either, and the sample counts as such
   record.transparency = min((tint.x + tint.y + tint.z) * Real(1.0 / 3), Real(1));
-  return scene.hides_background;
+  return scene.hides_background != 0;
 }
 
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, const PathState<Real>& path,
                                                 Record& record) {
   if (path.vertex > 0 && path.awaits_first_hit) record_escape(path, record);
-  if (path.is_seen_through && record_background(scene, path, record)) return;
+  if (path.is_seen_through) {
+    if (path.vertex == 0) record.transparency = 1;
+    if (path.vertex == 0 ? scene.hides_background != 0 : scene.sees_through_glass && record_glass(scene, path, record))
+      return;
+  }
   // The constant light is not sampled, so its weight is 1.
   const bool is_indirect = path.vertex >= 2;
   if (!is_zero(scene.background))
@@ -107,7 +109,7 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
 /// Returns whether a path that has only been transmitted still is after this sample: by a surface so smooth that what
 /// is behind it is seen sharply.
 template <class Real>
-ALHAZEN_HD ALHAZEN_COLD bool is_seen_through(const ShadingPoint<Real>& point, const BsdfSample<Real>& s) {
+ALHAZEN_HD ALHAZEN_HOT bool is_seen_through(const ShadingPoint<Real>& point, const BsdfSample<Real>& s) {
   return is_transmitted(point, s.direction) && (s.specular || transmits_sharply(point.bsdf));
 }
 
@@ -156,6 +158,7 @@ ALHAZEN_HD ALHAZEN_HOT bool continue_path(const Sampler& sampler, const ShadingP
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void record_first_hit(const SceneView<Real>& scene, const ShadingPoint<Real>& point,
                                              Real distance, PathState<Real>& path, Record& record) {
+  if (path.vertex == 0 && record.wants_first_point()) record_first_point(scene, point, record);
   path.awaits_first_hit = scene.records_through_specular && point.bsdf.is_specular();
   if (!record.wants_first_hit() || path.awaits_first_hit) return;
   Vec3<Real> albedo = bsdf_albedo(point.bsdf);
@@ -170,7 +173,6 @@ ALHAZEN_HD ALHAZEN_HOT bool handle_hit(const SceneView<Real>& scene, uint32_t ma
   if (point.material->features & MaterialFeatures::absorbs)
     path.throughput *= beer_lambert(point, path.travelled + hit.t);
   if (path.awaits_first_hit) record_first_hit(scene, point, path.travelled + hit.t, path, record);
-  if (path.vertex == 0) record_first_point(scene, point, record);
   gather_emission(scene, path, hit, point, record);
   return path.vertex + 1 < max_segments;
 }

@@ -170,7 +170,7 @@ inline constexpr double max_sharp_alpha = 0.01;
 
 /// Returns whether a BSDF that is not specular transmits almost as if it were.
 template <class Real>
-ALHAZEN_HD bool transmits_sharply(const Bsdf<Real>& bsdf) {
+ALHAZEN_HD ALHAZEN_COLD bool transmits_sharply(const Bsdf<Real>& bsdf) {
   const auto is_sharp = [](const Vec2<Real>& alpha) { return max(alpha.x, alpha.y) <= Real(max_sharp_alpha); };
   switch (bsdf.kind) {
     case MaterialKind::dielectric:

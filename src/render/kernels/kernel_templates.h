@@ -34,7 +34,10 @@ requires SamplerOf<Sampler, Real>
 void take_blocks_together(const KernelRequest& request, const SceneView<Real>& scene, const Intersector& intersector,
                           BlockSum<Real>* sums) {
   // Every block has space for samples_per_block records, whether or not it uses them all.
-  SampleRecord<Real> records[max_blocks_per_request * samples_per_block];
+  // Nothing is read that `end` below has not set, and initialising it all would take longer.
+  alignas(SampleRecord<Real>) unsigned char
+      storage[max_blocks_per_request * samples_per_block * sizeof(SampleRecord<Real>)];
+  SampleRecord<Real>* const records = reinterpret_cast<SampleRecord<Real>*>(storage);
   Real weights[max_blocks_per_request * samples_per_block];
   uint16_t slots[max_blocks_per_request * samples_per_block];
   uint32_t count = 0;
