@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 namespace alhazen {
 
@@ -45,28 +46,14 @@ std::vector<std::string> cryptomatte_channels(const std::string& layer) {
 
 std::map<std::string, std::string> cryptomatte_metadata(const std::string& layer,
                                                         const std::vector<std::string>& names) {
-  std::string manifest;
+  nlohmann::json manifest = nlohmann::json::object();
   for (const std::string& name : names)
-    manifest += fmt::format("{}{}:\"{:08x}\"", manifest.empty() ? "" : ",", json_string(name),
-                            std::bit_cast<uint32_t>(cryptomatte_id(murmur3_32(name))));
+    manifest[name] = fmt::format("{:08x}", std::bit_cast<uint32_t>(cryptomatte_id(murmur3_32(name))));
   const std::string prefix = fmt::format("cryptomatte/{:08x}", murmur3_32(layer)).substr(0, 19) + "/";
   return {{prefix + "name", layer},
           {prefix + "hash", "MurmurHash3_32"},
           {prefix + "conversion", "uint32_to_float32"},
-          {prefix + "manifest", "{" + manifest + "}"}};
-}
-
-std::string json_string(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      out += {'\\', c};
-    else if (static_cast<unsigned char>(c) < 0x20)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      out += c;
-  }
-  return out + "\"";
+          {prefix + "manifest", manifest.dump()}};
 }
 
 }  // namespace alhazen

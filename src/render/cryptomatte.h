@@ -27,7 +27,4 @@ std::vector<std::string> cryptomatte_channels(const std::string& layer);
 std::map<std::string, std::string> cryptomatte_metadata(const std::string& layer,
                                                         const std::vector<std::string>& names);
 
-/// A name as a JSON string, with its quotes.
-std::string json_string(std::string_view text);
-
 }  // namespace alhazen

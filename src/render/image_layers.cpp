@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/shapes/instance.h"
@@ -213,10 +214,10 @@ std::vector<std::string> visible_names(const Coverage<Real>* plane, size_t pixel
 /// The numbers of the names that appear, as a JSON object.
 std::string numbers_of(const std::vector<std::string>& visible, const std::vector<std::string>& names) {
   const std::set<std::string> shown(visible.begin(), visible.end());
-  std::string text;
+  nlohmann::json numbers = nlohmann::json::object();
   for (size_t i = 0; i < names.size(); ++i)
-    if (shown.count(names[i])) text += (text.empty() ? "" : ",") + json_string(names[i]) + ":" + std::to_string(i + 1);
-  return "{" + text + "}";
+    if (shown.count(names[i])) numbers[names[i]] = i + 1;
+  return numbers.dump();
 }
 
 }  // namespace
@@ -237,16 +238,14 @@ std::map<std::string, std::string> layer_metadata(const FilmView<Real>& film, si
                                                   const LayerScene& scene) {
   std::map<std::string, std::string> metadata;
   const auto add = [&](const Coverage<Real>* plane, const std::vector<std::string>& names, const char* matte,
-                       const char* ids) {
+                       bool has_ids, const char* ids) {
     if (!plane) return;
     const std::vector<std::string> visible = visible_names(plane, pixels, names);
     if (aovs.cryptomatte) metadata.merge(cryptomatte_metadata(matte, visible));
-    metadata[ids] = numbers_of(visible, names);
+    if (has_ids) metadata[ids] = numbers_of(visible, names);
   };
-  add(film.objects, scene.object_names, "CryptoObject", "object");
-  add(film.materials, scene.material_names, "CryptoMaterial", "material");
-  if (!aovs.object) metadata.erase("object");
-  if (!aovs.material) metadata.erase("material");
+  add(film.objects, scene.object_names, "CryptoObject", aovs.object, "object");
+  add(film.materials, scene.material_names, "CryptoMaterial", aovs.material, "material");
   return metadata;
 }
 
