@@ -104,9 +104,13 @@ struct Settings {
   std::optional<std::array<double, 4>> crop_window;
   std::optional<std::array<int64_t, 4>> pixel_bounds;
   /// Additional layers, by name; docs/layers.md says what each holds: alpha, albedo, normal, camera_normal, depth,
-  /// distance, position, uv, motion, object, material, cryptomatte, components, bounces, samples, variance; noisy
-  /// (before denoising).
+  /// distance, position, uv, motion, object, material, cryptomatte, components, light_groups, bounces, samples,
+  /// variance; noisy (before denoising).
   std::vector<std::string> aovs;
+  /// Groups of lights, each with a layer of what its lights give: NAME=LIGHT,LIGHT, where * and ? stand for any
+  /// characters and any one in the names of lights and emissive objects. At most 7; what they leave is in `rest`.
+  /// Empty, with the layer light_groups: one for each name of the scene, of which there may be 8.
+  std::vector<std::string> light_groups;
   /// Leaves out the light of the background where the camera sees it directly. The image then has a channel A, and R,
   /// G and B are premultiplied by it.
   bool transparent_background = false;

@@ -86,7 +86,7 @@ template <class Real>
 class BlockBatch {
  public:
   BlockBatch(const RenderPass<Real>& pass, ThreadStatistics& statistics) : pass_(pass), statistics_(statistics) {
-    if (pass.film.view().light) parts_.resize(max_blocks_per_request * samples_per_block);
+    if (pass.film.view().parts_light()) parts_.resize(max_blocks_per_request * samples_per_block);
   }
   ~BlockBatch() { take(); }
   BlockBatch(const BlockBatch&) = delete;

@@ -107,7 +107,8 @@ std::vector<std::string> object_lines(const SceneDescription& d) {
 std::vector<std::string> light_lines(const SceneDescription& d) {
   std::vector<std::string> lines;
   for (const LightDescription& light : d.lights)
-    lines.push_back(light.name + ": " + point_text(light.radiance) +
+    lines.push_back(light.name + ": " + light.kind + ", " + light.where.to_string() + ", " +
+                    point_text(light.radiance) +
                     (light.triangles > 0 ? ", " + counted(light.triangles, "triangle") : ""));
   return lines;
 }

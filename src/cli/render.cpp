@@ -56,7 +56,7 @@ void parse_exr_options(RenderOptions& o) {
   const bool loses = how.compression == ExrCompression::dwaa || how.compression == ExrCompression::dwab;
   if (!loses || how.has_parts) return;
   for (const std::string& layer : o.settings.aovs)
-    if (layer != "albedo" && layer != "components" && layer != "noisy")
+    if (layer != "albedo" && layer != "components" && layer != "light_groups" && layer != "noisy")
       throw InputError(
           "the compression '" + o.exr_compression + "' would change the layer '" + layer +
           "', which is data: give --exr-parts as well, and it is stored without loss, or --exr-compression zip");

@@ -19,6 +19,7 @@
 #include "compile/shapes.h"
 #include "compile/trees.h"
 #include "core/shapes/triangle.h"
+#include "scene/light_names.h"
 #include "scene/mixes.h"
 #include "util/memory_limit.h"
 #include "util/thread_limit.h"
@@ -61,8 +62,9 @@ class SceneCompiler {
       if (material.features & MaterialFeatures::one_sided) has_one_sided_ = true;
       if (has_trait<&MaterialTraits::has_lobes>(material.kind)) flat.view.has_lobes = 1;
     }
-    add_described_lights(scene_, out_, flat.view, light_measures_);
+    described_lights_ = add_described_lights(scene_, out_, flat.view, light_measures_);
     place_shapes();
+    group_lights(flat);
     weigh_emission_textures(out_, light_measures_);
     shapes_.warn_of_dropped_triangles();
     for (const TriangleRecord& triangle : out_.triangles) {
@@ -114,6 +116,25 @@ class SceneCompiler {
     std::vector<Bvh2Node<Real>>().swap(out_.bvh2_nodes);
   }
 
+  bool names_things() const { return options_.names_objects || options_.groups_lights; }
+
+  /// Groups the lights by their names; those of shapes have the names of their objects.
+  void group_lights(CompiledScene<Real>& flat) {
+    if (!options_.groups_lights) return;
+    NameTable names;
+    std::vector<uint32_t> described, of_shapes;
+    for (const std::string& name : light_names(scene_)) described.push_back(names.id_of(name));
+    for (const uint32_t object : shapes_.light_objects())
+      of_shapes.push_back(names.id_of(names_.objects()[object - 1]));
+    const GroupedLights grouped = group_light_names(names.names(), options_.light_groups);
+    flat.light_groups = grouped.groups;
+    const auto group = [&](uint32_t name) { return grouped.group_of[name - 1]; };
+    for (size_t i = 0; i < described.size(); ++i)
+      if (scene_.lights[i].kind == LightKind::constant_infinite) flat.view.background_group = group(described[i]);
+    for (const size_t i : described_lights_) out_.light_groups.push_back(group(described[i]));
+    for (const uint32_t name : of_shapes) out_.light_groups.push_back(group(name));
+  }
+
   void count_primitives(SceneStatistics& statistics) const {
     const auto count = [&](PrimitiveKind kind, const char* name, uint64_t number) {
       if (kind == PrimitiveKind::triangle)
@@ -148,7 +169,7 @@ class SceneCompiler {
   }
 
   void place_shapes() {
-    if (options_.names_objects) name_instances(scene_);
+    if (names_things()) name_instances(scene_);
     group_moving_meshes(scene_);
     const std::vector<bool> is_object = find_objects(scene_, options_.max_copied_triangles);
     check_placements(is_object);
@@ -177,7 +198,7 @@ class SceneCompiler {
     for (const Instance& instance : scene_.instances)
       if (object_of[instance.group] != no_index) {
         add_instance(scene_, instance, object_of[instance.group], out_);
-        if (options_.names_objects) out_.instances.back().object_id = names_.object_id(instance);
+        if (names_things()) out_.instances.back().object_id = names_.object_id(instance);
       }
   }
 
@@ -211,10 +232,11 @@ class SceneCompiler {
   SceneArrays<Real> out_;
   CompiledMaterials materials_;
   bool has_one_sided_ = false;
-  std::vector<double> light_measures_;  ///< by light, see assign_light_probabilities
+  std::vector<double> light_measures_;    ///< by light, see assign_light_probabilities
+  std::vector<size_t> described_lights_;  ///< of the first lights: index into Scene::lights
   SceneNames names_{scene_};
   ShapeBuilder<Real> shapes_{scene_,          materials_,   out_,
-                             light_measures_, diagnostics_, options_.names_objects ? &names_ : nullptr};
+                             light_measures_, diagnostics_, names_things() ? &names_ : nullptr};
   uint64_t placed_shapes_ = 0;
 };
 

@@ -4,6 +4,7 @@
 
 #include "compile/bvh/layout.h"
 #include "compile/compiled_scene.h"
+#include "compile/light_groups.h"
 #include "scene/scene.h"
 
 namespace alhazen {
@@ -25,6 +26,9 @@ struct CompileOptions {
   uint32_t path_segments = 0;
   /// Whether surfaces get ids of objects and materials, and CompiledScene their names.
   bool names_objects = false;
+  /// Whether lights get groups: these, or one for each name if there are none (compile/light_groups.h).
+  bool groups_lights = false;
+  std::vector<LightGroup> light_groups;
 };
 
 /// Consumes the description while it compiles, so that meshes are not held twice in memory. Throws InputError for

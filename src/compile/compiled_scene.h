@@ -51,7 +51,8 @@ struct CompiledScene {
   Vec3d world_origin{};  ///< the origin of render space, in world space (compile/render_space.h)
   /// By id - 1, in the order in which they were found; empty unless they were asked for.
   std::vector<std::string> object_names, material_names;
-  BackOpenings backs;  ///< if it was compiled for several cameras
+  std::vector<std::string> light_groups;  ///< their names; likewise
+  BackOpenings backs;                     ///< if it was compiled for several cameras
 };
 
 }  // namespace alhazen

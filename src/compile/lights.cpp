@@ -90,8 +90,10 @@ double add_light_image(const Light& light, Scene& scene, SceneArrays<Real>& out)
 }  // namespace
 
 template <class Real>
-void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>& view, std::vector<double>& measures) {
+std::vector<size_t> add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>& view,
+                                         std::vector<double>& measures) {
   Vec3d background{};
+  std::vector<size_t> described;
   for (const Light& light : scene.lights) {
     if (!is_finite(light.radiance) || !is_finite(light.position) || !is_finite(light.direction))
       throw InputError(light.where, "the light has a value that is not finite");
@@ -120,12 +122,14 @@ void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>&
       out.lights.push_back(record);
     }
     measures.resize(out.lights.size());
+    described.resize(out.lights.size(), static_cast<size_t>(&light - scene.lights.data()));
     if (out.lights.size() > index && light_traits(light.kind).is_at_infinity && light_traits(light.kind).has_size)
       out.far_lights.push_back(static_cast<uint32_t>(index));
   }
   view.background = convert<Real>(background);
   if (!is_finite(view.background))
     throw InputError({scene.name}, "the infinite lights are together too bright for this precision");
+  return described;
 }
 
 template <class Real>
@@ -191,8 +195,9 @@ void add_triangle_emitters(SceneArrays<Real>& out) {
   }
 }
 
-template void add_described_lights(Scene&, SceneArrays<float>&, SceneView<float>&, std::vector<double>&);
-template void add_described_lights(Scene&, SceneArrays<double>&, SceneView<double>&, std::vector<double>&);
+template std::vector<size_t> add_described_lights(Scene&, SceneArrays<float>&, SceneView<float>&, std::vector<double>&);
+template std::vector<size_t> add_described_lights(Scene&, SceneArrays<double>&, SceneView<double>&,
+                                                  std::vector<double>&);
 template void add_triangle_emitters(SceneArrays<float>&);
 template void add_triangle_emitters(SceneArrays<double>&);
 template void assign_light_probabilities(const std::vector<double>&, LightSampling, SceneArrays<float>&,

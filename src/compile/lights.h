@@ -11,8 +11,10 @@ namespace alhazen {
 
 /// Appends the lights of the description that are not shapes to out.lights, with their measures, and sets the
 /// background of `view`. Constant infinite lights are summed into one. The texels of maps are freed as they are copied.
+/// Returns the index in Scene::lights of each light that was appended.
 template <class Real>
-void add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>& view, std::vector<double>& measures);
+std::vector<size_t> add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>& view,
+                                         std::vector<double>& measures);
 
 /// Gives every light its probability: half for infinite lights if there are both kinds, and within each half by power;
 /// finite lights use a light tree if `sampling` requests one. `measures`, by light: for shapes the area times the mean

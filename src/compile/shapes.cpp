@@ -393,6 +393,7 @@ uint32_t ShapeBuilder<Real>::add_light(const Shape& shape, LightKind kind, size_
   light.two_sided = emission.two_sided && material.double_sided ? 1 : 0;
   if (emission.texture != no_index) light.texture = materials_.emission.at(emission.texture);
   out_.lights.push_back(light);
+  if (names_) light_objects_.push_back(object_id_);
   light_measures_.push_back(material.alpha == no_index ? area : 0);
   return static_cast<uint32_t>(out_.lights.size() - 1);
 }

@@ -47,6 +47,9 @@ class ShapeBuilder {
   /// The location of the shape that has a surface, by index into `surfaces`.
   const SourceLocation& location_of(uint32_t surface) const { return surface_shapes_[surface]->where; }
 
+  /// The ids of the objects that the lights of shapes belong to, if there are names.
+  const std::vector<uint32_t>& light_objects() const { return light_objects_; }
+
  private:
   void place_sphere(const ShapePlacement& p);
   template <class Record>
@@ -72,8 +75,9 @@ class ShapeBuilder {
   MeshSizes sizes_;
   std::vector<uint32_t> uses_;                ///< by mesh: placements still to come
   std::vector<const Shape*> surface_shapes_;  ///< by surface
-  size_t without_area_ = 0;                   ///< number of triangles that were left out
-  SourceLocation without_area_place_;         ///< of the first of them
+  std::vector<uint32_t> light_objects_;
+  size_t without_area_ = 0;            ///< number of triangles that were left out
+  SourceLocation without_area_place_;  ///< of the first of them
 };
 
 }  // namespace alhazen

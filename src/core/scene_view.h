@@ -54,6 +54,7 @@ namespace ALHAZEN_CORE {
   ARRAY(uint8_t, noise_permutation)                   \
   ARRAY(LightRecord<Real>, lights)                    \
   ARRAY(uint32_t, far_lights)                         \
+  ARRAY(uint32_t, light_groups)                       \
   ARRAY(TriangleEmitter<Real>, triangle_emitters)     \
   ARRAY(EnvironmentRecord<Real>, environments)        \
   ARRAY(Real, environment_cdf)                        \
@@ -73,6 +74,7 @@ struct SceneView {
   CameraRecord<Real> camera{};
   FilterRecord<Real> filter;
   Vec3<Real> background{};            ///< radiance of the constant infinite light, which `lights` does not hold
+  uint32_t background_group = 0;      ///< of that light, as light_groups are of `lights`; none if they have none
   Real infinite_irradiance = 0;       ///< what light_cdf chooses from can send to a surface, if there is a light tree
   Real exposure = 1;                  ///< factor on recorded radiance
   uint32_t has_cutouts = 0;           ///< 1 if a material lets rays through, be it only camera rays

@@ -5,8 +5,10 @@
 #include <set>
 #include <utility>
 
+#include "compile/scene_names.h"
 #include "scene/default_view.h"
 #include "scene/kind_names.h"
+#include "scene/light_names.h"
 
 namespace alhazen {
 
@@ -18,7 +20,7 @@ uint64_t bytes_of(const Mesh& mesh) {
          (mesh.tangents.size() + mesh.colours.size()) * sizeof(std::array<float, 4>);
 }
 
-const Mesh* mesh_of(const Scene& scene, const Shape& shape) {
+const Mesh* mesh_if_any(const Scene& scene, const Shape& shape) {
   return shape.type == ShapeType::mesh && shape.mesh < scene.meshes.size() ? &scene.meshes[shape.mesh] : nullptr;
 }
 
@@ -36,14 +38,14 @@ const char* shape_name(ShapeType type) {
 }
 
 std::string name_of(const Scene& scene, const Shape& shape) {
-  const Mesh* mesh = mesh_of(scene, shape);
+  const Mesh* mesh = mesh_if_any(scene, shape);
   if (mesh != nullptr && !mesh->name.empty() && mesh->name != scene.name)
     return std::filesystem::path(mesh->name).filename().string();
   return std::string(shape_name(shape.type)) + ", " + shape.where.to_string();
 }
 
 void add_shape(const Scene& scene, const Shape& shape, ObjectDescription& object, std::set<uint32_t>& meshes) {
-  const Mesh* mesh = mesh_of(scene, shape);
+  const Mesh* mesh = mesh_if_any(scene, shape);
   if (mesh == nullptr) {
     ++object.primitives;
     return;
@@ -106,14 +108,19 @@ std::vector<MaterialDescription> materials_of(const Scene& scene) {
 
 std::vector<LightDescription> lights_of(const Scene& scene) {
   std::vector<LightDescription> lights;
-  for (const Light& light : scene.lights)
-    lights.push_back({light_name(light), light_traits(light.kind).name, light.radiance, 0});
+  const std::vector<std::string> names = light_names(scene);
+  for (size_t i = 0; i < names.size(); ++i) {
+    const Light& light = scene.lights[i];
+    lights.push_back({names[i], light_traits(light.kind).name, light.where, light.radiance, 0});
+  }
+  SceneNames objects(scene);
   for (const ShapeGroup& group : scene.groups)
     for (const Shape& shape : group.shapes) {
+      const uint32_t id = objects.object_id({&shape, shape.world_from_object, shape.reverse_orientation});
       if (!shape.emission) continue;
-      const Mesh* mesh = mesh_of(scene, shape);
-      lights.push_back({"area light, " + shape.where.to_string(), "area light", shape.emission->radiance,
-                        mesh == nullptr ? 0 : mesh->triangle_count()});
+      const Mesh* mesh = mesh_if_any(scene, shape);
+      lights.push_back({group.name.empty() ? objects.objects()[id - 1] : group.name, "area light", shape.where,
+                        shape.emission->radiance, mesh == nullptr ? 0 : mesh->triangle_count()});
     }
   return lights;
 }

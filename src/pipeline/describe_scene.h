@@ -28,8 +28,9 @@ struct MaterialDescription {
 };
 
 struct LightDescription {
-  std::string name;  ///< kind and place
+  std::string name;  ///< by which a light group names it; of emissive shapes in groups, that of the group
   std::string kind;
+  SourceLocation where;
   Vec3d radiance;          ///< of emissive shapes and infinite lights; else intensity or irradiance (scene/scene.h)
   uint64_t triangles = 0;  ///< emissive shapes
 };

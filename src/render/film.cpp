@@ -21,6 +21,7 @@ struct WantedPlanes {
     uv = aovs.uv;
     displacement = aovs.motion;
     light = aovs.components;
+    groups = aovs.light_groups;
     objects = aovs.object || aovs.cryptomatte;
     materials = aovs.material || aovs.cryptomatte;
     luminance_m2 = luminance_mean = aovs.variance || extras.denoising || extras.noise_target || extras.guiding;
@@ -30,6 +31,7 @@ struct WantedPlanes {
     earlier_radiance = earlier_weights = earlier_samples = earlier_sample_variance = extras.guiding;
     earlier_alpha = extras.guiding;
     earlier_light = extras.guiding && light;
+    earlier_groups = extras.guiding && groups;
     earlier_odd_radiance = earlier_odd_weights = extras.guiding && extras.denoising;
     earlier_variance = earlier_half_variance = extras.guiding && extras.noise_target;
   }
@@ -97,6 +99,7 @@ void Film<Real>::end_iteration() {
     earlier_weights_[i] += weights_[i] * weight;
     earlier_alpha_[i] += alpha_[i] * weight;
     if (!earlier_light_.empty()) earlier_light_[i].add(light_[i], weight);
+    if (!earlier_groups_.empty()) earlier_groups_[i].add(groups_[i], weight);
     if (!earlier_odd_radiance_.empty()) {
       earlier_odd_radiance_[i] += odd_radiance_[i] * weight;
       earlier_odd_weights_[i] += odd_weights_[i] * weight;
@@ -109,6 +112,7 @@ void Film<Real>::end_iteration() {
   clear(weights_);
   clear(alpha_);
   clear(light_);
+  clear(groups_);
   clear(odd_radiance_);
   clear(odd_weights_);
   clear(luminance_m2_);
@@ -123,7 +127,8 @@ std::vector<std::string> Film<Real>::channels() const {
   std::vector<std::string> names{"R", "G", "B"};
   if (has_alpha_) names.push_back("A");
   for (const ImageLayer<Real>& layer : image_layers<Real>())
-    if (aovs_.*layer.is_wanted) names.insert(names.end(), layer.channels.begin(), layer.channels.end());
+    if (aovs_.*layer.is_wanted)
+      for (std::string& channel : layer.channels_in(scene_)) names.push_back(std::move(channel));
   return names;
 }
 
@@ -142,7 +147,7 @@ void Film<Real>::resolve_row(int y, std::span<float> row) const {
   std::vector<float> values;
   for (const ImageLayer<Real>& layer : image_layers<Real>()) {
     if (!(aovs_.*layer.is_wanted)) continue;
-    values.resize(layer.channels.size());
+    values.resize(layer.channels_in(scene_).size());
     for (size_t x = 0; x < width; ++x) {
       layer.put(view_, scene_, first + x, values.data());
       for (size_t c = 0; c < values.size(); ++c) put(channel + c, x, values[c]);

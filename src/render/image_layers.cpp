@@ -15,7 +15,8 @@ LayerScene::LayerScene(const CompiledScene<Real>& scene)
     : world_origin(scene.world_origin),
       kind(scene.view.camera.kind),
       object_names(scene.object_names),
-      material_names(scene.material_names) {
+      material_names(scene.material_names),
+      light_groups(scene.light_groups) {
   const CameraRecord<Real>& camera = scene.view.camera;
   x_scale = static_cast<double>(camera.x_scale), x_offset = static_cast<double>(camera.x_offset);
   y_scale = static_cast<double>(camera.y_scale), y_offset = static_cast<double>(camera.y_offset);
@@ -107,6 +108,7 @@ class Layers {
         component<LightPart::specular_indirect>("specular_indirect"),
         component<LightPart::transmission_direct>("transmission_direct"),
         component<LightPart::transmission_indirect>("transmission_indirect"),
+        {&AovSet::light_groups, {}, put_groups, group_channels},
         {&AovSet::bounces,
          {"bounces.Y"},
          [](const Film& f, const LayerScene&, size_t i, float* out) {
@@ -144,6 +146,17 @@ class Layers {
     return {&AovSet::components,
             {name + ".R", name + ".G", name + ".B"},
             [](const Film& f, const LayerScene&, size_t i, float* out) { put3(f.part_of_light(i, part), out); }};
+  }
+
+  static std::vector<std::string> group_channels(const LayerScene& scene) {
+    std::vector<std::string> channels;
+    for (const std::string& group : scene.light_groups)
+      for (const char* colour : {".R", ".G", ".B"}) channels.push_back("light_" + group + colour);
+    return channels;
+  }
+
+  static void put_groups(const Film& f, const LayerScene& scene, size_t i, float* out) {
+    for (uint32_t g = 0; g < scene.light_groups.size(); ++g) put3(f.light_of_group(i, g), out + 3 * g);
   }
 
   /// The mean of the first points of a pixel that has some, in render space.

@@ -30,6 +30,7 @@ struct LayerScene {
   double camera_from_render[3][4]{};
   double x_scale = 1, x_offset = 0, y_scale = 1, y_offset = 0;
   std::vector<std::string> object_names, material_names;  ///< by id - 1
+  std::vector<std::string> light_groups;
 
   /// Raster position, in pixels, y down, of a point in render space.
   Vec2d project(const Vec3d& point) const;
@@ -41,6 +42,12 @@ struct ImageLayer {
   bool AovSet::*is_wanted;
   std::vector<std::string> channels;
   void (*put)(const FilmView<Real>& film, const LayerScene& scene, size_t pixel, float* values);
+  /// If not null, the channels depend on the scene.
+  std::vector<std::string> (*channels_of)(const LayerScene& scene) = nullptr;
+
+  std::vector<std::string> channels_in(const LayerScene& scene) const {
+    return channels_of ? channels_of(scene) : channels;
+  }
 };
 
 /// Every layer that a film has, in the order of channels.

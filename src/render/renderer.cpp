@@ -352,6 +352,8 @@ class RendererOf final : public SceneRenderer {
                            kernel ? kernel->layouts : backend_->wanted_layouts(settings)};
     options.texture_budget = settings.texture_budget;
     options.names_objects = wants_names(settings.aovs);
+    options.groups_lights = settings.aovs.light_groups;
+    options.light_groups = settings.light_groups;
     options.for_cameras = for_cameras;
     options.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
     flat_ = compile_scene<Real>(std::move(scene), options, diagnostics);

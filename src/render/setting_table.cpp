@@ -232,20 +232,20 @@ Codec layer_list() {
           }};
 }
 
-/// Definitions of parameters, separated by semicolons, since their values may have commas.
-Codec definition_list() {
-  return {[](const Settings& s) {
+/// Texts of the form NAME=VALUE, separated by semicolons, since their values may have commas.
+Codec definition_list(const char* option, std::vector<std::string> Settings::*field, const char* wanted) {
+  return {[=](const Settings& s) {
             std::string text;
-            for (const std::string& definition : s.definitions) text += (text.empty() ? "" : ";") + definition;
+            for (const std::string& definition : s.*field) text += (text.empty() ? "" : ";") + definition;
             return text;
           },
-          [](Settings& s, const std::string& text) {
+          [=](Settings& s, const std::string& text) {
             for (size_t begin = 0; begin <= text.size();) {
               const size_t end = std::min(text.find(';', begin), text.size());
               const std::string definition = text.substr(begin, end - begin);
               const size_t equals = definition.find('=');
-              if (equals == std::string::npos || equals == 0) refuse("define", text, "NAME=VALUE, for example spp=64");
-              s.definitions.push_back(definition);
+              if (equals == std::string::npos || equals == 0) refuse(option, text, wanted);
+              (s.*field).push_back(definition);
               begin = end + 1;
             }
           }};
@@ -304,6 +304,16 @@ std::vector<SettingEntry> output_settings() {
       common(of_samples(layer_names,
                         entry(group, "aov", "", "NAMES",
                               "Layers to add to the EXR, separated by commas: " + layer_help(), layer_list(), true))),
+      of_samples(
+          [](const RenderSettings& s) { return setting_text(s.asked, "light-group"); },
+          entry(
+              group, "light-group", "", "NAME=LIGHTS",
+              "Layer light_NAME of what these lights give: names of lights and emissive objects (alhazen info), * and "
+              "? in them, with commas; repeatable. --aov light_groups alone: a layer for each name",
+              definition_list("light-group", &Settings::light_groups,
+                              "NAME=LIGHT or NAME=LIGHT,LIGHT, for example key=sun,lamp*"),
+              true),
+          "light-group"),
       common(with_implied(
           "auto",
           of_samples(denoising,
@@ -450,7 +460,8 @@ std::vector<SettingEntry> image_settings() {
                    "glTF: the materials of this variant, by name or number; without it each mesh's own",
                    name(&Settings::variant))),
       entry(SettingGroup::scene, "define", "-D", "NAME=VALUE",
-            "Mitsuba: what $NAME stands for in the scene; may be repeated", definition_list(), true),
+            "Mitsuba: what $NAME stands for in the scene; may be repeated",
+            definition_list("define", &Settings::definitions, "NAME=VALUE, for example spp=64"), true),
       common(entry(SettingGroup::scene, "confine", "", "",
                    "Read no files outside the folder of the scene: for untrusted scenes", flag(&Settings::confine))),
       common(

@@ -36,23 +36,15 @@ constexpr Named<ScheduleKind> schedules[] = {
     {"static", ScheduleKind::static_}, {"dynamic", ScheduleKind::dynamic}, {"guided", ScheduleKind::guided}};
 constexpr Named<GuidingMode> guiding_modes[] = {
     {"off", GuidingMode::off}, {"on", GuidingMode::on}, {"auto", GuidingMode::automatic}};
-constexpr NamedLayer layers[] = {{"alpha", &AovSet::alpha},
-                                 {"albedo", &AovSet::albedo},
-                                 {"normal", &AovSet::normal},
-                                 {"camera_normal", &AovSet::camera_normal},
-                                 {"depth", &AovSet::depth},
-                                 {"distance", &AovSet::distance},
-                                 {"position", &AovSet::position},
-                                 {"uv", &AovSet::uv},
-                                 {"motion", &AovSet::motion},
-                                 {"object", &AovSet::object},
-                                 {"material", &AovSet::material},
-                                 {"cryptomatte", &AovSet::cryptomatte},
-                                 {"components", &AovSet::components},
-                                 {"bounces", &AovSet::bounces},
-                                 {"samples", &AovSet::samples},
-                                 {"variance", &AovSet::variance},
-                                 {"noisy", &AovSet::noisy}};
+constexpr NamedLayer layers[] = {{"alpha", &AovSet::alpha},           {"albedo", &AovSet::albedo},
+                                 {"normal", &AovSet::normal},         {"camera_normal", &AovSet::camera_normal},
+                                 {"depth", &AovSet::depth},           {"distance", &AovSet::distance},
+                                 {"position", &AovSet::position},     {"uv", &AovSet::uv},
+                                 {"motion", &AovSet::motion},         {"object", &AovSet::object},
+                                 {"material", &AovSet::material},     {"cryptomatte", &AovSet::cryptomatte},
+                                 {"components", &AovSet::components}, {"light_groups", &AovSet::light_groups},
+                                 {"bounces", &AovSet::bounces},       {"samples", &AovSet::samples},
+                                 {"variance", &AovSet::variance},     {"noisy", &AovSet::noisy}};
 
 template <class Value, size_t count>
 Value by_name(const Named<Value> (&table)[count], const std::string& name, const std::string& what) {
@@ -286,6 +278,11 @@ RenderSettings resolve_settings(const Settings& user, const Scene& scene) {
   for (const std::string& layer : asked.aovs) s.aovs.*layer_named(layer) = true;
   if (s.aovs.motion && scene.camera.kind != CameraKind::perspective && scene.camera.kind != CameraKind::orthographic)
     throw InputError("motion vectors need a perspective or orthographic camera: leave out the layer 'motion'");
+  s.light_groups = parse_light_groups(asked.light_groups);
+  if (!s.light_groups.empty()) s.aovs.light_groups = true;
+  if (s.aovs.light_groups && s.integrator != IntegratorKind::path)
+    throw InputError("light groups need the integrator 'path', and this is '" + to_string(s.integrator) +
+                     "': leave them out, or give --integrator path");
   if (s.aovs.components && s.integrator != IntegratorKind::path)
     throw InputError("components of the light need the integrator 'path', and this is '" + to_string(s.integrator) +
                      "': leave out the layer 'components', or give --integrator path");

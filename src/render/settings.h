@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "alhazen/alhazen.h"
+#include "compile/light_groups.h"
 #include "core/integrators/camera_sample.h"
 #include "images/display/display_error.h"
 #include "images/display/exposure_meter.h"
@@ -29,7 +30,7 @@ struct Schedule {
 struct AovSet {
   bool alpha = false, albedo = false, normal = false, camera_normal = false, depth = false, distance = false,
        position = false, uv = false, motion = false, object = false, material = false, cryptomatte = false,
-       components = false, bounces = false, samples = false, variance = false, noisy = false;
+       components = false, light_groups = false, bounces = false, samples = false, variance = false, noisy = false;
 };
 
 /// The layers by name, all but `noisy` in the order of channels.
@@ -87,7 +88,8 @@ struct RenderSettings {
   uint64_t guiding_memory = 0;  ///< bytes
   /// Albedo, normal and depth are of the first surface that is not perfectly specular.
   bool records_through_specular = false;
-  bool has_alpha = false;  ///< the background is transparent, and the image has a channel A
+  std::vector<LightGroup> light_groups;  ///< empty: one for each name
+  bool has_alpha = false;                ///< the background is transparent, and the image has a channel A
 };
 
 /// Replaces what settings replace in a scene: how much light its coats lose, and the pixel filter. Throws InputError

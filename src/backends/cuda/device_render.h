@@ -348,7 +348,7 @@ class DeviceRender {
   template <IntegratorKind kind>
   Slots<kind, Real> make_slots(uint32_t items) {
     Slots<kind, Real> slots;
-    slots.has_parts = film_view_.light != nullptr;
+    slots.has_parts = film_view_.parts_light();
     size_t slot_bytes = 0;
     slots.visit_arrays([&](const auto* array, uint32_t elements) { slot_bytes += sizeof(*array) * elements; });
     constexpr uint64_t max_slots = uint64_t{1} << 21;

@@ -31,7 +31,7 @@ void reduce_pixel(const RenderPass<Real>& pass, int x, int y) {
     std::optional<BusyTimer> timer;
     if (!is_nested) timer.emplace(statistics, false);
     PartedLight<Real> parts_of_block[samples_per_block];
-    PartedLight<Real>* const parts = pass.film.view().light ? parts_of_block : nullptr;
+    PartedLight<Real>* const parts = pass.film.view().parts_light() ? parts_of_block : nullptr;
 #pragma omp for schedule(static) nowait
     for (int block = first; block < count; ++block) {
       const BlockRequest request = request_block(pass, x, y, static_cast<uint32_t>(block));

@@ -10,21 +10,37 @@ namespace ALHAZEN_CORE {
 /// Samples are summed in blocks of this size, and blocks are added to the film in order.
 inline constexpr uint32_t samples_per_block = 4;
 
+/// What only some layers need of a block. It is three times as large as all else.
+template <class Real>
+struct LayerSums {
+  LightPartSums<Real> light;
+  LightGroupSums<Real> groups;
+  Vec3<Real> position, displacement;
+  Vec2<Real> uv;
+  uint32_t points;
+  uint32_t object_ids[samples_per_block], material_ids[samples_per_block];  ///< of each sample, or no_id
+};
+
 template <class Real>
 struct BlockSum {
-  Vec3<Real> radiance{}, albedo{}, normal{};
-  Real weight = 0;  ///< of the pixel filter
-  Real depth = 0;
-  Real alpha = 0;  ///< what of the weight is not transparent
-  LightPartSums<Real> light;
-  Vec3<Real> position{}, displacement{};
-  Vec2<Real> uv{};
-  uint32_t points = 0;
-  Real sample_weight[samples_per_block]{};
-  uint32_t object_ids[samples_per_block]{}, material_ids[samples_per_block]{};  ///< of each sample, or no_id
-  Real luminance_mean = 0, luminance_m2 = 0;  ///< Welford's running mean and sum of squared deviations
-  uint32_t samples = 0, hits = 0, segments = 0, shadow_rays = 0, nonfinite = 0;
+  Vec3<Real> radiance, albedo, normal;
+  Real weight;  ///< of the pixel filter
+  Real depth;
+  Real alpha;                         ///< what of the weight is not transparent
+  Real luminance_mean, luminance_m2;  ///< Welford's running mean and sum of squared deviations
+  Real sample_weight[samples_per_block];
+  uint32_t samples, hits, segments, shadow_rays, nonfinite;
   [[no_unique_address]] RecordCounters counters;
+  LayerSums<Real> layers;  ///< begun where they are wanted
+
+  /// Begins a block, with or without the sums of layers.
+  ALHAZEN_HD void begin(bool with_layers) {
+    radiance = albedo = normal = {};
+    weight = depth = alpha = luminance_mean = luminance_m2 = 0;
+    samples = hits = segments = shadow_rays = nonfinite = 0;
+    counters = {};
+    if (with_layers) layers = {};
+  }
 
   ALHAZEN_HD void add_first_hit(const FirstHit<Real>& first) {
     ++hits;
@@ -35,13 +51,12 @@ struct BlockSum {
 
   /// Adds the first point of the sample that add_path adds next.
   ALHAZEN_HD void add_first_point(const FirstPoint<Real>& point) {
-    ++points;
-    position += point.position;
-    displacement += point.displacement;
-    uv.x += point.uv.x;
-    uv.y += point.uv.y;
-    object_ids[samples] = point.object_id;
-    material_ids[samples] = point.material_id;
+    ++layers.points;
+    layers.position += point.position;
+    layers.displacement += point.displacement;
+    layers.uv = {layers.uv.x + point.uv.x, layers.uv.y + point.uv.y};
+    layers.object_ids[samples] = point.object_id;
+    layers.material_ids[samples] = point.material_id;
   }
 
   /// Adds one sample with its own `filter_weight`; infinite or NaN radiance counts as black.
@@ -57,7 +72,8 @@ struct BlockSum {
       ++nonfinite;
       value = {};
     } else if (path.parts) {
-      light.add(path.parts->sums, filter_weight);
+      layers.light.add(path.parts->sums, filter_weight);
+      layers.groups.add(path.parts->groups, filter_weight);
     }
     radiance += value * filter_weight;
     const Real y = luminance(value);

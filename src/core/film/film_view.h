@@ -23,42 +23,44 @@ namespace ALHAZEN_CORE {
 /// before: sums times the weights of iterations, sums of filter weights times them, numbers of samples, the variance of
 /// samples of the last of them, and with a noise target that of the mean of them all, by blocks and by halves
 /// (render/noise.h).
-#define ALHAZEN_FILM_PLANES(PLANE)          \
-  PLANE(Vec3<Real>, radiance)               \
-  PLANE(uint32_t, samples)                  \
-  PLANE(Real, alpha)                        \
-  PLANE(Real, weights)                      \
-  PLANE(Vec3<Real>, albedo)                 \
-  PLANE(Vec3<Real>, normal)                 \
-  PLANE(Real, depth)                        \
-  PLANE(uint32_t, hits)                     \
-  PLANE(uint32_t, segments)                 \
-  PLANE(Vec3<Real>, position)               \
-  PLANE(Vec3<Real>, displacement)           \
-  PLANE(Vec2<Real>, uv)                     \
-  PLANE(uint32_t, points)                   \
-  PLANE(Coverage<Real>, objects)            \
-  PLANE(Coverage<Real>, materials)          \
-  PLANE(LightPartSums<Real>, light)         \
-  PLANE(Real, luminance_m2)                 \
-  PLANE(Real, luminance_mean)               \
-  PLANE(Vec3<Real>, odd_radiance)           \
-  PLANE(Vec3<Real>, odd_albedo)             \
-  PLANE(Vec3<Real>, odd_normal)             \
-  PLANE(Real, odd_depth)                    \
-  PLANE(Real, odd_weights)                  \
-  PLANE(Real, block_m2)                     \
-  PLANE(Real, half_difference)              \
-  PLANE(uint8_t, finished)                  \
-  PLANE(Vec3<Real>, earlier_radiance)       \
-  PLANE(Vec3<Real>, earlier_odd_radiance)   \
-  PLANE(Real, earlier_alpha)                \
-  PLANE(LightPartSums<Real>, earlier_light) \
-  PLANE(Real, earlier_weights)              \
-  PLANE(Real, earlier_odd_weights)          \
-  PLANE(uint32_t, earlier_samples)          \
-  PLANE(Real, earlier_sample_variance)      \
-  PLANE(Real, earlier_variance)             \
+#define ALHAZEN_FILM_PLANES(PLANE)            \
+  PLANE(Vec3<Real>, radiance)                 \
+  PLANE(uint32_t, samples)                    \
+  PLANE(Real, alpha)                          \
+  PLANE(Real, weights)                        \
+  PLANE(Vec3<Real>, albedo)                   \
+  PLANE(Vec3<Real>, normal)                   \
+  PLANE(Real, depth)                          \
+  PLANE(uint32_t, hits)                       \
+  PLANE(uint32_t, segments)                   \
+  PLANE(Vec3<Real>, position)                 \
+  PLANE(Vec3<Real>, displacement)             \
+  PLANE(Vec2<Real>, uv)                       \
+  PLANE(uint32_t, points)                     \
+  PLANE(Coverage<Real>, objects)              \
+  PLANE(Coverage<Real>, materials)            \
+  PLANE(LightPartSums<Real>, light)           \
+  PLANE(LightGroupSums<Real>, groups)         \
+  PLANE(Real, luminance_m2)                   \
+  PLANE(Real, luminance_mean)                 \
+  PLANE(Vec3<Real>, odd_radiance)             \
+  PLANE(Vec3<Real>, odd_albedo)               \
+  PLANE(Vec3<Real>, odd_normal)               \
+  PLANE(Real, odd_depth)                      \
+  PLANE(Real, odd_weights)                    \
+  PLANE(Real, block_m2)                       \
+  PLANE(Real, half_difference)                \
+  PLANE(uint8_t, finished)                    \
+  PLANE(Vec3<Real>, earlier_radiance)         \
+  PLANE(Vec3<Real>, earlier_odd_radiance)     \
+  PLANE(Real, earlier_alpha)                  \
+  PLANE(LightPartSums<Real>, earlier_light)   \
+  PLANE(LightGroupSums<Real>, earlier_groups) \
+  PLANE(Real, earlier_weights)                \
+  PLANE(Real, earlier_odd_weights)            \
+  PLANE(uint32_t, earlier_samples)            \
+  PLANE(Real, earlier_sample_variance)        \
+  PLANE(Real, earlier_variance)               \
   PLANE(Real, earlier_half_variance)
 
 /// Returns how many of the first `samples` samples of a pixel are in its second, fourth, ... block.
@@ -89,6 +91,11 @@ struct FilmView {
   ALHAZEN_HD WantedRecords wanted_records() const {
     return {albedo || normal || depth, points || objects || materials};
   }
+
+  /// Whether light is divided into parts, which paths then keep (PartedLight).
+  ALHAZEN_HD bool parts_light() const { return light || groups; }
+  /// Whether blocks need the sums of layers.
+  ALHAZEN_HD bool needs_layer_sums() const { return parts_light() || wanted_records().first_point; }
 
   ALHAZEN_HD bool is_finished(size_t i) const { return finished && finished[i]; }
 
@@ -128,11 +135,12 @@ struct FilmView {
 
   /// A part of the light, as the mean of `radiance_sum` is all of it.
   ALHAZEN_HD Vec3<Real> part_of_light(size_t i, LightPart part) const {
-    const Real weight = radiance_sum(i).weight;
-    const uint32_t k = static_cast<uint32_t>(part);
-    const Vec3<Real> sum =
-        earlier_light ? light[i].radiance[k] * iteration_weight + earlier_light[i].radiance[k] : light[i].radiance[k];
-    return weight != 0 ? sum / weight : Vec3<Real>{};
+    return part_of(light, earlier_light, i, static_cast<uint32_t>(part));
+  }
+
+  /// The light of a group.
+  ALHAZEN_HD Vec3<Real> light_of_group(size_t i, uint32_t group) const {
+    return part_of(groups, earlier_groups, i, group);
   }
 
   /// Over the samples of every second block.
@@ -167,21 +175,31 @@ struct FilmView {
     }
     if (segments) segments[i] += block.segments;
     alpha[i] += block.alpha;
-    if (light) light[i].add(block.light);
+    if (light) light[i].add(block.layers.light);
+    if (groups) groups[i].add(block.layers.groups);
     if (points || objects || materials) add_points(i, block);
   }
 
  private:
+  template <class Sums>
+  ALHAZEN_HD Vec3<Real> part_of(const Sums* sums, const Sums* earlier, size_t i, uint32_t k) const {
+    const Real weight = radiance_sum(i).weight;
+    const Vec3<Real> sum =
+        earlier ? sums[i].radiance[k] * iteration_weight + earlier[i].radiance[k] : sums[i].radiance[k];
+    return weight != 0 ? sum / weight : Vec3<Real>{};
+  }
+
   ALHAZEN_HD ALHAZEN_COLD void add_points(size_t i, const BlockSum<Real>& block) const {
+    const LayerSums<Real>& layers = block.layers;
     if (points) {
-      points[i] += block.points;
-      position[i] += block.position;
+      points[i] += layers.points;
+      position[i] += layers.position;
     }
-    if (displacement) displacement[i] += block.displacement;
-    if (uv) uv[i] = {uv[i].x + block.uv.x, uv[i].y + block.uv.y};
+    if (displacement) displacement[i] += layers.displacement;
+    if (uv) uv[i] = {uv[i].x + layers.uv.x, uv[i].y + layers.uv.y};
     for (uint32_t s = 0; s < block.samples; ++s) {
-      if (objects) objects[i].add(block.object_ids[s], block.sample_weight[s]);
-      if (materials) materials[i].add(block.material_ids[s], block.sample_weight[s]);
+      if (objects) objects[i].add(layers.object_ids[s], block.sample_weight[s]);
+      if (materials) materials[i].add(layers.material_ids[s], block.sample_weight[s]);
     }
   }
 

@@ -230,7 +230,7 @@ class PathBatch {
       const uint32_t place = diffuse_.place(i), index = diffuse_lanes_[place];
       Lane& lane = lanes_[index];
       const DirectLight<Real> direct = diffuse_.direct(place, lane.hit, lane.path.ray.time);
-      if (lane.record.parts) part_diffuse(lane);
+      if (lane.record.parts) part_diffuse(lane, diffuse_.light(place));
       if (direct.is_lit) {
         ++lane.record.shadow_rays;
         add_shadow_ray(index, direct.shadow, direct.radiance);
@@ -242,8 +242,9 @@ class PathBatch {
   }
 
   /// Does what part_sampled_light and part_path do, at a diffuse surface.
-  ALHAZEN_NOINLINE static void part_diffuse(Lane& lane) {
+  ALHAZEN_NOINLINE void part_diffuse(Lane& lane, uint32_t light) const {
     PartedLight<Real>& parts = *lane.record.parts;
+    parts.sampled_group = light_group(scene_, light);
     parts.is_at_first = lane.path.vertex == 0;
     if (parts.is_at_first) parts.sampled = parts.path = {splat(Real(1)), false};
   }

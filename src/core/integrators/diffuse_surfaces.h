@@ -28,6 +28,8 @@ class DiffuseSurfaces {
   }
 
   uint32_t count() const { return count_; }
+  /// The light that surface i samples, if there is a choice.
+  uint32_t light(uint32_t i) const { return chosen_lights_[i]; }
   uint32_t place(uint32_t i) const { return indices_[i]; }
   void clear() { count_ = triangles_ = near_count_ = 0; }
 
@@ -120,6 +122,7 @@ class DiffuseSurfaces {
     u.x = choice.u;
     const LightRecord<Real>& light = scene.lights[choice.light];
     light_pmf_[i] = choice.pmf;
+    chosen_lights_[i] = choice.light;
     if (light.kind == LightKind::triangle && light.texture.count == 0) {
       const TriangleEmitter<Real>& triangle = scene.triangle_emitters[light.emitter];
       if (is_near(triangle, point.si.position)) {
@@ -200,6 +203,7 @@ class DiffuseSurfaces {
   uint32_t near_count_ = 0;
   uint32_t light_source_[max_count]{};
   Real light_pmf_[max_count]{};
+  uint32_t chosen_lights_[max_count]{};
   SoA<Vec2<Real>, max_count> light_u_;              ///< the random numbers that sample them
   SoA<TriangleEmitter<Real>, max_count> emitters_;  ///< of lights that are still to be sampled
   SoA<Light, max_count> lights_;

@@ -129,7 +129,7 @@ ALHAZEN_HD bool light_and_scatter(const SceneView<Real>& scene, const Sampler& s
   if (scene.sees_through_glass && hides_light(scene, point, sample, path)) direct.is_lit = false;
   if (direct.is_lit) {
     ++record.shadow_rays;
-    if (record.parts) part_sampled_light(point, sample.direction, path.vertex, *record.parts);
+    if (record.parts) part_sampled_light(scene, sampler, point, sample.direction, path.vertex, *record.parts);
     light(direct.shadow, path.throughput * direct.radiance);
   }
   const bool is_first = path.vertex == 0;

@@ -1,6 +1,7 @@
 #pragma once
 
-// Parts of the radiance of a sample: by how its path was first scattered, and how often. They sum to all of it.
+// Parts of the radiance of a sample: by how its path was first scattered, and how often, and by the light that it comes
+// from. Each division sums to all of it.
 
 #include "core/math/vec.h"
 
@@ -18,15 +19,22 @@ enum class LightPart : uint32_t {
 };
 inline constexpr uint32_t light_parts = 7;
 
-/// Sums of parts.
-template <class Real>
-struct LightPartSums {
-  Vec3<Real> radiance[light_parts]{};
+/// Most groups of lights that a render tells apart.
+inline constexpr uint32_t max_light_groups = 8;
 
-  ALHAZEN_HD void add(const LightPartSums& other, Real weight = 1) {
-    for (uint32_t k = 0; k < light_parts; ++k) radiance[k] += other.radiance[k] * weight;
+template <class Real, uint32_t count>
+struct RadianceSums {
+  Vec3<Real> radiance[count];
+
+  ALHAZEN_HD void add(const RadianceSums& other, Real weight = 1) {
+    for (uint32_t k = 0; k < count; ++k) radiance[k] += other.radiance[k] * weight;
   }
 };
+
+template <class Real>
+using LightPartSums = RadianceSums<Real, light_parts>;
+template <class Real>
+using LightGroupSums = RadianceSums<Real, max_light_groups>;
 
 /// How light is scattered at the first surface: transmitted, or reflected and then diffuse by a fraction per channel.
 template <class Real>
@@ -38,13 +46,16 @@ struct FirstScattering {
 /// Divides the radiance that a path gathers.
 template <class Real>
 struct PartedLight {
-  LightPartSums<Real> sums;
+  LightPartSums<Real> sums{};
+  LightGroupSums<Real> groups{};
   FirstScattering<Real> path;     ///< of the path itself
   FirstScattering<Real> sampled;  ///< of the light that is sampled at its first surface
   bool is_at_first = false;       ///< whether the light that was sampled last is
+  uint32_t sampled_group = 0;     ///< of that light
 
-  /// Adds emission, or the background, that the path finds at its end after `vertex` surfaces.
-  ALHAZEN_HD ALHAZEN_COLD void add_found(uint32_t vertex, const Vec3<Real>& radiance) {
+  /// Adds emission, or the background, that the path finds after `vertex` surfaces, of a light of that group.
+  ALHAZEN_HD ALHAZEN_COLD void add_found(uint32_t vertex, uint32_t group, const Vec3<Real>& radiance) {
+    groups.radiance[group] += radiance;
     if (vertex == 0)
       sums.radiance[static_cast<uint32_t>(LightPart::emission)] += radiance;
     else
@@ -53,7 +64,13 @@ struct PartedLight {
 
   /// Adds the light that was sampled last.
   ALHAZEN_HD ALHAZEN_COLD void add_sampled(const Vec3<Real>& radiance) {
+    groups.radiance[sampled_group] += radiance;
     add(is_at_first ? sampled : path, !is_at_first, radiance);
+  }
+
+  ALHAZEN_HD void expose(Real exposure) {
+    for (Vec3<Real>& part : sums.radiance) part *= exposure;
+    for (Vec3<Real>& group : groups.radiance) group *= exposure;
   }
 
  private:

@@ -57,6 +57,14 @@ ALHAZEN_HD ALHAZEN_COLD bool record_glass(const SceneView<Real>& scene, const Pa
   return scene.hides_background != 0;
 }
 
+/// Adds emission that the path finds. `group` is called for the light's group, if that is wanted.
+template <class Real, class Record, class Group>
+ALHAZEN_HD ALHAZEN_HOT void add_found(const PathState<Real>& path, const Vec3<Real>& radiance, const Group& group,
+                                      Record& record) {
+  record.radiance += radiance;
+  if (record.parts) record.parts->add_found(path.vertex, group(), radiance);
+}
+
 template <class Real, class Record>
 ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, const PathState<Real>& path,
                                                 Record& record) {
@@ -69,7 +77,9 @@ ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, co
   // The constant light is not sampled, so its weight is 1.
   const bool is_indirect = path.vertex >= 2;
   if (!is_zero(scene.background))
-    record.add_found(path.vertex, limited(scene, path.throughput * scene.background, is_indirect));
+    add_found(
+        path, limited(scene, path.throughput * scene.background, is_indirect), [&] { return scene.background_group; },
+        record);
   if (scene.far_lights_count == 0) return;
   Real at_infinity = 0;  // the probability that light sampling chooses one of these lights
   if (!path.is_specular) {
@@ -82,7 +92,9 @@ ALHAZEN_HD ALHAZEN_HOT void add_infinite_lights(const SceneView<Real>& scene, co
     const EscapedLight<Real> found = escaped_light(scene, light, path.light_side, path.ray.direction, pmf > 0);
     if (is_zero(found.radiance)) continue;
     const Real weight = bsdf_mis_weight(path, pmf > 0 ? pmf * found.pdf : Real(0));
-    record.add_found(path.vertex, limited(scene, path.throughput * found.radiance * weight, is_indirect));
+    add_found(
+        path, limited(scene, path.throughput * found.radiance * weight, is_indirect),
+        [&] { return light_group(scene, scene.far_lights[i]); }, record);
   }
 }
 
@@ -102,8 +114,9 @@ ALHAZEN_HD ALHAZEN_HOT void gather_emission(const SceneView<Real>& scene, const 
       light_pdf = pdf_light(scene, scene.lights[point.light], path.ray, hit, point.si, path.light_side);
     }
   }
-  record.add_found(path.vertex,
-                   limited(scene, path.throughput * emission * bsdf_mis_weight(path, light_pdf), path.vertex >= 2));
+  add_found(
+      path, limited(scene, path.throughput * emission * bsdf_mis_weight(path, light_pdf), path.vertex >= 2),
+      [&] { return light_group(scene, point.light); }, record);
 }
 
 /// Returns whether a path that has only been transmitted still is after this sample: by a surface so smooth that what
@@ -178,10 +191,13 @@ ALHAZEN_HD ALHAZEN_HOT bool handle_hit(const SceneView<Real>& scene, uint32_t ma
 }
 
 /// Notes how light that was sampled along `wi` at a surface is divided into parts.
-template <class Real>
-ALHAZEN_HD ALHAZEN_COLD void part_sampled_light(const ShadingPoint<Real>& point, const Vec3<Real>& wi, uint32_t vertex,
+template <class Real, SamplerOf<Real> Sampler>
+ALHAZEN_HD ALHAZEN_COLD void part_sampled_light(const SceneView<Real>& scene, const Sampler& sampler,
+                                                const ShadingPoint<Real>& point, const Vec3<Real>& wi, uint32_t vertex,
                                                 PartedLight<Real>& parts) {
   parts.is_at_first = vertex == 0;
+  if (scene.light_groups_count > 0)
+    parts.sampled_group = light_group(scene, chosen_light(scene, sampler, VertexDimensions(vertex), point).light);
   if (vertex == 0) parts.sampled = {diffuse_fraction(point.bsdf, point.wo, wi), is_transmitted(point, wi)};
 }
 
@@ -207,7 +223,7 @@ ALHAZEN_HD ALHAZEN_HOT bool light_and_scatter(const SceneView<Real>& scene, cons
   if constexpr (has_counters<Record>) count_light_sample(scene, sampler, dimensions, point, sample, direct, record);
   if (direct.is_lit) {
     ++record.shadow_rays;
-    if (record.parts) part_sampled_light(point, sample.direction, path.vertex, *record.parts);
+    if (record.parts) part_sampled_light(scene, sampler, point, sample.direction, path.vertex, *record.parts);
     light(direct.shadow, path.throughput * direct.radiance);
   }
   if (samples_by_side(scene)) path.light_side = side_of_light(point);

@@ -23,11 +23,6 @@ struct PathRecord {
   uint32_t shadow_rays = 0;
   PartedLight<Real>* parts = nullptr;  ///< if not null, receives the radiance too; not stored with the path
 
-  /// Adds emission, or the background, that the path finds after `vertex` surfaces.
-  ALHAZEN_HD ALHAZEN_HOT void add_found(uint32_t vertex, const Vec3<Real>& found) {
-    radiance += found;
-    if (parts) parts->add_found(vertex, found);
-  }
   /// Adds the light that was sampled last.
   ALHAZEN_HD ALHAZEN_HOT void add_sampled(const Vec3<Real>& sampled) {
     radiance += sampled;
@@ -36,8 +31,7 @@ struct PathRecord {
   /// Ends the sample: multiplies what was gathered by the exposure.
   ALHAZEN_HD void expose(Real exposure) {
     radiance *= exposure;
-    if (parts)
-      for (Vec3<Real>& part : parts->sums.radiance) part *= exposure;
+    if (parts) parts->expose(exposure);
   }
 
   using Fields =

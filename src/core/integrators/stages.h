@@ -195,6 +195,14 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_light_for(const SceneView<Real>&
   return sample_light(scene, point.si.position, side, point.si.time, u, point.light);
 }
 
+/// The light that `sample_light_for` chooses, once more: samples do not hold it.
+template <class Real, SamplerOf<Real> Sampler>
+ALHAZEN_HD LightChoice<Real> chosen_light(const SceneView<Real>& scene, const Sampler& sampler,
+                                          const VertexDimensions& dimensions, const ShadingPoint<Real>& point) {
+  const Vec3<Real> side = samples_by_side(scene) ? side_of_light(point) : Vec3<Real>{};
+  return choose_light(scene, point.si.position, side, sampler.template get_2d<Real>(dimensions.light()).x);
+}
+
 /// `scattering_pdf` returns the density with which scattering finds the light, from that of sampling the BSDF.
 template <class Real, class ScatteringPdf>
 ALHAZEN_HD ALHAZEN_HOT DirectLight<Real> direct_light(const ShadingPoint<Real>& point, const LightSample<Real>& light,
@@ -221,8 +229,7 @@ ALHAZEN_HD void count_light_sample(const SceneView<Real>& scene, const Sampler& 
                                    const VertexDimensions& dimensions, const ShadingPoint<Real>& point,
                                    const LightSample<Real>& sample, const DirectLight<Real>& direct, Record& record) {
   if (scene.lights_count == 0 || point.bsdf.is_specular()) return;
-  const LightChoice<Real> choice =
-      choose_light(scene, point.si.position, side_of_light(point), sampler.template get_2d<Real>(dimensions.light()).x);
+  const LightChoice<Real> choice = chosen_light(scene, sampler, dimensions, point);
   if (!(choice.pmf > 0)) return;
   const bool is_unlit = !(sample.pdf > 0) || is_zero(sample.radiance);
   record.counters.count_light_sample(scene.lights[choice.light].kind, point.bsdf.kind, is_unlit,

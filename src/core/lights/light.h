@@ -258,6 +258,12 @@ ALHAZEN_HD ALHAZEN_HOT LightSample<Real> sample_chosen_light(const SceneView<Rea
   return s;
 }
 
+/// The group of a light, where lights are told apart (SceneView::light_groups).
+template <class Real>
+ALHAZEN_HD uint32_t light_group(const SceneView<Real>& scene, uint32_t light) {
+  return light < scene.light_groups_count ? scene.light_groups[light] : 0;
+}
+
 /// Chooses a light and samples a point of it. `normal` is as for `choose_light`; `own_light` is the light that contains
 /// `reference`.
 template <class Real>

@@ -62,11 +62,11 @@ void add_lights(const Document& document, const Nodes& nodes, Scene& scene, std:
       document.fail(*reference, "index out of range: the file has " +
                                     std::to_string(lights == nullptr ? 0 : lights->items.size()) + " lights");
     const Json& light = lights->items[static_cast<size_t>(index)];
-    if (names != nullptr) {
-      const std::string name = document.string(description, "name");
-      names->push_back(name.empty() ? document.string(light, "name") : name);
-    }
+    std::string name = document.string(description, "name");
+    if (name.empty()) name = document.string(light, "name");
+    if (names != nullptr) names->push_back(name);
     scene.lights.push_back(read_light(document, light, nodes.world(node)));
+    scene.lights.back().name = std::move(name);
     if (max_component(scene.lights.back().radiance) == 0) scene.lights.pop_back();
   }
 }

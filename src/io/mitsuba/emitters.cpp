@@ -197,6 +197,7 @@ void add_emitter(Build& build, const Property& property) {
     fail(reader.place(), "unknown emitter " + quoted(type) + suggestion(type, types));
   }
   Light light;
+  light.name = reader.object().id;
   light.where = reader.place().location();
   if (!known->second(build, reader, light)) return;
   for (const Property* medium : reader.objects("medium"))

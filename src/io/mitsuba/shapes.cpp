@@ -254,6 +254,7 @@ void add_to_group(Build& build, uint32_t object, uint32_t group) {
     build.warn(reader.place(), "the back of a surface without 'twosided' is black in Mitsuba; here both sides reflect");
   }
   for (Shape& shape : request.shapes) {
+    if (!reader.object().id.empty()) shape.name = reader.object().id;
     shape.material = bsdf.material;
     shape.emission = emission;
     shape.reverse_orientation = shape.reverse_orientation != flips;

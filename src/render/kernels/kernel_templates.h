@@ -95,7 +95,8 @@ void take_blocks(const KernelRequest& request) {
   const SceneView<Real>& scene = *static_cast<const SceneView<Real>*>(request.scene);
   const Intersector intersector = make_intersector<Intersector>(scene, request.tracer);
   BlockSum<Real>* const sums = static_cast<BlockSum<Real>*>(request.sums);
-  for (uint32_t b = 0; b < request.block_count; ++b) sums[b] = {};
+  for (uint32_t b = 0; b < request.block_count; ++b)
+    sums[b].begin(request.parts != nullptr || request.wants_first_point);
   // Samples are counted where one is taken after the other, which gives the same bits.
   if constexpr ((samples_lights(kind) || kind == IntegratorKind::iterative) && !counts_samples)
     take_blocks_together<kind, Sampler>(request, scene, intersector, sums);

@@ -16,7 +16,8 @@ template <class Real>
 void take_paths_singly(const KernelRequest& request) {
   const SceneView<Real>& scene = *static_cast<const SceneView<Real>*>(request.scene);
   BlockSum<Real>* const sums = static_cast<BlockSum<Real>*>(request.sums);
-  for (uint32_t b = 0; b < request.block_count; ++b) sums[b] = {};
+  for (uint32_t b = 0; b < request.block_count; ++b)
+    sums[b].begin(request.parts != nullptr || request.wants_first_point);
   take_blocks_singly<IntegratorKind::iterative, SobolSampler>(request, scene, Bvh8Intersector<Real>(scene), sums);
 }
 

@@ -268,6 +268,7 @@ NoisyImage two_blocks(float even_weight, float odd_weight) {
   Film<float> film({0, 1, 0, 1}, {}, {true, false, true});
   for (const float weight : {even_weight, odd_weight}) {
     BlockSum<float> block;
+    block.begin(false);
     block.samples = 4;
     block.weight = weight;
     block.radiance = Vec3<float>{1, 2, 3} * (weight * (weight == odd_weight ? 2.0f : 1.0f));

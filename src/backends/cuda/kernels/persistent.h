@@ -32,7 +32,7 @@ struct PersistentKernel {
         if (taken == to_take) {
           uint32_t index;
           if (!claim_item(thread, launch, grid, next_item, index, item)) return;
-          sums[index] = {};
+          sums[index].begin(launch.film.needs_layer_sums());
           record.sum = &sums[index];
           taken = 0;
           to_take = launch.samples_in_block(item.block);
@@ -46,7 +46,7 @@ struct PersistentKernel {
         path.ray = camera.ray;
         trail.begin();
         static_cast<PathRecord<Real>&>(record) = {};
-        if (launch.film.light) {
+        if (launch.film.parts_light()) {
           parts = {};
           record.parts = &parts;
         }

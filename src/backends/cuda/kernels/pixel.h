@@ -33,7 +33,7 @@ struct PixelKernel {
     const size_t film_pixel = launch.film_index(x, row);
     for (uint32_t block = 0; block < launch.slice.blocks(); ++block) {
       if (launch.skips_block(film_pixel, block)) continue;
-      sum = {};
+      sum.begin(launch.film.needs_layer_sums());
       for (uint32_t i = 0; i < launch.samples_in_block(block); ++i)
         take_sample(thread, x, row, launch.slice.first + block * samples_per_block + i, sum);
       finish_block(thread, launch, film_pixel, sum);
@@ -49,7 +49,7 @@ struct PixelKernel {
     const CameraSample<Real> camera = sample_camera(launch.scene, sampler, px, py);
     SumRecord<Real> record(&sum, launch.film);
     PartedLight<Real> parts;
-    if (launch.film.light) record.parts = &parts;
+    if (launch.film.parts_light()) record.parts = &parts;
     StateOf<kind, Real> path;
     path.ray = camera.ray;
     TrailOf<kind, Real> trail;

@@ -156,7 +156,7 @@ struct GenerateKernel {
     }
     if (!has_item || sample.taken == launch.samples_in_block(item.block)) {
       if (!claim_item(thread, launch, stage.grid, &slots.counts->next_item, sample.item, item)) return;
-      stage.sums[sample.item] = {};
+      stage.sums[sample.item].begin(launch.film.needs_layer_sums());
       sample.taken = 0;
     }
     slots.samples.set(slot, sample);
