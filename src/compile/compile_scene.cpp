@@ -15,12 +15,11 @@
 #include "compile/materials.h"
 #include "compile/open_backs.h"
 #include "compile/render_space.h"
-#include "compile/scene_names.h"
 #include "compile/shapes.h"
 #include "compile/trees.h"
 #include "core/shapes/triangle.h"
-#include "scene/light_names.h"
 #include "scene/mixes.h"
+#include "scene/scene_names.h"
 #include "util/memory_limit.h"
 #include "util/thread_limit.h"
 

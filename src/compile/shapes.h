@@ -9,8 +9,8 @@
 #include "compile/instances.h"
 #include "compile/materials.h"
 #include "compile/scene_arrays.h"
-#include "compile/scene_names.h"
 #include "scene/scene.h"
+#include "scene/scene_names.h"
 
 namespace alhazen {
 

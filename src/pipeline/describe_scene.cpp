@@ -5,10 +5,9 @@
 #include <set>
 #include <utility>
 
-#include "compile/scene_names.h"
 #include "scene/default_view.h"
 #include "scene/kind_names.h"
-#include "scene/light_names.h"
+#include "scene/scene_names.h"
 
 namespace alhazen {
 
@@ -116,7 +115,7 @@ std::vector<LightDescription> lights_of(const Scene& scene) {
   SceneNames objects(scene);
   for (const ShapeGroup& group : scene.groups)
     for (const Shape& shape : group.shapes) {
-      const uint32_t id = objects.object_id({&shape, shape.world_from_object, shape.reverse_orientation});
+      const uint32_t id = objects.object_id(shape);
       if (!shape.emission) continue;
       const Mesh* mesh = mesh_if_any(scene, shape);
       lights.push_back({group.name.empty() ? objects.objects()[id - 1] : group.name, "area light", shape.where,

@@ -217,7 +217,7 @@ struct Instance {
 
 /// A light that is not a shape: of any kind but triangle, sphere and moving_sphere.
 struct Light {
-  std::string name;  ///< may be empty (scene/light_names.h)
+  std::string name;  ///< may be empty (scene/scene_names.h)
   LightKind kind = LightKind::constant_infinite;
   /// constant_infinite: radiance; environment: factor on the map; distant and sun: irradiance at normal incidence,
   /// W / m^2; others: intensity, W / sr.

@@ -117,7 +117,7 @@ struct ObjectRecord {
 
 inline constexpr uint32_t no_motion = 0xffffffffu;
 
-/// Ids of named objects and of materials start at 1 (compile/scene_names.h). They are set only if a layer shows them.
+/// Ids of named objects and of materials start at 1 (scene/scene_names.h). They are set only if a layer shows them.
 inline constexpr uint32_t no_id = 0;
 
 /// Places an object in the world, at shutter open. The transforms are 3x4 matrices, stored row by row.

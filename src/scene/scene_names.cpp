@@ -1,4 +1,6 @@
-#include "compile/scene_names.h"
+#include "scene/scene_names.h"
+
+#include <map>
 
 #include "core/shapes/shape_records.h"
 #include "util/printable.h"
@@ -38,11 +40,23 @@ void name_instances(Scene& scene) {
       instance.name = scene.groups[instance.group].name + "." + std::to_string(++counts[instance.group]);
 }
 
+std::vector<std::string> light_names(const Scene& scene) {
+  std::vector<std::string> names;
+  std::map<std::string, size_t> counts;
+  for (const Light& light : scene.lights) {
+    const bool surrounds = light.kind == LightKind::constant_infinite || light.kind == LightKind::environment;
+    const std::string kind = light_traits(light.kind).name;
+    names.push_back(!light.name.empty() ? printable(light.name)
+                    : surrounds         ? "environment"
+                                        : kind + "." + std::to_string(++counts[kind]));
+  }
+  return names;
+}
+
 SceneNames::SceneNames(const Scene& scene) : scene_(scene) {}
 
-uint32_t SceneNames::object_id(const ShapePlacement& placement) {
-  if (placement.instance) return object_id(*placement.instance);
-  const Shape& shape = *placement.shape;
+uint32_t SceneNames::object_id(const Shape& shape, const Instance* instance) {
+  if (instance) return object_id(*instance);
   uint32_t& id = object_ids_[&shape];
   if (id == no_id) {
     const std::string kind = kind_name(shape.type);

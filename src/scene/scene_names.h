@@ -1,13 +1,14 @@
 #pragma once
 
-// The names by which layers tell objects and materials apart, and their ids in the compiled scene.
+// The names by which layers and reports tell objects, materials and lights apart, and the ids of the first two in the
+// compiled scene.
 
 #include <cstdint>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
-#include "compile/instances.h"
+#include "scene/scene.h"
 
 namespace alhazen {
 
@@ -26,13 +27,18 @@ class NameTable {
 /// whose instances keep them.
 void name_instances(Scene& scene);
 
+/// Of Scene::lights, in their order. All that surrounds the scene, whether an image or of one colour, is called
+/// `environment`. What a file leaves without a name is called by its kind and a number: `point.1`.
+std::vector<std::string> light_names(const Scene& scene);
+
 /// Names the objects and materials of a scene. What a file leaves without a name is called by its kind and a number,
 /// counted among those without names: `sphere.1`. An instance is one object (name_instances).
 class SceneNames {
  public:
   explicit SceneNames(const Scene& scene);
 
-  uint32_t object_id(const ShapePlacement& placement);
+  /// `instance`, if not null, is what places the shape.
+  uint32_t object_id(const Shape& shape, const Instance* instance = nullptr);
   uint32_t object_id(const Instance& instance);
   /// `material` is an index into Scene::materials, or no_index.
   uint32_t material_id(uint32_t material);
