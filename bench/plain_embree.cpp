@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 PlainEmbree::PlainEmbree(const SceneView<float>& view, int threads)
     : device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {
@@ -60,4 +60,4 @@ void PlainEmbree::attach(RTCGeometry geometry) {
   rtcReleaseGeometry(geometry);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

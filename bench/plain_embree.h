@@ -6,7 +6,7 @@
 #include "backends/embree/module/api.h"
 #include "core/scene_view.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 class PlainEmbree {
  public:
@@ -28,4 +28,4 @@ class PlainEmbree {
   EmbreeTracer tracer_{};
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 #include "recorded.h"
 #include "render/sample_kernel.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 ALHAZEN_DECLARE_KERNEL(TraceQueries select_trace(Call call, bool is_double))
 
@@ -85,4 +85,4 @@ const bool is_registered = [] {
 }();
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -11,7 +11,7 @@
 #include "core/sampling/sobol.h"
 #include "io/pbrt/pbrt.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -105,4 +105,4 @@ const Recorded<Real>& Recorded<Real>::of(const std::string& name) {
 template struct Recorded<float>;
 template struct Recorded<double>;
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -16,7 +16,7 @@
 #include "plain_embree.h"
 #endif
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Camera rays, 16 consecutive ones per pixel; bounces in the order of the paths; the same shuffled; shadow rays.
 enum RaySet { primary, bounce, shuffled, shadow };
@@ -41,4 +41,4 @@ struct Recorded {
   static const Recorded& of(const std::string& name);
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -10,7 +10,7 @@
 #include "render/backend.h"
 #include "render/kernels/kernel_templates.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 namespace {
 
 constexpr int64_t image_size = 200;
@@ -89,11 +89,11 @@ void register_precision(const std::string& precision) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::impl
 
 int main(int argc, char** argv) {
-  alhazen::register_precision<float>("float");
-  alhazen::register_precision<double>("double");
+  alhazen::impl::register_precision<float>("float");
+  alhazen::impl::register_precision<double>("double");
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

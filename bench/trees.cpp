@@ -10,7 +10,7 @@
 #include "io/read_scene.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 namespace {
 
 CompiledScene<float> read_mesh(const BvhLayouts& layouts) {
@@ -79,4 +79,4 @@ BENCHMARK(closest_hit<Bvh2Intersector<float>>)->Name("mesh/closest hit bvh2")->U
 BENCHMARK(closest_hit<CwbvhIntersector<>>)->Name("mesh/closest hit cwbvh")->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@
 #include "recorded.h"
 #include "render/sample_kernel.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 namespace {
 
 template <class Real>
@@ -86,4 +86,4 @@ const bool is_registered = [] {
 }();
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -52,10 +52,10 @@ def demangle(names):
 
 def short_name(name):
     """PersistentKernel<WideTracing, path, float> of the mangled name's long form."""
-    name = re.sub(r"\(alhazen::IntegratorKind\)2", "iterative", name)
-    name = re.sub(r"\(alhazen::IntegratorKind\)3", "path", name)
-    match = re.search(r"run_kernel<alhazen::cuda::(.*)>\(", name)
-    return re.sub(r"alhazen::(cuda::)?", "", match.group(1)) if match else name
+    name = re.sub(r"\(alhazen::impl::IntegratorKind\)2", "iterative", name)
+    name = re.sub(r"\(alhazen::impl::IntegratorKind\)3", "path", name)
+    match = re.search(r"run_kernel<alhazen::impl::cuda::(.*)>\(", name)
+    return re.sub(r"alhazen::impl::(cuda::)?", "", match.group(1)) if match else name
 
 
 def parse(report):

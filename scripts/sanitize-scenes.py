@@ -45,7 +45,7 @@ ODD_NUMBERS = ["0", "-1", "1", "0.5", "3", "255", "1e-30", "1e-8", "1e4", "-1e4"
 # Numbers that are values, not parts of names or of data.
 NUMBER = re.compile(rb"(?<=[\s\[,:])-?\d+\.?\d*(?:[eE][-+]?\d+)?(?=[\s\],}])")
 # Of valgrind, whose reports of string functions of the standard library are false ones.
-KERNEL_ERROR = re.compile(r"uninitialised[^\n]*\n[^\n]*alhazen::(baseline|avx2|avx512)::")
+KERNEL_ERROR = re.compile(r"uninitialised[^\n]*\n[^\n]*alhazen::impl::(baseline|avx2|avx512)::")
 MAX_MUTATED = 1 << 20
 SPHERE = 'WorldBegin\nMaterial "conductor" "float roughness" 0.2\nShape "sphere"\n'
 

@@ -17,7 +17,7 @@ struct Query {
 
 }  // namespace ALHAZEN_CORE
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// One ray per call; as many per call as a render traces at a time; the same as coherent packets; one ray per call by
 /// Embree alone, or by our backend over it.
@@ -27,4 +27,4 @@ enum class Call : uint32_t { one, many, coherent, plain_embree, embree_backend }
 using TraceQueries = uint64_t (*)(const void* scene, const ExternalTracer* tracer, const void* queries, uint32_t count,
                                   bool any_hit);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -13,6 +13,7 @@ const float* RenderedImage::plane(const std::string& channel) const {
 }
 
 RenderedImage render(const std::string& scene_file, const Settings& settings, const ProgressFunction& progress) {
+  using namespace impl;
   const ThreadDefaults defaults;
   Diagnostics diagnostics;
   LoadedScene loaded = load_scene(scene_file, settings, diagnostics);

@@ -9,7 +9,7 @@
 
 #include "render/backend.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Adds the time between its construction and its destruction to the busy seconds of a thread, and what the thread ran
 /// of it to its processor seconds. Both must happen on that thread.
@@ -118,4 +118,4 @@ class BlockBatch {
   std::vector<PartedLight<Real>> parts_;  ///< if the film divides light into parts
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

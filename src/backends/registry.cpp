@@ -7,7 +7,7 @@
 #define ALHAZEN_BACKENDS(X) X(serial) X(openmp) X(embree) X(cuda) X(optix)
 #define ALHAZEN_DENOISERS(X) X(optix) X(oidn) X(builtin)
 
-namespace alhazen {
+namespace alhazen::impl {
 
 #define ALHAZEN_DECLARE_BACKEND(name) std::unique_ptr<Backend> make_##name##_backend();
 ALHAZEN_BACKENDS(ALHAZEN_DECLARE_BACKEND)
@@ -30,4 +30,4 @@ std::vector<std::unique_ptr<Denoiser>> all_denoisers() {
   return denoisers;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

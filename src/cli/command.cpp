@@ -8,7 +8,7 @@
 
 #include "cli/help.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -140,4 +140,4 @@ CommandOption Command::add_flag(const std::string& names, const std::function<vo
       names, [set](int64_t) { set(); }, help));
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -16,7 +16,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// An option of a subcommand. What it is asked to be, it returns itself for.
 class CommandOption {
@@ -98,4 +98,4 @@ struct ProgramText {
 int run_command_line(const ProgramText& text, const std::function<void(Command&)>& add_subcommands, int argc,
                      char** argv);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

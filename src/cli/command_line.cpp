@@ -16,7 +16,7 @@
 #include "util/diagnostics.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -231,4 +231,4 @@ int run_command_line(const ProgramText& text, const std::function<void(Command&)
   }
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -23,7 +23,7 @@
 #include "util/parse_numbers.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -217,4 +217,4 @@ void register_compare(Command& program, int& exit_code) {
   command.on_run([options, &exit_code] { exit_code = run_compare(*options); });
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

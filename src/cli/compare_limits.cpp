@@ -8,7 +8,7 @@
 #include "util/diagnostics.h"
 #include "util/parse_numbers.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 std::vector<std::pair<std::string, double>> measures_of(const ImageDifference& d) {
   return {{"mse", d.mse},
@@ -56,4 +56,4 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const ImageD
   return lines;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 
 #include "images/metrics/compare.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Every measure by its key in JSON.
 std::vector<std::pair<std::string, double>> measures_of(const ImageDifference& difference);
@@ -26,4 +26,4 @@ Limit parse_limit(const std::string& text, const std::string& option, bool is_hi
 std::vector<std::string> exceeded(const std::vector<Limit>& limits, const ImageDifference& difference,
                                   const std::string& what);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

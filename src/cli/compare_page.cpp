@@ -8,7 +8,7 @@
 #include "images/codecs/encode_png.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -113,4 +113,4 @@ std::string comparison_page(const std::string& a, const std::string& b, const st
   return page + script;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

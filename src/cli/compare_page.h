@@ -8,7 +8,7 @@
 #include "images/image.h"
 #include "images/metrics/compare.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// One comparison: of a layer, or of the colours.
 struct ComparedPart {
@@ -21,4 +21,4 @@ struct ComparedPart {
 /// side by side, and as the map of the error; also on a screen 390 pixels wide.
 std::string comparison_page(const std::string& a, const std::string& b, const std::vector<ComparedPart>& parts);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -14,7 +14,7 @@
 
 #include "cli/interrupt.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -93,4 +93,4 @@ std::string flush_output() {
   return std::string("cannot write to the standard output: ") + std::strerror(stdout_error);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

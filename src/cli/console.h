@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Call this before any file is opened. It opens closed standard streams such that writing fails, so that no image gets
 /// their descriptors and the messages for them. Writing to a pipe without a reader or beyond the file size limit
@@ -37,4 +37,4 @@ void print_out(fmt::format_string<Arguments...> format, Arguments&&... arguments
 /// Writes the stored text. Returns why not all of it was written, or an empty string.
 std::string flush_output();
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -14,7 +14,7 @@
 #include "render/sample_kernel.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -69,4 +69,4 @@ void register_devices(Command& program) {
   command.on_run([json] { *json ? print_json() : print_table(); });
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@
 #include "images/display/tone_map.h"
 #include "util/parse_numbers.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -94,4 +94,4 @@ std::string display_lines(const DisplayStatistics& display) {
   return lines;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

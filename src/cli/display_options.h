@@ -11,7 +11,7 @@
 #include "pipeline/write_outputs.h"
 #include "render/statistics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// As given; empty: not given.
 struct DisplayOptions {
@@ -32,4 +32,4 @@ void warn_of_display_options(const DisplayOptions& options, const std::vector<st
 /// What the image decided on, one line each; empty if it was as given.
 std::string display_lines(const DisplayStatistics& display);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

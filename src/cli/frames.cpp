@@ -7,7 +7,7 @@
 #include "util/diagnostics.h"
 #include "util/parse_numbers.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -112,4 +112,4 @@ bool FramePattern::is_likely(const std::string& path) {
   return false;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

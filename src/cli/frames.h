@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// A sequence has at most this many frames, and their numbers are at most that.
 inline constexpr int64_t max_frames = 1'000'000, max_frame_number = 999'999'999;
@@ -39,4 +39,4 @@ class FramePattern {
   int width_ = 0;  ///< digits, filled up with zeros; 0: there is no place for a number
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

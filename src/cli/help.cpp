@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -130,4 +130,4 @@ std::string help_text(const CLI::App& app, const std::string& name, bool all) {
   return text;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Lines are at most this long, and --help of a subcommand has at most `max_help_lines` of them: two screens.
 inline constexpr size_t help_columns = 80, max_help_lines = 80;
@@ -22,4 +22,4 @@ void mark_common(const CLI::Option& option);
 /// listed.
 std::string help_text(const CLI::App& app, const std::string& name, bool all);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

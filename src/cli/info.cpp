@@ -13,7 +13,7 @@
 #include "cli/subcommands.h"
 #include "pipeline/load_scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -56,4 +56,4 @@ void register_info(Command& program) {
   command.on_run([options] { show(*options); });
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

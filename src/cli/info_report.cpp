@@ -9,7 +9,7 @@
 #include "scene/kind_names.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -244,4 +244,4 @@ std::string report_json(const SceneReport& r) {
   return j.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -10,7 +10,7 @@
 #include "render/settings.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 struct SceneReport {
   std::string file;
@@ -27,4 +27,4 @@ std::string report_text(const SceneReport& report, bool all);
 /// One JSON object, whose keys docs/formats.md explains, and a line feed.
 std::string report_json(const SceneReport& report);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 
 #include "files/atomic_file.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -74,4 +74,4 @@ void catch_interrupts() {
 
 bool is_interrupted() { return interrupted.load(std::memory_order_relaxed); }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

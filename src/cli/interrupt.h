@@ -3,11 +3,11 @@
 // Signals that ask the program to end, for subcommands that then write their results so far: Ctrl-C, SIGTERM, a lost
 // terminal (SIGHUP), a limit on processor time (SIGXCPU).
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// From now on the first such signal is recorded, and a second one ends the program at once. Signals that were ignored
 /// when the program started, such as SIGHUP by nohup, stay ignored.
 void catch_interrupts();
 bool is_interrupted();
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 #include "io/read_scene.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 static ReadOptions reading(const Settings& settings) {
   ReadOptions choice;
@@ -42,4 +42,4 @@ void print_listing(const std::string& scene, const Settings& settings, bool as_j
   if (as_json) print_out("{}\n", json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -14,7 +14,7 @@
 #include "cli/console.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -222,4 +222,4 @@ void ProgressPrinter::show_json(const Progress& p) {
   last_shown_ = p.seconds;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -11,7 +11,7 @@
 #include "alhazen/alhazen.h"
 #include "util/activity.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 enum class ProgressStyle { bar, lines, json, none };
 
@@ -77,4 +77,4 @@ class ActivityPrinter {
 /// 3725 as "1 h 02 min", 75.2 as "1 min 15 s", 4.21 as "4.2 s".
 std::string format_seconds(double seconds);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

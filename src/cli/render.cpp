@@ -27,7 +27,7 @@
 #include "study/tuned.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -372,4 +372,4 @@ void register_render(Command& program, int& exit_code) {
   command.on_run([options, &exit_code] { exit_code = run(*options); });
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@
 #include "cli/progress.h"
 #include "pipeline/write_outputs.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 struct RenderOptions {
   std::string scene;
@@ -52,4 +52,4 @@ class WarningPrinter {
   size_t shown_ = 0;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -22,7 +22,7 @@
 #include "study/tuned.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -406,4 +406,4 @@ class Sequence {
 
 int render_sequence(RenderOptions& options) { return Sequence(options).run(); }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -4,11 +4,11 @@
 
 #include "cli/render_options.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Renders the frames that are not there yet, and returns the exit code. What stays the same in all frames is read and
 /// built once, where the camera alone moves; otherwise each frame reads the scene again. A frame has the same bits
 /// whichever others are rendered.
 int render_sequence(RenderOptions& options);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

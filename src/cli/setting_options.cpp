@@ -1,6 +1,6 @@
 #include "cli/setting_options.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -31,4 +31,4 @@ void add_setting_options(Command& command, Settings& settings, SettingGroup grou
     }
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

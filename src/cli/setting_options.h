@@ -8,7 +8,7 @@
 #include "cli/command.h"
 #include "render/setting_table.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// `settings` must outlive the parsing. A bad value throws InputError from there.
 void add_setting_option(Command& command, Settings& settings, std::string_view name);
@@ -16,4 +16,4 @@ void add_setting_option(Command& command, Settings& settings, std::string_view n
 /// All settings of a group, under that heading of the help.
 void add_setting_options(Command& command, Settings& settings, SettingGroup group, const std::string& heading);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

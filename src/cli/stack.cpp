@@ -6,7 +6,7 @@
 
 #include "util/thread_limit.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -46,4 +46,4 @@ int run_on_enough_stack(const std::function<int()>& body) {
   return call.result;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -3,7 +3,7 @@
 #include "cli/command.h"
 #include "cli/subcommands.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 void register_study(Command& program, int& exit_code) {
   Command study = program.add_subcommand("study", "Measure what each method of acceleration gains on this machine");
@@ -13,4 +13,4 @@ void register_study(Command& program, int& exit_code) {
   register_study_compare(study);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -12,7 +12,7 @@
 #include "study/json.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -78,4 +78,4 @@ void register_study_compare(Command& study) {
   command.on_run([o] { run(*o); });
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

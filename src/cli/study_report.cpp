@@ -16,7 +16,7 @@
 #include "util/diagnostics.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -74,7 +74,7 @@ class ReportPrinter {
   }
 
   void tell(const std::string& line) {
-    alhazen::tell("{}{}\n", is_open_ ? "\n" : "", line);
+    impl::tell("{}{}\n", is_open_ ? "\n" : "", line);
     is_open_ = false;
   }
 
@@ -137,4 +137,4 @@ void register_study_report(Command& study, int& exit_code) {
   command.on_run([o, &exit_code] { exit_code = run(*o); });
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -17,7 +17,7 @@
 #include "study/tuned.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -115,4 +115,4 @@ void register_study_tune(Command& study, int& exit_code) {
   command.on_run([o, &exit_code] { exit_code = run(*o); });
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -2,7 +2,7 @@
 
 // The subcommands. Each adds its options to the program and runs if it is selected.
 
-namespace alhazen {
+namespace alhazen::impl {
 
 class Command;
 
@@ -23,4 +23,4 @@ void register_study_report(Command& study, int& exit_code);
 void register_study_tune(Command& study, int& exit_code);
 void register_study_compare(Command& study);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

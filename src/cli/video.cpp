@@ -25,7 +25,7 @@
 
 extern "C" char** environ;
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -224,4 +224,4 @@ void VideoWriter::finish() {
   temporary_.clear();
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// By the extension: mp4 or gif.
 bool is_video(const std::string& path);
@@ -49,4 +49,4 @@ class VideoWriter {
   int status_ = 0;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -68,4 +68,4 @@ Vec3d cie_1931(double nanometres) {
   return lerp(Vec3d{x_bar[i], y_bar[i], z_bar[i]}, Vec3d{x_bar[i + 1], y_bar[i + 1], z_bar[i + 1]}, t);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

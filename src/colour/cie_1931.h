@@ -4,7 +4,7 @@
 
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The range of wavelengths in nanometres over which spectra are integrated.
 inline constexpr int first_visible = 360, last_visible = 830;
@@ -13,4 +13,4 @@ inline constexpr int first_visible = 360, last_visible = 830;
 /// values; zero outside the visible range.
 Vec3d cie_1931(double nanometres);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

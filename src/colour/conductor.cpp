@@ -7,7 +7,7 @@
 #include "colour/rgb_space.h"
 #include "colour/spectrum.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -69,4 +69,4 @@ ConductorRgb conductor_rgb(const Spectrum& eta, const Spectrum& k) {
   return rgb;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

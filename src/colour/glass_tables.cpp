@@ -1,6 +1,6 @@
 #include "colour/named_tables.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -79,4 +79,4 @@ constexpr std::array<NamedTable, 7> tables{{
 
 std::span<const NamedTable> glass_tables() { return tables; }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -1,6 +1,6 @@
 #include "colour/named_tables.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -172,4 +172,4 @@ constexpr std::array<NamedTable, 16> tables{{
 
 std::span<const NamedTable> illuminant_tables() { return tables; }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

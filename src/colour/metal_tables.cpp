@@ -1,6 +1,6 @@
 #include "colour/named_tables.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -133,4 +133,4 @@ constexpr std::array<NamedTable, 14> tables{{
 
 std::span<const NamedTable> metal_tables() { return tables; }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

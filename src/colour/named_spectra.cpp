@@ -7,7 +7,7 @@
 #include "colour/named_tables.h"
 #include "colour/spectrum.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -41,4 +41,4 @@ const Spectrum* named_spectrum(const std::string& name) {
   return found == spectra.end() ? nullptr : &found->second;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

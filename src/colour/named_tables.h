@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 struct NamedTable {
   std::string_view name;
@@ -27,4 +27,4 @@ std::span<const NamedTable> illuminant_tables();
 std::span<const NamedTable> metal_tables();
 std::span<const NamedTable> glass_tables();
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 #include "util/numbers.h"
 #include "util/quoted.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -80,4 +80,4 @@ Spectrum read_spectrum(const InputPath& path) {
   return spectrum;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -5,7 +5,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -125,4 +125,4 @@ Vec3d to_srgb(const std::string& space, Vec3d rgb) {
   throw InputError("unknown colour space '" + space + "'; known are srgb, rec2020, dci-p3 and aces2065-1");
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

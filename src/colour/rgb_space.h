@@ -7,7 +7,7 @@
 
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Converts CIE XYZ to linear sRGB; Y = 1 with the chromaticity of D65 is (1, 1, 1). Out-of-gamut colours are negative.
 Vec3d xyz_to_srgb(Vec3d xyz);
@@ -43,4 +43,4 @@ bool is_rgb_space(const std::string& name);
 /// adapted by the Bradford method. Throws InputError if the name is unknown.
 Vec3d to_srgb(const std::string& space, Vec3d rgb);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 #include "colour/cie_1931.h"
 #include "colour/rgb_space.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 double Spectrum::at(double nanometres) const {
   const auto after = std::upper_bound(wavelengths.begin(), wavelengths.end(), nanometres);
@@ -71,4 +71,4 @@ Vec3d illuminant_rgb(const Spectrum& emission) {
   return xyz.y > 0 ? xyz_to_srgb(xyz / splat(xyz.y)) : Vec3d{};
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@
 #include "files/input_file.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Piecewise linear over ascending wavelengths in nanometres; zero outside its range.
 struct Spectrum {
@@ -48,4 +48,4 @@ const Spectrum* named_spectrum(const std::string& name);
 /// Reads a text file of wavelength and value pairs (`.spd`); `#` starts a comment. Throws InputError.
 Spectrum read_spectrum(const InputPath& path);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 #include "colour/cie_1931.h"
 #include "colour/spectrum.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -64,4 +64,4 @@ double nearest_white_temperature(const Vec2d& xy) {
   return nearest;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -4,7 +4,7 @@
 
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 inline constexpr double min_white_temperature = 1000, max_white_temperature = 25000;
 
@@ -18,4 +18,4 @@ Vec2d white_point(double kelvin);
 /// The temperature, in kelvin, whose white point is the closest in CIE 1960 u and v, within the same limits.
 double nearest_white_temperature(const Vec2d& xy);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

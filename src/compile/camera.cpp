@@ -5,7 +5,7 @@
 
 #include "scene/filters.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -157,4 +157,4 @@ template CameraRecord<double> camera_record(const Camera&, const std::string&, i
 template void compile_camera(const Scene&, int64_t, int64_t, SceneArrays<float>&, SceneView<float>&, Diagnostics&);
 template void compile_camera(const Scene&, int64_t, int64_t, SceneArrays<double>&, SceneView<double>&, Diagnostics&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 #include "compile/scene_arrays.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The record of a camera for an image of width x height pixels. `scene_name` is for messages.
 template <class Real>
@@ -21,4 +21,4 @@ void compile_camera(const Scene& scene, int64_t width, int64_t height, SceneArra
 /// The filter's value `x` pixels from its centre along one axis (every filter is a product over the two axes).
 double filter_value(const Filter& filter, double x, double radius);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

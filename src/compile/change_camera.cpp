@@ -3,7 +3,7 @@
 #include "compile/camera.h"
 #include "compile/open_backs.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 template <class Real>
 void change_camera(Camera camera, const std::string& scene_name, int64_t width, int64_t height, int threads,
@@ -19,4 +19,4 @@ void change_camera(Camera camera, const std::string& scene_name, int64_t width, 
 template void change_camera(Camera, const std::string&, int64_t, int64_t, int, CompiledScene<float>&);
 template void change_camera(Camera, const std::string&, int64_t, int64_t, int, CompiledScene<double>&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -23,7 +23,7 @@
 #include "util/memory_limit.h"
 #include "util/thread_limit.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -256,4 +256,4 @@ CompiledScene<Real> compile_scene(Scene&& scene, const CompileOptions& options, 
 template CompiledScene<float> compile_scene(Scene&&, const CompileOptions&, Diagnostics&);
 template CompiledScene<double> compile_scene(Scene&&, const CompileOptions&, Diagnostics&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 #include "compile/light_groups.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Overrides of the description by the command line or a caller.
 struct CompileOptions {
@@ -38,4 +38,4 @@ struct CompileOptions {
 template <class Real>
 CompiledScene<Real> compile_scene(Scene&& scene, const CompileOptions& options, Diagnostics& diagnostics);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

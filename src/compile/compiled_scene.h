@@ -11,7 +11,7 @@
 
 #include "core/scene_view.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 struct FreeArena {
   void operator()(std::byte* memory) const { std::free(memory); }
@@ -55,4 +55,4 @@ struct CompiledScene {
   BackOpenings backs;                     ///< if it was compiled for several cameras
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -5,7 +5,7 @@
 
 #include "core/lights/light.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -86,4 +86,4 @@ void weigh_emission_textures(const SceneArrays<Real>& arrays, std::vector<double
 template void weigh_emission_textures(const SceneArrays<float>&, std::vector<double>&);
 template void weigh_emission_textures(const SceneArrays<double>&, std::vector<double>&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

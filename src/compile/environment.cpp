@@ -7,7 +7,7 @@
 
 #include "core/lights/environment.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -260,4 +260,4 @@ double add_environment(const Light& light, Scene& scene, SceneArrays<Real>& out)
 template double add_environment(const Light&, Scene&, SceneArrays<float>&);
 template double add_environment(const Light&, Scene&, SceneArrays<double>&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -5,7 +5,7 @@
 #include "compile/scene_arrays.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Appends the map of `light` to out.environments and the light to out.lights, unless it is black. The map's texels are
 /// moved out of the scene. Returns the part of the light that is above the mean over all directions, which is what
@@ -14,4 +14,4 @@ namespace alhazen {
 template <class Real>
 double add_environment(const Light& light, Scene& scene, SceneArrays<Real>& out);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -216,4 +216,4 @@ uint32_t ImageBuilder<Real>::record(const Texture& texture) {
 template class ImageBuilder<float>;
 template class ImageBuilder<double>;
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

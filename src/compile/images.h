@@ -9,7 +9,7 @@
 #include "compile/scene_arrays.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The image at half the width and half the height (rounded down, at least 1): each texel is the mean of the linear
 /// values over its area.
@@ -47,4 +47,4 @@ class ImageBuilder {
   std::map<std::tuple<uint32_t, WrapMode, WrapMode, bool>, uint32_t> records_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -151,4 +151,4 @@ void add_instance(const Scene& scene, const Instance& instance, uint32_t object,
 template void add_instance(const Scene&, const Instance&, uint32_t, SceneArrays<float>&);
 template void add_instance(const Scene&, const Instance&, uint32_t, SceneArrays<double>&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

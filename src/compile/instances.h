@@ -9,7 +9,7 @@
 #include "compile/scene_arrays.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// A shape with its final placement: its own transform, or an instance's applied to it.
 struct ShapePlacement {
@@ -49,4 +49,4 @@ std::vector<std::vector<ShapePlacement>> object_placements(const Scene& scene, c
 template <class Real>
 void add_instance(const Scene& scene, const Instance& instance, uint32_t object, SceneArrays<Real>& out);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

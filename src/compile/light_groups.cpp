@@ -10,7 +10,7 @@
 #include "util/quoted.h"
 #include "util/suggestion.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -107,4 +107,4 @@ GroupedLights group_light_names(const std::vector<std::string>& names, const std
   return grouped;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 struct LightGroup {
   std::string name;                   ///< of letters, digits, '_' and '-'
@@ -29,4 +29,4 @@ struct GroupedLights {
 /// groups than max_light_groups.
 GroupedLights group_light_names(const std::vector<std::string>& names, const std::vector<LightGroup>& groups);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -10,7 +10,7 @@
 #include "core/math/bounds.h"
 #include "core/shapes/interaction.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -261,4 +261,4 @@ void build_light_tree(const std::vector<double>& weights, SceneArrays<Real>& out
 template void build_light_tree(const std::vector<double>&, SceneArrays<float>&);
 template void build_light_tree(const std::vector<double>&, SceneArrays<double>&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,11 +6,11 @@
 
 #include "compile/scene_arrays.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Fills out.light_tree with the finite lights whose weight, their power, is above 0, of which there is at least one;
 /// each gets its trail.
 template <class Real>
 void build_light_tree(const std::vector<double>& weights, SceneArrays<Real>& out);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

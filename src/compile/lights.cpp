@@ -9,7 +9,7 @@
 #include "compile/light_tree_builder.h"
 #include "core/lights/light.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -205,4 +205,4 @@ template void assign_light_probabilities(const std::vector<double>&, LightSampli
 template void assign_light_probabilities(const std::vector<double>&, LightSampling, SceneArrays<double>&,
                                          SceneView<double>&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 #include "compile/scene_arrays.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Appends the lights of the description that are not shapes to out.lights, with their measures, and sets the
 /// background of `view`. Constant infinite lights are summed into one. The texels of maps are freed as they are copied.
@@ -34,4 +34,4 @@ inline constexpr size_t max_lights_without_tree = 2;
 template <class Real>
 bool has_only_delta_lights(const SceneArrays<Real>& out, const SceneView<Real>& view);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 #include "core/bvh/bvh2/traversal.h"
 #include "core/integrators/stages.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -380,4 +380,4 @@ std::optional<LostLight> find_lost_light(const SceneView<Real>& view, uint32_t m
 template std::optional<LostLight> find_lost_light(const SceneView<float>&, uint32_t);
 template std::optional<LostLight> find_lost_light(const SceneView<double>&, uint32_t);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

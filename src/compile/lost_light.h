@@ -9,7 +9,7 @@
 #include "compile/scene_arrays.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// A light of which some is lost, and a surface at which it is lost.
 struct LostLight {
@@ -34,4 +34,4 @@ std::optional<LostLight> find_lost_light(const SceneView<Real>& view, uint32_t m
 void warn_of_lost_light(const LostLight& lost, const Scene& scene, const SourceLocation& where,
                         Diagnostics& diagnostics);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -13,7 +13,7 @@
 #include "core/materials/lobes/microfacet.h"
 #include "scene/mixes.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -388,4 +388,4 @@ CompiledMaterials compile_materials(Scene& scene, SceneArrays<Real>& out) {
 template CompiledMaterials compile_materials(Scene&, SceneArrays<float>&);
 template CompiledMaterials compile_materials(Scene&, SceneArrays<double>&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

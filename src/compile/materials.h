@@ -7,7 +7,7 @@
 #include "compile/scene_arrays.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 struct CompiledMaterials {
   std::vector<TextureRange> emission;  ///< programs of emission textures, by index into scene.textures
@@ -19,4 +19,4 @@ struct CompiledMaterials {
 template <class Real>
 CompiledMaterials compile_materials(Scene& scene, SceneArrays<Real>& out);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -15,7 +15,7 @@
 #include "core/integrators/transparency.h"
 #include "core/sampling/warp.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -372,4 +372,4 @@ template BackOpenings prepare_openings(const SceneView<double>&, SceneArrays<dou
 template void open_seen_backs(uint32_t, uint32_t, int, CompiledScene<float>&);
 template void open_seen_backs(uint32_t, uint32_t, int, CompiledScene<double>&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 
 #include "compile/scene_arrays.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Handles one-sided triangles that coincide with another one facing the other way, as leaves and cloth are often
 /// modelled: their new surface shows every ray only its front, since the other triangle is its back.
@@ -33,4 +33,4 @@ BackOpenings prepare_openings(const SceneView<Real>& view, SceneArrays<Real>& ou
 template <class Real>
 void open_seen_backs(uint32_t width, uint32_t height, int threads, CompiledScene<Real>& scene);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -5,7 +5,7 @@
 
 #include "core/math/bounds.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -86,4 +86,4 @@ Vec3d move_to_render_space(Scene& scene) {
   return origin;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,11 +6,11 @@
 
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Translates everything that has a position, in double precision. Scenes whose camera distance or size is comparable
 /// to their distance from the origin remain unchanged, and so do their images, to the last bit. Returns the point of
 /// the world that has become the origin.
 Vec3d move_to_render_space(Scene& scene);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@
 
 #include "compile/compiled_scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 inline constexpr size_t arena_alignment = 64;
 
@@ -66,4 +66,4 @@ struct SceneArrays {
   }
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

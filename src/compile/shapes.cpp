@@ -10,7 +10,7 @@
 #include "core/shapes/instance.h"
 #include "core/shapes/triangle.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -407,4 +407,4 @@ bool ShapeBuilder<Real>::needs_uv(const Shape& shape) const {
 template class ShapeBuilder<float>;
 template class ShapeBuilder<double>;
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -12,7 +12,7 @@
 #include "scene/scene.h"
 #include "scene/scene_names.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Sizes of all meshes that are placed, each as often as it is placed.
 struct MeshSizes {
@@ -80,4 +80,4 @@ class ShapeBuilder {
   SourceLocation without_area_place_;  ///< of the first of them
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 
 #include "core/textures/texture.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -150,4 +150,4 @@ template void add_texture_tables(SceneArrays<double>&);
 template class TextureBuilder<float>;
 template class TextureBuilder<double>;
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -11,7 +11,7 @@
 #include "compile/scene_arrays.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Adds what every evaluation of textures may look up: the decoding of sRGB and the permutation of noise.
 template <class Real>
@@ -51,4 +51,4 @@ class TextureBuilder {
   ImageBuilder<Real> images_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

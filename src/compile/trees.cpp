@@ -12,7 +12,7 @@
 #include "core/bvh/cwbvh/primitive.h"
 #include "core/shapes/instance.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -196,4 +196,4 @@ void build_trees(const CompileOptions& options, SceneArrays<Real>& out, SceneSta
 template void build_trees(const CompileOptions&, SceneArrays<float>&, SceneStatistics&);
 template void build_trees(const CompileOptions&, SceneArrays<double>&, SceneStatistics&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

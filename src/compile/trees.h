@@ -5,7 +5,7 @@
 #include "compile/compile_scene.h"
 #include "compile/scene_arrays.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Fills the trees that `options` asks for and `primitives`, and brings triangles into the order of the leaves. The
 /// world's triangles must come first in out.triangles, then those of each object one after the other; the roots are
@@ -13,4 +13,4 @@ namespace alhazen {
 template <class Real>
 void build_trees(const CompileOptions& options, SceneArrays<Real>& out, SceneStatistics& statistics);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

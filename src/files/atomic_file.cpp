@@ -18,7 +18,7 @@
 #include "files/file_identity.h"
 #include "files/temporary_files.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -269,4 +269,4 @@ void check_target(const std::string& path) {
   }
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -11,7 +11,7 @@
 
 struct stat;
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The message is `cannot write PATH: `, the cause and what to do.
 class WriteError : public RenderError {
@@ -73,4 +73,4 @@ void check_target(const std::string& path);
 /// second; once it returns true, the write fails after one second without progress. By default it waits for ever.
 void set_pipe_wait_is_over(bool (*is_over)());
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -11,7 +11,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 size_t MemorySource::read(char* into, size_t capacity) {
   const size_t count = left_.copy(into, capacity);
@@ -64,4 +64,4 @@ uint64_t FileSource::plausible_size() const {
   return gzdirect(handle_->file) ? size_ : size_ * compression;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@
 
 #include "files/input_file.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 class ByteSource {
  public:
@@ -52,4 +52,4 @@ class FileSource final : public ByteSource {
   std::unique_ptr<Handle> handle_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -12,7 +12,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -104,4 +104,4 @@ int Confinement::open_found(const std::string& relative, int flags) const {
   return result;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

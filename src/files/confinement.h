@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Opens files below one folder only: neither an absolute path, nor `..`, nor a symbolic link anywhere in the path
 /// leads outside. The folder is held open, so renaming it changes nothing. Linux itself resolves the path within the
@@ -33,4 +33,4 @@ class Confinement {
   bool kernel_resolves_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

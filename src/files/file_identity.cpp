@@ -8,7 +8,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -82,4 +82,4 @@ void refuse_same_file(const NamedFile& written, const std::vector<NamedFile>& ot
                                            ": give it another name");
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The path to which a write to `path` leads: symbolic links are followed, relative ones from their own folder, also to
 /// a file that does not exist yet. `error` is 0, or the errno that says why there is no such path.
@@ -28,4 +28,4 @@ struct NamedFile {
 /// Throws InputError if `written` is the same file as one of `others`. Those with an empty path are ignored.
 void refuse_same_file(const NamedFile& written, const std::vector<NamedFile>& others);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -13,7 +13,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -128,4 +128,4 @@ InputProblem input_problem(const InputPath& path) {
   return problem;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -12,7 +12,7 @@
 #include "files/confinement.h"
 #include "files/input_record.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Restrictions and records common to all the files that one scene names.
 struct InputScope {
@@ -71,4 +71,4 @@ struct InputProblem {
 };
 InputProblem input_problem(const InputPath& path);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

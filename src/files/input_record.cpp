@@ -4,7 +4,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 void InputRecord::add(const FileNumber& file, const std::string& name) {
   const std::lock_guard lock(mutex_);
@@ -21,4 +21,4 @@ void InputRecord::refuse(const std::string& path, const std::string& role) const
                                " that the scene is read from: give it another name");
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Identifies a file, whatever its name: device and inode.
 using FileNumber = std::pair<uint64_t, uint64_t>;
@@ -27,4 +27,4 @@ class InputRecord {
   std::map<FileNumber, std::string> names_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -37,4 +37,4 @@ const std::string& standard_input() {
   return text;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -12,7 +12,7 @@
 #include <mutex>
 #include <set>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -61,4 +61,4 @@ void remove_abandoned_temporaries(const std::string& folder) {
   }
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

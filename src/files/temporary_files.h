@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// A name in `folder` that no other process or thread uses. It is short, so that it fits next to the longest file
 /// names.
@@ -18,4 +18,4 @@ bool lock_temporary(int descriptor);
 /// Removes the user's temporary files in `folder` that are not locked, once per folder and process.
 void remove_abandoned_temporaries(const std::string& folder);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -192,4 +192,4 @@ std::span<const std::array<uint32_t, 3>> EarClipper::triangulate(std::span<const
   return triangles_;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

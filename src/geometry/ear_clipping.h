@@ -9,7 +9,7 @@
 
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Splits polygons into triangles. An object can be reused for many polygons and keeps its memory.
 class EarClipper {
@@ -57,4 +57,4 @@ class EarClipper {
   uint32_t left_at_scan_ = 0;  ///< number of corners when all were last queued
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

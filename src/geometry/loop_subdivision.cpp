@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -144,4 +144,4 @@ Mesh loop_subdivided(Mesh control, int levels) {
   return control;
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -4,10 +4,10 @@
 
 #include "scene/scene.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 /// Subdivides positions and indices of `control` `levels` times, moves the vertices to the limit surface and gives them
 /// normals. Each level quadruples the triangles. The edges of open meshes remain sharp curves.
 Mesh loop_subdivided(Mesh control, int levels);
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

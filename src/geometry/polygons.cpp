@@ -4,7 +4,7 @@
 
 #include "geometry/ear_clipping.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -101,4 +101,4 @@ void Polygons::triangulate(Mesh& mesh) const {
     }
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

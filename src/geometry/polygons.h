@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The polygons among the triangles of a mesh, which are stored as fans about their first corner. Runs of polygons with
 /// equally many corners are one record, so that quad meshes take no memory.
@@ -29,4 +29,4 @@ class Polygons {
   std::vector<Run> runs_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

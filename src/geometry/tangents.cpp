@@ -6,7 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -147,4 +147,4 @@ void add_tangents(Mesh& mesh, int uv_set) {
   TangentBuilder(mesh, uv_set).run();
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

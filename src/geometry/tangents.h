@@ -5,11 +5,11 @@
 
 #include "scene/scene.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 /// Adds tangents that follow uv set `uv_set` (0 or 1) if the mesh has normals and that set but no tangents. Corners
 /// share a tangent if position, normal and uv are equal and their uvs have the same orientation; a vertex with
 /// triangles of both orientations is duplicated.
 void add_tangents(Mesh& mesh, int uv_set);
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

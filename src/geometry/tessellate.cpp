@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -162,4 +162,4 @@ void append_bilinear_patch(const BilinearPatch& patch, bool own_normals, Mesh& m
   append_grid(first, count, count, mesh);
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 /// Part of a sphere about the origin: z in [z_min, z_max], phi in [0, phi_max] degrees. Normals point outward; u is
 /// proportional to phi, and v to the polar angle from z_min to z_max.
@@ -30,4 +30,4 @@ struct BilinearPatch {
 /// Normals are those of the patch itself if `own_normals` is false.
 void append_bilinear_patch(const BilinearPatch& patch, bool own_normals, Mesh& mesh);
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

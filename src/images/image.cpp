@@ -8,7 +8,7 @@
 #include "images/codecs/decoders.h"
 #include "images/read_texture.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 int Image::channel(const std::string& name) const {
   const auto found = std::find(channels.begin(), channels.end(), name);
@@ -123,4 +123,4 @@ Image read_image(const InputPath& path) {
   return image;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

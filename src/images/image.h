@@ -16,7 +16,7 @@
 #include "files/input_file.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// An image in memory: one plane of float per channel, rows from the top down.
 struct Image {
@@ -118,4 +118,4 @@ std::string extension_of(const std::string& path);
 double srgb_encode(double linear);
 double srgb_decode(double encoded);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

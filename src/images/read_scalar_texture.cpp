@@ -10,7 +10,7 @@
 #include "images/codecs/decoders.h"
 #include "images/codecs/image_bytes.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -119,4 +119,4 @@ ScalarTexture read_scalar_texture(const InputPath& path, TextureEncoding encodin
   }
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 
 #include "images/read_texture.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 struct ScalarTexture {
   ImageTexels texels;  ///< one channel, unless the image is grey and keeps its encoded bytes in three equal channels
@@ -20,4 +20,4 @@ struct ScalarTexture {
 /// linear colours. Alpha is linear whatever `encoding` says, as every format defines it. Throws InputError.
 ScalarTexture read_scalar_texture(const InputPath& path, TextureEncoding encoding);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

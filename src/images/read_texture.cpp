@@ -11,7 +11,7 @@
 #include "images/codecs/decoders.h"
 #include "images/codecs/image_bytes.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 ImageFormat image_format(const InputPath& input) {
   const std::string& path = input.name;
@@ -121,4 +121,4 @@ ImageTexels read_texture(const InputPath& input, TextureEncoding encoding) {
   }
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 #include "files/input_file.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// `data`: linear values that are not colours, such as normals; primaries in EXR files are ignored.
 enum class TextureEncoding { automatic, srgb, linear, data };
@@ -19,4 +19,4 @@ enum class TextureEncoding { automatic, srgb, linear, data };
 /// format, over 2^30 texels.
 ImageTexels read_texture(const InputPath& path, TextureEncoding encoding);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

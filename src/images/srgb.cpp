@@ -2,7 +2,7 @@
 
 #include "images/image.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 // The constants are those of IEC 61966-2-1, whose two thresholds agree to within 1e-7.
 
@@ -14,4 +14,4 @@ double srgb_decode(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -10,7 +10,7 @@
 #include "images/image.h"
 #include "images/read_texture.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -85,4 +85,4 @@ void use_environment(Scene& scene, const InputPath& path) {
   scene.lights.push_back(std::move(light));
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 #include "files/input_file.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Reads an image as linear floats: 8-bit ones are decoded from sRGB; negative values become 0. Throws InputError that
 /// names the file if it is not an image.
@@ -23,4 +23,4 @@ double upward_irradiance(const ImageTexels& map);
 /// towards -z, and the scene's camera sees it without mirroring. Throws InputError.
 void use_environment(Scene& scene, const InputPath& path);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

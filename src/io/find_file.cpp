@@ -11,7 +11,7 @@
 #include "util/diagnostics.h"
 #include "util/quoted.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -71,4 +71,4 @@ std::string search_hint(const FileSearch& search) {
 
 ImageTexels missing_image(const std::string& name) { return {1, 1, {255, 0, 255}, {}, true, name}; }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 #include "files/input_file.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Where the files of a scene are looked for, and what becomes of texture images that are nowhere.
 struct FileSearch {
@@ -39,4 +39,4 @@ inline constexpr Vec3d missing_colour{1, 0, 1};
 /// An image of one texel of that colour. `name` is that of the file.
 ImageTexels missing_image(const std::string& name);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

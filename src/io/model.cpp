@@ -6,7 +6,7 @@
 #include "core/math/bounds.h"
 #include "scene/default_view.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -58,4 +58,4 @@ Scene model_of(Mesh&& mesh, const std::string& path, double aspect) {
   return scene;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -10,7 +10,7 @@
 
 #include "io/find_file.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Empty options leave the choice to the file. Instead of a name, a number from 0 in the order of SceneListing may be
 /// given.
@@ -43,4 +43,4 @@ inline double aspect_of(int64_t width, int64_t height) {
   return width > 0 && height > 0 ? static_cast<double>(width) / static_cast<double>(height) : 0;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -22,7 +22,7 @@
 #include "scene/kind_names.h"
 #include "scene/shutter.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -152,4 +152,4 @@ InputPath path_beside(const std::string& scene, const std::string& path, bool co
   return {path, {std::make_shared<const Confinement>(std::filesystem::path(scene).parent_path().string()), nullptr}};
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -10,7 +10,7 @@
 #include "io/read_options.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// This name stands for a pbrt scene on standard input. Names in it are relative to the working folder.
 inline constexpr const char* standard_input_name = "-";
@@ -34,4 +34,4 @@ SceneListing list_scene(const std::string& path, const ReadOptions& options, Dia
 /// `path` for reading: confined to the folder of the scene file `scene` if `confine`, else as it is.
 InputPath path_beside(const std::string& scene, const std::string& path, bool confine);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -12,7 +12,7 @@
 #include "scene/subject.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -243,4 +243,4 @@ Camera turned_camera(const Camera& camera, const Pivot& pivot, double degrees) {
   return turned;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

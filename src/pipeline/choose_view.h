@@ -6,7 +6,7 @@
 #include "scene/scene.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// What a camera that turns about the scene turns about.
 struct Pivot {
@@ -29,4 +29,4 @@ Camera placed_camera(const Settings& asked, const Camera& camera, Scene& scene);
 /// The camera after a turn by `degrees` about the pivot, to the right of the scene, as the azimuth of --orbit counts.
 Camera turned_camera(const Camera& camera, const Pivot& pivot, double degrees);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

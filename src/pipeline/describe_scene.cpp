@@ -9,7 +9,7 @@
 #include "scene/kind_names.h"
 #include "scene/scene_names.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -161,4 +161,4 @@ SceneDescription describe(const Scene& scene) {
   return d;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

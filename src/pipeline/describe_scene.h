@@ -9,7 +9,7 @@
 #include "core/math/bounds.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// A mesh, another shape, or a group of shapes that instances place.
 struct ObjectDescription {
@@ -55,4 +55,4 @@ struct SceneDescription {
 
 SceneDescription describe(const Scene& scene);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 #include "images/display/tone_map.h"
 #include "images/display/white_balance.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -73,4 +73,4 @@ DisplayStatistics choose_display(const Rendering& rendering, const DisplayChoice
   return {how.exposure, is_metered, how.white_temperature, choice.estimates_white, to_string(how.tone_map)};
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

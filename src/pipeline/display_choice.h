@@ -6,7 +6,7 @@
 #include "images/image.h"
 #include "render/renderer.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// What is left to the image.
 struct DisplayChoice {
@@ -19,4 +19,4 @@ struct DisplayChoice {
 /// ExposureMeter).
 DisplayStatistics choose_display(const Rendering& rendering, const DisplayChoice& choice, WriteOptions& how);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

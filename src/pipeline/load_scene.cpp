@@ -8,7 +8,7 @@
 #include "render/setting_table.h"
 #include "render/settings.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 ReadOptions read_options(const Settings& settings) {
   for (const char* name : {"time", "fps", "shutter"}) check_setting(settings, name);
@@ -62,4 +62,4 @@ LoadedScene load_turning_scene(const std::string& path, const Settings& settings
   return load(path, settings, true, diagnostics);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -13,7 +13,7 @@
 #include "scene/scene.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 struct LoadedScene {
   Scene scene;
@@ -32,4 +32,4 @@ LoadedScene load_turning_scene(const std::string& path, const Settings& settings
 /// What settings select in a file.
 ReadOptions read_options(const Settings& settings);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

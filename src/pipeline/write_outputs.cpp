@@ -13,7 +13,7 @@
 #include "render/quality.h"
 #include "render/setting_table.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -169,4 +169,4 @@ OutputReport write_outputs(const OutputOptions& options, const Rendering& render
   return report;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

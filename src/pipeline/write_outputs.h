@@ -11,7 +11,7 @@
 #include "pipeline/display_choice.h"
 #include "render/renderer.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// This name stands for standard output.
 inline constexpr const char* standard_output_name = "-";
@@ -48,4 +48,4 @@ struct OutputReport {
 /// Writes every image, even if others fail.
 OutputReport write_outputs(const OutputOptions& options, const Rendering& rendering);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -83,4 +83,4 @@ void choose_backend(const Settings& asked, RenderSettings& settings) {
   backend->configure(asked, settings);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -15,7 +15,7 @@
 #include "render/sample_kernel.h"
 #include "render/settings.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Samples [first_sample, first_sample + sample_count) of every pixel of the film. `first_sample` and, but for the last
 /// pass, `sample_count` are multiples of samples_per_block; sample_count is at most what the backend asks for. What a
@@ -106,4 +106,4 @@ std::string strategy_name(const RenderSettings& settings);
 /// Sets backend, strategy, device and thread count of `settings`; `auto` becomes what measures fastest.
 void choose_backend(const Settings& asked, RenderSettings& settings);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

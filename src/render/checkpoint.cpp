@@ -17,7 +17,7 @@
 #include "render/sample_kernel.h"
 #include "render/setting_table.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -277,4 +277,4 @@ template void CheckpointFile::save(Film<double>&, uint32_t, const Guiding<double
 template uint32_t CheckpointFile::load(Film<float>&, Guiding<float>*) const;
 template uint32_t CheckpointFile::load(Film<double>&, Guiding<double>*) const;
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -10,7 +10,7 @@
 #include "render/guiding.h"
 #include "render/settings.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// A hash over the compiled scene, its BVHs too. CheckpointFile adds the settings that determine samples.
 template <class Real>
@@ -44,4 +44,4 @@ class CheckpointFile {
   uint32_t samples_per_pixel_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

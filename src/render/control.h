@@ -8,7 +8,7 @@
 
 #include "core/integrators/sample_counters.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Statistics of one thread, on cache lines of their own.
 struct alignas(128) ThreadStatistics {
@@ -65,4 +65,4 @@ class RenderControl {
   std::atomic<bool> stopped_{false}, reached_limit_{false};
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

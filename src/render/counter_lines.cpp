@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::string counter_table(const SampleCounters& counters) {
   return text;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 
 #include "core/integrators/sample_counters.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Light samples of one kind of light, or at surfaces with one kind of closure.
 struct LightSampleLine {
@@ -31,4 +31,4 @@ CounterLines counter_lines(const SampleCounters& counters);
 /// Three tables; the columns of what was not used are percentages.
 std::string counter_table(const SampleCounters& counters);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -56,4 +56,4 @@ std::map<std::string, std::string> cryptomatte_metadata(const std::string& layer
           {prefix + "manifest", manifest.dump()}};
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// MurmurHash3_x86_32 (Appleby) with seed 0.
 uint32_t murmur3_32(std::string_view text);
@@ -27,4 +27,4 @@ std::vector<std::string> cryptomatte_channels(const std::string& layer);
 std::map<std::string, std::string> cryptomatte_metadata(const std::string& layer,
                                                         const std::vector<std::string>& names);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 #include "render/denoising/blend.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 std::unique_ptr<Denoiser> make_denoiser(const std::string& name) {
   std::string names;
@@ -87,4 +87,4 @@ std::vector<float> denoise(const std::string& name, NoisyImage image, const Deno
   return denoised;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The means of each pixel over all its samples, and over the odd ones of its blocks. The means over odd and over even
 /// blocks are independent of each other, so their difference tells how noisy the pixel is.
@@ -82,4 +82,4 @@ std::string next_denoiser(const std::string& name);
 /// mean of their neighbours before. Throws as Denoiser::denoise.
 std::vector<float> denoise(const std::string& name, NoisyImage image, const DenoiseOptions& options);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

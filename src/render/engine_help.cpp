@@ -5,7 +5,7 @@
 
 #include "render/backend.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 std::string backend_help() {
   std::string text = "auto (the result of 'alhazen study tune', else the CPU)";
@@ -31,4 +31,4 @@ std::string strategy_help() {
   return text;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

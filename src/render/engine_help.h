@@ -4,9 +4,9 @@
 
 #include <string>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 std::string backend_help();
 std::string strategy_help();
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

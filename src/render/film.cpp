@@ -1,6 +1,6 @@
 #include "render/film.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -161,4 +161,4 @@ template uint64_t film_bytes<double>(const PixelWindow&, const AovSet&, const Fi
 template class Film<float>;
 template class Film<double>;
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -14,7 +14,7 @@
 #include "render/image_layers.h"
 #include "render/settings.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// What a film sums besides radiance and its layers: the weights of the pixel filter, what a noise target, a denoiser
 /// and path guiding need, and the channel A. Guiding needs the weights.
@@ -91,4 +91,4 @@ class Film {
   uint64_t generation_ = 0;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

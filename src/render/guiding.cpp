@@ -9,7 +9,7 @@
 
 #include "render/noise.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -441,4 +441,4 @@ void Guiding<Real>::visit_state(Self& self, Visit& visit) {
 template class Guiding<float>;
 template class Guiding<double>;
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -12,7 +12,7 @@
 #include "render/film.h"
 #include "render/settings.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The arrays of a GuideView.
 struct GuideArrays {
@@ -103,4 +103,4 @@ class Guiding {
   uint64_t generation_ = 0;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

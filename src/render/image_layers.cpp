@@ -8,7 +8,7 @@
 #include "core/shapes/instance.h"
 #include "render/cryptomatte.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 template <class Real>
 LayerScene::LayerScene(const CompiledScene<Real>& scene)
@@ -267,4 +267,4 @@ template std::map<std::string, std::string> layer_metadata(const FilmView<float>
 template std::map<std::string, std::string> layer_metadata(const FilmView<double>&, size_t, const AovSet&,
                                                            const LayerScene&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

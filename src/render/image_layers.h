@@ -12,7 +12,7 @@
 #include "core/film/film_view.h"
 #include "render/settings.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// What layers need to know of the scene.
 struct LayerScene {
@@ -62,4 +62,4 @@ template <class Real>
 std::map<std::string, std::string> layer_metadata(const FilmView<Real>& film, size_t pixels, const AovSet& aovs,
                                                   const LayerScene& scene);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

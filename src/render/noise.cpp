@@ -9,7 +9,7 @@
 #include "images/display/exposure_meter.h"
 #include "render/power_bisection.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -377,4 +377,4 @@ NoiseState NoiseEstimate<Real>::state() const {
 template class NoiseEstimate<float>;
 template class NoiseEstimate<double>;
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

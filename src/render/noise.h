@@ -15,7 +15,7 @@
 #include "render/film.h"
 #include "render/settings.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Where a render with a noise target stands.
 struct NoiseState {
@@ -64,4 +64,4 @@ class NoiseEstimate {
   double mean_square_ = 0;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

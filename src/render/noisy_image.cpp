@@ -1,6 +1,6 @@
 #include "render/noisy_image.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -56,4 +56,4 @@ NoisyImage make_noisy_image(const Film<Real>& film) {
 template NoisyImage make_noisy_image(const Film<float>&);
 template NoisyImage make_noisy_image(const Film<double>&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

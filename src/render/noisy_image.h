@@ -5,10 +5,10 @@
 #include "render/denoiser.h"
 #include "render/film.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// `film` was made for denoising. Throws std::bad_alloc.
 template <class Real>
 NoisyImage make_noisy_image(const Film<Real>& film);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The powers x^a of one x >= 1, for an exponent a that is found from its largest binary digit, 1/8, to its smallest.
 /// They consist of square roots and products, which IEEE 754 rounds in one way; std::pow may differ from machine to
@@ -26,4 +26,4 @@ class PowerBisection {
   double power_ = 1, root_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -3,7 +3,7 @@
 #include "render/setting_table.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -53,4 +53,4 @@ std::string quality_options(const Settings& settings) {
   return text;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

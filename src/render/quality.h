@@ -9,7 +9,7 @@
 #include "alhazen/alhazen.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// What a quality sets where nothing else is asked.
 struct Quality {
@@ -30,4 +30,4 @@ Settings with_quality(const Settings& asked, const Scene& scene);
 /// What the quality of settings set, as options of `alhazen render`; empty without one.
 std::string quality_options(const Settings& settings);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

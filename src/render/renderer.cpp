@@ -25,7 +25,7 @@
 #include "render/time_limit.h"
 #include "util/thread_limit.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -409,7 +409,7 @@ class RendererOf final : public SceneRenderer {
   int build_threads() const { return is_on_gpu() ? 0 : settings_.threads; }
 
   void make_backend() {
-    backend_ = alhazen::make_backend(settings_.backend);
+    backend_ = impl::make_backend(settings_.backend);
     if (is_on_gpu()) diagnostics_.activity().begin("starting the GPU");
     started_ = start_backend(*backend_, settings_, is_on_gpu());
   }
@@ -501,4 +501,4 @@ Rendering render_scene(Scene&& scene, const RenderSettings& settings, double loa
   return make_renderer(std::move(scene), settings, load_seconds, false, events.kernel, diagnostics)->render(events);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

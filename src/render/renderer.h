@@ -18,7 +18,7 @@
 #include "render/statistics.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// A kernel instead of the one that the settings select, and the BVHs that it traces rays by. Its precision and sampler
 /// must be those of the settings.
@@ -79,4 +79,4 @@ std::unique_ptr<SceneRenderer> make_scene_renderer(Scene&& scene, const RenderSe
 Rendering render_scene(Scene&& scene, const RenderSettings& settings, double load_seconds, const RenderEvents& events,
                        Diagnostics& diagnostics);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

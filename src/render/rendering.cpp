@@ -5,7 +5,7 @@
 #include "render/noisy_image.h"
 #include "render/renderer.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 bool Rendering::has_samples() const {
   return std::visit([](const auto& any_film) { return any_film->max_samples() > 0; }, film);
@@ -36,8 +36,8 @@ ImageSource Rendering::source() const {
 std::map<std::string, std::string> Rendering::layer_metadata() const {
   return std::visit(
       [&](const auto& any_film) {
-        return alhazen::layer_metadata(any_film->view(), static_cast<size_t>(any_film->window().pixels()),
-                                       statistics.settings.aovs, any_film->scene());
+        return impl::layer_metadata(any_film->view(), static_cast<size_t>(any_film->window().pixels()),
+                                    statistics.settings.aovs, any_film->scene());
       },
       film);
 }
@@ -46,4 +46,4 @@ NoisyImage Rendering::noisy_image() const {
   return std::visit([](const auto& any_film) { return make_noisy_image(*any_film); }, film);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -2,7 +2,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 ALHAZEN_DECLARE_KERNEL(RawKernel select_float_kernel(uint32_t integrator, uint32_t sampler))
 ALHAZEN_DECLARE_KERNEL(RawKernel select_double_kernel(uint32_t integrator, uint32_t sampler))
@@ -74,4 +74,4 @@ SampleKernel<double> select_sample_kernel(IntegratorKind integrator, SamplerType
   return SampleKernel<double>(select(static_cast<uint32_t>(integrator), static_cast<uint32_t>(sampler)));
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

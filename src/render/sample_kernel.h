@@ -13,7 +13,7 @@
 #include "core/scene_view.h"
 #include "render/kernels/request.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 enum class InstructionSet : uint32_t { baseline, avx2, avx512 };
 
@@ -70,4 +70,4 @@ SampleKernel<float> select_sample_kernel(IntegratorKind integrator, SamplerType 
 template <>
 SampleKernel<double> select_sample_kernel(IntegratorKind integrator, SamplerType sampler, InstructionSet set);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

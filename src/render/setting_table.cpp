@@ -14,7 +14,7 @@
 #include "util/diagnostics.h"
 #include "util/parse_numbers.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -559,4 +559,4 @@ void check_setting(const Settings& settings, std::string_view name) {
   if (const std::string text = entry.text(settings); !text.empty()) entry.set(checked, text);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

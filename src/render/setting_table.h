@@ -11,7 +11,7 @@
 #include "alhazen/alhazen.h"
 #include "render/settings.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Each has a heading of its own in the help (cli/render.cpp).
 enum class SettingGroup { output, image, camera, light, scene, animation, engine, running };
@@ -48,4 +48,4 @@ inline std::string setting_text(const Settings& settings, std::string_view name)
   return setting_entry(name).text(settings);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -15,7 +15,7 @@
 #include "scene/limits.h"
 #include "util/thread_limit.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -324,4 +324,4 @@ std::string to_string(const Schedule& schedule) {
   return name_of(schedules, schedule.kind) + (schedule.chunk > 0 ? "," + std::to_string(schedule.chunk) : "");
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -15,7 +15,7 @@
 #include "images/display/exposure_meter.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 enum class Precision { single, double_ };
 
@@ -111,4 +111,4 @@ std::string to_string(const Schedule& schedule);
 /// Parses `static`, `dynamic,4`, ... Throws InputError.
 Schedule parse_schedule(const std::string& text);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

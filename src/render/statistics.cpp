@@ -7,7 +7,7 @@
 #include "render/backend.h"
 #include "render/counter_lines.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -114,4 +114,4 @@ std::string RenderStatistics::to_json() const {
   return j.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

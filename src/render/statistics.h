@@ -13,7 +13,7 @@
 #include "render/noise.h"
 #include "render/settings.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// How the images that a display shows were made of the radiance.
 struct DisplayStatistics {
@@ -53,4 +53,4 @@ struct RenderStatistics {
 
 uint64_t peak_rss_bytes();
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

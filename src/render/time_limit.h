@@ -11,7 +11,7 @@
 #include "render/control.h"
 #include "util/thread_limit.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Stops a render when its time is over, also in the middle of a pass.
 class TimeLimit {
@@ -54,4 +54,4 @@ class TimeLimit {
   std::thread thread_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 
 #include "core/lights/sphere_mapping.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -156,4 +156,4 @@ void add_neutral_light(Scene& scene) {
   scene.lights.push_back(light);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 #include "scene/transform.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// A shape where it is at the start of its motion.
 struct PlacedShape {
@@ -92,4 +92,4 @@ Transform world_from_camera(const Vec3d& eye, const Vec3d& right, const Vec3d& u
 /// scene, others beside and behind it.
 void add_neutral_light(Scene& scene);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

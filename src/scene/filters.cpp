@@ -1,6 +1,6 @@
 #include "scene/filters.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 const std::map<std::string, Filter>& named_filters() {
   static const std::map<std::string, Filter> filters{{"box", {FilterType::box, 0.5, 0.5}},
@@ -11,4 +11,4 @@ const std::map<std::string, Filter>& named_filters() {
   return filters;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -1,6 +1,6 @@
 #include "scene/kind_names.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 const char* camera_name(CameraKind kind) {
   switch (kind) {
@@ -41,4 +41,4 @@ std::string light_name(const Light& light) {
   return std::string(light_traits(light.kind).name) + ", " + light.where.to_string();
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

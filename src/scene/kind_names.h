@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 const char* camera_name(CameraKind kind);
 const char* material_kind_name(MaterialKind kind);  ///< "coated_diffuse"
@@ -15,4 +15,4 @@ const char* texture_kind_name(TextureKind kind);
 /// What it is and its place in the file: "point light, a.pbrt:3:1".
 std::string light_name(const Light& light);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -2,7 +2,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 std::vector<uint32_t> order_of_mixes(const std::vector<Material>& materials, uint32_t& of_itself) {
   enum class State : uint8_t { unknown, open, done };
@@ -40,4 +40,4 @@ void check_mixes(const Scene& scene) {
     throw InputError({scene.name}, "the mix '" + scene.materials[of_itself].name + "' contains itself");
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The mixes among the materials, each after the mixes that it contains. `of_itself` receives one that contains itself,
 /// if any (the order is incomplete then), else no_index.
@@ -16,4 +16,4 @@ std::vector<uint32_t> order_of_mixes(const std::vector<Material>& materials, uin
 /// Throws if a mix contains itself.
 void check_mixes(const Scene& scene);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -25,7 +25,7 @@
 #include "scene/transform.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 inline constexpr uint32_t no_index = 0xffffffffu;
 
@@ -309,4 +309,4 @@ struct Scene {
   CoatModel coats = CoatModel::lossless;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

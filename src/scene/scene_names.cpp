@@ -5,7 +5,7 @@
 #include "core/shapes/shape_records.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -81,4 +81,4 @@ uint32_t SceneNames::material_id(uint32_t material) {
   return materials_.id_of(name.empty() ? "material." + std::to_string(material + 1) : name);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

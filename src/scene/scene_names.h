@@ -10,7 +10,7 @@
 
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Names with their ids, which count from 1. The same name has the same id.
 class NameTable {
@@ -53,4 +53,4 @@ class SceneNames {
   std::unordered_map<std::string, uint32_t> counts_;      ///< of names that have been numbered
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -56,4 +56,4 @@ void set_shutter(Scene& scene, std::optional<double> time, std::optional<double>
   placed = {at(camera.shutter_open), at(camera.shutter_close)};
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

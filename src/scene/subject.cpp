@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -158,4 +158,4 @@ Vec3d all_round_fitting_eye(const Scene& scene, const Subject& subject, const Vi
   return subject.middle + reach.eye(frame, min_distance_of(subject));
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 
 #include "scene/default_view.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// A ground, a backdrop or a sky is left out, so that the rest is in the image: what is more than 30 times as large as
 /// all that is smaller together, which must be half of the shapes or more; and what is more than 3 times as large as
@@ -30,4 +30,4 @@ Vec3d fitting_eye(const Subject& subject, const ViewFrame& frame);
 /// The same while the camera turns about the axis `up`, of unit length, through the subject's middle.
 Vec3d all_round_fitting_eye(const Scene& scene, const Subject& subject, const ViewFrame& frame, const Vec3d& up);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

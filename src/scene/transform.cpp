@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -148,4 +148,4 @@ Transform operator*(const Transform& a, const Transform& b) {
   return Transform(multiply(a.m_, b.m_), multiply(b.inv_, a.inv_));
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Row-major 4x4 matrix; points are columns: p' = M p.
 using Matrix4 = std::array<std::array<double, 4>, 4>;
@@ -47,4 +47,4 @@ class Transform {
   Matrix4 inv_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

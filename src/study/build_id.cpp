@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -61,4 +61,4 @@ std::string build_id() {
   return search.id;
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

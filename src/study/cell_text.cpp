@@ -7,7 +7,7 @@
 
 #include "study/disturbance.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 std::string short_number(double value) {
   const double size = std::abs(value);
@@ -92,4 +92,4 @@ size_t Footnotes::number_of(const std::string& note) {
   return notes_.size();
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -7,7 +7,7 @@
 
 #include "study/study.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 struct CellText {
   bool is_measured = false;
@@ -38,4 +38,4 @@ class Footnotes {
   std::vector<std::string> notes_;
 };
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -8,7 +8,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -132,4 +132,4 @@ StudyComparison compare_studies(const StudyJson& a, const StudyJson& b, double t
   throw InputError(fmt::format("{} or {} is damaged: {}", path_a, path_b, error.what()));
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 struct Change {
   std::string table, row, column;
@@ -29,4 +29,4 @@ struct StudyComparison {
 StudyComparison compare_studies(const nlohmann::json& a, const nlohmann::json& b, double threshold,
                                 const std::string& path_a, const std::string& path_b);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -10,7 +10,7 @@
 #include "study/names.h"
 #include "study/report_figures.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -351,4 +351,4 @@ std::string figure3_text(const Study& study) {
       w.chunked.smallest_mean(), w.chunked.largest_mean(), w.naive.largest_mean() / w.chunked.largest_mean());
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

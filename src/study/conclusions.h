@@ -8,7 +8,7 @@
 
 #include "study/study.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 struct Conclusion {
   std::string title, text;
@@ -42,4 +42,4 @@ std::string image_sizes_of(const Study& study, const Table& table);
 /// Half the spread of a typical trial over its median: the relative noise of a time.
 double usual_noise(const Study& study);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

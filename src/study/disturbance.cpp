@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -121,4 +121,4 @@ bool are_separated(const Trial& a, const Trial& b, Measure measure) {
   return of_a.min * unit_a > of_b.max * unit_b || of_b.min * unit_b > of_a.max * unit_a;
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

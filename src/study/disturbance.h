@@ -11,7 +11,7 @@
 #include "render/control.h"
 #include "study/study.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 /// A run that received a smaller fraction of its processors was disturbed.
 inline constexpr double min_processor_fraction = 0.9;
@@ -55,4 +55,4 @@ double trusted_speedup_of(const Study& study, const Table& table, const Cell& ce
 /// Whether all repeats of one trial are slower than all of the other, per sample or per ray.
 bool are_separated(const Trial& a, const Trial& b, Measure measure);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -9,7 +9,7 @@
 #include "study/disturbance.h"
 #include "study/report_figures.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -123,4 +123,4 @@ std::vector<std::string> facts_of(const Study& study) {
   return lines;
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -206,4 +206,4 @@ std::string figure1_text() {
          "specular one reflects in one, and a dielectric one reflects or refracts.";
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -8,7 +8,7 @@
 #include "study/read_json.h"
 #include "util/diagnostics.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -121,4 +121,4 @@ void remove_replaced_files(const std::string& folder) {
   }
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -8,7 +8,7 @@
 
 #include "files/input_record.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 /// The name of every file that a study may write, study.json first.
 const std::vector<std::string>& study_file_names();
@@ -32,4 +32,4 @@ bool create_folder(const std::string& folder);
 /// Removes the files of a replaced study except study.json, so that none is shown beside the new one.
 void remove_replaced_files(const std::string& folder);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

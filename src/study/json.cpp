@@ -11,7 +11,7 @@
 #include "study/disturbance.h"
 #include "study/read_json.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -297,4 +297,4 @@ void resume_from(const nlohmann::json& earlier, const std::string& path, Study& 
   throw damaged_study(path, error);
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -8,7 +8,7 @@
 
 #include "study/study.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 inline constexpr const char* schema_name = "alhazen-study-1";
 
@@ -28,4 +28,4 @@ void resume_from(const nlohmann::json& earlier, const std::string& path, Study& 
 /// A number for JSON: null if it is not finite.
 nlohmann::ordered_json number(double value);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

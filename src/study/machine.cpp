@@ -12,7 +12,7 @@
 #include "render/backend.h"
 #include "study/build_id.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::string today() {
   return text;
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

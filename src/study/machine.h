@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 struct Engine {
   std::string name;
@@ -35,4 +35,4 @@ double megahertz();
 /// The date, as 2026-01-31.
 std::string today();
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

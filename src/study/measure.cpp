@@ -11,7 +11,7 @@
 
 #include "study/disturbance.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -192,4 +192,4 @@ bool measure(Study& study, const Scene& scene, const Image* reference, const Mea
   return Rounds(study, scene, reference, events).run();
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

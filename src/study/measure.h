@@ -8,7 +8,7 @@
 #include "study/run_work.h"
 #include "study/study.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 struct Measuring {
   int round = 1, rounds = 1;
@@ -29,4 +29,4 @@ struct MeasureEvents {
 /// are compared with `reference` if it is given. Returns false if stopped.
 bool measure(Study& study, const Scene& scene, const Image* reference, const MeasureEvents& events);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

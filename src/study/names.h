@@ -2,7 +2,7 @@
 
 // Names of rows and columns of a study's tables that its conclusions look up.
 
-namespace alhazen::study::name {
+namespace alhazen::impl::study::name {
 
 inline constexpr const char* branching = "branching (Algorithm 2)";
 inline constexpr const char* recursive = "recursive (Algorithm 3)";
@@ -17,4 +17,4 @@ inline constexpr const char* embree = "Embree";
 inline constexpr const char* optix = "OptiX";
 inline constexpr const char* cuda_persistent = "CUDA persistent";
 
-}  // namespace alhazen::study::name
+}  // namespace alhazen::impl::study::name

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -52,4 +52,4 @@ Scene cloud_of_spheres(uint64_t count, bool is_glass) {
   return scene;
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -2,7 +2,7 @@
 
 // The style sheet of the page, for light and dark screens and for paper.
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 inline constexpr const char* page_style = R"CSS(
 :root { --ink: #1d2329; --soft: #5c6773; --line: #dfe4e9; --paper: #ffffff; --shade: #f5f7f9; --accent: #0b6e8f;
@@ -65,4 +65,4 @@ code { font: 13px ui-monospace, "DejaVu Sans Mono", monospace; background: var(-
 @media print { body { background: #ffffff; } section { break-inside: avoid; } }
 )CSS";
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -6,7 +6,7 @@
 
 #include "study/report_figures.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 std::string Plan::add(const Work& work) {
   const std::string key = command_options(work);
@@ -77,4 +77,4 @@ void plan_study(Study& study) {
   plan_beyond(plan);
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

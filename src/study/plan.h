@@ -4,7 +4,7 @@
 
 #include "study/study.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 /// Collects trials and tables. Equal work is one trial, however many cells show it.
 class Plan {
@@ -47,4 +47,4 @@ void plan_beyond(Plan& plan);
 /// Makes the trials and tables of the study, for its machine, scene and scale.
 void plan_study(Study& study);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

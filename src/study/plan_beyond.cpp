@@ -7,7 +7,7 @@
 #include "study/names.h"
 #include "study/plan.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -254,4 +254,4 @@ void plan_beyond(Plan& plan) {
   plan_error(plan);
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

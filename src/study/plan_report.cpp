@@ -6,7 +6,7 @@
 #include "study/names.h"
 #include "study/plan.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -147,4 +147,4 @@ void plan_report(Plan& plan) {
   plan_optix(plan);
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -2,9 +2,9 @@
 
 #include <string_view>
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 /// The text of python/study_plots.py (src/study/plot_script.cpp.in).
 std::string_view plot_script();
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -21,7 +21,7 @@
 
 extern char** environ;
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -172,4 +172,4 @@ std::string draw_plots(const std::string& folder, const GoOn& go_on) {
          "or name a Python that has it in ALHAZEN_PYTHON, and run the same command with --resume";
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

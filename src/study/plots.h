@@ -7,7 +7,7 @@
 
 #include "study/run_work.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 struct Plot {
   const char* name;     ///< of its files, which end in .png and .svg
@@ -24,4 +24,4 @@ inline constexpr const char* plot_extensions[] = {".png", ".svg"};
 std::string draw_plots(
     const std::string& folder, const GoOn& go_on = [] { return true; });
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -3,7 +3,7 @@
 #include "render/sample_kernel.h"
 #include "study/kernels/queries.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 ALHAZEN_DECLARE_KERNEL(RawKernel select_study_kernel(StudyKernel kernel, bool in_double))
 
@@ -25,4 +25,4 @@ KernelChoice kernel_of(Queries queries, Precision precision) {
 }
 
 }  // namespace study
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -5,9 +5,9 @@
 #include "render/renderer.h"
 #include "study/trial.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 /// The kernel of `queries`, which is not of_backend, for the best instruction set of this processor.
 KernelChoice kernel_of(Queries queries, Precision precision);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

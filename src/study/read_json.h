@@ -9,7 +9,7 @@
 #include "files/input_file.h"
 #include "util/json_depth.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 /// Reads a file of JSON. Throws InputError, whose message ends with `advice` ("give ..."), if it is malformed or nested
 /// deeper than max_json_depth.
@@ -34,4 +34,4 @@ std::string json_text(const Json& json) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -20,7 +20,7 @@
 #include "study/plan.h"
 #include "study/write.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -315,4 +315,4 @@ ReportOutcome run_report(const ReportOptions& options, const ReportEvents& event
   return Report(options, events).run();
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -9,7 +9,7 @@
 #include "study/measure.h"
 #include "study/study.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 struct ReportOptions {
   std::string scene;
@@ -40,4 +40,4 @@ std::vector<std::string> report_parts();
 /// Runs the study and writes it. Throws InputError before measuring, and RenderError if nothing can be written.
 ReportOutcome run_report(const ReportOptions& options, const ReportEvents& events);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

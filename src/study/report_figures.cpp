@@ -1,6 +1,6 @@
 #include "study/report_figures.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -66,4 +66,4 @@ std::vector<ReportFigure> report_figures(const std::string& table, const std::st
   return figures;
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

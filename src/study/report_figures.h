@@ -8,7 +8,7 @@
 
 #include "study/study.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 inline constexpr const char* report_title = "Accelerating Ray Tracing";
 inline constexpr const char* report_authors =
@@ -18,4 +18,4 @@ inline constexpr const char* report_authors =
 /// Empty if the report has no figure there.
 std::vector<ReportFigure> report_figures(const std::string& table, const std::string& row, const std::string& column);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

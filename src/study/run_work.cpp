@@ -11,7 +11,7 @@
 #include "study/objects_scene.h"
 #include "study/query_kernels.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -82,4 +82,4 @@ void warm_up(const Work& work, const Scene& scene, const GoOn& go_on) {
   run_work(small, scene, false, go_on);
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

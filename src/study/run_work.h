@@ -10,7 +10,7 @@
 #include "scene/scene.h"
 #include "study/trial.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 struct Outcome {
   TrialStatus status = TrialStatus::not_run;  ///< not_run: it was stopped
@@ -31,4 +31,4 @@ Outcome run_work(const Work& work, const Scene& scene, bool keep_image, const Go
 /// The same with a few samples per pixel, to exclude one-time costs from the measurement.
 void warm_up(const Work& work, const Scene& scene, const GoOn& go_on);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 std::string to_string(Measure measure) {
   switch (measure) {
@@ -127,4 +127,4 @@ double gini_of_busy(const Trial& trial) {
   return median_over_repeats(trial, [](const std::vector<double>& busy) { return gini(busy); });
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

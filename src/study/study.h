@@ -10,7 +10,7 @@
 #include "study/trial.h"
 #include "study/work_per_thread.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 /// The report's figures for a cell: seconds on its machines; speedups over serial in the same precision.
 struct ReportFigure {
@@ -105,4 +105,4 @@ double speedup_of(const Study& study, const Table& table, const Cell& cell);
 double busiest_over_mean(const Trial& trial);
 double gini_of_busy(const Trial& trial);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -6,7 +6,7 @@
 
 #include "render/setting_table.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 int64_t segments_of(const Settings& settings) { return settings.max_depth < 0 ? 0 : settings.max_depth + 1; }
 
@@ -61,4 +61,4 @@ Spread spread_of(std::vector<double> values) {
   return {median, values.front(), values.back()};
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -8,7 +8,7 @@
 
 #include "alhazen/alhazen.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 /// How samples are taken: in batches of many paths, as backends on CPUs do, or with `iterative` alone by something
 /// slower, a path at a time or with other ray queries (query_kernels.h).
@@ -66,4 +66,4 @@ struct Spread {
 /// The spread of at least one value.
 Spread spread_of(std::vector<double> values);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -11,7 +11,7 @@
 #include "render/backend.h"
 #include "study/disturbance.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -298,4 +298,4 @@ TuneOutcome tune(const Scene& scene, const Settings& asked, double budget, const
   return Tuning(scene, asked, budget, events).run();
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -11,7 +11,7 @@
 #include "scene/scene.h"
 #include "study/run_work.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 struct Candidate {
   Work work;
@@ -51,4 +51,4 @@ std::vector<Candidate> tune_candidates(const Settings& asked);
 /// it before every engine had run, no candidate has a cost.
 TuneOutcome tune(const Scene& scene, const Settings& asked, double budget, const TuneEvents& events);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -14,7 +14,7 @@
 #include "study/read_json.h"
 #include "study/write.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -183,4 +183,4 @@ RenderSettings resolve_with_tuned(const Settings& asked, const Scene& scene, con
   }
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

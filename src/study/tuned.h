@@ -9,7 +9,7 @@
 
 #include "render/settings.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 /// An entry is for a machine, a scene (or any), a precision and an integrator.
 struct TunedEntry {
@@ -42,4 +42,4 @@ void store_tuned(const std::string& path, const TunedEntry& entry);
 RenderSettings resolve_with_tuned(const Settings& asked, const Scene& scene, const std::string& scene_path,
                                   Diagnostics& diagnostics);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 double ThreadGrid::total() const { return std::accumulate(segments.begin(), segments.end(), 0.0); }
 
@@ -59,4 +59,4 @@ ThreadGrid threads_of(const std::vector<float>& bounces, int width, int height, 
   return grid;
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -10,7 +10,7 @@
 
 #include "images/image.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 /// One value per thread; threads form a grid.
 struct ThreadGrid {
@@ -41,4 +41,4 @@ double gini(std::vector<double> values);
 /// renders the pixels (x + i * w, y + j * h), where w by h is the size of a chunk, rounded up, as in kernels/pixel.h.
 ThreadGrid threads_of(const std::vector<float>& bounces, int width, int height, int chunks_x, int chunks_y);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

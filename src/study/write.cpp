@@ -11,7 +11,7 @@
 #include "study/plots.h"
 #include "study/read_json.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 void write_text(const std::string& path, const std::string& text) {
   AtomicFile file(path);
@@ -75,4 +75,4 @@ std::vector<std::string> write_study(const Study& study, const std::string& fold
   return files;
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -10,7 +10,7 @@
 #include "study/run_work.h"
 #include "study/study.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 /// Writes a file completely or not at all. Throws RenderError.
 void write_text(const std::string& path, const std::string& text);
@@ -34,4 +34,4 @@ std::string markdown_of(const Study& study);
 /// The page; `folder` holds the images that it embeds.
 std::string html_of(const Study& study, const std::string& folder);
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

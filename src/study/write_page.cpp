@@ -15,7 +15,7 @@
 #include "study/plots.h"
 #include "study/write.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -249,4 +249,4 @@ std::string html_of(const Study& study, const std::string& folder) {
   return html + "</main></body></html>\n";
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

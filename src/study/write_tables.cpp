@@ -8,7 +8,7 @@
 #include "study/figure1.h"
 #include "study/write.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 
 namespace {
 
@@ -129,4 +129,4 @@ std::string markdown_of(const Study& study) {
   return text;
 }
 
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

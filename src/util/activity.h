@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Set by the thread that does the task, read by any.
 class Activity {
@@ -37,4 +37,4 @@ class Activity {
   std::atomic<uint64_t> part_{0}, total_{0};
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

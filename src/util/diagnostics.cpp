@@ -2,7 +2,7 @@
 
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 std::string SourceLocation::to_string() const {
   std::string text = file;
@@ -29,4 +29,4 @@ void Diagnostics::warn(const SourceLocation& where, const std::string& message) 
   if (seen_.insert(message).second) warnings_.push_back({where, message});
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -11,7 +11,7 @@
 
 #include "util/activity.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// A position in a file. Lines and columns count from 1; 0 means unknown.
 struct SourceLocation {
@@ -57,4 +57,4 @@ class Diagnostics {
   Activity activity_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

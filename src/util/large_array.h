@@ -12,7 +12,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace alhazen {
+namespace alhazen::impl {
 
 template <class T>
 class LargeArray {
@@ -51,4 +51,4 @@ class LargeArray {
   size_t size_ = 0;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

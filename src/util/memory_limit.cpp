@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -120,4 +120,4 @@ uint64_t physical_memory() {
   return std::min(machine, control_group_memory("/proc/self"));
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Returns the memory of this machine in bytes, or less if control groups limit the process, as in containers.
 uint64_t physical_memory();
@@ -15,4 +15,4 @@ uint64_t physical_memory();
 /// largest number if there is none or it cannot be read. `process`: the folder of the process in /proc.
 uint64_t control_group_memory(const std::string& process);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

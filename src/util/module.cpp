@@ -8,7 +8,7 @@
 
 #include "util/module_file.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -62,4 +62,4 @@ Module open_module(const std::string& folder, const std::string& name, const std
   return {path, functions(), ""};
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 struct Module {
   std::string path;                 ///< its file; empty if there is none
@@ -33,4 +33,4 @@ const Table& functions_of(const Module& module) {
   return *static_cast<const Table*>(module.functions);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::optional<ModuleIdentity> read_module_identity(const std::string& path) {
   return identity;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

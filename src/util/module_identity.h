@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 inline constexpr char module_section[] = ".alhazen";
 inline constexpr char module_magic[] = "Alhazen module";
@@ -17,4 +17,4 @@ struct ModuleIdentity {
   char interface[32] = {};  ///< hash of the headers and compiler that it was built with (cmake/InterfaceHash.cmake)
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// A leading plus sign is common in text files, but std::from_chars does not accept it.
 inline std::string_view without_plus(std::string_view text) {
@@ -42,4 +42,4 @@ inline std::optional<int64_t> parse_integer(std::string_view text) {
   return value;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

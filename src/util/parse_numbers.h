@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Parses exactly `count` numbers with `separator` between them. Returns false if the text is anything else.
 template <class Number, size_t count>
@@ -64,4 +64,4 @@ inline bool parse_seconds(std::string_view text, double& seconds) {
   return true;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

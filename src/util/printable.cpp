@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -101,4 +101,4 @@ std::string printable_columns(std::string_view text, size_t& columns) {
   return replaced(text, columns, [](const Character& c) { return std::string(c.code == '\t' ? " " : "?"); });
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Returns `text` on one line without anything that acts on a terminal: control characters (C0, DEL, C1), line breaks,
 /// invisible characters and those that change the writing direction, and invalid UTF-8 bytes become visible escapes
@@ -19,4 +19,4 @@ std::string printable_lines(std::string_view text);
 /// `columns` receives the number of characters of the result.
 std::string printable_columns(std::string_view text, size_t& columns);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Returns `text` in single quotes, cut after 40 bytes at a character boundary; characters that act on a terminal are
 /// escaped.
@@ -24,4 +24,4 @@ inline std::string quoted(std::string_view text) {
 inline std::string quoted(const std::string& text) { return quoted(std::string_view(text)); }
 inline std::string quoted(std::string& text) { return quoted(std::string_view(text)); }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Levenshtein distance, computed row by row.
 inline size_t edit_distance(std::string_view a, std::string_view b) {
@@ -43,4 +43,4 @@ std::string suggestion(std::string_view word, const Names& names) {
   return best.empty() ? std::string() : "; did you mean \"" + std::string(best) + "\"?";
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

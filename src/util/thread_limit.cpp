@@ -12,7 +12,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -130,4 +130,4 @@ void limit_default_team() {
   if (available < team) omp_set_num_threads(available);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

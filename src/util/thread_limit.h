@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Maximum stack size of a thread: recursive integrators, at most 1000 deep, need the most.
 inline constexpr size_t thread_stack_bytes = size_t{8} << 20;
@@ -49,4 +49,4 @@ std::thread start_thread(const std::string& purpose, Body&& body) try {
 /// ThreadDefaults reverts that.
 void limit_default_team();
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 #include "support/scene_files.h"
 #include "support/temporary_folder.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -270,4 +270,4 @@ TEST_F(Api, KnowsItsVersion) { EXPECT_STRNE(version(), ""); }
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

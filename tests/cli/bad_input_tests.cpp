@@ -9,7 +9,7 @@
 #include "cli/fixture.h"
 #include "support/effort.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -501,4 +501,4 @@ TEST_F(BadInput, Checkpoints) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

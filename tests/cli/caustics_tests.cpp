@@ -2,7 +2,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -73,4 +73,4 @@ TEST_F(Caustics, OtherIntegratorsSayWhatTheyDo) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

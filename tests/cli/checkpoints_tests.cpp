@@ -2,7 +2,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -102,4 +102,4 @@ TEST_F(Checkpoints, AnyDamageIsRefused) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

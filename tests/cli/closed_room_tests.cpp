@@ -7,7 +7,7 @@
 #include "cli/fixture.h"
 #include "core/math/vec.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -115,4 +115,4 @@ Shape "disk" "float height" -1
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -3,7 +3,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 using CudaOptions = Command;
@@ -103,4 +103,4 @@ TEST_F(CudaOptions, WithoutAGpuItSaysWhy) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -9,7 +9,7 @@
 #include "cli/fixture.h"
 #include "support/environment_variable.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -173,4 +173,4 @@ TEST_F(Denoise, TheLibraryHasItToo) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

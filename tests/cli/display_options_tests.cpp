@@ -6,7 +6,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -211,4 +211,4 @@ TEST_F(DisplayImages, AFullDiskLeavesTheOldFile) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -4,7 +4,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -124,4 +124,4 @@ TEST_F(Environment, CheckpointsTellMapsApart) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -9,7 +9,7 @@
 #include "support/scene_files.h"
 #include "support/temporary_folder.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 class Command : public ::testing::Test {
  protected:
@@ -66,4 +66,4 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -5,7 +5,7 @@
 #include "cli/fixture.h"
 #include "support/animated_gltf.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -232,4 +232,4 @@ Shape "trianglemesh" "point3 P" [ 0.5 -0.5 0 1.5 -0.5 0 1 0.5 0 ] "integer indic
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -5,7 +5,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -147,4 +147,4 @@ TEST_F(Gltf, TellsWhereAFileIsBad) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

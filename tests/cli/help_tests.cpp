@@ -5,7 +5,7 @@
 #include "cli/fixture.h"
 #include "cli/help.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -67,4 +67,4 @@ TEST_F(Help, OfRenderListsTheCommonOptionsAndSaysHowToListAll) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -7,7 +7,7 @@
 #include "cli/fixture.h"
 #include "support/effort.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -371,4 +371,4 @@ TEST_F(Hostile, MatricesBeyondAllMeasure) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

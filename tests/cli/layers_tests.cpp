@@ -10,7 +10,7 @@
 #include "cli/fixture.h"
 #include "images/read_scalar_texture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -158,4 +158,4 @@ TEST_F(LayerOptions, MarksCheckpoints) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

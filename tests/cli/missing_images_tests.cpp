@@ -3,7 +3,7 @@
 #include "alhazen/alhazen.h"
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -175,4 +175,4 @@ TEST_F(MissingImages, OfTheLibrary) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -6,7 +6,7 @@
 #include "cli/fixture.h"
 #include "io/mitsuba/xml.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -190,4 +190,4 @@ TEST_F(Formats, StlAndPlyAreShown) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

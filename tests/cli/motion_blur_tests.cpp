@@ -4,7 +4,7 @@
 #include "cli/fixture.h"
 #include "support/animated_gltf.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -128,4 +128,4 @@ TEST_F(MotionBlur, SaysWhatIsNotBlurred) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -5,7 +5,7 @@
 #include "cli/fixture.h"
 #include "unit/images/image_files.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -73,4 +73,4 @@ Shape "trianglemesh" "point3 P" [ -.2 -.2 1  .2 -.2 1  0 .2 1 ] "integer indices
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -7,7 +7,7 @@
 #include "alhazen/alhazen.h"
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -194,4 +194,4 @@ TEST_F(QualityOption, TheLibraryHasItToo) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -9,7 +9,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -465,4 +465,4 @@ TEST_F(RenderOptions, MeshesAloneAndCompressedScenesRender) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

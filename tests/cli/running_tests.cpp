@@ -6,7 +6,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -189,4 +189,4 @@ TEST_F(Running, ResumeWithFewerSamplesThanThereAreIsRefused) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -2,7 +2,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -100,4 +100,4 @@ TEST_F(Signals, ALimitOnTheSizeOfFilesIsASentence) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

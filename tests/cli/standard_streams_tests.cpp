@@ -2,7 +2,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -82,4 +82,4 @@ TEST_F(StandardStreams, AReaderThatIsGoneIsAnError) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

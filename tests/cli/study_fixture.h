@@ -6,7 +6,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 class StudyCommand : public Command {
  protected:
@@ -46,4 +46,4 @@ class StudyCommand : public Command {
   nlohmann::json json(const std::string& name) const { return nlohmann::json::parse(text(name)); }
 };
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -8,7 +8,7 @@
 
 #include "cli/study_fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -509,4 +509,4 @@ TEST_F(StudyReport, TwoCanBeCompared) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

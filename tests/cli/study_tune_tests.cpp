@@ -3,7 +3,7 @@
 #include "cli/study_fixture.h"
 #include "study/tuned.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -188,4 +188,4 @@ TEST_F(StudyTune, RefusesBadInput) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -2,7 +2,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -160,4 +160,4 @@ TEST_F(Subcommands, ComparePrintsItsResultWithoutTheImage) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -4,7 +4,7 @@
 
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -170,4 +170,4 @@ TEST_F(Turntable, AFloorDoesNotMoveTheMiddle) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

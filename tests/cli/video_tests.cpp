@@ -6,7 +6,7 @@
 #include "cli/fixture.h"
 #include "support/animated_gltf.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -146,4 +146,4 @@ TEST_F(Video, IsWhatFfmpegMakesOfIt) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -9,7 +9,7 @@
 #include "alhazen/alhazen.h"
 #include "cli/fixture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -300,4 +300,4 @@ end_header
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

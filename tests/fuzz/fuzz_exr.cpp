@@ -6,7 +6,7 @@
 #include "images/read_texture.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  using namespace alhazen;
+  using namespace alhazen::impl;
   const fuzzing::MemoryFile file(data, size);
   try {
     const Image image = read_exr(file.path());

@@ -4,7 +4,7 @@
 #include "images/codecs/decoders.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  using namespace alhazen;
+  using namespace alhazen::impl;
   try {
     fuzzing::require_sound(decode_hdr("fuzz.hdr", {data, size}));
   } catch (const InputError&) {

@@ -5,7 +5,7 @@
 #include "images/codecs/decoders.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  using namespace alhazen;
+  using namespace alhazen::impl;
   if (size == 0) return 0;
   struct Decoders {
     ImageTexels (*colours)(const std::string&, std::span<const uint8_t>);

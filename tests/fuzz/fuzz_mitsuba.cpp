@@ -8,7 +8,7 @@
 #include "io/mitsuba/mitsuba.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  using namespace alhazen;
+  using namespace alhazen::impl;
   Diagnostics diagnostics;
   try {
     const Scene scene = parse_mitsuba(std::string(reinterpret_cast<const char*>(data), size), "fuzz.xml",

@@ -11,7 +11,7 @@
 
 namespace {
 
-void check(const alhazen::Mesh& mesh) {
+void check(const alhazen::impl::Mesh& mesh) {
   const size_t vertices = mesh.positions.size();
   if (mesh.indices.size() % 3 != 0) std::abort();
   for (const uint32_t index : mesh.indices)
@@ -24,7 +24,7 @@ template <class Read>
 void guarded(const Read& read) {
   try {
     read();
-  } catch (const alhazen::InputError&) {
+  } catch (const alhazen::impl::InputError&) {
     return;
   }
 }
@@ -32,7 +32,7 @@ void guarded(const Read& read) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  using namespace alhazen;
+  using namespace alhazen::impl;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   Diagnostics diagnostics;
   for (const obj::Division division : {obj::Division::none, obj::Division::named})

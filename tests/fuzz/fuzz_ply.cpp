@@ -8,7 +8,7 @@
 #include "io/ply/parse_ply.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  using namespace alhazen;
+  using namespace alhazen::impl;
   MemorySource source(std::string_view(reinterpret_cast<const char*>(data), size));
   Diagnostics diagnostics;
   try {

@@ -30,7 +30,7 @@ std::vector<uint8_t> with_right_checksums(std::vector<uint8_t> file) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  using namespace alhazen;
+  using namespace alhazen::impl;
   std::vector<uint8_t> bytes(data, data + size);
   // The last byte, which is part of a checksum in a whole file, selects the option.
   if (size > 0 && data[size - 1] % 4 != 0) bytes = with_right_checksums(std::move(bytes));

@@ -13,7 +13,7 @@
 
 namespace {
 
-using namespace alhazen;
+using namespace alhazen::impl;
 
 constexpr const char* scene_text = R"(
 Film "rgb" "integer xresolution" 3 "integer yresolution" 2

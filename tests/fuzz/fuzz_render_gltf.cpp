@@ -4,7 +4,7 @@
 #include "io/gltf/gltf.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  using namespace alhazen;
+  using namespace alhazen::impl;
   Diagnostics diagnostics;
   ReadOptions options;
   const uint8_t choice = fuzzing::last_of({data, size});

@@ -27,7 +27,7 @@ Shape "bilinearmesh" "point3 P" [ -4 -4 -1  4 -4 -1  -4 4 -1  4 4 -1 ]
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  using namespace alhazen;
+  using namespace alhazen::impl;
   const fuzzing::MemoryFile file(data, size);
   // If the image is refused for one purpose, such as a light's if it is not square, the others are still tried.
   for (const std::string kept : {"infinite", "goniometric", "projection", "none"}) {

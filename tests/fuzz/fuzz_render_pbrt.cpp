@@ -6,7 +6,7 @@
 #include "io/pbrt/pbrt.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  using namespace alhazen;
+  using namespace alhazen::impl;
   std::string text(reinterpret_cast<const char*>(data), size);
   // Without slashes and in a folder that does not exist, no name refers to a file.
   std::replace(text.begin(), text.end(), '/', '_');

@@ -4,7 +4,7 @@
 #include "images/codecs/decoders.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  using namespace alhazen;
+  using namespace alhazen::impl;
   const std::span<const uint8_t> bytes(data, size);
   try {
     fuzzing::require_sound(decode_webp("fuzz.webp", bytes));

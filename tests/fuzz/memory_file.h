@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace alhazen::fuzzing {
+namespace alhazen::impl::fuzzing {
 
 class MemoryFile {
  public:
@@ -32,4 +32,4 @@ class MemoryFile {
   int descriptor_;
 };
 
-}  // namespace alhazen::fuzzing
+}  // namespace alhazen::impl::fuzzing

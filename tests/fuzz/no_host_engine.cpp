@@ -3,10 +3,10 @@
 
 #include "backends/cuda/device.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 std::unique_ptr<Engine> make_host_engine(const DeviceRows&) {
   throw InputError("the fuzz targets are built without the kernels of GPUs");
 }
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

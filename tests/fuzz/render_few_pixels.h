@@ -15,7 +15,7 @@
 
 #include "render/renderer.h"
 
-namespace alhazen::fuzzing {
+namespace alhazen::impl::fuzzing {
 
 inline constexpr uint64_t max_triangles = 20'000, max_texels = 1u << 20;
 inline constexpr size_t max_places = 2000, max_coats = 2;
@@ -87,4 +87,4 @@ inline void render_few_pixels(Scene&& scene, uint8_t choice, Diagnostics& diagno
 /// The last byte of an input, which most formats ignore.
 inline uint8_t last_of(std::span<const uint8_t> bytes) { return bytes.empty() ? uint8_t{0} : bytes.back(); }
 
-}  // namespace alhazen::fuzzing
+}  // namespace alhazen::impl::fuzzing

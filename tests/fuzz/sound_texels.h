@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace alhazen::fuzzing {
+namespace alhazen::impl::fuzzing {
 
 inline void require(bool condition) {
   if (!condition) std::abort();
@@ -20,4 +20,4 @@ inline void require_sound(const ImageTexels& texels) {
   require(texels.bytes.size() + texels.floats.size() == values);
 }
 
-}  // namespace alhazen::fuzzing
+}  // namespace alhazen::impl::fuzzing

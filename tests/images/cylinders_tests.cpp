@@ -7,7 +7,7 @@
 
 #include "parity/scenes.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -81,4 +81,4 @@ TEST(Disks, LookLikeFineMeshes) { expect_fine_meshes("disks"); }
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

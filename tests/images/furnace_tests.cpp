@@ -7,7 +7,7 @@
 #include "support/bits.h"
 #include "support/environments.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -192,4 +192,4 @@ Shape "sphere" "float radius" 2
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -11,7 +11,7 @@
 #include "render/renderer.h"
 #include "support/effort.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -210,4 +210,4 @@ TEST(References, EveryPbrtSceneHasAnImage) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -9,7 +9,7 @@
 #include "support/bits.h"
 #include "support/scene_files.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -54,4 +54,4 @@ TEST(TinyShapes, HideNothing) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

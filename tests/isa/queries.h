@@ -6,7 +6,7 @@
 #include "isa/request.h"
 #include "render/sample_kernel.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 ALHAZEN_DECLARE_KERNEL(test::AnswerQueries select_answers(test::QueryMode mode, bool any_hit, bool is_double))
 
@@ -45,4 +45,4 @@ class IsaIntersector {
 static_assert(RayIntersector<IsaIntersector<float, InstructionSet::baseline>, float>);
 
 }  // namespace test
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// How the queries are made: one ray per call, interleaved, all in one call as in renders, or all in one call as
 /// coherent packets.
@@ -24,4 +24,4 @@ struct QueryRequest {
 
 using AnswerQueries = void (*)(const QueryRequest&);
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -3,12 +3,12 @@
 #include "render/sample_kernel.h"
 #include "util/define_module.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 const ProbeModule table{42, [] { return static_cast<const void*>(&instruction_sets()); }};
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test
 
-ALHAZEN_MODULE("probe", alhazen::test::table)
+ALHAZEN_MODULE("probe", alhazen::impl::test::table)

@@ -2,7 +2,7 @@
 
 // The interface of the module that the tests load.
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 struct ProbeModule {
   int answer;
@@ -10,4 +10,4 @@ struct ProbeModule {
   const void* (*library_state)();
 };
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -7,7 +7,7 @@
 #include "parity/engines.h"
 #include "parity/scenes.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -158,4 +158,4 @@ TEST(AovSurface, OfDenoisingIsDiffuseUnlessItsLayersAreWritten) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

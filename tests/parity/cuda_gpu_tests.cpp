@@ -6,7 +6,7 @@
 #include "render/backend.h"
 #include "support/statistics.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 using test::Moments;
@@ -168,4 +168,4 @@ INSTANTIATE_TEST_SUITE_P(Parity, OptixOnDevice,
                                             ::testing::Values("path", "iterative")));
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -6,7 +6,7 @@
 #include "compile/compile_scene.h"
 #include "parity/scenes.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 const std::vector<std::string> strategies{"pixel", "chunk", "persistent", "wavefront"};
@@ -198,4 +198,4 @@ TEST(CudaOnHostLayers, NoneAreAskedFor) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

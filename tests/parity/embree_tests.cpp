@@ -15,7 +15,7 @@
 #include "support/primitive_scenes.h"
 #include "support/ulps.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 using test::Random;
@@ -176,7 +176,7 @@ TEST(Embree, TracesInFloatAlone) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test
 
 #else
 

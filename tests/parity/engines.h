@@ -6,7 +6,7 @@
 
 #include "alhazen/alhazen.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// Calls check(other) with settings that differ from `settings` in the backend, strategy, schedule, number of threads
 /// or size of passes.
@@ -37,4 +37,4 @@ void visit_engines(const Settings& settings, const Check& check) {
   check(other);
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

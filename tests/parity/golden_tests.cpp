@@ -17,7 +17,7 @@
 #include "support/bits.h"
 #include "support/external_scenes.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -137,4 +137,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -11,7 +11,7 @@
 #include "support/effort.h"
 #include "support/statistics.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -325,4 +325,4 @@ TEST(GuidedLimits, MemoryIsKept) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -3,7 +3,7 @@
 #include "parity/engines.h"
 #include "parity/scenes.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -40,4 +40,4 @@ INSTANTIATE_TEST_SUITE_P(Parity, IndirectLimit,
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -8,7 +8,7 @@
 #include "render/sample_kernel.h"
 #include "support/compiled_scenes.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 template <class Real>
@@ -52,4 +52,4 @@ TEST(InstructionSets, GiveTheSameBitsInDouble) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

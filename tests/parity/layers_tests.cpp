@@ -8,7 +8,7 @@
 #include "parity/scenes.h"
 #include "render/cryptomatte.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -455,4 +455,4 @@ TEST(Cryptomatte, MetadataNamesTheLayerAndWhatIsInTheImage) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -26,7 +26,7 @@ void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, size_t) noexcept { std::free(memory); }
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -63,4 +63,4 @@ TEST(NoiseMemory, AnEstimateThatFailsIsAWarningAndDecidesNothing) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -9,7 +9,7 @@
 #include "parity/scenes.h"
 #include "render/noise.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -344,4 +344,4 @@ TEST(NoiseTarget, DoesNotBiasTheMean) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -12,10 +12,10 @@
 #include "compile/compile_scene.h"
 #include "parity/scenes.h"
 
-namespace alhazen::optix {
+namespace alhazen::impl::optix {
 namespace {
 
-using namespace alhazen::test;
+using namespace alhazen::impl::test;
 using cuda::HostExecutor;
 
 /// The calls to the driver, in order.
@@ -487,6 +487,6 @@ TEST(OptixLibraryFile, ThatIsMissingOrAnother) {
 }
 
 }  // namespace
-}  // namespace alhazen::optix
+}  // namespace alhazen::impl::optix
 
 #endif

@@ -4,7 +4,7 @@
 #include "parity/scenes.h"
 #include "render/backend.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -144,4 +144,4 @@ INSTANTIATE_TEST_SUITE_P(Parity, Passes,
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -4,7 +4,7 @@
 
 #include "parity/scenes.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -196,4 +196,4 @@ INSTANTIATE_TEST_SUITE_P(Parity, Resume,
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

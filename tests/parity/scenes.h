@@ -9,7 +9,7 @@
 #include "support/scene_files.h"
 #include "support/temporary_folder.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// Wider than a tile, and not a multiple of one in either direction.
 inline constexpr int parity_width = 20, parity_height = 17;
@@ -270,4 +270,4 @@ inline const Scene& parity_scene(const std::string& name) {
   return spheres;
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

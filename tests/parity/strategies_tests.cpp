@@ -3,7 +3,7 @@
 
 #include "parity/scenes.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -153,4 +153,4 @@ TEST(Parity, SeedsSamplersAndIntegratorsDiffer) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -7,7 +7,7 @@
 #include "support/reals.h"
 #include "support/render_pixels.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr uint32_t side = 12;
@@ -105,4 +105,4 @@ TYPED_TEST(Alpha, AbsorptionFollowsTheDistance) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -7,7 +7,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr double diffuse_alphas[] = {0};
@@ -48,4 +48,4 @@ TYPED_TEST(BsdfSampling, GlassFromInside) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -5,7 +5,7 @@
 #include "support/layered_checks.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 struct Coat {
@@ -213,4 +213,4 @@ TEST(CoatedConductor, TexturedRoughnessLooksLikeConstantOnes) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

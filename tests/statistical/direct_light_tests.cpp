@@ -10,7 +10,7 @@
 #include "support/reals.h"
 #include "support/render_pixels.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr uint32_t side = 16;
@@ -171,4 +171,4 @@ TYPED_TEST(DirectLight, Disk) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

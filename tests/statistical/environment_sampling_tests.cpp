@@ -13,7 +13,7 @@
 #include "support/reals.h"
 #include "support/render_pixels.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 struct MapCase {
@@ -338,4 +338,4 @@ TYPED_TEST(EnvironmentSampling, IrradianceOfAPlane) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

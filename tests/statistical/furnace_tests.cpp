@@ -7,7 +7,7 @@
 #include "support/reals.h"
 #include "support/render_pixels.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr double albedo = 0.8;
@@ -59,4 +59,4 @@ TYPED_TEST(Furnace, Sphere) { check_furnace<TypeParam>(sphere); }
 TYPED_TEST(Furnace, BoxOfTriangles) { check_furnace<TypeParam>(box); }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -14,7 +14,7 @@
 #include "support/render_pixels.h"
 #include "support/scenes.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr uint32_t side = 24, block_side = 4, blocks_a_side = side / block_side;
@@ -122,4 +122,4 @@ TYPED_TEST(IntegratorsAgree, LampAndAMap) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

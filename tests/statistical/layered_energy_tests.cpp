@@ -12,7 +12,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 /// Fraction of the light that is scattered in each channel, without the change of radiance by refraction, and its
@@ -277,4 +277,4 @@ TEST(LayeredEnergy, SamplesFollowTheirDensity) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -10,7 +10,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 std::string name_of(const PrincipledValues& v, double cosine, double azimuth) {
@@ -233,4 +233,4 @@ TEST(ThinDielectric, LosesNothing) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

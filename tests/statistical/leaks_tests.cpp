@@ -20,7 +20,7 @@
 #include "backends/embree/module/scene.h"
 #endif
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 size_t rays_per_mesh() {
@@ -245,4 +245,4 @@ TYPED_TEST(Leaks, Needle) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -11,7 +11,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 struct LightCase {
@@ -264,4 +264,4 @@ TYPED_TEST(LightSampling, Probabilities) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -13,7 +13,7 @@
 #include "support/light_scenes.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 template <class Real>
@@ -180,4 +180,4 @@ TYPED_TEST(LightTree, TexturesCountForThePower) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -12,7 +12,7 @@
 #include "support/reals.h"
 #include "support/render_pixels.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr uint32_t side = 12;
@@ -178,4 +178,4 @@ TYPED_TEST(LightWeights, BoxesUnderASun) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

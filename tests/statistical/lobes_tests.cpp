@@ -13,7 +13,7 @@
 #include "support/layered.h"
 #include "support/random.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 /// Mean and variance of the weights for one outgoing direction.
@@ -175,4 +175,4 @@ TEST(Lobes, ProbabilitiesAreFractionsOfTheAlbedo) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

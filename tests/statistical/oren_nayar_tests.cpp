@@ -5,7 +5,7 @@
 #include "support/layered_checks.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 template <class Real>
@@ -123,4 +123,4 @@ TYPED_TEST(OrenNayar, SmoothIsLambert) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -15,7 +15,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 enum class Format { pbrt, gltf };
@@ -354,4 +354,4 @@ TYPED_TEST(RoughGlass, KeepsItsLightWhereTheRoughnessVaries) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -8,7 +8,7 @@
 #include "support/chi_squared_grid.h"
 #include "support/effort.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr uint32_t dimensions[] = {0, 1, 2, 3, 7, 18, 53};
@@ -96,4 +96,4 @@ TYPED_TEST(SamplerUniformity, NeighboursAreUncorrelated) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -15,7 +15,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr double alphas[] = {0.05, 0.3, 0.8};
@@ -218,4 +218,4 @@ TYPED_TEST(WarpOf, Filters) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -10,7 +10,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 struct AnimatedChannel {
   int node;
@@ -70,4 +70,4 @@ inline void write_animated_gltf(const TemporaryFolder& folder, const std::string
   folder.write_text(name + ".gltf", scene.dump(1));
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -13,7 +13,7 @@
 #include "io/pbrt/pbrt.h"
 #include "render/renderer.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// All layers that every integrator can write.
 inline const std::vector<std::string> all_aovs{"alpha",    "albedo",      "normal",  "camera_normal", "depth",
@@ -88,4 +88,4 @@ inline ::testing::AssertionResult same_bits(const Outcome& a, const Outcome& b) 
   return ::testing::AssertionSuccess();
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

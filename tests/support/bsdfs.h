@@ -7,7 +7,7 @@
 
 #include "core/materials/bsdf.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// Returns a frame whose normal is along no axis, so that errors in the shading frame are visible.
 template <class Real>
@@ -64,4 +64,4 @@ Vec3<Real> direction_at(const Frame<Real>& frame, double cosine, double azimuth)
 /// From normal to grazing incidence.
 inline constexpr double cosines[] = {1, 0.8, 0.5, 0.2, 0.05, 0.01};
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

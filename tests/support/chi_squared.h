@@ -10,7 +10,7 @@
 
 #include "support/statistics.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// Returns the regularized upper incomplete gamma function Q(a, x): by its series below a + 1, by Lentz's continued
 /// fraction above (Press et al., Numerical Recipes 3rd ed., 6.2).
@@ -79,4 +79,4 @@ inline ChiSquared chi_squared_test(const std::vector<double>& observed, const st
   return test;
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -7,7 +7,7 @@
 
 #include "support/chi_squared.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 class UniformGrid {
  public:
@@ -30,4 +30,4 @@ class UniformGrid {
   double total_ = 0;
 };
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

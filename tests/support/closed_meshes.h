@@ -9,7 +9,7 @@
 #include "scene/scene.h"
 #include "support/random.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// The icosahedron, with each triangle split into four `subdivisions` times, vertices on the unit sphere.
 /// Counter-clockwise seen from outside.
@@ -55,4 +55,4 @@ inline void jitter_radii(Mesh& mesh, double amount, Random& random) {
   for (Vec3d& p : mesh.positions) p *= 1 + random.between(-amount, amount);
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

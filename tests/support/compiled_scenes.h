@@ -10,7 +10,7 @@
 #include "compile/compile_scene.h"
 #include "io/pbrt/pbrt.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 inline void expect_no_warnings(const Diagnostics& diagnostics) {
   for (const Diagnostics::Warning& warning : diagnostics.warnings()) ADD_FAILURE() << warning.to_string();
@@ -47,4 +47,4 @@ inline std::string film_of(int width, int height) {
          std::to_string(height) + "\nPixelFilter \"box\"\n";
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -11,7 +11,7 @@
 #include "support/effort.h"
 #include "support/random.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// Tests with chi-squared, as one of `cases` tests. The density may integrate to `slack` above 1, which is the error of
 /// the quadrature.
@@ -37,4 +37,4 @@ void check_density(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, Random& random,
                                               << " degrees of freedom, integral of the pdf " << integral;
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

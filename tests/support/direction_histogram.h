@@ -10,7 +10,7 @@
 #include "core/math/frame.h"
 #include "support/chi_squared.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// Bins over the cap of half angle `theta_max` about `frame.normal`, equal in angle. Directions outside the cap, and
 /// failed samples, are counted in a bin of their own.
@@ -106,4 +106,4 @@ class DirectionHistogram {
   double count_ = 0;
 };
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr bool is_sanitized = true;
@@ -20,4 +20,4 @@ constexpr size_t effort(size_t full) { return is_sanitized ? full / 16 : full; }
 /// Returns a bound on the error of a mean over `effort(n)` samples; a sixteenth of them has four times the error.
 constexpr double widened(double bound) { return is_sanitized ? 4 * bound : bound; }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

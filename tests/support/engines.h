@@ -8,7 +8,7 @@
 #include "core/bvh/cwbvh/traversal.h"
 #include "isa/queries.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 template <class Any>
 struct Bvh2Engine {
@@ -38,4 +38,4 @@ using Engines =
                      IsaEngine<float, InstructionSet::avx2>, IsaEngine<double, InstructionSet::avx2>,
                      IsaEngine<float, InstructionSet::avx512>, IsaEngine<double, InstructionSet::avx512>>;
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

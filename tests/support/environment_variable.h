@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// The variable has the value as long as this lives, and none afterwards.
 class EnvironmentVariable {
@@ -19,4 +19,4 @@ class EnvironmentVariable {
   const char* name_;
 };
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -9,7 +9,7 @@
 #include "support/compiled_scenes.h"
 #include "support/random.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 inline float& channel_of(ImageTexels& map, int x, int y, size_t channel) {
   return map.floats[3 * (static_cast<size_t>(y) * static_cast<size_t>(map.width) + static_cast<size_t>(x)) + channel];
@@ -79,4 +79,4 @@ double integral_over_sphere(int side, const Value& value) {
   return sum * 4 * pi<double> / side / side;
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

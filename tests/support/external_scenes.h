@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// Returns the folder in ALHAZEN_SCENES, else `shared/scenes` in the repository or beside it; empty if there is none.
 inline std::filesystem::path external_scenes() {
@@ -36,4 +36,4 @@ inline std::vector<std::filesystem::path> external_files(const std::string& fold
   return files;
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -8,7 +8,7 @@
 #include "support/compiled_scenes.h"
 #include "support/random.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// A random well-conditioned affine transform about a point of the box [-reach, reach]^3.
 inline Transform random_placement(Random& random, double reach) {
@@ -71,4 +71,4 @@ CompiledScene<Real> flat_instanced_scene(const Scene& scene, bool as_copies) {
   return flat;
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -11,7 +11,7 @@
 #include "core/materials/bsdf.h"
 #include "support/bsdfs.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// The inputs of the principled material that tests vary; all others have their defaults.
 struct PrincipledValues {
@@ -86,4 +86,4 @@ FlatMaterial<Real> principled_of(const PrincipledValues& values) {
   return {scene, material};
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -10,7 +10,7 @@
 #include "support/layered.h"
 #include "support/random.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 struct Energy {
   double mean, error;
@@ -36,4 +36,4 @@ Energy energy_of(const Bsdf<Real>& bsdf, const Vec3<Real>& wo, int samples, Rand
   return {mean, std::sqrt(std::max(0.0, squares[strongest] / samples - mean * mean) / samples)};
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -8,7 +8,7 @@
 #include "support/compiled_scenes.h"
 #include "support/random.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 inline std::string text_of(const Vec3d& v) {
   return std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z) + " ";
@@ -88,4 +88,4 @@ inline std::string room_of_lights(int count, bool with_delta, double size) {
 )" + small_lights(count, 17, with_delta, size);
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

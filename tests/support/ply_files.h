@@ -16,7 +16,7 @@
 
 #include "io/ply/parse_ply.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 inline Mesh parse_bytes(const std::string& bytes, Diagnostics& diagnostics) {
   MemorySource source(bytes);
@@ -79,4 +79,4 @@ inline const std::string triangle_elements =
     "element vertex 3\n" + xyz + "element face 1\nproperty list uchar int vertex_indices\n";
 inline const std::string triangle_rows = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -8,7 +8,7 @@
 #include "support/compiled_scenes.h"
 #include "support/random.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 class PrimitiveScene {
  public:
@@ -109,4 +109,4 @@ inline PrimitiveScene mixed_primitives(uint64_t seed, int of_each_kind) {
   return scene;
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

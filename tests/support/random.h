@@ -8,7 +8,7 @@
 #include "core/math/scalar.h"
 #include "core/math/vec.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 class Random {
  public:
@@ -51,4 +51,4 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 using Reals = ::testing::Types<float, double>;
 
@@ -14,4 +14,4 @@ constexpr double by_precision(double for_float, double for_double) {
   return sizeof(Real) == sizeof(float) ? for_float : for_double;
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

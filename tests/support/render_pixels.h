@@ -9,7 +9,7 @@
 #include "render/settings.h"
 #include "support/statistics.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 inline constexpr IntegratorKind all_integrators[] = {IntegratorKind::branching, IntegratorKind::recursive,
                                                      IntegratorKind::iterative, IntegratorKind::path};
@@ -56,4 +56,4 @@ Moments render_pixels(const SceneView<Real>& scene, const Take& take, uint32_t w
   return moments;
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <stdexcept>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -109,4 +109,4 @@ CommandResult run_alhazen(std::vector<std::string> arguments, const CommandOptio
   return run_command(arguments, options);
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 struct CommandResult {
   int exit_code = -1;  ///< 128 + the signal if one ended it
@@ -39,4 +39,4 @@ CommandResult run_script(const std::string& script, const CommandOptions& option
 /// Runs the program under test with `arguments`.
 CommandResult run_alhazen(std::vector<std::string> arguments, const CommandOptions& options = {});
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// A box of triangles with coloured walls, a light of two triangles, and two blocks.
 inline std::string cornell_box(int size) {
@@ -115,4 +115,4 @@ AttributeEnd
 )";
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// A small Cornell box: coloured walls, a large lamp, a diffuse and a metal block.
 inline const std::string cornell_box = R"(
@@ -70,4 +70,4 @@ inline const std::string furnace_of_glass = R"(
     AttributeEnd
 )";
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

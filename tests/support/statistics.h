@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// Running mean and variance (Welford 1962).
 class Moments {
@@ -90,4 +90,4 @@ inline double welch_p_value(const Moments& a, const Moments& b, double rounding)
   return student_p_value(distance / std::sqrt(va + vb), degrees_of_freedom);
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 using Bytes = std::vector<uint8_t>;
 
@@ -59,4 +59,4 @@ inline Bytes read_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

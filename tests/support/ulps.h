@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 inline uint64_t ulps_between(double a, double b) {
   const int64_t i = std::bit_cast<int64_t>(a), j = std::bit_cast<int64_t>(b);
@@ -20,4 +20,4 @@ inline uint64_t ulps_between(float a, float b) {
   return static_cast<uint64_t>(i > j ? i - j : j - i);
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -5,7 +5,7 @@
 #include "util/diagnostics.h"
 #include "util/parse_numbers.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 namespace {
 
@@ -33,4 +33,4 @@ BlockSize parse_chunks(const std::string& text) { return parse_size(text, "the n
 
 std::string to_string(const BlockSize& size) { return std::to_string(size.x) + "x" + std::to_string(size.y); }
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

@@ -6,7 +6,7 @@
 
 #include "render/settings.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 /// Parses a block size such as `16x16`, in threads. Throws InputError unless a GPU can run such a block.
 BlockSize parse_block(const std::string& text);
@@ -14,4 +14,4 @@ BlockSize parse_block(const std::string& text);
 BlockSize parse_chunks(const std::string& text);
 std::string to_string(const BlockSize& size);
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

@@ -6,7 +6,7 @@
 #include "backends/cuda/strategy.h"
 #include "util/module.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -66,4 +66,4 @@ class CudaBackend final : public DeviceBackend {
 
 std::unique_ptr<Backend> make_cuda_backend() { return std::make_unique<CudaBackend>(); }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -10,7 +10,7 @@
 #include "backends/cuda/kernels/launch.h"
 #include "render/backend.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 /// Renders the rows of every pass that are assigned to one device (DeviceRows).
 class Engine {
@@ -44,4 +44,4 @@ const DeviceList& list_devices();
 /// the module `cuda` cannot be loaded.
 std::unique_ptr<Engine> make_gpu_engine(int device, const DeviceRows& rows, Precision precision);
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

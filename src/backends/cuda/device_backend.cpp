@@ -9,7 +9,7 @@
 #include "backends/pixel_blocks.h"
 #include "util/thread_limit.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 int DeviceBackend::parse_device(const std::string& text) const {
   const bool has_host = traits().runs_on_host;
@@ -113,4 +113,4 @@ std::vector<std::string> describe_devices() {
   return lines;
 }
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

@@ -5,7 +5,7 @@
 
 #include "backends/cuda/device.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 class DeviceBackend : public Backend {
  public:
@@ -39,4 +39,4 @@ class DeviceBackend : public Backend {
 /// Returns one line of text per GPU of this machine.
 std::vector<std::string> describe_devices();
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

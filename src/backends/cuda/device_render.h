@@ -19,7 +19,7 @@
 #include "core/bvh/cwbvh/traversal.h"
 #include "render/backend.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 /// Traces rays with the binary BVH.
 struct Bvh2Tracing {
@@ -390,4 +390,4 @@ class DeviceRender {
   uint64_t items_ = Executor::first_items;
 };
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

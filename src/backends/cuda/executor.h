@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 struct Extent {
   uint32_t width = 1, height = 1;
@@ -81,4 +81,4 @@ class Buffer {
   size_t size_ = 0;
 };
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

@@ -4,7 +4,7 @@
 #include "backends/cuda/module.h"
 #include "util/module.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 const DeviceList& list_devices() {
   static const DeviceList list = [] {
@@ -20,4 +20,4 @@ std::unique_ptr<Engine> make_gpu_engine(int device, const DeviceRows& rows, Prec
   return functions_of<CudaModule>(module).make_engine(device, rows, precision);
 }
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

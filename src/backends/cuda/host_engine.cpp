@@ -4,7 +4,7 @@
 #include "backends/cuda/device_render.h"
 #include "backends/cuda/host_executor.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 namespace {
 
@@ -29,4 +29,4 @@ class HostEngine final : public Engine {
 
 std::unique_ptr<Engine> make_host_engine(const DeviceRows& rows) { return std::make_unique<HostEngine>(rows); }
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

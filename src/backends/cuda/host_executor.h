@@ -12,7 +12,7 @@
 #include "core/bvh/stack.h"
 #include "util/diagnostics.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 class HostThread {
  public:
@@ -65,4 +65,4 @@ class HostExecutor {
   }
 };
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

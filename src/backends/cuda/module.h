@@ -4,7 +4,7 @@
 
 #include "backends/cuda/device.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 struct CudaModule {
   static constexpr const char* name = "cuda";
@@ -15,4 +15,4 @@ struct CudaModule {
   std::unique_ptr<Engine> (*make_engine)(int device, const DeviceRows& rows, Precision precision);
 };
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

@@ -7,7 +7,7 @@
 
 #include "backends/cuda/kernels/launch.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 class SlicePlan {
  public:
@@ -55,4 +55,4 @@ class SlicePlan {
   uint32_t row_ = 0, sample_ = 0;
 };
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

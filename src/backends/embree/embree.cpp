@@ -5,7 +5,7 @@
 #include "render/backend.h"
 #include "util/module.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -46,4 +46,4 @@ class EmbreeBackend final : public Backend {
 
 std::unique_ptr<Backend> make_embree_backend() { return std::make_unique<EmbreeBackend>(); }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

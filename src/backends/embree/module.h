@@ -10,7 +10,7 @@
 #include "core/scene_view.h"
 #include "render/kernels/request.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The Embree structures of a compiled scene, which must outlive them.
 class EmbreeStructures {
@@ -31,4 +31,4 @@ struct EmbreeModule {
   RawKernel (*select_kernel)(IntegratorKind integrator, SamplerType sampler);
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

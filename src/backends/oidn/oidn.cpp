@@ -7,7 +7,7 @@
 #include "render/denoiser.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -99,4 +99,4 @@ class OidnDenoiser final : public Denoiser {
 
 std::unique_ptr<Denoiser> make_oidn_denoiser() { return std::make_unique<OidnDenoiser>(); }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@
 
 #include "util/module.h"
 
-namespace alhazen::oidn {
+namespace alhazen::impl::oidn {
 
 namespace {
 
@@ -107,4 +107,4 @@ Library open_library() {
   return {{}, {}, std::string(names[0]) + " is not on this machine: " + how_to_get, false};
 }
 
-}  // namespace alhazen::oidn
+}  // namespace alhazen::impl::oidn

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <string>
 
-namespace alhazen::oidn {
+namespace alhazen::impl::oidn {
 
 struct DeviceHandle;
 struct FilterHandle;
@@ -40,4 +40,4 @@ struct Library {
 /// beside libalhazen.so or in the folder of modules, else the one that the dynamic linker finds.
 Library open_library();
 
-}  // namespace alhazen::oidn
+}  // namespace alhazen::impl::oidn

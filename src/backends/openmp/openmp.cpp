@@ -8,7 +8,7 @@
 
 #include "backends/pixel_blocks.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -184,4 +184,4 @@ void render_openmp(const RenderPass<double>& pass) { render_by_strategy(pass); }
 
 std::unique_ptr<Backend> make_openmp_backend() { return std::make_unique<OpenMpBackend>(); }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

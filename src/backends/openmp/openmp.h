@@ -4,7 +4,7 @@
 
 #include "render/backend.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The first is the fastest.
 enum class OpenMpStrategy : uint32_t { tiles, rows, collapse, rows_with_reduction, reduction };
@@ -16,4 +16,4 @@ std::vector<std::string> openmp_strategies();
 void render_openmp(const RenderPass<float>& pass);
 void render_openmp(const RenderPass<double>& pass);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -5,7 +5,7 @@
 #include "backends/cuda/device.h"
 #include "render/denoiser.h"
 
-namespace alhazen::optix {
+namespace alhazen::impl::optix {
 
 struct OptixModule {
   static constexpr const char* name = "optix";
@@ -19,4 +19,4 @@ struct OptixModule {
   std::vector<float> (*denoise)(const NoisyImage& image, int device);
 };
 
-}  // namespace alhazen::optix
+}  // namespace alhazen::impl::optix

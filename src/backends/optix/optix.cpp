@@ -6,7 +6,7 @@
 #include "render/denoiser.h"
 #include "util/module.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -54,7 +54,7 @@ class OptixDenoiser final : public Denoiser {
  public:
   std::string name() const override { return "optix"; }
   std::string details() const override { return "NVIDIA's denoiser of OptiX 9.0, on a GPU"; }
-  std::string problem() const override { return alhazen::problem(); }
+  std::string problem() const override { return impl::problem(); }
   std::vector<float> denoise(const NoisyImage& image, const DenoiseOptions& options) const override {
     return functions().denoise(image, options.device);
   }
@@ -65,4 +65,4 @@ class OptixDenoiser final : public Denoiser {
 std::unique_ptr<Backend> make_optix_backend() { return std::make_unique<OptixBackend>(); }
 std::unique_ptr<Denoiser> make_optix_denoiser() { return std::make_unique<OptixDenoiser>(); }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -1,7 +1,7 @@
 #include "backends/pixel_blocks.h"
 #include "render/backend.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -41,4 +41,4 @@ class SerialBackend final : public Backend {
 
 std::unique_ptr<Backend> make_serial_backend() { return std::make_unique<SerialBackend>(); }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@
 #include "core/simd/lanes.h"
 #include "util/large_array.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -332,4 +332,4 @@ Bvh2<Real> build_bvh2(std::span<const Bounds3<Real>> boxes, const Bvh2Options& o
 template Bvh2<float> build_bvh2(std::span<const Bounds3<float>>, const Bvh2Options&);
 template Bvh2<double> build_bvh2(std::span<const Bounds3<double>>, const Bvh2Options&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 
 #include "core/bvh/bvh2/node.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 template <class Real>
 struct Bvh2 {
@@ -29,4 +29,4 @@ struct Bvh2Options {
 template <class Real>
 Bvh2<Real> build_bvh2(std::span<const Bounds3<Real>> boxes, const Bvh2Options& options);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 #include "core/bvh/bvh8/intersector.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -235,4 +235,4 @@ template void build_bvh8(std::span<const Bvh2Node<float>>, std::span<const Bound
 template void build_bvh8(std::span<const Bvh2Node<double>>, std::span<const Bounds3<double>>, uint32_t, int,
                          SceneArrays<double>&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -14,7 +14,7 @@
 #include "core/bvh/bvh2/node.h"
 #include "util/large_array.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// `LeafCost` maps a range (first, count) of primitives, in the order of the leaves, to the cost of a leaf of them in
 /// units of a visit to a wide node, or infinity if it may not be a leaf. A single primitive is always a leaf.
@@ -188,4 +188,4 @@ class BvhCollapse {
   LargeArray<Choices> choices_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

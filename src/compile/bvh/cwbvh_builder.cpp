@@ -8,7 +8,7 @@
 #include "compile/bvh/octant_slots.h"
 #include "core/bvh/cwbvh/traversal.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -133,4 +133,4 @@ Cwbvh build_cwbvh(std::span<const Bvh2Node<float>> nodes, std::span<const Bounds
   return nodes.empty() ? Cwbvh{} : Collapse(nodes, boxes).run();
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

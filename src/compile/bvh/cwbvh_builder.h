@@ -8,7 +8,7 @@
 #include "core/bvh/bvh2/node.h"
 #include "core/bvh/cwbvh/node.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 struct Cwbvh {
   std::vector<CwbvhNode> nodes;  ///< the root first; empty if there are no primitives
@@ -20,4 +20,4 @@ struct Cwbvh {
 /// `boxes` bound the primitives in the order of the binary tree's leaves.
 Cwbvh build_cwbvh(std::span<const Bvh2Node<float>> nodes, std::span<const Bounds3<float>> boxes);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

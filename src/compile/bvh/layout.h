@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <initializer_list>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 enum class BvhLayout : uint32_t {
   bvh2,   ///< binary: GPUs in double, tests
@@ -31,4 +31,4 @@ class BvhLayouts {
   uint32_t bits_ = 0;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -10,7 +10,7 @@
 
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Returns the slots of `count` children, given the offsets of their centres from the centre of the parent. Each child
 /// takes the slot of its octant if that is free; the clearest cases choose first.
@@ -42,4 +42,4 @@ std::array<uint32_t, 8> octant_slots(const Vec3<Real> (&offsets)[8], uint32_t co
   return slots;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 
 #include "util/large_array.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -235,4 +235,4 @@ void reinsert_subtrees(Bvh2<Real>& tree, int threads) {
 template void reinsert_subtrees(Bvh2<float>&, int);
 template void reinsert_subtrees(Bvh2<double>&, int);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -5,11 +5,11 @@
 
 #include "compile/bvh/bvh2_builder.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Leaves keep their primitives; nodes and the order of leaves change. A tree that would become deeper than
 /// max_bvh2_depth is left as it was.
 template <class Real>
 void reinsert_subtrees(Bvh2<Real>& tree, int threads);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -11,7 +11,7 @@
 #include "core/materials/lobes/glass_albedo.h"
 #include "core/materials/lobes/sheen.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -288,4 +288,4 @@ Table values_of(const AlbedoGrid& grid) {
   return cache.get(grid, [&] { return computed(grid); });
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 #include "compile/tables/table_cache.h"
 #include "core/materials/lobes/albedo_grid.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The contents of a grid. `is_anisotropic` is false if the two alphas of the surface are equal at every point.
 struct AlbedoGrid {
@@ -33,4 +33,4 @@ AlbedoGridRecord record_of(const AlbedoGrid& grid);
 /// Computed once per grid.
 Table values_of(const AlbedoGrid& grid);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -12,7 +12,7 @@
 #include "core/materials/lobes/fresnel.h"
 #include "core/materials/lobes/microfacet.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The cosine of a node, moved slightly inside where the direction would be undefined.
 inline double cosine_at(uint32_t node, double ior, uint32_t nodes) {
@@ -179,4 +179,4 @@ inline double transmitted_fraction(const VisibleNormals& normals, const Vec3d& o
   return sum;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

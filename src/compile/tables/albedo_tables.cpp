@@ -10,7 +10,7 @@
 #include "core/materials/lobes/fresnel.h"
 #include "core/materials/lobes/microfacet.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -126,4 +126,4 @@ Table coat_transmission_table(double ior, double optical_thickness, bool conserv
   });
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -5,7 +5,7 @@
 #include "compile/tables/table_cache.h"
 #include "core/materials/lobes/albedo_table.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 inline constexpr uint32_t coat_transmission_size = (albedo_side + CoatColumns::count) * albedo_side;
 
@@ -19,4 +19,4 @@ Table interface_albedo_table(double ior);
 /// single-scattering model. Computed once per coat.
 Table coat_transmission_table(double ior, double optical_thickness, bool conserves);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -10,7 +10,7 @@
 #include "core/materials/lobes/coated_metal.h"
 #include "core/sampling/hash.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -163,4 +163,4 @@ Table coated_metal_table(const CoatedMetal& coat) {
   return cache.get(coat, [&] { return computed(coat); });
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

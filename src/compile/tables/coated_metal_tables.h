@@ -6,7 +6,7 @@
 
 #include "compile/tables/table_cache.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 struct CoatedMetal {
   double ior = 1.5;
@@ -21,4 +21,4 @@ struct CoatedMetal {
 /// which scatters once per visit. Computed once per coat.
 Table coated_metal_table(const CoatedMetal& coat);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

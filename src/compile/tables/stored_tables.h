@@ -11,7 +11,7 @@
 #include "compile/tables/albedo_tables.h"
 #include "compile/tables/coated_metal_tables.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Each function returns where a table is in SceneView::albedo_tables, and computes it when it is first asked for.
 template <class Real>
@@ -62,4 +62,4 @@ class StoredTables {
   std::map<CoatedMetal, uint32_t> coated_metals_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

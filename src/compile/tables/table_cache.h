@@ -9,7 +9,7 @@
 #include <mutex>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 using Table = std::shared_ptr<const std::vector<double>>;
 
@@ -43,4 +43,4 @@ class TableCache {
   size_t values_ = 0;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

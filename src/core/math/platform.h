@@ -6,9 +6,9 @@
 // Code that is compiled once per instruction set is in a namespace of its own each time. Otherwise the linker would use
 // one copy of an inline function for all of them (render/kernels).
 #if defined(ALHAZEN_ISA)
-#define ALHAZEN_CORE alhazen::inline ALHAZEN_ISA
+#define ALHAZEN_CORE alhazen::impl::inline ALHAZEN_ISA
 #else
-#define ALHAZEN_CORE alhazen
+#define ALHAZEN_CORE alhazen::impl
 #endif
 
 #if defined(__CUDACC__)

@@ -9,7 +9,7 @@
 #include "images/codecs/byte_reader.h"
 #include "images/codecs/decoders.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -162,4 +162,4 @@ std::optional<ImageTexels> decode_bmp_alpha(const std::string& path, std::span<c
   return unless_opaque(std::move(texels));
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@
 
 #include "images/codecs/image_bytes.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Multi-byte numbers are little-endian. Every read past the end throws InputError.
 class ByteReader {
@@ -57,4 +57,4 @@ class ByteReader {
   size_t position_ = 0;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

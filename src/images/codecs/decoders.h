@@ -16,7 +16,7 @@
 #include "images/read_texture.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 enum class ImageFormat { exr, png, jpeg, tga, bmp, hdr, pfm, webp, qoi };
 
@@ -75,4 +75,4 @@ ImageTexels exr_texels(const Image& image, const std::string& path, bool is_data
 ImageTexels decode_texture(const std::string& path, ImageFormat format, std::span<const uint8_t> bytes,
                            TextureEncoding encoding);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

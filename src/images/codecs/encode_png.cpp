@@ -9,7 +9,7 @@
 
 #include "images/codecs/decoders.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -42,4 +42,4 @@ std::vector<uint8_t> encode_png(const Image& image) {
   return bytes;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 
 #include "images/codecs/decoders.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -108,4 +108,4 @@ ColourChannels colour_channels(const Image& image) {
   return found;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -18,7 +18,7 @@
 #include "images/codecs/decoders.h"
 #include "images/codecs/image_bytes.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -207,4 +207,4 @@ Image read_exr(const InputPath& input, bool all_parts) {
   }
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -21,7 +21,7 @@
 #include "files/atomic_file.h"
 #include "images/image.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -243,4 +243,4 @@ void write_exr(const std::string& path, const ImageSource& source, const WriteOp
   file.commit();
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -12,7 +12,7 @@
 #include "images/codecs/byte_reader.h"
 #include "images/codecs/decoders.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -145,4 +145,4 @@ ImageTexels decode_hdr(const std::string& path, std::span<const uint8_t> bytes) 
   return texels;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

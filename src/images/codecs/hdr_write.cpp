@@ -12,7 +12,7 @@
 #include "images/image.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -101,4 +101,4 @@ void write_hdr(const std::string& path, const ImageSource& source, const WriteOp
   file.commit();
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

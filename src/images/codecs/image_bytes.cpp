@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 void throw_malformed(const std::string& path, const std::string& message) {
   throw InputError(SourceLocation{path, 0, 0}, message);
@@ -30,4 +30,4 @@ void check_plausible(const std::string& path, uint64_t decoded_bytes, uint64_t f
                               "; it is truncated or damaged");
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -10,7 +10,7 @@
 #include "files/input_file.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 inline constexpr int64_t max_texels = int64_t{1} << 30;
 
@@ -27,4 +27,4 @@ void check_plausible(const std::string& path, uint64_t decoded_bytes, uint64_t f
 
 [[noreturn]] void throw_malformed(const std::string& path, const std::string& message);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

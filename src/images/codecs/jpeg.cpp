@@ -23,7 +23,7 @@
 #define STBI_FREE(memory) std::free(memory)
 #include <stb_image.h>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -93,4 +93,4 @@ ImageTexels decode_jpeg(const std::string& path, std::span<const uint8_t> bytes)
   return texels;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

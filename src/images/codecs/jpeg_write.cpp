@@ -15,7 +15,7 @@
 #include "images/image.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -164,4 +164,4 @@ void write_jpg(const std::string& path, const ImageSource& source, const WriteOp
   file.commit();
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

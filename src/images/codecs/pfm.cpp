@@ -13,7 +13,7 @@
 #include "images/codecs/byte_reader.h"
 #include "images/codecs/decoders.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -91,4 +91,4 @@ void write_pfm(const std::string& path, const ImageSource& source, const WriteOp
   file.commit();
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

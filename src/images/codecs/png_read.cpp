@@ -10,7 +10,7 @@
 #include "images/codecs/decoders.h"
 #include "images/codecs/image_bytes.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -154,4 +154,4 @@ std::optional<ImageTexels> decode_png_alpha(const std::string& path, std::span<c
   return unless_opaque(std::move(texels));
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

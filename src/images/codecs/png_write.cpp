@@ -11,7 +11,7 @@
 #include "images/image.h"
 #include "util/printable.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -159,4 +159,4 @@ void write_png(const std::string& path, const ImageSource& source, const WriteOp
   file.commit();
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@
 #include <webp/decode.h>
 #endif
 
-namespace alhazen {
+namespace alhazen::impl {
 
 #ifdef ALHAZEN_WITH_WEBP
 
@@ -75,4 +75,4 @@ std::optional<ImageTexels> decode_webp_alpha(const std::string& path, std::span<
 
 #endif
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

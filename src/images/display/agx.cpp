@@ -9,7 +9,7 @@
 #include "images/display/display_error.h"
 #include "images/display/tone_map.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -103,4 +103,4 @@ Vec3d agx(const Vec3d& colour) {
   return {displayed(out.x), displayed(out.y), displayed(out.z)};
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 
 #include "images/image.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -31,4 +31,4 @@ Vec3d error_colour(double value) {
   return {srgb_decode(encoded.x), srgb_decode(encoded.y), srgb_decode(encoded.z)};
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -4,7 +4,7 @@
 
 #include "images/display/display_transform.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 std::vector<uint8_t> display_bytes(const std::string& name, const ImageSource& source, const WriteOptions& options) {
   const std::array<size_t, 3> channels = rgb_channels(name, source);
@@ -22,4 +22,4 @@ std::vector<uint8_t> display_bytes(const std::string& name, const ImageSource& s
   return bytes;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 
 #include "images/display/tone_map.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -26,7 +26,7 @@ double portable_srgb_encode(double linear) {
 }
 
 double DisplayCurve::operator()(double luminance) const {
-  return portable_srgb_encode(alhazen::tone_map(splat(luminance * scale), tone_map).x);
+  return portable_srgb_encode(impl::tone_map(splat(luminance * scale), tone_map).x);
 }
 
 double DisplayCurve::error(double luminance, double deviation) const {
@@ -61,4 +61,4 @@ double portable_exp2(double exponent) {
   return std::ldexp(power, static_cast<int>(whole));
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

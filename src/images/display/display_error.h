@@ -4,7 +4,7 @@
 
 #include "images/image.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// srgb_encode for values up to 1, 2^x, and the logarithm of positive numbers, of operations that IEEE 754 rounds in
 /// one way. Where a decision depends on them, it is the same on every machine, which is not certain of std::pow and
@@ -24,4 +24,4 @@ struct DisplayCurve {
   double error(double luminance, double deviation) const;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

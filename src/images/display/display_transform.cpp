@@ -4,7 +4,7 @@
 
 #include "images/display/tone_map.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 void make_straight(std::span<float> row, const std::array<size_t, 3>& channels, size_t alpha, size_t width) {
   for (size_t x = 0; x < width; ++x)
@@ -37,4 +37,4 @@ void DisplayTransform::encode_row(std::span<const float> row, const std::array<s
   }
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

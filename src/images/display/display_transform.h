@@ -9,7 +9,7 @@
 #include "images/display/white_balance.h"
 #include "images/image.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Divides R, G and B of a row by its alpha, where that is above 0: from premultiplied to straight colours. `alpha` is
 /// the position of A among the channels.
@@ -34,4 +34,4 @@ class DisplayTransform {
   ToneMap tone_map_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 
 #include "images/display/display_error.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -61,7 +61,7 @@ double ExposureMeter::Histogram::mean_log2(double low, double high) const {
 }
 
 void ExposureMeter::Histograms::add(const Vec3d& radiance, double weight) {
-  luminance.add(static_cast<float>(alhazen::luminance(radiance)), weight);
+  luminance.add(static_cast<float>(impl::luminance(radiance)), weight);
   brightest_channel.add(static_cast<float>(max_component(radiance)), weight);
 }
 
@@ -100,4 +100,4 @@ double ExposureMeter::automatic() const {
   return std::round(10 * std::clamp(white, darkest, grey)) / 10 + 0.0;  // not -0
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

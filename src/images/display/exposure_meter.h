@@ -7,7 +7,7 @@
 
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// What decides on an exposure: a number that was given; or the image, which is darkened where it would be
 /// overexposed (`fitting`), or is made as bright as a camera would make it (`automatic`).
@@ -78,4 +78,4 @@ class ExposureMeter {
   Histograms covered_, central_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

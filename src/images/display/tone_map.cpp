@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -90,4 +90,4 @@ std::string tone_map_names() {
   return names;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

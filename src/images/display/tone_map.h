@@ -7,7 +7,7 @@
 #include "core/math/vec.h"
 #include "images/image.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Maps linear sRGB to linear sRGB in [0, 1]. NaN and negative values become 0.
 ///
@@ -25,4 +25,4 @@ std::string tone_map_names();
 /// AgX of non-negative colours, in [0, 1] (agx.cpp).
 Vec3d agx(const Vec3d& colour);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

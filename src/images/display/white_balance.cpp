@@ -6,7 +6,7 @@
 #include "colour/rgb_space.h"
 #include "colour/white_point.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 WhiteBalance::WhiteBalance(double kelvin)
     : rows_(kelvin > 0 ? srgb_adaptation(white_point(kelvin), white_point(d65_temperature))
@@ -29,4 +29,4 @@ double LightColourEstimate::temperature() const {
   return 50 * std::round(kelvin / 50);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

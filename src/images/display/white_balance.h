@@ -6,7 +6,7 @@
 
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Adapts linear sRGB from white light of a temperature to D65, by Bradford's method (colour/rgb_space.h). The
 /// luminance of that white stays as it is, and so do all colours at d65_temperature.
@@ -40,4 +40,4 @@ class LightColourEstimate {
   Vec3d sums_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

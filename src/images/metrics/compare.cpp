@@ -12,7 +12,7 @@
 #include "images/metrics/flip.h"
 #include "images/metrics/ssim.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -179,4 +179,4 @@ Image reduced(const Image& image, int factor) {
   return small;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 
 #include "images/image.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Metrics over the channels R, G, B of linear values unless said otherwise; pixels that are not finite in either image
 /// are counted and excluded from every mean.
@@ -33,4 +33,4 @@ Image reduced(const Image& image, int factor);
 /// An image (R, G, B) of the differences: the FLIP error of each pixel through a perceptually ordered colour map.
 Image difference_image(const Image& a, const Image& b);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

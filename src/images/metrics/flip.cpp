@@ -5,7 +5,7 @@
 
 #include "core/math/vec.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -197,4 +197,4 @@ Plane<float> flip_map(const ColourPlanes& test, const ColourPlanes& reference) {
   return map;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

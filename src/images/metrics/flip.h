@@ -6,7 +6,7 @@
 
 #include "images/metrics/separable_filter.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// R, G, B, linear, in [0, 1].
 using ColourPlanes = std::array<Plane<float>, 3>;
@@ -16,4 +16,4 @@ using ColourPlanes = std::array<Plane<float>, 3>;
 /// arguments.
 Plane<float> flip_map(const ColourPlanes& test, const ColourPlanes& reference);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -5,7 +5,7 @@
 #include "util/diagnostics.h"
 #include "util/quoted.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -68,4 +68,4 @@ Image region_of(const Image& image, const std::array<int64_t, 4>& bounds) {
   return part;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 
 #include "images/image.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The names of the layers of an image, in the order of its channels: "albedo" for albedo.R, albedo.G and albedo.B. The
 /// image itself, R G B, is "".
@@ -21,4 +21,4 @@ Image layer_of(const Image& image, const std::string& layer, const std::string& 
 /// The pixels from (x0, y0) to before (x1, y1). Throws InputError if they are not all in the image, or none.
 Image region_of(const Image& image, const std::array<int64_t, 4>& bounds);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// One value per pixel, rows from the top down.
 template <class Real>
@@ -58,4 +58,4 @@ Plane<Real> convolve(const Plane<Real>& in, const std::vector<Real>& horizontal,
   return out;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -48,4 +48,4 @@ Plane<double> ssim_map(const Plane<double>& a, const Plane<double>& b) {
   return map;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -4,7 +4,7 @@
 
 #include "images/metrics/separable_filter.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// SSIM of each pixel, in [-1, 1], for values in [0, 1]: Wang et al. 2004, "Image Quality Assessment: From Error
 /// Visibility to Structural Similarity", with their window and constants.
@@ -14,4 +14,4 @@ Plane<double> ssim_map(const Plane<double>& a, const Plane<double>& b);
 /// 0: every pixel counts there, with the border repeated.
 size_t ssim_margin(size_t extent);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

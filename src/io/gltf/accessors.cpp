@@ -6,7 +6,7 @@
 
 #include "util/quoted.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -231,4 +231,4 @@ std::vector<uint32_t> Accessors::integers(uint32_t index, const char* type) {
                             [&](const uint8_t* at) { return component_integer(at, layout.component_size); });
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -7,7 +7,7 @@
 
 #include "io/gltf/buffers.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 /// `count` elements of `components` numbers each.
 struct Values {
@@ -38,4 +38,4 @@ uint64_t element_bytes(const Document& document, const Json& accessor);
 /// Bytes of a number of type `component_type` (5120, ...); `object` is where it is named.
 uint64_t component_bytes(const Document& document, const Json& object, uint64_t component_type);
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

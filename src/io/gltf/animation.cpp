@@ -6,7 +6,7 @@
 #include "io/gltf/pointers.h"
 #include "util/quoted.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -182,4 +182,4 @@ std::vector<PointedValue> pointed_values(const Document& document, const Json& a
   return all;
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -2,7 +2,7 @@
 
 #include "io/gltf/uri.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -83,4 +83,4 @@ const BufferView& Buffers::view(uint32_t index) {
   return views_.emplace(index, view).first->second;
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

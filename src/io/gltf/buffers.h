@@ -8,7 +8,7 @@
 
 #include "io/gltf/document.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 struct BufferView {
   std::span<const uint8_t> bytes;
@@ -42,4 +42,4 @@ class Buffers {
 /// also if the program was built without meshoptimizer.
 std::vector<uint8_t> decode_meshopt(const Document& document, const Json& compression, std::span<const uint8_t> source);
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

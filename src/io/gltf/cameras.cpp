@@ -5,7 +5,7 @@
 #include "util/numbers.h"
 #include "util/quoted.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -118,4 +118,4 @@ bool set_camera(const Document& document, const Nodes& nodes, const std::string&
   return true;
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -9,7 +9,7 @@
 #include "io/read_options.h"
 #include "scene/scene.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 /// Nodes with a camera, in the order of traversal, with their names: that of the node, else that of the camera.
 struct CameraNode {
@@ -33,4 +33,4 @@ void add_lights(const Document& document, const Nodes& nodes, Scene& scene, std:
 /// colour. Returns whether it did.
 bool light_closed_room(Scene& scene);
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -7,7 +7,7 @@
 
 #include "io/gltf/cameras_and_lights.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -91,4 +91,4 @@ bool light_closed_room(Scene& scene) {
   return true;
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -6,7 +6,7 @@
 
 #include "util/quoted.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -192,4 +192,4 @@ const Json* Document::extension(const Json& object, const char* name) const {
   return extensions == nullptr ? nullptr : this->object(*extensions, name);
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

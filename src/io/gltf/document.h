@@ -17,7 +17,7 @@
 #include "io/gltf/json.h"
 #include "util/diagnostics.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 class Document {
  public:
@@ -84,4 +84,4 @@ class Document {
 /// Throws if the file requires an unknown extension; warns of unknown ones that it uses.
 void check_extensions(const Document& document);
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 #ifdef ALHAZEN_WITH_DRACO
 
@@ -93,4 +93,4 @@ DracoMesh decode_draco(const Document& document, Buffers&, const Json&, const Js
 
 #endif
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

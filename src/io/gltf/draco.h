@@ -7,7 +7,7 @@
 
 #include "io/gltf/accessors.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 /// A decompressed primitive: triangle indices, and the values of the attributes by their glTF names.
 struct DracoMesh {
@@ -20,4 +20,4 @@ struct DracoMesh {
 /// Draco.
 DracoMesh decode_draco(const Document& document, Buffers& buffers, const Json& primitive, const Json& compression);
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -5,7 +5,7 @@
 #include "io/gltf/document.h"
 #include "util/quoted.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -78,4 +78,4 @@ void check_extensions(const Document& document) {
       document.warn(value, "the extension " + quoted(name) + " is not supported and has no effect");
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

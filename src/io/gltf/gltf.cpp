@@ -19,7 +19,7 @@
 #include "io/gltf/validate.h"
 #include "scene/default_view.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace gltf {
 
@@ -475,4 +475,4 @@ SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics, const Fi
   return listing;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -11,7 +11,7 @@
 #include "io/read_options.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Reads the default scene of a file. Throws InputError.
 Scene read_gltf(const InputPath& path, const ReadOptions& options, Diagnostics& diagnostics);
@@ -31,4 +31,4 @@ SceneListing list_gltf(const InputPath& path, Diagnostics& diagnostics, const Fi
 /// Returns whether the bytes begin a .glb file.
 bool is_glb(std::span<const uint8_t> bytes);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

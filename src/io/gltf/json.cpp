@@ -8,7 +8,7 @@
 #include "util/numbers.h"
 #include "util/quoted.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -266,4 +266,4 @@ const Json& empty_object() {
 
 Json parse_json(std::string_view text, const std::string& file) { return Parser(text, file).document(); }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 enum class JsonKind { null, boolean, number, string, array, object };
 
@@ -29,4 +29,4 @@ const Json& empty_object();
 /// Throws InputError with the location in `file`. Nesting deeper than 128 levels is refused.
 Json parse_json(std::string_view text, const std::string& file);
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

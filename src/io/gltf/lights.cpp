@@ -4,7 +4,7 @@
 #include "io/gltf/cameras_and_lights.h"
 #include "util/quoted.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -71,4 +71,4 @@ void add_lights(const Document& document, const Nodes& nodes, Scene& scene, std:
   }
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

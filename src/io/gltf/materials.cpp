@@ -7,7 +7,7 @@
 
 #include "util/quoted.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -301,4 +301,4 @@ const MaterialUse& Materials::use(std::optional<uint32_t> index, bool has_vertex
   return entry->second;
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -7,7 +7,7 @@
 
 #include "io/gltf/textures.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 /// A material as used by a shape.
 struct MaterialUse {
@@ -33,4 +33,4 @@ class Materials {
   std::map<std::tuple<std::optional<uint32_t>, bool>, MaterialUse> uses_;
 };
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -7,7 +7,7 @@
 
 #include "scene/transform.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 inline constexpr Matrix4 identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
@@ -73,4 +73,4 @@ inline Matrix4 from_trs(const Vec3d& translation, std::array<double, 4> q, const
   return m;
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

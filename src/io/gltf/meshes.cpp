@@ -7,7 +7,7 @@
 #include "io/gltf/draco.h"
 #include "io/gltf/matrices.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -312,4 +312,4 @@ std::optional<uint32_t> Meshes::read(const Json& primitive, const MaterialUse& m
   return index;
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -10,7 +10,7 @@
 #include "io/gltf/accessors.h"
 #include "io/gltf/materials.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 /// Deformations of a mesh before it is placed.
 struct Deformation {
@@ -40,4 +40,4 @@ bool has_vertex_colours(const Document& document, const Json& primitive);
 /// The number of morph targets of a primitive.
 size_t target_count(const Document& document, const Json& primitive);
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

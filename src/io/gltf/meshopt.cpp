@@ -7,7 +7,7 @@
 #include <meshoptimizer.h>
 #endif
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 #ifdef ALHAZEN_WITH_MESHOPTIMIZER
 
@@ -92,4 +92,4 @@ std::vector<uint8_t> decode_meshopt(const Document& document, const Json& compre
 
 #endif
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -4,7 +4,7 @@
 
 #include "io/gltf/matrices.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -69,4 +69,4 @@ void Motion::warn_of_lights(const Nodes& opening) const {
   }
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

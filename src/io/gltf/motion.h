@@ -7,7 +7,7 @@
 #include "io/gltf/nodes.h"
 #include "scene/scene.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 /// The nodes in the middle of the time that the shutter is open, and when it closes. Points of a shape move linearly in
 /// between. What moves in steps stays where it is when the shutter opens.
@@ -31,4 +31,4 @@ class Motion {
   Nodes middle_, closing_;
 };
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

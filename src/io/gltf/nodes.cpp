@@ -2,7 +2,7 @@
 
 #include "scene/scene.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -146,4 +146,4 @@ std::vector<Matrix4> Nodes::joints(uint32_t skin) {
   return result;
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -9,7 +9,7 @@
 #include "io/gltf/accessors.h"
 #include "io/gltf/matrices.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 struct NodePose {
   Vec3d translation, scale{1, 1, 1};
@@ -58,4 +58,4 @@ class Nodes {
   std::vector<Matrix4> world_;
 };
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

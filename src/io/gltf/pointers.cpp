@@ -3,7 +3,7 @@
 #include "util/numbers.h"
 #include "util/quoted.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -89,4 +89,4 @@ void write_pointed_values(Document& document, const std::vector<PointedValue>& v
   }
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -7,7 +7,7 @@
 
 #include "io/gltf/document.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 /// A value that an animation sets.
 struct PointedValue {
@@ -23,4 +23,4 @@ std::vector<PointedValue> pointed_values(const Document& document, const Json& a
 /// nothing causes a warning.
 void write_pointed_values(Document& document, const std::vector<PointedValue>& values);
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

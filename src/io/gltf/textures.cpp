@@ -9,7 +9,7 @@
 #include "images/codecs/decoders.h"
 #include "io/gltf/uri.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -219,4 +219,4 @@ uint32_t Textures::load(uint32_t source, Texels texels) {
   return entry->second;
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

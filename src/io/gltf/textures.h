@@ -12,7 +12,7 @@
 #include "io/gltf/buffers.h"
 #include "scene/scene.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 /// The data that are used of an image.
 enum class Texels { srgb, linear, alpha };
@@ -59,4 +59,4 @@ class Textures {
 /// The set of texture coordinates that a textureInfo uses.
 int texture_coordinate_set(const Document& document, const Json& info);
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -6,7 +6,7 @@
 #include "images/codecs/image_bytes.h"
 #include "util/quoted.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -49,7 +49,7 @@ std::vector<uint8_t> base64_decoded(const Document& document, const Json& at, st
     if (c == '=') break;
     const int value = base64_values[static_cast<uint8_t>(c)];
     if (value < 0)
-      document.fail(at, "the data URI has " + alhazen::quoted(std::string_view(&c, 1)) + ", which is not base64");
+      document.fail(at, "the data URI has " + impl::quoted(std::string_view(&c, 1)) + ", which is not base64");
     bits = bits << 6 | static_cast<uint32_t>(value);
     count += 6;
     if (count >= 8) {
@@ -81,10 +81,10 @@ std::optional<Resource> find_uri(const Document& document, const Json& uri) {
   if (uri.kind != JsonKind::string) document.fail(uri, "\"uri\" must be a string");
   if (uri.string.starts_with("data:")) return data_of(document, uri);
   if (has_scheme(uri.string))
-    document.fail(uri, alhazen::quoted(uri.string) + " is not a file: only data URIs and relative paths are read");
+    document.fail(uri, impl::quoted(uri.string) + " is not a file: only data URIs and relative paths are read");
   const std::string decoded = percent_decoded(uri.string);
   if (uri.string.empty() || decoded.find('\0') != decoded.npos || std::filesystem::path(decoded).is_absolute())
-    document.fail(uri, "the path " + alhazen::quoted(decoded) + " must be a relative one");
+    document.fail(uri, "the path " + impl::quoted(decoded) + " must be a relative one");
   const auto look_for = [&](const std::string& name) {
     return find_file(document.folder(), name, document.scope(), document.search());
   };
@@ -96,16 +96,16 @@ std::optional<Resource> find_uri(const Document& document, const Json& uri) {
   }
   if (found.problem.is_missing) return std::nullopt;
   if (!found.problem.message.empty())
-    document.fail(uri, "the file " + alhazen::quoted(decoded) + " " + found.problem.message);
+    document.fail(uri, "the file " + impl::quoted(decoded) + " " + found.problem.message);
   return Resource{read_bytes(found.path), found.path.name};
 }
 
 Resource load_uri(const Document& document, const Json& uri) {
   std::optional<Resource> resource = find_uri(document, uri);
   if (!resource)
-    document.fail(uri, "the file " + alhazen::quoted(percent_decoded(uri.string)) +
+    document.fail(uri, "the file " + impl::quoted(percent_decoded(uri.string)) +
                            " does not exist; it must be beside the glTF file" + search_hint(document.search()));
   return std::move(*resource);
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

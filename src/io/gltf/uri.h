@@ -9,7 +9,7 @@
 
 #include "io/gltf/document.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 struct Resource {
   std::vector<uint8_t> bytes;
@@ -23,4 +23,4 @@ std::optional<Resource> find_uri(const Document& document, const Json& uri);
 /// The same; also throws if no file has that name.
 Resource load_uri(const Document& document, const Json& uri);
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -5,7 +5,7 @@
 #include "io/gltf/accessors.h"
 #include "io/gltf/validate_extensions.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -234,4 +234,4 @@ class Validator {
 
 void validate(const Document& document) { Validator(document).run(); }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

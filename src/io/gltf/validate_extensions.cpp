@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 namespace {
 
@@ -60,4 +60,4 @@ void validate_extensions(const Document& d) {
       for (const Json& primitive : primitives->items) check_primitive(d, primitive, variants);
 }
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

@@ -4,9 +4,9 @@
 
 #include "io/gltf/document.h"
 
-namespace alhazen::gltf {
+namespace alhazen::impl::gltf {
 
 /// Throws InputError if an extension that is read refers to something that does not exist, used or not.
 void validate_extensions(const Document& document);
 
-}  // namespace alhazen::gltf
+}  // namespace alhazen::impl::gltf

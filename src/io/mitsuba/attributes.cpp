@@ -6,7 +6,7 @@
 #include "util/parse_numbers.h"
 #include "util/quoted.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -111,4 +111,4 @@ Vec3d parse_three(std::string_view text, const Place& place, const std::string& 
   return {first, parse_finite(words[1], place, what), parse_finite(words[2], place, what)};
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

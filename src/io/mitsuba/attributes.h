@@ -13,7 +13,7 @@
 #include "core/math/vec.h"
 #include "io/mitsuba/xml.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 /// The values of $NAME in attributes.
 class Definitions {
@@ -50,4 +50,4 @@ double parse_finite(std::string_view text, const Place& place, const std::string
 /// One or three numbers; one stands for all three.
 Vec3d parse_three(std::string_view text, const Place& place, const std::string& what);
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -14,7 +14,7 @@
 #include "util/quoted.h"
 #include "util/suggestion.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -429,4 +429,4 @@ ReadBsdf default_bsdf(Build& build) {
   return {build.default_material, true};
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

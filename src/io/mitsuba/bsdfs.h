@@ -4,7 +4,7 @@
 
 #include "io/mitsuba/build.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 /// The BSDF that `property` holds, read once for each object.
 ReadBsdf read_bsdf(Build& build, const Property& property);
@@ -12,4 +12,4 @@ ReadBsdf read_bsdf(Build& build, const Property& property);
 /// The BSDF of shapes that name none: diffuse with reflectance 0.5.
 ReadBsdf default_bsdf(Build& build);
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

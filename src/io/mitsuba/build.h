@@ -13,7 +13,7 @@
 #include "io/mitsuba/object_reader.h"
 #include "scene/scene.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 /// A BSDF as read.
 struct ReadBsdf {
@@ -59,4 +59,4 @@ struct Build {
   }
 };
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -8,7 +8,7 @@
 #include "io/mitsuba/attributes.h"
 #include "util/quoted.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -128,4 +128,4 @@ Vec3d colour(Build& build, ObjectReader& reader, std::string_view name, ColourUs
   return property ? colour_of(build, *property, use) : fallback;
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -5,7 +5,7 @@
 #include "colour/spectrum.h"
 #include "io/mitsuba/build.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 enum class ColourUse {
   reflectance,  ///< within [0, 1]
@@ -28,4 +28,4 @@ Vec3d equal_energy_rgb(const Spectrum& spectrum);
 /// The spectrum of a property that is one; of a number, that value everywhere.
 Spectrum spectrum_of(Build& build, const Property& property);
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -9,7 +9,7 @@
 #include "core/materials/lobes/microfacet.h"
 #include "util/quoted.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -68,4 +68,4 @@ double internal_diffuse_reflectance(double ior, double alpha) {
   return sum;
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -4,7 +4,7 @@
 
 #include "io/mitsuba/object_reader.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 /// The index inside (`int_ior`) relative to that outside (`ext_ior`, air). Throws InputError.
 double relative_ior(ObjectReader& reader, const char* interior);
@@ -13,4 +13,4 @@ double relative_ior(ObjectReader& reader, const char* interior);
 /// scattering.
 double internal_diffuse_reflectance(double ior, double alpha);
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

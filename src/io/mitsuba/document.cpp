@@ -11,7 +11,7 @@
 #include "util/parse_numbers.h"
 #include "util/quoted.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -368,4 +368,4 @@ Document parse_document(const std::string& text, const std::string& name, const 
   return load(std::make_shared<const SourceText>(SourceText{name, text}), folder, {}, definitions, search, budget);
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -15,7 +15,7 @@
 #include "io/mitsuba/xml.h"
 #include "scene/transform.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 enum class ValueKind {
   number,
@@ -73,4 +73,4 @@ Document read_document(const InputPath& path, const std::vector<std::string>& de
 Document parse_document(const std::string& text, const std::string& name, const std::string& folder,
                         const std::vector<std::string>& definitions, const FileSearch& search = {});
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -10,7 +10,7 @@
 #include "util/quoted.h"
 #include "util/suggestion.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -209,4 +209,4 @@ void add_emitter(Build& build, const Property& property) {
   build.scene.lights.push_back(std::move(light));
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

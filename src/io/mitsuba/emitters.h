@@ -4,9 +4,9 @@
 
 #include "io/mitsuba/build.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 /// Adds the emitter that `property` holds to the lights of the scene.
 void add_emitter(Build& build, const Property& property);
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -12,7 +12,7 @@
 #include "io/obj/obj_file.h"
 #include "io/ply/ply.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -200,4 +200,4 @@ bool is_open(const Mesh& mesh) {
   return std::any_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second != 0; });
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

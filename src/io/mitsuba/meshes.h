@@ -6,7 +6,7 @@
 
 #include "io/mitsuba/build.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 /// A mesh of the scene, and whether its normals are those of the file. Those that are not follow the winding in world
 /// space.
@@ -30,4 +30,4 @@ uint32_t sphere_mesh(Build& build);
 /// Whether an edge of the mesh belongs to one triangle alone, or to two that face different ways.
 bool is_open(const Mesh& mesh);
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

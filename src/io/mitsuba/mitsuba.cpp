@@ -11,7 +11,7 @@
 #include "scene/limits.h"
 #include "util/quoted.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace mitsuba {
 
@@ -78,4 +78,4 @@ Scene parse_mitsuba(const std::string& text, const std::string& name, const std:
                               options, diagnostics);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 #include "io/read_options.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Reads a scene file and all that it includes, with the meaning of Mitsuba's RGB variants. Features of Mitsuba that
 /// are not supported are replaced, with one warning each; anything unknown, ill-typed or malformed throws InputError
@@ -19,4 +19,4 @@ Scene read_mitsuba(const InputPath& path, const ReadOptions& options, Diagnostic
 Scene parse_mitsuba(const std::string& text, const std::string& name, const std::string& folder,
                     const ReadOptions& options, Diagnostics& diagnostics);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 #include "util/quoted.h"
 #include "util/suggestion.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 ObjectReader::ObjectReader(const Document& document, uint32_t object)
     : document_(document),
@@ -106,4 +106,4 @@ void ObjectReader::reject_unknown() const {
   }
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -9,7 +9,7 @@
 
 #include "io/mitsuba/document.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 class ObjectReader {
  public:
@@ -55,4 +55,4 @@ class ObjectReader {
   std::set<std::string, std::less<>> asked_;
 };
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -6,7 +6,7 @@
 #include "io/mitsuba/textures.h"
 #include "util/quoted.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -152,4 +152,4 @@ Material read_principled_thin(Build& build, ObjectReader& reader) {
   return material;
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -4,11 +4,11 @@
 
 #include "io/mitsuba/build.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 /// `principled`, a solid.
 Material read_principled(Build& build, ObjectReader& reader);
 /// `principledthin`, a thin sheet.
 Material read_principled_thin(Build& build, ObjectReader& reader);
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

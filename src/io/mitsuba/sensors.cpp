@@ -12,7 +12,7 @@
 #include "scene/limits.h"
 #include "util/quoted.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -246,4 +246,4 @@ void set_integrator(Build& build, const Property& property) {
   reader.reject_unknown();
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -4,9 +4,9 @@
 
 #include "io/mitsuba/build.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 void set_sensor(Build& build, const Property& property);
 void set_integrator(Build& build, const Property& property);
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -163,4 +163,4 @@ SerializedMesh read_serialized(const InputPath& path, uint64_t index) {
   return {std::move(mesh), (flags & is_flat) != 0};
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

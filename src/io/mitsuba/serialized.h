@@ -5,7 +5,7 @@
 #include "files/input_file.h"
 #include "scene/scene.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 struct SerializedMesh {
   Mesh mesh;
@@ -16,4 +16,4 @@ struct SerializedMesh {
 /// index out of range.
 SerializedMesh read_serialized(const InputPath& path, uint64_t index);
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

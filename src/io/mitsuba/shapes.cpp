@@ -11,7 +11,7 @@
 #include "util/quoted.h"
 #include "util/suggestion.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -279,4 +279,4 @@ void tessellate_for_instances(Build& build) {
   }
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -9,7 +9,7 @@
 #include "images/read_texture.h"
 #include "util/quoted.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -194,4 +194,4 @@ uint32_t product(Build& build, uint32_t a, uint32_t b) {
   return build.add_texture(texture);
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

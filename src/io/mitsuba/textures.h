@@ -4,7 +4,7 @@
 
 #include "io/mitsuba/colours.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 /// The texture of property `name`, constant if it is a colour; `fallback` if there is none.
 uint32_t colour_texture(Build& build, ObjectReader& reader, std::string_view name, ColourUse use,
@@ -22,4 +22,4 @@ std::optional<Vec3d> constant_value(const Build& build, uint32_t texture);
 /// The product of both; one that is 1 everywhere is left out.
 uint32_t product(Build& build, uint32_t a, uint32_t b);
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

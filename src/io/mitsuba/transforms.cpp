@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -116,4 +116,4 @@ Transform read_transform(const Element& element) {
   return transform;
 }
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -10,7 +10,7 @@
 #include <exception>
 #endif
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 namespace {
 
@@ -177,4 +177,4 @@ Element parse_xml(const std::shared_ptr<const SourceText>& source, XmlBudget&) {
 
 #endif
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -11,7 +11,7 @@
 #include "files/byte_source.h"
 #include "util/diagnostics.h"
 
-namespace alhazen::mitsuba {
+namespace alhazen::impl::mitsuba {
 
 /// A text with its name in messages.
 struct SourceText {
@@ -58,4 +58,4 @@ bool reads_xml();
 /// more elements than the budget has.
 Element parse_xml(const std::shared_ptr<const SourceText>& source, XmlBudget& budget);
 
-}  // namespace alhazen::mitsuba
+}  // namespace alhazen::impl::mitsuba

@@ -8,7 +8,7 @@
 #include "util/parse_numbers.h"
 #include "util/quoted.h"
 
-namespace alhazen::obj {
+namespace alhazen::impl::obj {
 
 namespace {
 
@@ -108,4 +108,4 @@ double Lines::number(size_t word) const {
   return value;
 }
 
-}  // namespace alhazen::obj
+}  // namespace alhazen::impl::obj

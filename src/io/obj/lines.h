@@ -9,7 +9,7 @@
 #include "files/byte_source.h"
 #include "util/diagnostics.h"
 
-namespace alhazen::obj {
+namespace alhazen::impl::obj {
 
 struct Word {
   std::string_view text;
@@ -45,4 +45,4 @@ class Lines {
   std::vector<Word> words_;
 };
 
-}  // namespace alhazen::obj
+}  // namespace alhazen::impl::obj

@@ -8,7 +8,7 @@
 #include "images/read_texture.h"
 #include "util/quoted.h"
 
-namespace alhazen::obj {
+namespace alhazen::impl::obj {
 
 namespace {
 
@@ -182,4 +182,4 @@ MaterialUse Materials::add(const MtlMaterial& description, bool has_vertex_colou
   return use;
 }
 
-}  // namespace alhazen::obj
+}  // namespace alhazen::impl::obj

@@ -11,7 +11,7 @@
 #include "io/obj/mtl.h"
 #include "scene/scene.h"
 
-namespace alhazen::obj {
+namespace alhazen::impl::obj {
 
 struct MaterialUse {
   uint32_t material = no_index;
@@ -57,4 +57,4 @@ class Materials {
   std::map<std::pair<std::string, Texels>, uint32_t> images_;
 };
 
-}  // namespace alhazen::obj
+}  // namespace alhazen::impl::obj

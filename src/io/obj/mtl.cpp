@@ -8,7 +8,7 @@
 #include "io/obj/lines.h"
 #include "util/quoted.h"
 
-namespace alhazen::obj {
+namespace alhazen::impl::obj {
 
 namespace {
 
@@ -178,4 +178,4 @@ std::vector<MtlMaterial> read_mtl(const InputPath& path, Diagnostics& diagnostic
   return parse_mtl(source, path.name, diagnostics);
 }
 
-}  // namespace alhazen::obj
+}  // namespace alhazen::impl::obj

@@ -10,7 +10,7 @@
 #include "files/byte_source.h"
 #include "util/diagnostics.h"
 
-namespace alhazen::obj {
+namespace alhazen::impl::obj {
 
 /// The image of a parameter, and the options in front of its name.
 struct Map {
@@ -40,4 +40,4 @@ struct MtlMaterial {
 std::vector<MtlMaterial> parse_mtl(ByteSource& source, const std::string& name, Diagnostics& diagnostics);
 std::vector<MtlMaterial> read_mtl(const InputPath& path, Diagnostics& diagnostics);
 
-}  // namespace alhazen::obj
+}  // namespace alhazen::impl::obj

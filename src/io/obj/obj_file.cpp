@@ -13,7 +13,7 @@
 #include "io/obj/lines.h"
 #include "util/quoted.h"
 
-namespace alhazen::obj {
+namespace alhazen::impl::obj {
 
 namespace {
 
@@ -235,4 +235,4 @@ File read_obj(const InputPath& path, Division division, Diagnostics& diagnostics
   return parse_obj(source, path.name, division, diagnostics);
 }
 
-}  // namespace alhazen::obj
+}  // namespace alhazen::impl::obj

@@ -8,7 +8,7 @@
 #include "files/byte_source.h"
 #include "scene/scene.h"
 
-namespace alhazen::obj {
+namespace alhazen::impl::obj {
 
 /// Faces of one object or group with one material. Where a corner has a normal or uv, all corners of the mesh do.
 struct Part {
@@ -41,4 +41,4 @@ enum class Division {
 File parse_obj(ByteSource& source, const std::string& name, Division division, Diagnostics& diagnostics);
 File read_obj(const InputPath& path, Division division, Diagnostics& diagnostics);
 
-}  // namespace alhazen::obj
+}  // namespace alhazen::impl::obj

@@ -10,7 +10,7 @@
 #include "io/obj/obj_file.h"
 #include "util/quoted.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace obj {
 
@@ -109,4 +109,4 @@ Scene parse_obj_model(std::string_view text, const std::string& name, Diagnostic
       .run(obj::parse_obj(source, name, obj::Division::named, diagnostics), name, 0);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 #include "io/find_file.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Reads a file and the MTL files that it names, for an image of that aspect ratio (0: that of the film). Materials and
 /// images that are missing, also in the folders of `search`, give one warning each. Throws InputError with line and
@@ -18,4 +18,4 @@ Scene read_obj_model(const InputPath& path, double aspect, Diagnostics& diagnost
 /// The same for a text in memory. `name` replaces the file in messages; files are looked up in its folder.
 Scene parse_obj_model(std::string_view text, const std::string& name, Diagnostics& diagnostics);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 #include "io/pbrt/options.h"
 #include "io/pbrt/shapes.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -101,4 +101,4 @@ Scene Build::finish() {
   return std::move(scene);
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -18,7 +18,7 @@
 #include "io/pbrt/parameters.h"
 #include "scene/scene.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 /// The emission that AreaLightSource gives to subsequent shapes.
 struct AreaLight {
@@ -137,4 +137,4 @@ struct Build {
   Scene finish();
 };
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

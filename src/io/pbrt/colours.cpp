@@ -4,7 +4,7 @@
 
 #include "colour/rgb_space.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -85,4 +85,4 @@ Vec3d colour(const Build& build, ParameterList& list, std::string_view name, Col
   return parameter ? colour_of(build, *parameter, use) : fallback;
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -8,7 +8,7 @@
 #include "colour/spectrum.h"
 #include "io/pbrt/build.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 enum class ColourUse {
   albedo,      ///< within [0, 1]
@@ -29,4 +29,4 @@ Vec3d colour(const Build& build, ParameterList& list, std::string_view name, Col
 /// The spectrum of a parameter of type spectrum or blackbody; absent for the other types.
 std::optional<Spectrum> spectrum_of(const Build& build, const Parameter& parameter);
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

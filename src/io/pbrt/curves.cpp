@@ -6,7 +6,7 @@
 
 #include "io/pbrt/meshes.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -223,4 +223,4 @@ uint32_t read_curve(Build& build, ParameterList& list) {
   return mesh.indices.empty() ? no_index : add_mesh(build, list, std::move(mesh));
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

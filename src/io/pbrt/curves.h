@@ -4,7 +4,7 @@
 
 #include "io/pbrt/build.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 /// A curve of consecutive cubic Bezier segments.
 struct Curve {
@@ -21,4 +21,4 @@ Mesh tessellated_curve(const Curve& curve);
 /// Reads `Shape "curve"`. Returns no_index if it has no length.
 uint32_t read_curve(Build& build, ParameterList& list);
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

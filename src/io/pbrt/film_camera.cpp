@@ -11,7 +11,7 @@
 #include "io/pbrt/suggestions.h"
 #include "util/quoted.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -126,7 +126,7 @@ std::vector<double> read_lens_file(const InputPath& input) {
         used = 0;
       }
       if (used != word.size() || !std::isfinite(value))
-        throw InputError({path}, "a lens file holds four numbers per interface, not " + alhazen::quoted(word));
+        throw InputError({path}, "a lens file holds four numbers per interface, not " + impl::quoted(word));
       values.push_back(value);
     }
   }
@@ -230,4 +230,4 @@ double realistic_fov(const Build& build) {
   return 2 * std::atan(shorter / (2 * *build.lens_image_distance)) * 180 / std::numbers::pi;
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

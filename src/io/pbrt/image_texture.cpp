@@ -6,7 +6,7 @@
 #include "images/read_scalar_texture.h"
 #include "images/read_texture.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -87,4 +87,4 @@ void read_image_texture(Build& build, ParameterList& list, bool is_float, Textur
   texture = std::move(constant);
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -229,4 +229,4 @@ int32_t integer_of(const Lexer& lexer, const Token& token) {
   return value;
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -10,7 +10,7 @@
 
 #include "io/pbrt/source.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 enum class TokenKind { end, word, string, open_bracket, close_bracket };
 
@@ -75,4 +75,4 @@ double number_of(const Lexer& lexer, const Token& token);
 /// The value of an integer token, within 32 bits.
 int32_t integer_of(const Lexer& lexer, const Token& token);
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -12,7 +12,7 @@
 #include "io/pbrt/colours.h"
 #include "io/pbrt/suggestions.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -285,4 +285,4 @@ void set_area_light(Build& build, const std::string& kind, ParameterList& list) 
   build.state.area_light = std::move(light);
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -6,9 +6,9 @@
 
 #include "io/pbrt/build.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 void add_light(Build& build, const std::string& kind, ParameterList& list);
 void set_area_light(Build& build, const std::string& kind, ParameterList& list);
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

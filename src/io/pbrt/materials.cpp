@@ -12,7 +12,7 @@
 #include "io/pbrt/textures.h"
 #include "scene/mixes.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -406,4 +406,4 @@ void finish_materials(Build& build) {
   }
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -6,7 +6,7 @@
 
 #include "io/pbrt/build.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 /// `Material "kind"`: the material of subsequent shapes.
 void set_material(Build& build, const std::string& kind, ParameterList& list);
@@ -29,4 +29,4 @@ void set_medium_interface(Build& build, const std::string& inside, const std::st
 /// Completes materials after all of them are defined.
 void finish_materials(Build& build);
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

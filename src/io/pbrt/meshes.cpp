@@ -8,7 +8,7 @@
 #include "geometry/tessellate.h"
 #include "io/ply/ply.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -139,4 +139,4 @@ uint32_t read_loop_subdivision(Build& build, ParameterList& list) {
   return add_mesh(build, list, loop_subdivided(std::move(control), levels));
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -4,7 +4,7 @@
 
 #include "io/pbrt/build.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 /// Adds a mesh to the scene. If it has normals, the winding of each triangle is made to agree with them: pbrt
 /// determines the side of a surface by its normals if it has any. Throws with the location of the directive if a
@@ -17,4 +17,4 @@ uint32_t read_bilinear_mesh(Build& build, ParameterList& list);
 uint32_t read_ply_mesh(Build& build, ParameterList& list);
 uint32_t read_loop_subdivision(Build& build, ParameterList& list);
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -10,7 +10,7 @@
 #include "scene/filters.h"
 #include "scene/limits.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -174,4 +174,4 @@ void set_option(Build& build, Lexer& lexer, const Place& place) {
   lexer.next();
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -7,7 +7,7 @@
 #include "io/pbrt/build.h"
 #include "io/pbrt/lexer.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 void set_camera(Build& build, const std::string& kind, ParameterList& list);
 /// Field of view in degrees over the shorter side of the film, of the realistic camera in the file.
@@ -21,4 +21,4 @@ void ignore_accelerator(Build& build, const std::string& kind, ParameterList& li
 /// `Option "name" value`.
 void set_option(Build& build, Lexer& lexer, const Place& place);
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -7,7 +7,7 @@
 
 #include "io/pbrt/suggestions.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -251,4 +251,4 @@ void parse_parameters(Lexer& lexer, const std::string& rgb_space, ParameterList&
   }
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

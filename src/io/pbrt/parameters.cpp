@@ -6,7 +6,7 @@
 
 #include "io/pbrt/suggestions.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -131,4 +131,4 @@ void ParameterList::reject_unknown() const {
            "unknown parameter " + in_quotes(parameter.name) + " of " + directive_ + suggestion(parameter.name, asked_));
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

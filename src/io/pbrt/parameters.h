@@ -15,7 +15,7 @@
 #include "core/math/vec.h"
 #include "io/pbrt/source.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 enum class ParameterType {
   boolean,
@@ -114,4 +114,4 @@ class ParameterList {
   bool all_ignored_ = false;
 };
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -15,7 +15,7 @@
 #include "io/pbrt/textures.h"
 #include "io/pbrt/transforms.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -273,4 +273,4 @@ void Parser::medium_interface(const Place& place) {
   set_medium_interface(build_, inside, outside, place);
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -9,7 +9,7 @@
 #include "io/pbrt/build.h"
 #include "io/pbrt/lexer.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 class Parser {
  public:
@@ -83,4 +83,4 @@ class Parser {
   size_t file_count_ = 0;
 };
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -6,7 +6,7 @@
 
 #include "io/pbrt/parser.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -36,4 +36,4 @@ Scene parse_pbrt(const std::string& text, const std::string& name, const InputSc
   return parse({name, {}, text}, "", scope, diagnostics, search);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 #include "io/find_file.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Reads a scene file and all that it includes. Paths in it are relative to the folder of the top file. Features of
 /// pbrt-v4 that are not supported are replaced, with one warning each; anything unknown, ill-typed or malformed throws
@@ -22,4 +22,4 @@ Scene parse_pbrt(const std::string& text, const std::string& name, const std::st
 Scene parse_pbrt(const std::string& text, const std::string& name, const InputScope& scope, Diagnostics& diagnostics,
                  const FileSearch& search = {});
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -18,7 +18,7 @@
 #include "io/pbrt/suggestions.h"
 #include "io/pbrt/textures.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -253,4 +253,4 @@ void tessellate_for_instances(Build& build) {
     }
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -6,7 +6,7 @@
 
 #include "io/pbrt/build.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 void add_shape(Build& build, const std::string& kind, ParameterList& list);
 
@@ -14,4 +14,4 @@ void add_shape(Build& build, const std::string& kind, ParameterList& list);
 /// spheres only under rotation, translation and uniform scale.
 void tessellate_for_instances(Build& build);
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

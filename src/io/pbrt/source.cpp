@@ -7,7 +7,7 @@
 
 #include "util/printable.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -80,4 +80,4 @@ InputError error_at(const Place& place, const std::string& message) {
 
 void fail(const Place& place, const std::string& message) { throw error_at(place, message); }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

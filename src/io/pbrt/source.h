@@ -9,7 +9,7 @@
 #include "files/byte_source.h"
 #include "util/diagnostics.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 /// A text with its name in messages: a file, which is streamed and read again for the excerpt of an error, or a text in
 /// memory.
@@ -37,4 +37,4 @@ InputError error_at(const Place& place, const std::string& message);
 /// Throws it.
 [[noreturn]] void fail(const Place& place, const std::string& message);
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

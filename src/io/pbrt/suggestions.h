@@ -7,7 +7,7 @@
 
 #include "util/suggestion.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 /// The end of the message for an unknown name: what to do if it is one of pbrt-v3 that pbrt-v4 removed, else
 /// `otherwise`.
@@ -30,4 +30,4 @@ std::string upgrade_or_suggestion(std::string_view name, const Names& names) {
   return or_upgrade(name, suggestion(name, names));
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

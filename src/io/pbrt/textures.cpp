@@ -9,7 +9,7 @@
 #include "io/pbrt/image_texture.h"
 #include "io/pbrt/suggestions.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -319,4 +319,4 @@ std::optional<double> constant_value(const Build& build, uint32_t texture) {
   return node.value.x;
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -7,7 +7,7 @@
 #include "io/pbrt/build.h"
 #include "io/pbrt/colours.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 /// `Texture "name" "float|spectrum" "kind"`.
 void add_texture(Build& build, const std::string& name, const std::string& value_type, const std::string& kind,
@@ -25,4 +25,4 @@ uint32_t scalar_texture_or(Build& build, ParameterList& list, std::string_view n
 /// The value of a texture if it is constant.
 std::optional<double> constant_value(const Build& build, uint32_t texture);
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

@@ -6,7 +6,7 @@
 
 #include "io/pbrt/suggestions.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 namespace {
 
@@ -135,4 +135,4 @@ void set_transform_times(Build& build, Lexer& lexer, const Place& place) {
   build.scene.transform_end_time = v[1];
 }
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

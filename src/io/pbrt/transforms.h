@@ -5,7 +5,7 @@
 #include "io/pbrt/build.h"
 #include "io/pbrt/lexer.h"
 
-namespace alhazen::pbrt {
+namespace alhazen::impl::pbrt {
 
 void set_identity(Build& build, Lexer& lexer, const Place& place);
 void translate(Build& build, Lexer& lexer, const Place& place);
@@ -19,4 +19,4 @@ void use_coordinate_system(Build& build, Lexer& lexer, const Place& place);
 void set_active_transform(Build& build, Lexer& lexer, const Place& place);
 void set_transform_times(Build& build, Lexer& lexer, const Place& place);
 
-}  // namespace alhazen::pbrt
+}  // namespace alhazen::impl::pbrt

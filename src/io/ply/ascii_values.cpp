@@ -6,7 +6,7 @@
 #include "util/numbers.h"
 #include "util/quoted.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -118,4 +118,4 @@ void AsciiValues::expect_end(Diagnostics& diagnostics) {
   if (skip_blank_lines()) diagnostics.warn(place(input_.offset()), "data after the last element are ignored");
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

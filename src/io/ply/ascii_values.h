@@ -9,7 +9,7 @@
 #include "io/ply/ply_header.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Has the same members as BinaryValues; the row readers are templates over either.
 class AsciiValues {
@@ -44,4 +44,4 @@ class AsciiValues {
   uint64_t word_offset_ = 0;  ///< of the word that was read last
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -11,7 +11,7 @@
 #include "io/ply/ply_header.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Has the same members as AsciiValues; the row readers are templates over either.
 template <std::endian order>
@@ -109,4 +109,4 @@ class BinaryValues {
   uint64_t index_ = 0;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -4,7 +4,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 int index_list(const PlyElement& element, const std::string& name) {
   if (element.count == 0) return -1;
@@ -28,4 +28,4 @@ void reserve_triangles(std::vector<uint32_t>& indices, uint64_t rows, uint64_t t
   indices.reserve(indices.size() + 3 * triangles);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

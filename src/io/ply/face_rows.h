@@ -8,7 +8,7 @@
 #include "geometry/polygons.h"
 #include "io/ply/ply_header.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// The index of the property of `element` that lists vertex indices, or -1 if the element is empty. Throws InputError
 /// if there is none or it cannot be used.
@@ -91,4 +91,4 @@ void read_faces(Values& values, const PlyElement& element, FaceKind kind, int li
   }
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 
 #include "files/byte_source.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 class InputBuffer {
  public:
@@ -46,4 +46,4 @@ class InputBuffer {
   bool at_end_ = false;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 #include "io/ply/ply_header.h"
 #include "io/ply/vertex_rows.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -93,4 +93,4 @@ Mesh parse_ply(ByteSource& source, const std::string& name, Diagnostics& diagnos
   return mesh;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

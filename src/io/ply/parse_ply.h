@@ -8,10 +8,10 @@
 #include "io/ply/ply.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// As read_ply (io/ply/ply.h); `name` replaces the file in messages.
 Mesh parse_ply(ByteSource& source, const std::string& name, Diagnostics& diagnostics,
                PlyColours colours = PlyColours::none);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

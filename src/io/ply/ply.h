@@ -7,7 +7,7 @@
 #include "files/input_file.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// What is done with the colours of vertices: properties red, green and blue, and alpha.
 enum class PlyColours {
@@ -26,4 +26,4 @@ enum class PlyColours {
 /// vertices. The file is streamed: peak memory is little more than the resulting mesh.
 Mesh read_ply(const InputPath& path, Diagnostics& diagnostics, PlyColours colours = PlyColours::none);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -9,7 +9,7 @@
 #include "util/diagnostics.h"
 #include "util/quoted.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -225,4 +225,4 @@ const PlyElement* PlyHeader::find(std::string_view element) const {
 
 PlyHeader read_ply_header(InputBuffer& input, const std::string& name) { return HeaderReader(input, name).read(); }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

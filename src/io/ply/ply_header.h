@@ -9,7 +9,7 @@
 
 #include "io/ply/input_buffer.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 enum class PlyFormat { ascii, binary_little_endian, binary_big_endian };
 
@@ -49,4 +49,4 @@ struct PlyHeader {
 /// Reads up to and including the line `end_header`. `name` is the file, for messages. Throws InputError.
 PlyHeader read_ply_header(InputBuffer& input, const std::string& name);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 #include "images/image.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -153,4 +153,4 @@ void VertexRows::warn(Diagnostics& diagnostics) const {
     if (!complaint.empty()) diagnostics.warn({mesh_.name}, complaint);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -11,7 +11,7 @@
 #include "io/ply/ply_header.h"
 #include "scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Destinations of the values of a row, in this order, whatever the order in the file.
 enum VertexSlot {
@@ -87,4 +87,4 @@ void read_vertices(Values& values, const PlyElement& element, const VertexLayout
   }
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -12,7 +12,7 @@
 #include "io/obj/lines.h"
 #include "util/quoted.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -201,4 +201,4 @@ Mesh read_stl(const InputPath& path, Diagnostics& diagnostics) {
   return parse_stl(bytes, path.name, diagnostics);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 
 #include "render/denoising/tile.h"
 
-namespace alhazen::denoising {
+namespace alhazen::impl::denoising {
 
 namespace {
 
@@ -232,4 +232,4 @@ size_t repair(NoisyImage& image) {
   return count + repair(image.variance, 1, width, height);
 }
 
-}  // namespace alhazen::denoising
+}  // namespace alhazen::impl::denoising

@@ -6,7 +6,7 @@
 
 #include "render/denoiser.h"
 
-namespace alhazen::denoising {
+namespace alhazen::impl::denoising {
 
 /// Moves pixels of `denoised` towards the noisy ones where they differ by more than noise explains, so that the image
 /// converges with more samples to what the render converges to, whatever the denoiser did; and where there is so little
@@ -22,4 +22,4 @@ void fill_gaps(NoisyImage& image);
 /// Returns their number.
 size_t repair(NoisyImage& image);
 
-}  // namespace alhazen::denoising
+}  // namespace alhazen::impl::denoising

@@ -20,7 +20,7 @@
 #include "render/denoising/read_window.h"
 #include "render/denoising/tile.h"
 
-namespace alhazen::denoising {
+namespace alhazen::impl::denoising {
 
 namespace {
 
@@ -302,10 +302,10 @@ std::vector<float> denoise_in_tiles(const NoisyImage& image, int tile_size, cons
   return denoised;
 }
 
-}  // namespace alhazen::denoising
+}  // namespace alhazen::impl::denoising
 
-namespace alhazen {
+namespace alhazen::impl {
 
 std::unique_ptr<Denoiser> make_builtin_denoiser() { return std::make_unique<denoising::BuiltinDenoiser>(); }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 #include "render/denoiser.h"
 #include "render/denoising/kernels.h"
 
-namespace alhazen::denoising {
+namespace alhazen::impl::denoising {
 
 /// Images are denoised in squares of this many pixels.
 inline constexpr int default_tile_size = 512;
@@ -16,4 +16,4 @@ inline constexpr int default_tile_size = 512;
 /// give the same values, tiles but for rounding. Throws std::bad_alloc.
 std::vector<float> denoise_in_tiles(const NoisyImage& image, int tile_size, const Kernels& kernels, int threads);
 
-}  // namespace alhazen::denoising
+}  // namespace alhazen::impl::denoising

@@ -2,7 +2,7 @@
 
 #include "render/sample_kernel.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 ALHAZEN_DECLARE_KERNEL(denoising::Kernels denoising_kernels())
 
@@ -16,4 +16,4 @@ std::vector<Kernels> all_kernels() {
 
 }  // namespace denoising
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -7,7 +7,7 @@
 
 #include "render/denoising/window.h"
 
-namespace alhazen::denoising {
+namespace alhazen::impl::denoising {
 
 /// Cells of pixels are the unit of work of a thread.
 inline constexpr int cell_size = 32;
@@ -37,4 +37,4 @@ struct Kernels {
 std::vector<Kernels> all_kernels();
 inline Kernels select_kernels() { return all_kernels().back(); }
 
-}  // namespace alhazen::denoising
+}  // namespace alhazen::impl::denoising

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace alhazen::denoising {
+namespace alhazen::impl::denoising {
 
 void read_window(const TilePlane& plane, int x, int y, WindowRow& to) {
   float* out = to.values;
@@ -56,4 +56,4 @@ void read_inputs(const Tile& tile, int x, int y, WindowInputs& inputs, WindowRow
   }
 }
 
-}  // namespace alhazen::denoising
+}  // namespace alhazen::impl::denoising

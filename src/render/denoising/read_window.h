@@ -5,7 +5,7 @@
 #include "render/denoising/tile.h"
 #include "render/denoising/window.h"
 
-namespace alhazen::denoising {
+namespace alhazen::impl::denoising {
 
 /// Writes the window around (x, y) of a plane.
 void read_window(const TilePlane& plane, int x, int y, WindowRow& to);
@@ -14,4 +14,4 @@ void read_window(const TilePlane& plane, int x, int y, WindowRow& to);
 /// noise.
 void read_inputs(const Tile& tile, int x, int y, WindowInputs& inputs, WindowRow& feature_distances);
 
-}  // namespace alhazen::denoising
+}  // namespace alhazen::impl::denoising

@@ -8,7 +8,7 @@
 
 #include "core/film/film_view.h"
 
-namespace alhazen::denoising {
+namespace alhazen::impl::denoising {
 
 Region Region::grown(int margin, const Region& bounds) const {
   return {std::max(x0 - margin, bounds.x0), std::max(y0 - margin, bounds.y0), std::min(x1 + margin, bounds.x1),
@@ -304,4 +304,4 @@ Tile read_tile(const NoisyImage& image, const Region& region, int threads) {
   return tile;
 }
 
-}  // namespace alhazen::denoising
+}  // namespace alhazen::impl::denoising

@@ -9,7 +9,7 @@
 #include "render/denoiser.h"
 #include "render/denoising/window.h"
 
-namespace alhazen::denoising {
+namespace alhazen::impl::denoising {
 
 /// Pixels around a tile that planes also hold, so that no access needs a test, and whole lanes can be read.
 inline constexpr int plane_padding = window_radius + patch_radius + lanes;
@@ -68,4 +68,4 @@ Tile read_tile(const NoisyImage& image, const Region& region, int threads);
 /// Replaces each value by the mean of those up to `radius` away, weighted by a tent in both directions.
 void blur(TilePlane& plane, int radius, int threads);
 
-}  // namespace alhazen::denoising
+}  // namespace alhazen::impl::denoising

@@ -2,7 +2,7 @@
 
 // Windows of pixels, as the regression of the built-in denoiser takes them.
 
-namespace alhazen::denoising {
+namespace alhazen::impl::denoising {
 
 /// Pixels within `window_radius` of a pixel contribute to it by how similar they are; the neighbourhoods by which they
 /// are compared, patches, have the radius `patch_radius`.
@@ -37,4 +37,4 @@ struct WindowColours {
   WindowRow variance;  ///< sum over the channels
 };
 
-}  // namespace alhazen::denoising
+}  // namespace alhazen::impl::denoising

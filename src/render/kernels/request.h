@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Samples [first, first + count), count <= samples_per_block, of pixel (x, y) of the whole image.
 struct BlockRequest {
@@ -31,4 +31,4 @@ struct KernelRequest {
 
 using RawKernel = void (*)(const KernelRequest&);
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

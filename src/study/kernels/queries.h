@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-namespace alhazen {
+namespace alhazen::impl {
 
 enum class StudyKernel : uint32_t { path_at_a_time, linear_scan, binary_bvh };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -14,7 +14,7 @@
 #include "colour/cie_1931.h"
 #include "colour/rgb_space.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 void expect_near(const Vec3d& actual, const Vec3d& expected, double tolerance, const std::string& what) {
@@ -295,4 +295,4 @@ TEST(SpectrumFile, GoldOfTheSharedScenes) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -9,7 +9,7 @@
 #include "compile/tables/albedo_tables.h"
 #include "core/materials/lobes/ggx_albedo.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 double ggx_fraction(const AlbedoGrid& grid, const Vec2d& alpha, const Vec3d& o) {
@@ -63,4 +63,4 @@ TEST(AlbedoTables, FollowTheEdgeOfTotalReflection) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

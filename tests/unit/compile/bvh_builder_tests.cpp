@@ -8,7 +8,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 template <class Real>
@@ -256,4 +256,4 @@ TYPED_TEST(BvhBuilderOf, MovesBringBackWhatLiesFarOff) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -10,7 +10,7 @@
 #include "io/pbrt/pbrt.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 const std::string floor_of =
@@ -201,4 +201,4 @@ TYPED_TEST(LostLightOf, NothingIsSaidWhereNothingIsLost) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -5,7 +5,7 @@
 #include "core/textures/noise.h"
 #include "support/compiled_scenes.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 struct Compiled {
@@ -99,4 +99,4 @@ TEST(PrecisionRange, MirroredImagesMayHaveTheMostTexels) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

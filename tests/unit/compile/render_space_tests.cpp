@@ -4,7 +4,7 @@
 
 #include "support/compiled_scenes.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 /// One thing of every kind that has a position, about the world's origin moved by `to`, seen by a camera 5 away.
@@ -93,4 +93,4 @@ TEST(RenderSpace, CompilingKeepsDetail) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -10,7 +10,7 @@
 #include "support/compiled_scenes.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 ImageTexels checks(int width, int height, bool as_floats) {
@@ -193,4 +193,4 @@ TEST(PyramidLevels, GreyImagesTakeOneChannel) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -6,7 +6,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 template <class Real>
@@ -47,4 +47,4 @@ TYPED_TEST(BentNormal, ReflectsOutwards) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -7,7 +7,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 template <class Real>
@@ -142,4 +142,4 @@ TYPED_TEST(BsdfOf, SmoothRefractionFollowsSnell) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -8,7 +8,7 @@
 #include "support/primitive_scenes.h"
 #include "support/ulps.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 template <class Tree>
@@ -210,4 +210,4 @@ TYPED_TEST(BvhOf, RaysThatAreNoRays) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -8,7 +8,7 @@
 #include "support/reals.h"
 #include "support/render_pixels.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 const std::string sky = "WorldBegin LightSource \"infinite\"";
@@ -181,4 +181,4 @@ TYPED_TEST(CameraOf, EveryFilterKeepsAConstantImage) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

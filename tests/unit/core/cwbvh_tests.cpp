@@ -7,7 +7,7 @@
 #include "support/closed_meshes.h"
 #include "support/primitive_scenes.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 Bounds3<float> box_of(const SceneView<float>& scene, const CwbvhPrimitive& p) {
@@ -141,4 +141,4 @@ TEST(Cwbvh, IsMadeOnlyWhereItIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

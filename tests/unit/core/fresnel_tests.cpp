@@ -5,7 +5,7 @@
 #include "core/materials/lobes/fresnel.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 template <class Real>
@@ -101,4 +101,4 @@ TYPED_TEST(FresnelOf, AbsorptionForReflectance) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -14,7 +14,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr uint32_t leaf_cell = GuideView<float>::leaf_cell;
@@ -263,4 +263,4 @@ TYPED_TEST(Guides, LearnsFromAVertex) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

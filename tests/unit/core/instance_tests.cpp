@@ -10,7 +10,7 @@
 #include "support/instanced_scenes.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr double reach = 10;
@@ -313,4 +313,4 @@ TYPED_TEST(Instances, LeaveLightsAndSpheresInTheWorld) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

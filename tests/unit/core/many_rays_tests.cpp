@@ -11,7 +11,7 @@
 #include "support/primitive_scenes.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 template <class Real>
@@ -203,4 +203,4 @@ TYPED_TEST(ManyRays, InAnEmptyScene) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -8,7 +8,7 @@
 #include "support/reals.h"
 #include "support/render_pixels.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr uint32_t side = 16;
@@ -254,4 +254,4 @@ TYPED_TEST(OneSided, LampsInTheWallThatIsLookedThrough) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

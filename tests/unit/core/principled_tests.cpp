@@ -8,7 +8,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 template <class Real>
@@ -80,4 +80,4 @@ TYPED_TEST(PrincipledOf, FilmsOverColouredGlassAreNotTinted) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -13,7 +13,7 @@
 #include "backends/embree/module/scene.h"
 #endif
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 template <class Engine>
@@ -187,4 +187,4 @@ TYPED_TEST(RayIntersectors, DirectionsMayHaveZerosOfEitherSign) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

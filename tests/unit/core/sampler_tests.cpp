@@ -12,7 +12,7 @@
 #include "core/sampling/independent.h"
 #include "core/sampling/sobol.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 template <class Sampler>
@@ -210,4 +210,4 @@ TEST(Dimensions, AreDistinct) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

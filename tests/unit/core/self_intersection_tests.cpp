@@ -12,7 +12,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 /// A single primitive, on the stack.
@@ -385,4 +385,4 @@ TYPED_TEST(SelfIntersectionOf, TheOtherHalfOfALongWallIsNotHit) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

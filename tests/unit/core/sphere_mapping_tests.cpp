@@ -8,7 +8,7 @@
 #include "support/environments.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr SphereMapping mappings[] = {SphereMapping::equirectangular, SphereMapping::octahedral};
@@ -119,4 +119,4 @@ TYPED_TEST(SphereMappings, NotANumber) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

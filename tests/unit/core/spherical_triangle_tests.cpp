@@ -9,7 +9,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 template <class Real>
@@ -91,4 +91,4 @@ TYPED_TEST(SphericalTriangles, BilinearSamplesFollowTheDensity) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

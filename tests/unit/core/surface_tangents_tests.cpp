@@ -12,7 +12,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 struct NamedText {
@@ -247,4 +247,4 @@ TYPED_TEST(SurfaceTangentsOf, TangentsOfAMeshAgreeWithItsUvs) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

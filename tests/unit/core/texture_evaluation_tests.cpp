@@ -8,7 +8,7 @@
 #include "support/random.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 /// Textures of a description, compiled: texture i of `textures` is the reflectance of material i.
@@ -432,4 +432,4 @@ TYPED_TEST(TextureEvaluation, MarbleStaysWithinItsColours) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

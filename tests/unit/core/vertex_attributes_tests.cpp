@@ -7,7 +7,7 @@
 #include "support/compiled_scenes.h"
 #include "support/reals.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 /// A triangle (0, 0), (1, 0), (0, 1) with all attributes; one without any precedes it, so that offsets are not 0.
@@ -141,4 +141,4 @@ TEST(VertexAttributeErrors, NumbersMustFit) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -10,7 +10,7 @@
 #include "support/engines.h"
 #include "support/primitive_scenes.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 enum class Aim { vertex, edge, face };
@@ -185,4 +185,4 @@ TYPED_TEST(WatertightOf, ExactlyThroughVertices) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

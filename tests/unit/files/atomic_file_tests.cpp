@@ -13,7 +13,7 @@
 #include "files/temporary_files.h"
 #include "support/temporary_folder.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -148,4 +148,4 @@ TEST_F(AtomicFiles, LinksLeadToTheirTargets) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

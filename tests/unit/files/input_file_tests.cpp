@@ -10,7 +10,7 @@
 #include "support/temporary_folder.h"
 #include "util/diagnostics.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -140,4 +140,4 @@ INSTANTIATE_TEST_SUITE_P(WithAndWithoutOpenat2, Confined, ::testing::Bool());
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

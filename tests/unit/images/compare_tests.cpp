@@ -11,7 +11,7 @@
 
 #include "images/metrics/ssim.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -250,4 +250,4 @@ TEST(Compare, ReferenceRenders) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -39,4 +39,4 @@ TEST(DisplayError, IsHalfOfTheDifferenceOfWhatIsShown) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

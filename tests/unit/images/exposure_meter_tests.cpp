@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -122,4 +122,4 @@ TEST(ExposureMeter, AutomaticSparesHighlights) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

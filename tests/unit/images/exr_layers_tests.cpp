@@ -13,7 +13,7 @@
 #include "images/codecs/decoders.h"
 #include "support/temporary_folder.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 /// The colour of a one-pixel file whose channels hold 0, 1, 2, ... in this order.
@@ -145,4 +145,4 @@ TEST(ExrLayers, ThePartWithColoursIsTheImage) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

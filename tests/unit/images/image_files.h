@@ -13,7 +13,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 inline Bytes operator+(Bytes a, const Bytes& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -102,4 +102,4 @@ inline Bytes jpeg(uint8_t components) {
          segment(0xda, scan + Bytes{0, 63, 0}) + data + Bytes{0xff, 0xd9};
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -26,7 +26,7 @@
 
 #include "image_files.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -449,4 +449,4 @@ TEST(AtomicWrite, ADiskThatFillsUpAtAnyPoint) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -9,7 +9,7 @@
 #include "images/image.h"
 #include "unit/io/pbrt_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 ScalarTexture read(const std::string& name, const Bytes& bytes, TextureEncoding encoding = TextureEncoding::automatic) {
@@ -183,4 +183,4 @@ TEST(ScalarTexture, OfPbrtScenes) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -10,7 +10,7 @@
 #include "images/image.h"
 #include "images/read_scalar_texture.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 ImageTexels read(const std::string& name, const Bytes& bytes, TextureEncoding encoding = TextureEncoding::automatic) {
@@ -281,4 +281,4 @@ TEST(Texture, GarbageBehindEverySignatureIsAnError) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

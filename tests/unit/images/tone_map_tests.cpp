@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -111,4 +111,4 @@ TEST(ToneMaps, HaveNames) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -10,7 +10,7 @@
 #include "colour/rgb_space.h"
 #include "colour/white_point.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -89,4 +89,4 @@ TEST(LightColour, StaysWithinItsLimits) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -11,7 +11,7 @@
 #include "image_files.h"
 #include "images/image.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -205,4 +205,4 @@ TEST(Hdr, HasTheHeaderOfTheFormat) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -4,7 +4,7 @@
 #include "support/temporary_folder.h"
 #include "unit/io/gltf_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -162,4 +162,4 @@ TEST(GltfAccessors, KnowBinaryFilesByTheirFirstBytes) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

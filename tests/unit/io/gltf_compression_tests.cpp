@@ -10,7 +10,7 @@
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #endif
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -98,4 +98,4 @@ TEST(GltfCompression, DecodesDraco) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

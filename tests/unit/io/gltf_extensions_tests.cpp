@@ -7,7 +7,7 @@
 
 #include "unit/io/gltf_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 TEST(GltfVisibility, HidesNodesWithWhatIsBelowThem) {
@@ -194,4 +194,4 @@ TEST(GltfLights, ClosedRoomsEmitTheirOwnColour) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

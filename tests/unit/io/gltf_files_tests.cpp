@@ -4,7 +4,7 @@
 #include "support/external_scenes.h"
 #include "unit/io/gltf_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -70,4 +70,4 @@ TEST(GltfFiles, SayOneSentenceOfEveryMalformedOne) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -4,7 +4,7 @@
 
 #include "unit/io/gltf_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -420,4 +420,4 @@ TEST(GltfErrors, RefuseEveryTruncatedBinaryFile) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -4,7 +4,7 @@
 
 #include "unit/io/gltf_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -266,4 +266,4 @@ TEST(GltfMeshes, BlendSkins) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

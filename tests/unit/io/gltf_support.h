@@ -11,7 +11,7 @@
 
 #include "io/gltf/gltf.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 using nlohmann::json;
 
@@ -182,4 +182,4 @@ inline void expect_point(const Vec3d& actual, const Vec3d& expected, double tole
   EXPECT_NEAR(actual.z, expected.z, tolerance);
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -5,7 +5,7 @@
 #include "geometry/tangents.h"
 #include "unit/io/gltf_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 /// Two triangles with a common edge from (1, 0, 0) to (1, 1, 0), the second of them raised; the edge has two vertices
@@ -121,4 +121,4 @@ TEST(GltfTangents, AreMadeForNormalMapsAlone) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -5,7 +5,7 @@
 
 #include "unit/io/gltf_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -100,4 +100,4 @@ TEST(GltfUnused, ABufferWithoutDataIsZeros) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -6,7 +6,7 @@
 #include "support/temporary_folder.h"
 #include "unit/io/mitsuba_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 class MitsubaErrors : public MitsubaTest {};
@@ -273,4 +273,4 @@ TEST_F(MitsubaErrors, OfSensorsAndFilms) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

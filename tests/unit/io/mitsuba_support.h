@@ -10,7 +10,7 @@
 #include "io/mitsuba/mitsuba.h"
 #include "io/mitsuba/xml.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 /// What a scene became.
 struct ParsedMitsuba {
@@ -60,4 +60,4 @@ class MitsubaTest : public ::testing::Test {
   }
 };
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -5,7 +5,7 @@
 #include "support/temporary_folder.h"
 #include "unit/io/mitsuba_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 class Mitsuba : public MitsubaTest {};
@@ -335,4 +335,4 @@ TEST_F(Mitsuba, NamesOfVersion1) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -7,7 +7,7 @@
 #include "io/read_scene.h"
 #include "support/temporary_folder.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 struct ParsedModel {
@@ -285,4 +285,4 @@ TEST(Obj, WithoutFacesThereIsNoImage) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

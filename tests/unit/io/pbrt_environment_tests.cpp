@@ -10,7 +10,7 @@
 #include "unit/images/image_files.h"
 #include "unit/io/pbrt_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 class PbrtEnvironment : public ::testing::Test {
@@ -187,4 +187,4 @@ TEST_F(PbrtEnvironment, CompilingRefusesWhatIsNoMap) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -5,7 +5,7 @@
 
 #include "unit/io/pbrt_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 struct Malformed {
@@ -222,4 +222,4 @@ TEST(PbrtErrors, DeepNestingIsRefused) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -8,7 +8,7 @@
 #include "support/temporary_folder.h"
 #include "unit/io/pbrt_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 TEST(PbrtLights, Point) {
@@ -200,4 +200,4 @@ TEST_F(PbrtLightImages, Errors) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

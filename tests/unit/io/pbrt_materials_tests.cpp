@@ -6,7 +6,7 @@
 #include "colour/spectrum.h"
 #include "unit/io/pbrt_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 const std::string sphere = " Shape \"sphere\"\n";
@@ -297,4 +297,4 @@ TEST(PbrtColours, XyzOfD65IsWhite) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

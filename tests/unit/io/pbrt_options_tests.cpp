@@ -9,7 +9,7 @@
 #include "core/math/scalar.h"
 #include "unit/io/pbrt_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 Parsed parse_options(const std::string& text) {
@@ -260,4 +260,4 @@ TEST(PbrtFiles, ScenesOfOthersParse) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

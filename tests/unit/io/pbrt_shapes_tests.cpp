@@ -6,7 +6,7 @@
 
 #include "unit/io/pbrt_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -304,4 +304,4 @@ TEST(PbrtAreaLights, PowerIsDistributedOverTheArea) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

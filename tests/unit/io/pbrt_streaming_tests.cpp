@@ -8,7 +8,7 @@
 #include "support/temporary_folder.h"
 #include "unit/io/pbrt_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -195,4 +195,4 @@ TEST(PbrtStreaming, DefaultsOfAttributeAreBounded) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

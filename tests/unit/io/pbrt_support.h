@@ -9,7 +9,7 @@
 
 #include "io/pbrt/pbrt.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 struct Parsed {
   Scene scene;
@@ -61,4 +61,4 @@ inline Vec3d constant_of(const Parsed& parsed, uint32_t texture) {
   return node.value;
 }
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

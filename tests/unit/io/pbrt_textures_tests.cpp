@@ -9,7 +9,7 @@
 #include "core/textures/texture.h"
 #include "unit/io/pbrt_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 const Texture& named(const Parsed& p, const std::string& name) {
@@ -182,4 +182,4 @@ TEST(PbrtTextures, ImagesAreReadOnceForEachUse) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

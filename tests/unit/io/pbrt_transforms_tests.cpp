@@ -5,7 +5,7 @@
 
 #include "unit/io/pbrt_support.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 const std::string sphere = "Shape \"sphere\"\n";
@@ -114,4 +114,4 @@ TEST(PbrtObjects, LightsInObjectsAreWarnedOf) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -15,7 +15,7 @@
 #include "io/ply/ply.h"
 #include "support/ply_files.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 std::string message_of(const std::string& bytes) {
@@ -233,4 +233,4 @@ TEST(PlyErrors, MalformedBinaryRows) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

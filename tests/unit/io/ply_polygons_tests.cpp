@@ -13,7 +13,7 @@
 #include "support/effort.h"
 #include "support/random.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 using Triangles = std::vector<std::array<uint32_t, 3>>;
@@ -284,4 +284,4 @@ TEST(PlyLineEnds, CarriageReturns) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

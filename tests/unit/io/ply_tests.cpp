@@ -12,7 +12,7 @@
 
 #include "support/ply_files.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 void expect_triangle(const Mesh& mesh) {
@@ -233,4 +233,4 @@ TEST(Ply, Warnings) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -10,7 +10,7 @@
 #include "io/stl/stl.h"
 #include "support/temporary_folder.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 Mesh parse(const std::string& bytes) {
@@ -146,4 +146,4 @@ TEST(Models, AreRecognizedByTheirFirstBytes) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

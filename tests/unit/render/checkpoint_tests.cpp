@@ -12,7 +12,7 @@
 #include "render/renderer.h"
 #include "support/temporary_folder.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -184,4 +184,4 @@ TYPED_TEST(CheckpointFiles, OfAnotherRenderIsRefusedAsThat) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

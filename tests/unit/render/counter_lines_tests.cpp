@@ -8,7 +8,7 @@
 
 #include "core/film/block_sum.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 // Only a build with ALHAZEN_COUNTERS has counters in its records.
@@ -69,4 +69,4 @@ TEST(CounterLines, TheTableGivesPercentages) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -15,7 +15,7 @@
 #include "support/environment_variable.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -346,4 +346,4 @@ TEST(OidnDenoiser, NamesAWrongLibrary) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -28,4 +28,4 @@ TEST(PowerBisection, HasThePowersOfEveryExponent) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -7,7 +7,7 @@
 #include "scene/transform.h"
 #include "support/random.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 void expect_close(const Vec3d& a, const Vec3d& b, double tolerance = 1e-12) {
@@ -83,4 +83,4 @@ TEST(Transform, Handedness) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

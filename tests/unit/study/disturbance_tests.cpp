@@ -15,7 +15,7 @@
 #include "study/tune.h"
 #include "study/write.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 namespace {
 
 ThreadStatistics thread_of(double busy, double processor) {
@@ -231,4 +231,4 @@ TEST(StudyFigure1, IsOneDrawingWithoutOthers) {
 }
 
 }  // namespace
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

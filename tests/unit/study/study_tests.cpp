@@ -22,7 +22,7 @@
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
 
-namespace alhazen::study {
+namespace alhazen::impl::study {
 namespace {
 
 Trial trial_of(const std::string& key, std::vector<double> seconds, uint64_t samples, uint64_t rays) {
@@ -417,4 +417,4 @@ TEST(StudyClouds, AreTheSameForTheSameNumber) {
 }
 
 }  // namespace
-}  // namespace alhazen::study
+}  // namespace alhazen::impl::study

@@ -6,7 +6,7 @@
 #include "support/random.h"
 #include "support/statistics.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 TEST(TestStatistics, ClosedForms) {
@@ -77,4 +77,4 @@ TEST(TestStatistics, MeansThatDifferAreFound) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

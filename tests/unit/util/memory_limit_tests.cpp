@@ -9,7 +9,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -81,4 +81,4 @@ TEST_F(MemoryLimits, WhatCannotBeReadIsNoLimit) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

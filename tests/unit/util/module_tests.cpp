@@ -13,7 +13,7 @@
 #include "support/temporary_folder.h"
 #include "util/module_file.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ TEST_F(Modules, AMissingLibraryIsNamed) {
 }
 
 }  // namespace
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -6,7 +6,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -79,4 +79,4 @@ TEST(Printable, ErrorsAndWarningsAre) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace alhazen::test {
+namespace alhazen::impl::test {
 
 namespace {
 
@@ -70,4 +70,4 @@ TEST_F(ThreadLimits, DefaultsAreTakenBackWithTheLastUser) {
 
 }  // namespace
 
-}  // namespace alhazen::test
+}  // namespace alhazen::impl::test

@@ -6,7 +6,7 @@
 
 #include "backends/cuda/kernels/launch.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 struct ItemGrid {
   static constexpr uint32_t tile_width = 8, tile_height = 4;  ///< pixels; a tile has as many as a warp has lanes
@@ -70,4 +70,4 @@ struct FoldKernel {
   }
 };
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

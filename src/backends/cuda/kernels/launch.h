@@ -9,7 +9,7 @@
 #include "core/integrators/camera_sample.h"
 #include "core/sampling/any_sampler.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 /// A thread of a two-dimensional launch. x() and y() are its coordinates in the launch, stacks() makes the traversal
 /// stacks of its intersector, and add() adds to a total that all threads share.
@@ -120,4 +120,4 @@ struct SumRecord : PathRecord<Real> {
   ALHAZEN_HD void keep_first_point(const FirstPoint<Real>& point) { sum->add_first_point(point); }
 };
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

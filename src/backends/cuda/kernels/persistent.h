@@ -6,7 +6,7 @@
 
 #include "backends/cuda/kernels/items.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 template <RayTracing Tracing, IntegratorKind kind, class Real>
 struct PersistentKernel {
@@ -61,4 +61,4 @@ struct PersistentKernel {
   }
 };
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

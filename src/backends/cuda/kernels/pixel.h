@@ -5,7 +5,7 @@
 
 #include "backends/cuda/kernels/launch.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 /// Thread (x, y) renders pixel (x, y) of each of chunks_x * chunks_y chunks. Chunk sizes are rounded up and pixels
 /// outside the slice are skipped, so that no pixel is lost if the chunks do not divide the image evenly.
@@ -61,4 +61,4 @@ struct PixelKernel {
   }
 };
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

@@ -8,7 +8,7 @@
 #include "backends/cuda/kernels/items.h"
 #include "core/simd/soa.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 /// Shading queues: one for each frequent kind of material, and one for all others.
 inline constexpr uint32_t material_queues = frequent_material_kinds + 1;
@@ -310,4 +310,4 @@ struct ShadowKernel {
   }
 };
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

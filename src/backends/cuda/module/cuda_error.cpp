@@ -2,7 +2,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 namespace {
 
@@ -58,4 +58,4 @@ void check(cudaError_t result, const char* doing) {
   }
 }
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 /// Returns why no GPU can be used, and what to do.
 std::string explain_no_device(cudaError_t error);
@@ -15,4 +15,4 @@ std::string explain_no_device(cudaError_t error);
 /// sentence "the GPU failed while ...".
 void check(cudaError_t result, const char* doing);
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

@@ -11,7 +11,7 @@
 #include "backends/cuda/module/device_thread.cuh"
 #include "util/diagnostics.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 template <DeviceKernel Kernel>
 __global__ void run_kernel(const __grid_constant__ Kernel kernel) {
@@ -132,4 +132,4 @@ class CudaExecutor {
   cudaStream_t stream_ = nullptr;
 };
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

@@ -4,7 +4,7 @@
 
 #include "core/bvh/stack.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 /// Number of entries of a traversal stack in shared memory. The others, which few rays need, are in local memory.
 inline constexpr int shared_entries = 8;
@@ -84,4 +84,4 @@ class DeviceThread {
   void* shared_;
 };
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

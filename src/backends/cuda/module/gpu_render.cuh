@@ -6,7 +6,7 @@
 #include "backends/cuda/module/cuda_executor.cuh"
 #include "backends/cuda/module/gpu_render.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 template <RayTracing Tracing, class Real>
 class CudaRender final : public GpuRender<Real> {
@@ -23,4 +23,4 @@ class CudaRender final : public GpuRender<Real> {
   DeviceRender<CudaExecutor, Tracing, Real> render_;
 };
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

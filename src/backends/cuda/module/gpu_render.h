@@ -6,7 +6,7 @@
 
 #include "backends/cuda/device.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 template <class Real>
 class GpuRender {
@@ -22,4 +22,4 @@ std::unique_ptr<GpuRender<float>> make_gpu_render(int device, const DeviceRows& 
 template <>
 std::unique_ptr<GpuRender<double>> make_gpu_render(int device, const DeviceRows& rows);
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda

@@ -4,7 +4,7 @@
 #include "backends/cuda/module/gpu_render.h"
 #include "util/define_module.h"
 
-namespace alhazen::cuda {
+namespace alhazen::impl::cuda {
 
 namespace {
 
@@ -56,6 +56,6 @@ const CudaModule table{query_devices, make_engine};
 
 }  // namespace
 
-}  // namespace alhazen::cuda
+}  // namespace alhazen::impl::cuda
 
-ALHAZEN_MODULE("cuda", alhazen::cuda::table)
+ALHAZEN_MODULE("cuda", alhazen::impl::cuda::table)

@@ -4,7 +4,7 @@
 #include "render/sample_kernel.h"
 #include "util/define_module.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 ALHAZEN_DECLARE_KERNEL(RawKernel select_embree_kernel(uint32_t integrator, uint32_t sampler))
 
@@ -34,6 +34,6 @@ const EmbreeModule table{version, build, select_kernel};
 
 }  // namespace
 
-}  // namespace alhazen
+}  // namespace alhazen::impl
 
-ALHAZEN_MODULE("embree", alhazen::table)
+ALHAZEN_MODULE("embree", alhazen::impl::table)

@@ -9,7 +9,7 @@
 #include "core/shapes/primitives.h"
 #include "util/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 namespace {
 
@@ -277,4 +277,4 @@ void EmbreeScene::check() const {
   throw std::runtime_error(std::string("Embree: ") + reason + " (" + std::to_string(static_cast<int>(error)) + ")");
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

@@ -8,7 +8,7 @@
 #include "backends/embree/module/api.h"
 #include "core/scene_view.h"
 
-namespace alhazen {
+namespace alhazen::impl {
 
 /// Owns the Embree structures of `view`, which must outlive them.
 class EmbreeScene {
@@ -42,4 +42,4 @@ class EmbreeScene {
   EmbreeTracer tracer_{};
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::impl

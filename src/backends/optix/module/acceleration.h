@@ -15,7 +15,7 @@
 #include "core/scene_view.h"
 #include "core/shapes/primitives.h"
 
-namespace alhazen::optix {
+namespace alhazen::impl::optix {
 
 inline CUdeviceptr address(const void* pointer) { return reinterpret_cast<CUdeviceptr>(pointer); }
 
@@ -269,4 +269,4 @@ class Acceleration {
   uint32_t sbt_offset_ = 0;
 };
 
-}  // namespace alhazen::optix
+}  // namespace alhazen::impl::optix

@@ -6,7 +6,7 @@
 #include "backends/optix/module/pipeline.h"
 #include "render/denoiser.h"
 
-namespace alhazen::optix {
+namespace alhazen::impl::optix {
 
 template <cuda::KernelExecutor Executor>
 class Denoiser {
@@ -81,4 +81,4 @@ class Denoiser {
   Bytes state_, scratch_;
 };
 
-}  // namespace alhazen::optix
+}  // namespace alhazen::impl::optix

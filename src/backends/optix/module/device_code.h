@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-namespace alhazen::optix {
+namespace alhazen::impl::optix {
 
 struct DeviceCode {
   std::span<const unsigned char> optix_ir;
@@ -14,4 +14,4 @@ struct DeviceCode {
 
 DeviceCode device_code();
 
-}  // namespace alhazen::optix
+}  // namespace alhazen::impl::optix

@@ -8,7 +8,7 @@
 
 #include "backends/optix/module/pipeline.h"
 
-namespace alhazen::optix {
+namespace alhazen::impl::optix {
 
 template <cuda::KernelExecutor Base>
 class OptixExecutor : public Base {
@@ -69,4 +69,4 @@ class OptixExecutor : public Base {
   cuda::Buffer<Base, OptixParams> params_;
 };
 
-}  // namespace alhazen::optix
+}  // namespace alhazen::impl::optix

@@ -4,7 +4,7 @@
 
 #include "util/diagnostics.h"
 
-namespace alhazen::optix {
+namespace alhazen::impl::optix {
 
 namespace {
 
@@ -55,4 +55,4 @@ void check(const OptixFunctionTable& functions, OptixResult result, const char* 
                     (log.empty() ? "" : ": " + log));
 }
 
-}  // namespace alhazen::optix
+}  // namespace alhazen::impl::optix

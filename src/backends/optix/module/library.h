@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace alhazen::optix {
+namespace alhazen::impl::optix {
 
 struct OptixLibrary {
   OptixFunctionTable functions{};
@@ -24,4 +24,4 @@ const OptixLibrary& optix_library();
 /// holds the messages of OptiX.
 void check(const OptixFunctionTable& functions, OptixResult result, const char* doing, const std::string& log = "");
 
-}  // namespace alhazen::optix
+}  // namespace alhazen::impl::optix

@@ -4,7 +4,7 @@
 #include "backends/optix/module/library.h"
 #include "util/define_module.h"
 
-namespace alhazen::optix {
+namespace alhazen::impl::optix {
 
 namespace {
 
@@ -14,6 +14,6 @@ const OptixModule table{problem, make_optix_engine, denoise};
 
 }  // namespace
 
-}  // namespace alhazen::optix
+}  // namespace alhazen::impl::optix
 
-ALHAZEN_MODULE("optix", alhazen::optix::table)
+ALHAZEN_MODULE("optix", alhazen::impl::optix::table)

@@ -4,7 +4,7 @@
 #include "backends/optix/module/engine.h"
 #include "backends/optix/module/executor.h"
 
-namespace alhazen::optix {
+namespace alhazen::impl::optix {
 
 namespace {
 
@@ -43,4 +43,4 @@ std::vector<float> denoise(const NoisyImage& image, int device) {
   return Denoiser(optix_library().functions, context, executor).denoise(image);
 }
 
-}  // namespace alhazen::optix
+}  // namespace alhazen::impl::optix

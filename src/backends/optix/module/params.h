@@ -7,7 +7,7 @@
 
 #include "backends/cuda/kernels/pixel.h"
 
-namespace alhazen::optix {
+namespace alhazen::impl::optix {
 
 /// Traces rays with the intersector that belongs to the stacks of the thread. On the device this is OptixIntersector
 /// (programs.cu), which calls optixTrace.
@@ -72,4 +72,4 @@ inline constexpr const char* closest_hit_names[hit_records] = {
 #undef ALHAZEN_NAME
 };
 
-}  // namespace alhazen::optix
+}  // namespace alhazen::impl::optix

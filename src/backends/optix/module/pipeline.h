@@ -9,7 +9,7 @@
 #include "backends/optix/module/device_code.h"
 #include "backends/optix/module/params.h"
 
-namespace alhazen::optix {
+namespace alhazen::impl::optix {
 
 /// The device context. Messages of OptiX are kept for the next error.
 class Context {
@@ -212,4 +212,4 @@ class Pipeline {
   OptixPipeline pipeline_ = nullptr;
 };
 
-}  // namespace alhazen::optix
+}  // namespace alhazen::impl::optix

@@ -6,7 +6,7 @@
 #include "backends/optix/module/params.h"
 #include "core/bvh/bvh2/traversal.h"
 
-namespace alhazen::optix {
+namespace alhazen::impl::optix {
 
 // A byte array, since variables in constant memory cannot have constructors.
 extern "C" {
@@ -188,4 +188,4 @@ __device__ void intersect_custom() {
 ALHAZEN_PRIMITIVES(ALHAZEN_HIT_PROGRAMS, )
 #undef ALHAZEN_HIT_PROGRAMS
 
-}  // namespace alhazen::optix
+}  // namespace alhazen::impl::optix
