@@ -28,7 +28,7 @@ inline double seconds_since(std::chrono::steady_clock::time_point start) {
 /// a noise target, a pass ends where pixels are decided on. `per_sample` is the time of one sample of every pixel, 0
 /// before the first pass, also of a render that is resumed.
 inline uint32_t pass_size(const RenderSettings& settings, uint32_t max_size, uint32_t samples_done, double elapsed,
-                   double per_sample) {
+                          double per_sample) {
   uint32_t left = settings.samples_per_pixel - samples_done;
   if (settings.asked.noise > 0) left = std::min(left, next_decision(samples_done) - samples_done);
   uint32_t size = std::clamp(settings.samples_per_pixel / 16, max_size / 4, max_size);
@@ -135,8 +135,8 @@ class PassLoop {
     if (guiding_) guiding_->begin_pass(film_, samples_done_);
     const IntegratorKind integrator = guiding_ ? guiding_->integrator() : settings_.integrator;
     if (guiding_) scene_.view.guide = guiding_->view();
-    backend_.render_pass(RenderPass<Real>{scene_, kernel_of(integrator), settings_, film_, control_, samples_done_, size,
-                                          integrator, guiding_ ? &*guiding_ : nullptr});
+    backend_.render_pass(RenderPass<Real>{scene_, kernel_of(integrator), settings_, film_, control_, samples_done_,
+                                          size, integrator, guiding_ ? &*guiding_ : nullptr});
     const double seconds = seconds_since(start);
     elapsed_ += seconds;
     has_current_state_ = false;
@@ -248,11 +248,11 @@ class PassLoop {
   uint32_t samples_done_ = 0;  ///< in every pixel
   uint64_t unfinished_ = 0;    ///< pixels
   bool in_whole_blocks_ = true;
-  double elapsed_ = 0;              ///< seconds of taking samples and of deciding on pixels, in this run
-  uint64_t samples_loaded_ = 0;     ///< of all pixels together, from the checkpoint
-  NoiseState state_;                ///< of the last estimate
-  bool has_current_state_ = false;  ///< whether no samples were taken since
-  double estimate_seconds_ = 0;     ///< what the last estimate took
+  double elapsed_ = 0;               ///< seconds of taking samples and of deciding on pixels, in this run
+  uint64_t samples_loaded_ = 0;      ///< of all pixels together, from the checkpoint
+  NoiseState state_;                 ///< of the last estimate
+  bool has_current_state_ = false;   ///< whether no samples were taken since
+  double estimate_seconds_ = 0;      ///< what the last estimate took
   double last_pass_per_sample_ = 0;  ///< seconds
   Clock::time_point saved_;          ///< when the last checkpoint was
   std::optional<ProgressReporter> reporter_;
