@@ -179,7 +179,8 @@ struct RenderedImage {
 };
 
 /// Renders a scene file. Throws InputError for bad input and settings, Error for other failures, std::bad_alloc, and
-/// anything that `progress` throws. Until it returns, threads that the process starts have a default stack of at least 8 MiB.
+/// anything that `progress` throws. Until it returns, threads that the process starts have a default stack of at least
+/// 8 MiB.
 RenderedImage render(const std::string& scene_file, const Settings& settings = {},
                      const ProgressFunction& progress = {});
 
