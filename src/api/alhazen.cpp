@@ -1,5 +1,6 @@
 #include "alhazen/alhazen.h"
 
+#include "api/rendered_image.h"
 #include "pipeline/load_scene.h"
 #include "render/renderer.h"
 #include "util/thread_limit.h"
@@ -20,23 +21,7 @@ RenderedImage render(const std::string& scene_file, const Settings& settings, co
   const RenderSettings resolved = resolve_settings(settings, loaded.scene);
   const Rendering rendering =
       render_scene(std::move(loaded.scene), resolved, loaded.seconds, RenderEvents{progress, {}, {}}, diagnostics);
-  RenderedImage image;
-  // A film without samples is black, and would look like an image.
-  if (rendering.has_samples()) {
-    Image means = image_of(rendering.source());
-    image.width = means.width;
-    image.height = means.height;
-    image.channels = std::move(means.channels);
-    image.planes = std::move(means.planes);
-  }
-  const RenderStatistics& statistics = rendering.statistics;
-  image.complete = statistics.complete;
-  image.denoiser = statistics.denoiser;
-  image.quality = statistics.settings.asked.quality;
-  if (statistics.settings.asked.noise > 0)
-    image.noise = ReachedNoise{statistics.noise.noise, statistics.noise.below, statistics.noise.mean_samples};
-  for (const Diagnostics::Warning& warning : diagnostics.warnings()) image.warnings.push_back(warning.to_string());
-  return image;
+  return rendered_image(rendering, diagnostics);
 }
 
 }  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

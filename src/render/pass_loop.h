@@ -25,14 +25,16 @@ inline double seconds_since(std::chrono::steady_clock::time_point start) {
 
 /// The number of samples of the next pass: whole blocks, enough to make the cost of a pass's end negligible, few enough
 /// for the image to grow evenly and for a time limit to be kept; at the end the remainder that is no whole block. With
-/// a noise target, a pass ends where pixels are decided on. `per_sample` is the time of one sample of every pixel, 0
+/// a noise target, a pass ends where pixels are decided on. `wanted`, if not 0, is how many there should be. `per_sample` is the time of one sample of every pixel, 0
 /// before the first pass, also of a render that is resumed.
-inline uint32_t pass_size(const RenderSettings& settings, uint32_t max_size, uint32_t samples_done, double elapsed,
-                          double per_sample) {
+inline uint32_t pass_size(const RenderSettings& settings, uint32_t max_size, uint32_t wanted, uint32_t samples_done,
+                          double elapsed, double per_sample) {
   uint32_t left = settings.samples_per_pixel - samples_done;
   if (settings.asked.noise > 0) left = std::min(left, next_decision(samples_done) - samples_done);
   uint32_t size = std::clamp(settings.samples_per_pixel / 16, max_size / 4, max_size);
-  if (settings.asked.time_limit > 0) {
+  if (wanted > 0) {
+    size = std::min(wanted, max_size);
+  } else if (settings.asked.time_limit > 0) {
     size = samples_per_block;
     if (per_sample > 0) {
       size = static_cast<uint32_t>(std::clamp((settings.asked.time_limit - elapsed) / 8 / std::max(per_sample, 1e-9),
@@ -72,8 +74,9 @@ class PassLoop {
     limit_.emplace(settings_.asked.time_limit, control_);
   }
 
-  /// Takes the samples of one pass. Returns whether another may follow.
-  bool take_pass() { return !is_done() && !control_.is_stopped() && take_next_pass(); }
+  /// Takes the samples of one pass: `wanted` in whole blocks, or as many as suit if it is 0. Returns whether another may
+  /// follow.
+  bool take_pass(uint32_t wanted) { return !is_done() && !control_.is_stopped() && take_next_pass(wanted); }
 
   /// Ends the render after any number of passes. Rethrows what a callback has thrown.
   void finish(RenderStatistics& statistics) {
@@ -120,9 +123,9 @@ class PassLoop {
   using Clock = std::chrono::steady_clock;
 
   /// Returns whether another may follow.
-  bool take_next_pass() {
+  bool take_next_pass(uint32_t wanted) {
     uint32_t size =
-        pass_size(settings_, backend_.max_samples_per_pass(), samples_done_, elapsed_, seconds_per_sample());
+        pass_size(settings_, backend_.max_samples_per_pass(), wanted, samples_done_, elapsed_, seconds_per_sample());
     if (guiding_) size = std::min(size, guiding_->samples_left(samples_done_));
     if (settings_.asked.time_limit > 0 && last_pass_per_sample_ > 0 &&
         elapsed_ + last_pass_per_sample_ * size + estimate_seconds_ > settings_.asked.time_limit)

@@ -76,7 +76,7 @@ class GrowingImageOf final : public GrowingImage {
     loop_->begin();
   }
 
-  bool take_pass() override { return loop_->take_pass(); }
+  bool take_pass(uint32_t samples) override { return loop_->take_pass(samples); }
 
   void stop() override { loop_->stop(); }
 
@@ -125,11 +125,6 @@ class RendererOf final : public SceneRenderer {
     options.for_cameras = for_cameras;
     options.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
     flat_ = compile_scene<Real>(std::move(scene), options, diagnostics);
-    if (settings.asked.clamp_indirect > 0)
-      flat_.view.indirect_limit = static_cast<Real>(settings.asked.clamp_indirect) / flat_.view.exposure;
-    flat_.view.records_through_specular = settings.records_through_specular;
-    flat_.view.hides_background = settings.has_alpha;
-    flat_.view.sees_through_glass = settings.asked.transparent_glass;
     started_.get();
     load_seconds_ = load_seconds + seconds_since(start) - flat_.statistics.build_seconds;
     build_seconds_ = flat_.statistics.build_seconds;
@@ -159,6 +154,7 @@ class RendererOf final : public SceneRenderer {
         is_prepared_ = false;
       }
     }
+    set_view(statistics.settings);
     statistics.scene_sizes = flat_.statistics;
     statistics.load_seconds = std::exchange(load_seconds_, 0) + seconds_since(start);
     start = Clock::now();
@@ -172,6 +168,15 @@ class RendererOf final : public SceneRenderer {
   bool is_on_gpu() const { return settings_.runs_on_device && settings_.device != host_device; }
 
   int build_threads() const { return is_on_gpu() ? 0 : settings_.threads; }
+
+  /// Sets what integrators read of the settings in the scene.
+  void set_view(const RenderSettings& settings) {
+    const Real limit = static_cast<Real>(settings.asked.clamp_indirect);
+    flat_.view.indirect_limit = limit > 0 ? limit / flat_.view.exposure : Real(0);
+    flat_.view.records_through_specular = settings.records_through_specular;
+    flat_.view.hides_background = settings.has_alpha;
+    flat_.view.sees_through_glass = settings.asked.transparent_glass;
+  }
 
   void make_backend() {
     backend_ = impl::make_backend(settings_.backend);

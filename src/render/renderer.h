@@ -61,9 +61,11 @@ class Rendering {
 class GrowingImage {
  public:
   virtual ~GrowingImage() = default;
-  /// Takes some samples of every pixel. Returns whether more are to be taken: false at the end, when the time limit has
-  /// passed and once it is stopped. Throws as render_scene does, but for what `events` throws.
-  virtual bool take_pass() = 0;
+  /// Takes some samples of every pixel: `samples` rounded up to whole blocks, or if that is 0 as many as suit, in any
+  /// case at most those that are left and that a pass of the backend may have. Returns whether more are to be taken:
+  /// false at the end, when the time limit has passed and once it is stopped. Throws as render_scene does, but for what
+  /// `events` throws.
+  virtual bool take_pass(uint32_t samples = 0) = 0;
   /// Ends the pass under way soon. Any thread may call it.
   virtual void stop() = 0;
   virtual Progress progress() const = 0;
@@ -80,8 +82,8 @@ class SceneRenderer {
   virtual ~SceneRenderer() = default;
   /// Renders what the scene's own camera sees, or if one is given, which is in the world, what that sees. Statistics
   /// count the time to read the scene and to build its BVH for the first image only. `preview` replaces the settings
-  /// for this image: they may be of another size, window and number of samples, and without denoiser, noise target and
-  /// guiding. Throws as render_scene does.
+  /// for this image. What is compiled and the backend remain: precision, backend, strategy and device must be the same,
+  /// and layers must need no names and light groups that were not asked for before. Throws as render_scene does.
   virtual Rendering render(const RenderEvents& events, const Camera* camera = nullptr,
                            const RenderSettings* preview = nullptr) = 0;
   /// The same, to be rendered pass by pass.

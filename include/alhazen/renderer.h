@@ -1,0 +1,86 @@
+#pragma once
+
+// Renders a scene again and again, pass by pass if it is to be seen meanwhile, and builds anew only what has changed.
+//
+//   alhazen::Renderer renderer(settings);
+//   for (renderer.start(scene); renderer.render_pass();) show(renderer.image());
+//   scene.look_at({2, 1, 3}, {0, 0, 0});
+//   const alhazen::RenderedImage other_side = renderer.render(scene);
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "alhazen/alhazen.h"
+#include "alhazen/scene.h"
+#include "alhazen/version.h"
+
+namespace alhazen::impl {
+struct RendererState;
+}
+
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+
+/// What `start` did.
+struct BuildReport {
+  /// False if the scene that was built before is used, with another camera or other settings.
+  bool is_new = false;
+  double seconds = 0;  ///< that `start` took
+};
+
+/// Keeps what it built of a scene, its BVH above all, and a copy of what it needs: scenes may be changed and destroyed
+/// while it renders. Each `start` compares the scene with what was built. Without building, it takes another camera,
+/// image size, crop, number of samples, seed, integrator, noise target, denoiser and layers, unless layers need names or
+/// light groups that were not built. All else is built anew as a whole.
+///
+/// Images have the same bits as those of `render(scene, settings)`, whatever was rendered before.
+///
+/// Of one renderer, functions may be called by one thread at a time, but `stop` by any at any time; several renderers
+/// are independent. All but `stop` throw what `render` throws, and InputError where they are called at the wrong time.
+class Renderer {
+ public:
+  /// Settings about reading (camera, variant, animation, definitions, ...) must be empty: they are LoadOptions.
+  explicit Renderer(const Settings& settings = {});
+  ~Renderer();
+  Renderer(Renderer&& other) noexcept;
+  Renderer& operator=(Renderer&& other) noexcept;
+
+  const Settings& settings() const;
+  /// For the next `start`.
+  void set_settings(const Settings& settings);
+
+  /// Begins an image, and drops one that is under way.
+  BuildReport start(const Scene& scene, const ProgressFunction& progress = {});
+
+  /// Takes some samples of every pixel: `samples` rounded up to a multiple of 4, or if that is 0 as many as suit. Returns
+  /// whether more are to be taken: false at the end, once the time limit has passed or the noise target is reached, and
+  /// after `stop`.
+  bool render_pass(int64_t samples = 0);
+
+  /// The image so far, with all its layers, not denoised: the mean of the samples of every pixel. Between passes all
+  /// pixels have as many, apart from a noise target.
+  RenderedImage image() const;
+  Progress progress() const;
+
+  /// Ends the pass under way within a few milliseconds; `render_pass` then returns false.
+  void stop();
+
+  /// Ends an image, after any number of passes: saves its checkpoint, denoises it. Rethrows what `progress` has thrown.
+  RenderedImage finish();
+
+  /// Called between passes, on the thread that renders. Returning false stops; an exception does too, and is rethrown.
+  using PassFunction = std::function<bool(const Renderer&)>;
+
+  /// All of it: start, passes until there are no more, finish.
+  RenderedImage render(const Scene& scene, const ProgressFunction& progress = {}, const PassFunction& after_pass = {});
+
+  /// Of the scene that was built last and of the image, each once.
+  std::vector<std::string> warnings() const;
+
+ private:
+  std::unique_ptr<impl::RendererState> state_;
+};
+
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
