@@ -32,8 +32,8 @@ struct BuildReport {
 
 /// Keeps what it built of a scene, its BVH above all, and a copy of what it needs: scenes may be changed and destroyed
 /// while it renders. Each `start` compares the scene with what was built. Without building, it takes another camera,
-/// image size, crop, number of samples, seed, integrator, noise target, denoiser and layers, unless layers need names or
-/// light groups that were not built. All else is built anew as a whole.
+/// image size, crop, number of samples, seed, integrator, noise target, denoiser and layers, unless layers need names
+/// or light groups that were not built. All else is built anew as a whole.
 ///
 /// Images have the same bits as those of `render(scene, settings)`, whatever was rendered before.
 ///
@@ -54,9 +54,9 @@ class Renderer {
   /// Begins an image, and drops one that is under way.
   BuildReport start(const Scene& scene, const ProgressFunction& progress = {});
 
-  /// Takes some samples of every pixel: `samples` rounded up to a multiple of 4, or if that is 0 as many as suit. Returns
-  /// whether more are to be taken: false at the end, once the time limit has passed or the noise target is reached, and
-  /// after `stop`.
+  /// Takes some samples of every pixel: `samples` rounded up to a multiple of 4, or if that is 0 as many as suit.
+  /// Returns whether more are to be taken: false at the end, once the time limit has passed or the noise target is
+  /// reached, and after `stop`.
   bool render_pass(int64_t samples = 0);
 
   /// The image so far, with all its layers, not denoised: the mean of the samples of every pixel. Between passes all

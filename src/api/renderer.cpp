@@ -40,7 +40,9 @@ bool places_camera(const Settings& s) {
 
 /// Of a film, what is compiled.
 bool is_same_film(const Scene& a, const Filter& filter, double exposure, CoatModel coats) {
-  const auto fields = [](const Filter& f) { return std::tie(f.type, f.x_radius, f.y_radius, f.sigma, f.b, f.c, f.tau); };
+  const auto fields = [](const Filter& f) {
+    return std::tie(f.type, f.x_radius, f.y_radius, f.sigma, f.b, f.c, f.tau);
+  };
   return fields(a.filter) == fields(filter) && a.film.exposure == exposure && a.coats == coats;
 }
 
@@ -69,8 +71,8 @@ struct RendererState {
   void build(const SceneState& scene) {
     renderer.reset();
     diagnostics = Diagnostics();
-    LoadedScene loaded = adapt_scene(scene.to_render(aspect_of(asked.width, asked.height)), scene.inputs, asked,
-                                     diagnostics);
+    LoadedScene loaded =
+        adapt_scene(scene.to_render(aspect_of(asked.width, asked.height)), scene.inputs, asked, diagnostics);
     built = std::make_unique<RenderSettings>(resolve_settings(asked, loaded.scene));
     scene_id = scene.id;
     revisions = scene.revisions;

@@ -25,8 +25,8 @@ inline double seconds_since(std::chrono::steady_clock::time_point start) {
 
 /// The number of samples of the next pass: whole blocks, enough to make the cost of a pass's end negligible, few enough
 /// for the image to grow evenly and for a time limit to be kept; at the end the remainder that is no whole block. With
-/// a noise target, a pass ends where pixels are decided on. `wanted`, if not 0, is how many there should be. `per_sample` is the time of one sample of every pixel, 0
-/// before the first pass, also of a render that is resumed.
+/// a noise target, a pass ends where pixels are decided on. `wanted`, if not 0, is how many there should be.
+/// `per_sample` is the time of one sample of every pixel, 0 before the first pass, also of a render that is resumed.
 inline uint32_t pass_size(const RenderSettings& settings, uint32_t max_size, uint32_t wanted, uint32_t samples_done,
                           double elapsed, double per_sample) {
   uint32_t left = settings.samples_per_pixel - samples_done;
@@ -74,8 +74,8 @@ class PassLoop {
     limit_.emplace(settings_.asked.time_limit, control_);
   }
 
-  /// Takes the samples of one pass: `wanted` in whole blocks, or as many as suit if it is 0. Returns whether another may
-  /// follow.
+  /// Takes the samples of one pass: `wanted` in whole blocks, or as many as suit if it is 0. Returns whether another
+  /// may follow.
   bool take_pass(uint32_t wanted) { return !is_done() && !control_.is_stopped() && take_next_pass(wanted); }
 
   /// Ends the render after any number of passes. Rethrows what a callback has thrown.

@@ -1,0 +1,32 @@
+#pragma once
+
+// Writes images to files.
+
+#include <string>
+
+#include "alhazen/alhazen.h"
+#include "alhazen/version.h"
+
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+
+/// How values above 1 come within what a display shows.
+enum class ToneMapping { none, reinhard, filmic, aces, agx };
+
+/// Each format uses what it names.
+struct SaveOptions {
+  /// PNG, JPEG: stops; values are multiplied by 2^exposure before anything else.
+  double exposure = 0;
+  double white_temperature = 0;  ///< PNG, JPEG: kelvin; light of this colour becomes white; 0: D65, unchanged
+  ToneMapping tone_mapping = ToneMapping::none;  ///< PNG, JPEG
+  int png_depth = 8;                             ///< PNG: 8 or 16 bits per channel
+  int jpeg_quality = 95;                         ///< JPEG: 1 to 100
+  bool single_precision = false;                 ///< EXR: of colours, too; depth, positions, ids and counts always are
+};
+
+/// Writes the image completely or not at all, replacing a file of that name. The extension chooses the format: .exr
+/// (all channels), .png, .jpg (sRGB, clamped to [0, 1]; PNG with A where the image has it), .hdr, .pfm (R, G and B).
+/// Throws InputError for another extension, options out of range and an image without pixels, Error if it cannot be
+/// written.
+void save(const RenderedImage& image, const std::string& file, const SaveOptions& options = {});
+
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

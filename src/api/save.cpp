@@ -1,0 +1,69 @@
+#include "alhazen/save.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "colour/white_point.h"
+#include "images/image.h"
+
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+
+namespace {
+
+impl::ToneMap tone_map_of(ToneMapping mapping) {
+  switch (mapping) {
+    case ToneMapping::reinhard:
+      return impl::ToneMap::reinhard;
+    case ToneMapping::filmic:
+      return impl::ToneMap::filmic;
+    case ToneMapping::aces:
+      return impl::ToneMap::aces;
+    case ToneMapping::agx:
+      return impl::ToneMap::agx;
+    case ToneMapping::none:
+      break;
+  }
+  return impl::ToneMap::none;
+}
+
+void check(const RenderedImage& image, const std::string& file, const SaveOptions& options) {
+  if (!impl::has_written_extension(file))
+    throw impl::InputError(
+        {file}, "images are written as " + impl::written_extensions() + ": give a name that ends in one of them");
+  const size_t pixels = static_cast<size_t>(std::max(image.width, 0)) * static_cast<size_t>(std::max(image.height, 0));
+  if (pixels == 0 || image.planes.size() != image.channels.size() ||
+      std::any_of(image.planes.begin(), image.planes.end(), [&](const auto& plane) { return plane.size() != pixels; }))
+    throw InputError("image: it has no pixels, or its planes do not hold width * height values each");
+  if (!std::isfinite(options.exposure)) throw InputError("exposure must be a finite number of stops");
+  if (options.white_temperature != 0 && !(options.white_temperature >= impl::min_white_temperature &&
+                                          options.white_temperature <= impl::max_white_temperature))
+    throw InputError("white_temperature must be 0, or from 1000 to 25000 kelvin");
+  if (options.png_depth != 8 && options.png_depth != 16) throw InputError("png_depth must be 8 or 16");
+  if (options.jpeg_quality < 1 || options.jpeg_quality > 100) throw InputError("jpeg_quality must be from 1 to 100");
+}
+
+}  // namespace
+
+void save(const RenderedImage& image, const std::string& file, const SaveOptions& options) {
+  check(image, file, options);
+  impl::WriteOptions how;
+  how.pixel_type = options.single_precision ? impl::ExrPixelType::single : impl::ExrPixelType::half;
+  how.exposure = options.exposure;
+  how.white_temperature = options.white_temperature;
+  how.tone_map = tone_map_of(options.tone_mapping);
+  how.png_depth = options.png_depth;
+  how.jpeg_quality = options.jpeg_quality;
+  how.metadata["software"] = std::string("Alhazen ") + version();
+  const size_t width = static_cast<size_t>(image.width);
+  impl::write_image(file,
+                    {image.width, image.height, image.channels,
+                     [&](int y, std::span<float> row) {
+                       for (size_t c = 0; c < image.planes.size(); ++c)
+                         std::copy_n(
+                             image.planes[c].begin() + static_cast<std::ptrdiff_t>(static_cast<size_t>(y) * width),
+                             width, row.begin() + static_cast<std::ptrdiff_t>(c * width));
+                     }},
+                    how);
+}
+
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
