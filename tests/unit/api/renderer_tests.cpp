@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace alhazen::impl::test {
+namespace alhazen {
 
 namespace {
 
@@ -192,4 +192,4 @@ TEST(Renderer, SeveralAreIndependent) {
 
 }  // namespace
 
-}  // namespace alhazen::impl::test
+}  // namespace alhazen
