@@ -55,7 +55,7 @@ struct RendererState {
   bool reuse(const SceneState& scene) {
     if (!renderer || scene.id != scene_id || places_camera(asked)) return false;
     SceneRevisions now = scene.revisions;
-    now.camera = revisions.camera, now.film = revisions.film;
+    now.camera = revisions.camera, now.film = revisions.film, now.materials = revisions.materials;
     if (now != revisions) return false;
     const Scene& description = scene.description;
     if (!is_same_film(description, filter, exposure, coats)) return false;
@@ -64,6 +64,8 @@ struct RendererState {
       return false;
     const RenderSettings resolved = resolve_settings(asked, description);
     if (BuildKey(resolved).fields() != BuildKey(*built).fields()) return false;
+    if (scene.revisions.materials != revisions.materials && !renderer->change_materials(description)) return false;
+    revisions = scene.revisions;
     set_image(renderer->begin(events(), &description.camera, &resolved));
     return true;
   }

@@ -78,6 +78,7 @@ class SceneCompiler {
     flat.statistics.lights = out_.lights.size() + (is_zero(flat.view.background) ? 0 : 1);
     flat.statistics.instances = out_.instances.size();
     out_.move_into(flat);
+    if (options_.for_cameras) flat.materials = std::make_shared<const CompiledMaterials>(materials_);
     flat.object_names = names_.objects();
     flat.material_names = names_.materials();
     open_seen_backs(static_cast<uint32_t>(width_), static_cast<uint32_t>(height_), options_.threads, flat);

@@ -41,6 +41,8 @@ struct BackOpenings {
   uint32_t lets_light_through = 0;  ///< of the scene with nothing open
 };
 
+struct CompiledMaterials;
+
 /// Owns the memory of `view`. Every pointer of the view is in [arena, arena + statistics.bytes), so copying those bytes
 /// and shifting the pointers makes the same scene elsewhere.
 template <class Real>
@@ -52,7 +54,9 @@ struct CompiledScene {
   /// By id - 1, in the order in which they were found; empty unless they were asked for.
   std::vector<std::string> object_names, material_names;
   std::vector<std::string> light_groups;  ///< their names; likewise
-  BackOpenings backs;                     ///< if it was compiled for several cameras
+  // If it was compiled for several images:
+  BackOpenings backs;
+  std::shared_ptr<const CompiledMaterials> materials;  ///< compile/update_materials.h
 };
 
 }  // namespace alhazen::impl

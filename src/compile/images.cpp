@@ -156,20 +156,29 @@ void fit_images(Scene& scene, uint64_t budget, Diagnostics& diagnostics) {
                                      std::to_string(scene.images.size()) + " were made smaller");
 }
 
-template <class Real>
-ImageBuilder<Real>::ImageBuilder(Scene& scene, SceneArrays<Real>& out) : out_(out) {
+std::vector<bool> filtered_images(const Scene& scene) {
   std::vector<bool> is_filtered(scene.images.size());
   for (const Texture& texture : scene.textures)
     if (texture.kind == TextureKind::image && !texture.nearest && texture.image < is_filtered.size())
       is_filtered[texture.image] = true;
+  return is_filtered;
+}
+
+template <class Real>
+ImageBuilder<Real>::ImageBuilder(Scene& scene, SceneArrays<Real>& out) : out_(out) {
+  const std::vector<bool> is_filtered = filtered_images(scene);
   for (size_t i = 0; i < scene.images.size(); ++i) add(scene.images[i], is_filtered[i]);
 }
 
 template <class Real>
-typename ImageBuilder<Real>::Level ImageBuilder<Real>::append(const ImageTexels& image) {
+ImageBuilder<Real>::ImageBuilder(std::vector<ImagePyramid> pyramids, SceneArrays<Real>& out)
+    : out_(out), pyramids_(std::move(pyramids)) {}
+
+template <class Real>
+ImagePyramid::Level ImageBuilder<Real>::append(const ImageTexels& image) {
   const bool is_float = !image.floats.empty();
-  const Level level{is_float ? out_.texel_floats.size() : out_.texel_bytes.size(), static_cast<uint32_t>(image.width),
-                    static_cast<uint32_t>(image.height)};
+  const ImagePyramid::Level level{is_float ? out_.texel_floats.size() : out_.texel_bytes.size(),
+                                  static_cast<uint32_t>(image.width), static_cast<uint32_t>(image.height)};
   out_.texel_bytes.insert(out_.texel_bytes.end(), image.bytes.begin(), image.bytes.end());
   out_.texel_floats.insert(out_.texel_floats.end(), image.floats.begin(), image.floats.end());
   return level;
@@ -183,7 +192,7 @@ void ImageBuilder<Real>::add(ImageTexels& image, bool with_pyramid) {
       (is_float ? image.floats.size() : image.bytes.size()) != values)
     throw InputError({image.name}, "the image does not hold width * height * channels values, of 1 or 3 channels");
   reduce_grey(image);
-  Pyramid pyramid{{append(image)}, is_float, image.srgb, static_cast<uint32_t>(image.channels)};
+  ImagePyramid pyramid{{append(image)}, is_float, image.srgb, static_cast<uint32_t>(image.channels)};
   while (with_pyramid && (image.width > 1 || image.height > 1)) {
     image = halved(image);
     pyramid.levels.push_back(append(image));
@@ -201,10 +210,10 @@ uint32_t ImageBuilder<Real>::record(const Texture& texture) {
   const auto [known, is_new] = records_.try_emplace({texture.image, texture.wrap, wrap_t, texture.nearest},
                                                     static_cast<uint32_t>(out_.images.size()));
   if (!is_new) return known->second;
-  const Pyramid& pyramid = pyramids_[texture.image];
+  const ImagePyramid& pyramid = pyramids_[texture.image];
   const size_t levels = texture.nearest ? 1 : pyramid.levels.size();
   for (size_t i = 0; i < levels; ++i) {
-    const Level& level = pyramid.levels[i];
+    const ImagePyramid::Level& level = pyramid.levels[i];
     out_.images.push_back({level.first, level.width, level.height, pyramid.is_float ? 1u : 0u,
                            pyramid.is_srgb ? 1u : 0u, static_cast<uint32_t>(texture.wrap),
                            static_cast<uint32_t>(wrap_t), texture.nearest ? 1u : 0u, pyramid.channels,

@@ -370,22 +370,38 @@ std::vector<TextureRange> compile_emission(const Scene& scene, TextureBuilder<Re
   return emission;
 }
 
-}  // namespace
-
 template <class Real>
-CompiledMaterials compile_materials(Scene& scene, SceneArrays<Real>& out) {
+CompiledMaterials compile(const Scene& scene, ImageBuilder<Real>& images, SceneArrays<Real>& out) {
   add_texture_tables(out);
-  TextureBuilder<Real> textures(scene, out);
+  TextureBuilder<Real> textures(scene, images, out);
   MaterialBuilder<Real> materials(scene, textures, out);
   CompiledMaterials compiled;
   for (const Material& material : scene.materials) compiled.needs_uv.push_back(materials.add(material));
   pass_on_to_mixes(scene, compiled.needs_uv);
   materials.add(Material{});
   compiled.emission = compile_emission(scene, textures);
+  compiled.images = images.pyramids();
+  compiled.filtered_images = filtered_images(scene);
   return compiled;
+}
+
+}  // namespace
+
+template <class Real>
+CompiledMaterials compile_materials(Scene& scene, SceneArrays<Real>& out) {
+  ImageBuilder<Real> images(scene, out);
+  return compile(scene, images, out);
+}
+
+template <class Real>
+CompiledMaterials compile_materials_again(const Scene& scene, const CompiledMaterials& before, SceneArrays<Real>& out) {
+  ImageBuilder<Real> images(before.images, out);
+  return compile(scene, images, out);
 }
 
 template CompiledMaterials compile_materials(Scene&, SceneArrays<float>&);
 template CompiledMaterials compile_materials(Scene&, SceneArrays<double>&);
+template CompiledMaterials compile_materials_again(const Scene&, const CompiledMaterials&, SceneArrays<float>&);
+template CompiledMaterials compile_materials_again(const Scene&, const CompiledMaterials&, SceneArrays<double>&);
 
 }  // namespace alhazen::impl

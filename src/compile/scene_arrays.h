@@ -66,4 +66,40 @@ struct SceneArrays {
   }
 };
 
+/// Some of the arrays.
+struct ArraySet {
+#define ALHAZEN_ARRAY(type, name) bool name = false;
+  ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+};
+
+/// Replaces these arrays of a compiled scene by those of `fresh`: in place where they have as many elements, else in
+/// another arena to which all others are copied.
+template <class Real>
+void replace_arrays(const SceneArrays<Real>& fresh, const ArraySet& replaced, CompiledScene<Real>& scene) {
+  bool fits = true;
+#define ALHAZEN_ARRAY(type, name) fits = fits && (!replaced.name || fresh.name.size() == scene.view.name##_count);
+  ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+  if (fits) {
+#define ALHAZEN_ARRAY(type, name)                                                                              \
+  if (replaced.name && !fresh.name.empty())                                                                    \
+    std::memcpy(scene.arena.get() + (reinterpret_cast<const std::byte*>(scene.view.name) - scene.arena.get()), \
+                static_cast<const void*>(fresh.name.data()), fresh.name.size() * sizeof(type));
+    ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+    return;
+  }
+  SceneArrays<Real> all;
+#define ALHAZEN_ARRAY(type, name) \
+  if (replaced.name)              \
+    all.name = fresh.name;        \
+  else                            \
+    all.name.assign(scene.view.name, scene.view.name + scene.view.name##_count);
+  ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+  all.bounds = scene.view.bounds;
+  all.move_into(scene);
+}
+
 }  // namespace alhazen::impl

@@ -39,8 +39,8 @@ void add_texture_tables(SceneArrays<Real>& out) {
 }
 
 template <class Real>
-TextureBuilder<Real>::TextureBuilder(Scene& scene, SceneArrays<Real>& out)
-    : scene_(scene), out_(out), images_(scene, out) {}
+TextureBuilder<Real>::TextureBuilder(const Scene& scene, ImageBuilder<Real>& images, SceneArrays<Real>& out)
+    : scene_(scene), out_(out), images_(images) {}
 
 template <class Real>
 TextureRange TextureBuilder<Real>::range(uint32_t root) {

@@ -21,7 +21,7 @@ void add_texture_tables(SceneArrays<Real>& out);
 template <class Real>
 class TextureBuilder {
  public:
-  TextureBuilder(Scene& scene, SceneArrays<Real>& out);
+  TextureBuilder(const Scene& scene, ImageBuilder<Real>& images, SceneArrays<Real>& out);
 
   /// The program of texture `root`; the same range when it is asked for again. Absent for `no_index`.
   TextureRange range(uint32_t root);
@@ -42,13 +42,13 @@ class TextureBuilder {
   static constexpr int max_nesting = 96;
   static constexpr uint64_t max_nodes = uint64_t{1} << 24;
 
-  Scene& scene_;
+  const Scene& scene_;
   SceneArrays<Real>& out_;
   std::vector<TextureRange> ranges_;          ///< by texture; count 0: not built yet
   std::vector<bool> depends_on_uv_;           ///< by texture
   std::vector<uint64_t> nodes_;               ///< by texture; 0: not known yet
   std::map<std::string, uint32_t> mappings_;  ///< by the bytes of their records, so that equal ones are one
-  ImageBuilder<Real> images_;
+  ImageBuilder<Real>& images_;
 };
 
 }  // namespace alhazen::impl

@@ -13,6 +13,7 @@
 
 #include "compile/change_camera.h"
 #include "compile/compile_scene.h"
+#include "compile/update_materials.h"
 #include "render/denoiser.h"
 #include "render/pass_loop.h"
 #include "util/thread_limit.h"
@@ -147,12 +148,7 @@ class RendererOf final : public SceneRenderer {
     if (camera) {
       change_camera(*camera, scene_name_, statistics.settings.width, statistics.settings.height, build_threads(),
                     flat_);
-      // A device has a copy of the scene.
-      if (settings_.runs_on_device && is_prepared_) {
-        make_backend();
-        started_.get();
-        is_prepared_ = false;
-      }
+      if (settings_.runs_on_device) drop_backend();
     }
     set_view(statistics.settings);
     statistics.scene_sizes = flat_.statistics;
@@ -164,10 +160,26 @@ class RendererOf final : public SceneRenderer {
     return std::make_unique<GrowingImageOf<Real>>(*backend_, flat_, std::move(rendering), events, diagnostics_);
   }
 
+  bool change_materials(const Scene& description) override {
+    const std::byte* const arena = flat_.arena.get();
+    if (!update_materials(description, flat_)) return false;
+    // A device has a copy of the scene, and other libraries may refer to its arrays.
+    if (settings_.runs_on_device || flat_.arena.get() != arena) drop_backend();
+    return true;
+  }
+
  private:
   bool is_on_gpu() const { return settings_.runs_on_device && settings_.device != host_device; }
 
   int build_threads() const { return is_on_gpu() ? 0 : settings_.threads; }
+
+  /// Replaces a backend that has been prepared.
+  void drop_backend() {
+    if (!is_prepared_) return;
+    make_backend();
+    started_.get();
+    is_prepared_ = false;
+  }
 
   /// Sets what integrators read of the settings in the scene.
   void set_view(const RenderSettings& settings) {

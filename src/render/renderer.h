@@ -89,6 +89,9 @@ class SceneRenderer {
   /// The same, to be rendered pass by pass.
   virtual std::unique_ptr<GrowingImage> begin(const RenderEvents& events, const Camera* camera = nullptr,
                                               const RenderSettings* preview = nullptr) = 0;
+  /// For the next images: other values of materials and textures, as update_materials does. Returns false where that
+  /// does not do.
+  virtual bool change_materials(const Scene& description) = 0;
 };
 
 /// Compiles the scene; `settings` and `diagnostics` must outlive what is returned. Images do not depend on which others
