@@ -25,15 +25,19 @@ namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 /// What `start` did.
 struct BuildReport {
-  /// False if the scene that was built before is used, with another camera or other settings.
+  /// False if the scene that was built before is used.
   bool is_new = false;
   double seconds = 0;  ///< that `start` took
 };
 
 /// Keeps what it built of a scene, its BVH above all, and a copy of what it needs: scenes may be changed and destroyed
-/// while it renders. Each `start` compares the scene with what was built. Without building, it takes another camera,
-/// image size, crop, number of samples, seed, integrator, noise target, denoiser and layers, unless layers need names
-/// or light groups that were not built. All else is built anew as a whole.
+/// while it renders. Each `start` compares the scene with what was built. Without building, it takes
+/// - another camera, image size, crop, number of samples, seed, noise target, guiding, denoiser, and layers unless they
+///   need names or light groups that were not built;
+/// - other values and kinds of materials and textures, as long as no surface begins or ceases to be one-sided, to have
+/// an
+///   opacity, or to use uv coordinates, and no texture of a light changes.
+/// All else is built anew as a whole.
 ///
 /// Images have the same bits as those of `render(scene, settings)`, whatever was rendered before.
 ///

@@ -90,7 +90,11 @@ TEST(Renderer, BuildsOnlyForWhatNeedsIt) {
   settings.precision = "double";
   expect(true, "a precision");
   room.scene.set(room.floor, Diffuse{.reflectance = Colour{0.1, 0.8, 0.1}});
-  expect(true, "a material");
+  expect(false, "a material's colour");
+  room.scene.set(room.floor, Principled{.base_colour = Colour{0.1, 0.8, 0.1}, .roughness = 0.3, .clearcoat = 1.0});
+  expect(false, "a material's kind");
+  room.scene.set(room.floor, Diffuse{.reflectance = room.scene.add(CheckerboardTexture{})});
+  expect(true, "a texture over uv");
   settings.look_at = {0, 4, 0.1, 0, 0, 0};
   expect(true, "a camera by settings");
 }
