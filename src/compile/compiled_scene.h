@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "compile/scene_origins.h"
 #include "core/scene_view.h"
 
 namespace alhazen::impl {
@@ -53,6 +54,7 @@ struct CompiledScene {
   std::vector<std::string> object_names, material_names;
   std::vector<std::string> light_groups;  ///< their names; likewise
   BackOpenings backs;                     ///< if it was compiled for several cameras
+  SceneOrigins origins;                   ///< if they were asked for
 };
 
 }  // namespace alhazen::impl
