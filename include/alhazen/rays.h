@@ -20,12 +20,13 @@
 #include <vector>
 
 #include "alhazen/alhazen.h"
+#include "alhazen/version.h"
 
-namespace alhazen {
-
-namespace impl {
+namespace alhazen::impl {
 class QueryScene;
 }
+
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 /// Rays to trace, in arrays of the caller. A hit at the parameter t, at origin + t * direction, counts if
 /// 0 < t < t_max: both ends are open.
@@ -101,8 +102,8 @@ class RayQueries {
   RayQueries& operator=(const RayQueries&) = default;
 
   /// Finds the closest hit of every ray, or that it misses everything. `threads` is the maximum number of threads; 0:
-  /// all processors. Throws std::invalid_argument, before it writes anything, if `origins` or `directions` is null
-  /// although there are rays, or `threads` is negative.
+  /// all processors. Throws InputError, before it writes anything, if `origins` or `directions` is null although there
+  /// are rays, or `threads` is negative.
   ///
   /// The arrays must not overlap, and outlive only the call. They need not be aligned.
   void closest_hits(const RayArrays<float>& rays, const HitArrays<float>& hits, int threads = 0) const;
@@ -123,4 +124,4 @@ class RayQueries {
   std::shared_ptr<const impl::QueryScene> scene_;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

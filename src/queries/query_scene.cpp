@@ -3,7 +3,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "compile/compile_scene.h"
@@ -82,10 +81,10 @@ void QueryScene::compile(Scene&& scene, int threads, Diagnostics& diagnostics) {
 template <class Number>
 void QueryScene::answer(const RayArrays<Number>& rays, const HitArrays<Number>& hits, uint8_t* occluded, int threads,
                         InstructionSet set) const {
-  if (threads < 0) throw std::invalid_argument("the number of threads must not be negative");
+  if (threads < 0) throw InputError("the number of threads must not be negative");
   if (rays.count == 0) return;
-  if (!rays.origins) throw std::invalid_argument("the array of the rays' origins is null");
-  if (!rays.directions) throw std::invalid_argument("the array of the rays' directions is null");
+  if (!rays.origins) throw InputError("the array of the rays' origins is null");
+  if (!rays.directions) throw InputError("the array of the rays' directions is null");
   const bool any_hit = occluded != nullptr;
   const RayQueryKernel<Number> kernel = kernel_of<Number>(set, compiled_.index() == 1, any_hit);
   const RayQueryRequest<Number> whole = std::visit(
@@ -128,7 +127,7 @@ void QueryScene::closest_hits(const RayArrays<Number>& rays, const HitArrays<Num
 
 template <class Number>
 void QueryScene::occluded(const RayArrays<Number>& rays, uint8_t* occluded, int threads, InstructionSet set) const {
-  if (!occluded && rays.count > 0) throw std::invalid_argument("the array for the results, occluded, is null");
+  if (!occluded && rays.count > 0) throw InputError("the array for the results, occluded, is null");
   answer(rays, {}, occluded, threads, set);
 }
 

@@ -195,7 +195,7 @@ TYPED_TEST(QueryArrays, MissingArraysAreErrorsThatNameThem) {
     try {
       query();
       ADD_FAILURE() << "no error about " << part;
-    } catch (const std::invalid_argument& error) {
+    } catch (const InputError& error) {
       EXPECT_NE(std::string::npos, std::string(error.what()).find(part)) << error.what();
     }
   };

@@ -79,13 +79,13 @@ TEST(RayQueries, ReadFilesOfScenes) {
 }
 
 TEST(RayQueries, ReportWhatIsWrongWithFilesAndSettings) {
-  EXPECT_THROW(RayQueries::from_file("no-such-file.pbrt"), std::runtime_error);
+  EXPECT_THROW(RayQueries::from_file("no-such-file.pbrt"), alhazen::InputError);
   Settings settings;
   settings.precision = "half";
-  EXPECT_THROW(RayQueries::from_file(ALHAZEN_SOURCE_DIR "/scenes/cornell.pbrt", settings), std::runtime_error);
+  EXPECT_THROW(RayQueries::from_file(ALHAZEN_SOURCE_DIR "/scenes/cornell.pbrt", settings), alhazen::InputError);
   settings = {};
   settings.threads = -1;
-  EXPECT_THROW(RayQueries::from_file(ALHAZEN_SOURCE_DIR "/scenes/cornell.pbrt", settings), std::runtime_error);
+  EXPECT_THROW(RayQueries::from_file(ALHAZEN_SOURCE_DIR "/scenes/cornell.pbrt", settings), alhazen::InputError);
 }
 
 TEST(RayQueries, NormalsPointToTheFront) {
