@@ -55,6 +55,7 @@ constexpr size_t min_piece = 256, max_piece = 16'384, pieces_per_thread = 8;
 QueryScene::QueryScene(Scene&& scene, Precision precision, int threads, Diagnostics& diagnostics) {
   const ThreadDefaults defaults;
   keep_geometry(scene);
+  if (threads > 0) threads = threads_available(threads);
   if (precision == Precision::double_)
     compile<double>(std::move(scene), threads, diagnostics);
   else

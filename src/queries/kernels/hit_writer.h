@@ -21,8 +21,10 @@ class HitWriter {
   bool wants_records() const { return wants_surface() || hits_.shapes || hits_.instances; }
 
   /// Writes the results of the rays of a chunk, of which the first is `first` of all.
-  void write(const RayChunk<Real, Number>& rays, size_t first, uint32_t count, const bool* found,
-             const Hit<Real>* hits) const {
+  void write(const RayChunk<Real, Number>& rays, const ChunkHits<Real>& results, size_t first) const {
+    const uint32_t count = rays.count;
+    const bool* const found = results.found;
+    const Hit<Real>* const hits = results.hit;
     if (hits_.t)
       for (uint32_t i = 0; i < count; ++i)
         store_number(hits_.t + first + i, found[i] ? rays.parameter(i, hits[i].t) : infinity<Number>);
@@ -38,7 +40,7 @@ class HitWriter {
     for (uint32_t i = 0; i < count; ++i) {
       if (i + ahead < count && found[i + ahead]) prefetch_vertices(*scene_, hits[i + ahead].primitive);
       if (found[i])
-        write_surface(first + i, rays.ray(i), hits[i]);
+        write_surface(first + i, rays.rays[i], hits[i]);
       else
         clear_surface(first + i);
     }

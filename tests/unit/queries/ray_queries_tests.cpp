@@ -113,8 +113,8 @@ TEST(RayQueries, IgnoreMaterials) {
   scene.groups[0].shapes[0].material = 0;
   scene.groups[0].shapes[0].emission = Emission{{1, 1, 1}};
   const RayQueries queries = queries_of(std::move(scene));
-  EXPECT_EQ(3, hit_of(queries, {0.2, 0.2, 3}, {0, 0, -1}).t[0]);
-  EXPECT_EQ(3, hit_of(queries, {0.2, 0.2, -3}, {0, 0, 1}).t[0]);
+  EXPECT_NEAR(3, hit_of(queries, {0.2, 0.2, 3}, {0, 0, -1}).t[0], 1e-6);
+  EXPECT_NEAR(3, hit_of(queries, {0.2, 0.2, -3}, {0, 0, 1}).t[0], 1e-6);
 }
 
 TEST(RayQueries, UvsAndBarycentricsAreInTheOrderOfTheVertices) {
