@@ -2,9 +2,10 @@
 """Compares traversal, whole renders and builds with Embree: interleaved repeats in one run, medians, ratios.
 
 usage: scripts/bench-rays.py [--binary build/release/bench/alhazen_bench] [--mesh MESH.ply] [--repeats 5]
-                             [--filter REGEX] [--json FILE] [--markdown]
+                             [--filter REGEX] [--than ENGINE] [--json FILE] [--markdown]
 
-Each group of the same rays, renders or builds is compared with Embree's line in it. A ratio above 1 is faster than Embree.
+Each group of the same rays, renders or builds is compared with Embree's line in it, or with that of another engine. A
+ratio above 1 is faster than that.
 """
 
 import argparse
@@ -48,6 +49,7 @@ def main():
     parser.add_argument("--mesh", help="the mesh of the scene 'knot' (default: scenes/knot.ply.gz)")
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--filter", default="^(rays|whole|build)/")
+    parser.add_argument("--than", default="float embree", help="the engine that ratios are to")
     parser.add_argument("--json", help="write the raw report here")
     parser.add_argument("--markdown", action="store_true", help="tables for docs/results")
     options = parser.parse_args()
@@ -62,11 +64,11 @@ def main():
     if options.markdown:
         print("|---|---|---|---|---|")
     for group, engines in sorted(groups_of(report).items()):
-        embree = engines.get("float embree")
+        than = engines.get(options.than)
         for engine, (times, rays, memory) in sorted(engines.items(), key=lambda line: line[0].split(" ")[::-1]):
             median = statistics.median(times)
             speed = f"{rays / median / 1e3:.1f}" if rays else f"{memory:.0f} B/tri" if memory else ""
-            ratio = f"{statistics.median(embree[0]) / median:.2f}" if embree else ""
+            ratio = f"{statistics.median(than[0]) / median:.2f}" if than else ""
             print(row.format(group, engine, f"{median:.1f} ({min(times):.1f} to {max(times):.1f})", speed, ratio))
 
 

@@ -24,10 +24,11 @@ MAY_INCLUDE = {
     "io": {"io"} | BELOW_IO,
     "compile": {"compile", "scene", "util", "core"},
     "render": {"render", "compile", "images", "files", "scene", "util", "core", "alhazen"},
+    "queries": {"queries", "render", "compile", "scene", "util", "core", "alhazen"},
     "backends": {"backends", "render", "compile", "scene", "util", "core"},
     "pipeline": {"pipeline"} | BELOW_PIPELINE,
     "study": {"study"} | BELOW_STUDY,
-    "api": {"api", "study"} | BELOW_STUDY,
+    "api": {"api", "queries", "study"} | BELOW_STUDY,
     "cli": {"cli", "study"} | BELOW_STUDY - {"core"},
     "alhazen": {"alhazen"},
 }

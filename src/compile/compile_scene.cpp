@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compile/camera.h"
@@ -77,6 +78,8 @@ class SceneCompiler {
     count_primitives(flat.statistics);
     flat.statistics.lights = out_.lights.size() + (is_zero(flat.view.background) ? 0 : 1);
     flat.statistics.instances = out_.instances.size();
+    flat.origins = std::move(origins_);
+    flat.origins.triangles = std::move(out_.triangle_origins);
     out_.move_into(flat);
     if (options_.for_cameras) flat.materials = std::make_shared<const CompiledMaterials>(materials_);
     flat.object_names = names_.objects();
@@ -170,21 +173,21 @@ class SceneCompiler {
 
   void place_shapes() {
     if (names_things()) name_instances(scene_);
-    group_moving_meshes(scene_);
+    const DescribedIndices described = group_moving_meshes(scene_);
     const std::vector<bool> is_object = find_objects(scene_, options_.max_copied_triangles);
     check_placements(is_object);
-    const std::vector<ShapePlacement> world = world_placements(scene_, is_object);
-    const std::vector<std::vector<ShapePlacement>> objects = object_placements(scene_, is_object);
+    const std::vector<ShapePlacement> world = world_placements(scene_, is_object, described);
+    const std::vector<std::vector<ShapePlacement>> objects = object_placements(scene_, is_object, described);
     shapes_.count(world);
     for (const std::vector<ShapePlacement>& object : objects) shapes_.count(object);
     check_meshes(world.size());
     shapes_.reserve();
     for (const ShapePlacement& p : world) shapes_.place(p);
-    place_objects(objects);
+    place_objects(objects, described);
   }
 
   /// Places the shapes of objects, by group, and the instances that refer to them.
-  void place_objects(const std::vector<std::vector<ShapePlacement>>& objects) {
+  void place_objects(const std::vector<std::vector<ShapePlacement>>& objects, const DescribedIndices& described) {
     std::vector<uint32_t> object_of(objects.size(), no_index);
     for (size_t g = 0; g < objects.size(); ++g) {
       ObjectRecord object{};
@@ -195,11 +198,13 @@ class SceneCompiler {
       object_of[g] = static_cast<uint32_t>(out_.objects.size());
       out_.objects.push_back(object);
     }
-    for (const Instance& instance : scene_.instances)
-      if (object_of[instance.group] != no_index) {
-        add_instance(scene_, instance, object_of[instance.group], out_);
-        if (names_things()) out_.instances.back().object_id = names_.object_id(instance);
-      }
+    for (size_t i = 0; i < scene_.instances.size(); ++i) {
+      const Instance& instance = scene_.instances[i];
+      if (object_of[instance.group] == no_index) continue;
+      add_instance(scene_, instance, object_of[instance.group], out_);
+      if (names_things()) out_.instances.back().object_id = names_.object_id(instance);
+      if (options_.keeps_origins) origins_.instances.push_back(described.instances[i]);
+    }
   }
 
   /// Checks that the shapes of the world and copies of groups that are no objects fit into memory.
@@ -235,8 +240,14 @@ class SceneCompiler {
   std::vector<double> light_measures_;    ///< by light, see assign_light_probabilities
   std::vector<size_t> described_lights_;  ///< of the first lights: index into Scene::lights
   SceneNames names_{scene_};
-  ShapeBuilder<Real> shapes_{scene_,          materials_,   out_,
-                             light_measures_, diagnostics_, names_things() ? &names_ : nullptr};
+  SceneOrigins origins_;  ///< but for the triangles, which out_ has
+  ShapeBuilder<Real> shapes_{scene_,
+                             materials_,
+                             out_,
+                             light_measures_,
+                             diagnostics_,
+                             names_things() ? &names_ : nullptr,
+                             options_.keeps_origins ? &origins_.surfaces : nullptr};
   uint64_t placed_shapes_ = 0;
 };
 

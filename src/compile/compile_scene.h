@@ -29,6 +29,8 @@ struct CompileOptions {
   /// Whether lights get groups: these, or one for each name if there are none (compile/light_groups.h).
   bool groups_lights = false;
   std::vector<LightGroup> light_groups = {};
+  /// Whether CompiledScene::origins is filled, and all shapes have uvs; for scenes without one-sided materials.
+  bool keeps_origins = false;
 };
 
 /// Consumes the description while it compiles, so that meshes are not held twice in memory. Throws InputError for

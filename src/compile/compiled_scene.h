@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "compile/scene_origins.h"
 #include "core/scene_view.h"
 
 namespace alhazen::impl {
@@ -54,6 +55,7 @@ struct CompiledScene {
   /// By id - 1, in the order in which they were found; empty unless they were asked for.
   std::vector<std::string> object_names, material_names;
   std::vector<std::string> light_groups;  ///< their names; likewise
+  SceneOrigins origins;                   ///< if they were asked for
   // If it was compiled for several images:
   BackOpenings backs;
   std::shared_ptr<const CompiledMaterials> materials;  ///< compile/update_materials.h

@@ -1,6 +1,7 @@
 #include "compile/instances.h"
 
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -12,10 +13,16 @@ namespace {
 /// the world instead.
 bool is_in_object(const Shape& shape) { return shape.type == ShapeType::mesh && !emits(shape); }
 
+struct DescribedInstance {
+  Instance instance;
+  uint32_t index = no_index;  ///< in the description
+};
+
 /// If the instance moves too, the positions at start and end are exact, and points move linearly in between.
-void move_by_instances(Shape shape, const std::vector<Instance>& of_object, Scene& scene) {
+void move_by_instances(Shape shape, uint32_t index, const std::vector<DescribedInstance>& of_object, Scene& scene,
+                       DescribedIndices& described) {
   const MovingTransform inner = std::exchange(shape.world_from_object, {});
-  for (Instance instance : of_object) {
+  for (auto [instance, instance_index] : of_object) {
     const MovingTransform& outer = instance.world_from_group;
     if (instance.group == no_index) {
       instance.where = shape.where;
@@ -24,8 +31,10 @@ void move_by_instances(Shape shape, const std::vector<Instance>& of_object, Scen
     instance.world_from_group = {outer.start * inner.start, outer.end * inner.end};
     instance.group = static_cast<uint32_t>(scene.groups.size());
     scene.instances.push_back(std::move(instance));
+    described.instances.push_back(instance_index);
   }
   scene.groups.push_back({{}, {std::move(shape)}});
+  described.shapes.push_back({index});
 }
 
 /// Matrices are interpolated linearly.
@@ -59,21 +68,31 @@ double fraction_of_motion(const Scene& scene, const MovingTransform& transform, 
   return clamp((time - scene.transform_start_time) / span, 0.0, 1.0);
 }
 
-void group_moving_meshes(Scene& scene) {
+DescribedIndices group_moving_meshes(Scene& scene) {
   const size_t group_count = scene.groups.size();
-  std::vector<std::vector<Instance>> instances(group_count);
+  DescribedIndices described;
+  described.shapes.resize(group_count);
+  described.instances.resize(scene.instances.size());
+  std::iota(described.instances.begin(), described.instances.end(), 0u);
+  std::vector<std::vector<DescribedInstance>> instances(group_count);
   instances.at(0).emplace_back();  // the world itself
-  for (const Instance& instance : scene.instances)
-    if (instance.group < group_count) instances[instance.group].push_back(instance);
+  for (uint32_t i = 0; i < scene.instances.size(); ++i)
+    if (scene.instances[i].group < group_count) instances[scene.instances[i].group].push_back({scene.instances[i], i});
   for (size_t g = 0; g < group_count; ++g) {
     std::vector<Shape> still;
-    for (Shape& shape : std::exchange(scene.groups[g].shapes, {}))
-      if (shape.world_from_object.is_moving() && is_in_object(shape))
-        move_by_instances(std::move(shape), instances[g], scene);
-      else
+    uint32_t index = 0;
+    for (Shape& shape : std::exchange(scene.groups[g].shapes, {})) {
+      if (shape.world_from_object.is_moving() && is_in_object(shape)) {
+        move_by_instances(std::move(shape), index, instances[g], scene, described);
+      } else {
         still.push_back(std::move(shape));
+        described.shapes[g].push_back(index);
+      }
+      ++index;
+    }
     scene.groups[g].shapes = std::move(still);
   }
+  return described;
 }
 
 std::vector<bool> find_objects(const Scene& scene, uint64_t max_copied_triangles) {
@@ -96,28 +115,40 @@ std::vector<bool> find_objects(const Scene& scene, uint64_t max_copied_triangles
   return is_object;
 }
 
-std::vector<ShapePlacement> world_placements(const Scene& scene, const std::vector<bool>& is_object) {
+std::vector<ShapePlacement> world_placements(const Scene& scene, const std::vector<bool>& is_object,
+                                             const DescribedIndices& described) {
   std::vector<ShapePlacement> all;
-  for (const Shape& shape : scene.groups.at(0).shapes)
-    all.push_back({&shape, shape.world_from_object, shape.reverse_orientation});
-  for (const Instance& instance : scene.instances) {
+  for (size_t i = 0; i < scene.groups.at(0).shapes.size(); ++i) {
+    const Shape& shape = scene.groups[0].shapes[i];
+    all.push_back({&shape, shape.world_from_object, shape.reverse_orientation, {described.shapes[0][i], no_index}});
+  }
+  for (size_t n = 0; n < scene.instances.size(); ++n) {
+    const Instance& instance = scene.instances[n];
     const MovingTransform& outer = instance.world_from_group;
-    for (const Shape& shape : scene.groups[instance.group].shapes)
-      if (!is_object[instance.group] || !is_in_object(shape))
-        all.push_back({&shape,
-                       {outer.start * shape.world_from_object.start, outer.end * shape.world_from_object.end},
-                       shape.reverse_orientation != instance.reverse_orientation,
+    const std::vector<Shape>& shapes = scene.groups[instance.group].shapes;
+    for (size_t i = 0; i < shapes.size(); ++i)
+      if (!is_object[instance.group] || !is_in_object(shapes[i]))
+        all.push_back({&shapes[i],
+                       {outer.start * shapes[i].world_from_object.start, outer.end * shapes[i].world_from_object.end},
+                       shapes[i].reverse_orientation != instance.reverse_orientation,
+                       {described.shapes[instance.group][i], described.instances[n]},
                        &instance});
   }
   return all;
 }
 
-std::vector<std::vector<ShapePlacement>> object_placements(const Scene& scene, const std::vector<bool>& is_object) {
+std::vector<std::vector<ShapePlacement>> object_placements(const Scene& scene, const std::vector<bool>& is_object,
+                                                           const DescribedIndices& described) {
   std::vector<std::vector<ShapePlacement>> objects(scene.groups.size());
   for (size_t g = 0; g < objects.size(); ++g) {
     if (!is_object[g]) continue;
-    for (const Shape& shape : scene.groups[g].shapes)
-      if (is_in_object(shape)) objects[g].push_back({&shape, shape.world_from_object, shape.reverse_orientation});
+    const std::vector<Shape>& shapes = scene.groups[g].shapes;
+    for (size_t i = 0; i < shapes.size(); ++i)
+      if (is_in_object(shapes[i]))
+        objects[g].push_back({&shapes[i],
+                              shapes[i].world_from_object,
+                              shapes[i].reverse_orientation,
+                              {described.shapes[g][i], no_index}});
   }
   return objects;
 }

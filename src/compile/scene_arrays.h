@@ -19,7 +19,8 @@ struct SceneArrays {
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY
 
-  Bounds3<Real> bounds;  ///< of all surfaces; known once the trees are built
+  Bounds3<Real> bounds;                          ///< of all surfaces; known once the trees are built
+  std::vector<TriangleOrigin> triangle_origins;  ///< by triangle, if they are kept; else empty
 
   /// A view of the arrays so far, for functions of the core; it is invalidated when arrays grow.
   SceneView<Real> view() const {

@@ -149,14 +149,16 @@ void check_mesh(const Shape& shape, const Mesh& mesh) {
 }
 
 /// Makes the longest edge of a narrow triangle the one opposite to vertex 0. The normal and the area are computed
-/// from the other two, whose product loses nothing if one of them is short.
+/// from the other two, whose product loses nothing if one of them is short. Returns by how many vertices it was turned.
 template <class Real>
-void turn_if_narrow(const std::vector<Vec3<Real>>& positions, TriangleRecord& triangle) {
+uint32_t turn_if_narrow(const std::vector<Vec3<Real>>& positions, TriangleRecord& triangle) {
   uint32_t(&v)[3] = triangle.vertex;
   const Vec3<Real> p[3] = {positions[v[0]], positions[v[1]], positions[v[2]]};
-  if (!is_narrow(p[0], p[1], p[2])) return;
+  if (!is_narrow(p[0], p[1], p[2])) return 0;
   const Real opposite[3] = {length_squared(p[2] - p[1]), length_squared(p[0] - p[2]), length_squared(p[1] - p[0])};
-  std::rotate(v, v + (std::max_element(opposite, opposite + 3) - opposite), v + 3);
+  const ptrdiff_t turn = std::max_element(opposite, opposite + 3) - opposite;
+  std::rotate(v, v + turn, v + 3);
+  return static_cast<uint32_t>(turn);
 }
 
 /// Index into `materials`, where the default material follows those of the scene.
@@ -170,13 +172,15 @@ uint32_t material_of(const Scene& scene, const Shape& shape) {
 
 template <class Real>
 ShapeBuilder<Real>::ShapeBuilder(Scene& scene, const CompiledMaterials& materials, SceneArrays<Real>& out,
-                                 std::vector<double>& light_measures, Diagnostics& diagnostics, SceneNames* names)
+                                 std::vector<double>& light_measures, Diagnostics& diagnostics, SceneNames* names,
+                                 std::vector<ShapeOrigin>* origins)
     : scene_(scene),
       materials_(materials),
       out_(out),
       light_measures_(light_measures),
       diagnostics_(diagnostics),
-      names_(names) {}
+      names_(names),
+      origins_(origins) {}
 
 template <class Real>
 void ShapeBuilder<Real>::count(const std::vector<ShapePlacement>& placements) {
@@ -195,6 +199,7 @@ void ShapeBuilder<Real>::count(const std::vector<ShapePlacement>& placements) {
 template <class Real>
 void ShapeBuilder<Real>::reserve() {
   out_.triangles.reserve(sizes_.triangles);
+  if (origins_) out_.triangle_origins.reserve(sizes_.triangles);
   out_.positions.reserve(sizes_.vertices);
   out_.normals.reserve(sizes_.normals);
   out_.uvs.reserve(sizes_.uvs);
@@ -203,6 +208,7 @@ void ShapeBuilder<Real>::reserve() {
 template <class Real>
 void ShapeBuilder<Real>::place(const ShapePlacement& p) {
   if (names_) object_id_ = names_->object_id(*p.shape, p.instance);
+  origin_ = p.origin;
   if (p.shape->type == ShapeType::sphere) return place_sphere(p);
   if (p.shape->type == ShapeType::cylinder) return place_quadric(p, cylinder_record<Real>, out_.cylinders);
   if (p.shape->type == ShapeType::disk) return place_quadric(p, disk_record<Real>, out_.disks);
@@ -244,7 +250,7 @@ void ShapeBuilder<Real>::place_sphere(const ShapePlacement& p) {
 
 template <class Real>
 uint32_t ShapeBuilder<Real>::add_sphere_frame(const Shape& shape, const Transform& world_from_object) {
-  if (!needs_uv(shape)) return no_sphere_frame;
+  if (!needs_uv(shape) && !origins_) return no_sphere_frame;
   const auto axis = [&](const Vec3d& a) { return convert<Real>(normalize(world_from_object.direction(a))); };
   out_.sphere_frames.push_back({axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})});
   return static_cast<uint32_t>(out_.sphere_frames.size() - 1);
@@ -335,7 +341,7 @@ void ShapeBuilder<Real>::add_triangles(const Shape& shape, const Mesh& mesh, uin
   size_t without_area = 0;
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     TriangleRecord triangle{{base + mesh.indices[i], base + mesh.indices[i + 1], base + mesh.indices[i + 2]}, shared};
-    if (!has_default_uv) turn_if_narrow(out_.positions, triangle);
+    const uint32_t turn = has_default_uv ? 0 : turn_if_narrow(out_.positions, triangle);
     const Vec3<Real> p0 = out_.positions[triangle.vertex[0]];
     const Real twice_area =
         length(cross(out_.positions[triangle.vertex[1]] - p0, out_.positions[triangle.vertex[2]] - p0));
@@ -350,6 +356,7 @@ void ShapeBuilder<Real>::add_triangles(const Shape& shape, const Mesh& mesh, uin
       triangle.surface = add_surface(shape, light, normal_offset, uv_offset, flip, attributes);
     }
     out_.triangles.push_back(triangle);
+    if (origins_) out_.triangle_origins.push_back({static_cast<uint32_t>(i / 3) & max_primitives_of_a_kind, turn & 3});
   }
   if (without_area > 0 && without_area_ == 0) without_area_place_ = shape.where;
   without_area_ += without_area;
@@ -374,6 +381,7 @@ uint32_t ShapeBuilder<Real>::add_surface(const Shape& shape, uint32_t light, uin
     out_.surfaces.back().object_id = object_id_;
     out_.surfaces.back().material_id = names_->material_id(shape.material);
   }
+  if (origins_) origins_->push_back(origin_);
   surface_shapes_.push_back(&shape);
   return static_cast<uint32_t>(out_.surfaces.size() - 1);
 }

@@ -23,10 +23,11 @@ struct MeshSizes {
 template <class Real>
 class ShapeBuilder {
  public:
-  /// `light_measures`, by light: see assign_light_probabilities. With `names`, surfaces get ids. All references must
-  /// outlive the builder.
+  /// `light_measures`, by light: see assign_light_probabilities. With `names`, surfaces get ids. With `origins`, which
+  /// gets those of surfaces, triangles get theirs, and all spheres uvs. All references must outlive the builder.
   ShapeBuilder(Scene& scene, const CompiledMaterials& materials, SceneArrays<Real>& out,
-               std::vector<double>& light_measures, Diagnostics& diagnostics, SceneNames* names = nullptr);
+               std::vector<double>& light_measures, Diagnostics& diagnostics, SceneNames* names = nullptr,
+               std::vector<ShapeOrigin>* origins = nullptr);
 
   /// Counts the uses and sizes of the meshes of `placements`. Throws InputError for shapes that name no mesh.
   void count(const std::vector<ShapePlacement>& placements);
@@ -71,6 +72,8 @@ class ShapeBuilder {
   std::vector<double>& light_measures_;
   Diagnostics& diagnostics_;
   SceneNames* names_;
+  std::vector<ShapeOrigin>* origins_;
+  ShapeOrigin origin_;          ///< of what is being placed
   uint32_t object_id_ = no_id;  ///< of what is being placed
   MeshSizes sizes_;
   std::vector<uint32_t> uses_;                ///< by mesh: placements still to come

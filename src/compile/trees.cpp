@@ -154,6 +154,8 @@ class TreeBuilder {
   void order_primitives(const std::vector<uint32_t>& order, uint32_t first, const PrimitiveCounts& counts) {
     std::vector<TriangleRecord> ordered;
     ordered.reserve(counts[0]);
+    std::vector<TriangleOrigin> origins;
+    const bool has_origins = !out_.triangle_origins.empty();
     for (uint32_t i : order) {
       uint32_t kind = 0;
       for (; kind < primitive_kinds && i >= counts[kind]; ++kind) i -= counts[kind];
@@ -162,10 +164,12 @@ class TreeBuilder {
       const uint32_t place = first + static_cast<uint32_t>(ordered.size());
       out_.primitives.back() = PrimitiveId(PrimitiveKind::triangle, place);
       ordered.push_back(out_.triangles[first + i]);
+      if (has_origins) origins.push_back(out_.triangle_origins[first + i]);
       const uint32_t light = out_.surfaces[ordered.back().surface].light;
       if (light != no_light) out_.lights[light].primitive = place;
     }
     std::copy(ordered.begin(), ordered.end(), out_.triangles.begin() + first);
+    std::copy(origins.begin(), origins.end(), out_.triangle_origins.begin() + first);
   }
 
   const CompileOptions& options_;

@@ -15,10 +15,14 @@ fail() {
 cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" || { cat "$work/install.log"; fail "cmake --install"; }
 "$work/prefix/bin/alhazen" --version
 
-cp -r "$source/examples/render_to_memory" "$work/example"
-cmake -S "$work/example" -B "$work/example/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
-  -DCMAKE_PREFIX_PATH="$work/prefix"
-cmake --build "$work/example/build"
+build_example() {
+  cp -r "$source/examples/$1" "$2"
+  cmake -S "$2" -B "$2/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
+    -DCMAKE_PREFIX_PATH="$work/prefix"
+  cmake --build "$2/build"
+}
+
+build_example render_to_memory "$work/example"
 
 scene=$work/prefix/share/alhazen/scenes/cornell.pbrt
 "$work/example/build/render_to_memory" "$scene" | tee "$work/whole.txt"
@@ -29,3 +33,12 @@ status=0
 "$work/example/build/render_to_memory" "$work/missing.pbrt" 2>"$work/error.txt" || status=$?
 cat "$work/error.txt"
 [[ $status == 2 ]] || fail "a missing scene ended with $status, not 2"
+
+build_example ambient_occlusion "$work/occlusion"
+# A camera in front of the open side of the box.
+"$work/occlusion/build/ambient_occlusion" "$scene" "$work/occlusion.pgm" 278 273 -800 278 273 0 100
+[[ $(head -c 15 "$work/occlusion.pgm" | tr '\n' ' ') == "P5 480 360 255 " ]] || fail "the image of occlusion is none"
+[[ $(stat -c %s "$work/occlusion.pgm") == $((15 + 480 * 360)) ]] || fail "the image of occlusion is not whole"
+# Black where rays miss, white where nothing is close, and grey in corners.
+shades=$(tail -c +16 "$work/occlusion.pgm" | od -An -v -tu1 -w1 | sort -n | uniq | wc -l)
+((shades > 30)) || fail "the image of occlusion has only $shades shades"
