@@ -15,7 +15,9 @@
 #include <string>
 #include <vector>
 
-namespace alhazen {
+#include "alhazen/version.h"
+
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 /// How to render. Values left empty, zero or negative come from the scene file or are chosen automatically.
 struct Settings {
@@ -181,6 +183,7 @@ struct RenderedImage {
 RenderedImage render(const std::string& scene_file, const Settings& settings = {},
                      const ProgressFunction& progress = {});
 
+/// Of the library: ALHAZEN_VERSION_STRING when it was built.
 const char* version();
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
