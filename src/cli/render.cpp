@@ -82,6 +82,8 @@ void warn_of_options_without_effect(const RenderOptions& o, const RenderSettings
   };
   if (!writes("exr") && !settings.asked.aovs.empty() && settings.denoiser.empty() && settings.asked.checkpoint.empty())
     warn("aov", "only EXR has layers; give -o FILE.exr as well");
+  if (!writes("exr") && !settings.light_groups.empty() && settings.asked.checkpoint.empty())
+    warn("light-group", "only EXR has layers; give -o FILE.exr as well");
   const WriteOptions& how = o.output.how;
   const std::pair<bool, const char*> of_exr[] = {{!o.exr_type.empty(), "exr-type"},
                                                  {!o.exr_compression.empty(), "exr-compression"},

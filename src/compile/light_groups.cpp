@@ -21,8 +21,14 @@ constexpr const char* form =
 /// Characters that names of channels may have.
 bool is_plain(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; }
 
+/// Of the pattern characters of a shell only * and ? are special.
 bool matches(const std::string& pattern, const std::string& name) {
-  return pattern == name || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  std::string escaped;
+  for (const char c : pattern) {
+    if (c == '[' || c == '\\') escaped += '\\';
+    escaped += c;
+  }
+  return fnmatch(escaped.c_str(), name.c_str(), 0) == 0;
 }
 
 /// The first names, for messages.

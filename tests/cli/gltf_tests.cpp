@@ -117,6 +117,8 @@ TEST_F(Gltf, ListsWhatMayBeChosen) {
   EXPECT_EQ(list["variants"], (nlohmann::json{"red", "blue"}));
   EXPECT_EQ(list["animations"], nlohmann::json{"leave"});
   EXPECT_EQ(list["lights"], nlohmann::json{"sun"});
+  const nlohmann::json lights = only_json(run({"info", "scene.gltf", "--json"}).out)["lights"];
+  EXPECT_EQ(lights.at(0)["name"], "sun");
   EXPECT_NE(run({"render", "scene.gltf", "--list"}).out.find("  1 far\n"), std::string::npos);
 }
 

@@ -147,6 +147,48 @@ TEST_F(LayerOptions, BadOnesAreErrorsAndIdleOnesWarnings) {
     EXPECT_NE(idle.err.find(option + std::string(" has no effect")), std::string::npos) << option << "\n" << idle.err;
 }
 
+TEST_F(LayerOptions, LightGroupsAreLayers) {
+  folder_.write_text("lit.pbrt",
+                     "LookAt 0 0 9  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 30\n"
+                     "Film \"rgb\" \"integer xresolution\" 20 \"integer yresolution\" 15\n"
+                     "WorldBegin LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\n"
+                     "LightSource \"point\" \"point3 from\" [ 0 4 4 ] LightSource \"point\"\n"
+                     "Shape \"sphere\" \"float radius\" 1.8\n");
+  const auto lit = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render", "lit.pbrt", "--spp", "4", "--progress", "none"});
+    return run(arguments);
+  };
+  for (const bool in_parts : {false, true}) {
+    std::vector<std::string> arguments{"-o", "a.exr", "--light-group", "sky=env*;key=point.1", "--exr-type", "float"};
+    if (in_parts) arguments.push_back("--exr-parts");
+    ASSERT_EQ(lit(arguments).exit_code, 0);
+    const Image all = image("a.exr");
+    for (const char* channel : {"light_sky.G", "light_key.G", "light_rest.G"}) EXPECT_GE(all.channel(channel), 0);
+    EXPECT_NEAR(at(all, "light_sky.R", 0, 0), 1, 1e-5);
+    EXPECT_EQ(at(all, "light_key.R", 0, 0), 0);
+    EXPECT_GT(at(all, "light_key.R", 10, 5), 0);
+    EXPECT_NEAR(at(all, "light_sky.R", 10, 7) + at(all, "light_key.R", 10, 7) + at(all, "light_rest.R", 10, 7),
+                at(all, "R", 10, 7), 1e-5);
+  }
+  ASSERT_EQ(lit({"-o", "b.exr", "--aov", "light_groups"}).exit_code, 0);
+  for (const char* channel : {"light_environment.R", "light_point_1.R", "light_point_2.R"})
+    EXPECT_GE(image("b.exr").channel(channel), 0) << channel;
+
+  const CommandResult wrong = lit({"-o", "c.exr", "--light-group", "key=sun"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("no light is called 'sun', which the light group 'key' names"), std::string::npos)
+      << wrong.err;
+  EXPECT_NE(lit({"-o", "c.exr", "--light-group", "key"}).err.find("must be NAME=LIGHT"), std::string::npos);
+  EXPECT_FALSE(exists("c.exr"));
+  const CommandResult idle = lit({"-o", "d.png", "--light-group", "key=point.1"});
+  EXPECT_NE(idle.err.find("--light-group has no effect"), std::string::npos) << idle.err;
+
+  ASSERT_EQ(lit({"--checkpoint", "state", "-o", "e.exr", "--light-group", "key=point.1"}).exit_code, 0);
+  const CommandResult other = lit({"--checkpoint", "state", "--resume", "-o", "e.exr", "--light-group", "key=point.2"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("light-group key=point.1"), std::string::npos) << other.err;
+}
+
 TEST_F(LayerOptions, MarksCheckpoints) {
   const std::vector<std::string> keeps{"--checkpoint", "state", "-o", "a.exr", "--transparent-background"};
   ASSERT_EQ(ball(keeps).exit_code, 0);

@@ -56,7 +56,7 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--backend", "--strategy", "--schedule", "--threads", "--nthreads", "--precision", "--progress", "--quiet",
       "--verbose", "--stats", "--time-limit", "--checkpoint", "--resume", "--overwrite", "--device", "--block",
       "--chunk", "--denoise", "--environment", "--texture-budget", "--coats", "--filter", "--noise", "--guiding",
-      "--guiding-memory", "--clamp-indirect", "--aov-surface",
+      "--guiding-memory", "--clamp-indirect", "--aov-surface", "--light-group",
       // Tested in view_tests.cpp:
       "--look-at", "--orbit", "--fit", "--fov", "--aperture", "--focus", "--environment-rotate",
       "--environment-strength", "--light-scale",
