@@ -29,7 +29,7 @@ MAY_INCLUDE = {
     "study": {"study"} | BELOW_STUDY,
     "api": {"api", "study"} | BELOW_STUDY,
     "cli": {"cli", "study"} | BELOW_STUDY - {"core"},
-    "alhazen": set(),
+    "alhazen": {"alhazen"},
 }
 
 # Exceptions: (layer, path that it may include nevertheless, reason).
