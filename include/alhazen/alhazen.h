@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "alhazen/error.h"
 #include "alhazen/version.h"
 
 namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
@@ -177,9 +178,9 @@ struct RenderedImage {
   const float* plane(const std::string& channel) const;
 };
 
-/// Renders a pbrt-v4 or glTF 2.0 scene. Throws std::runtime_error, whose what() is one message (for bad input
-/// `file:line:column: what is wrong and what to do`), std::bad_alloc, and anything that `progress` throws. Until it
-/// returns, threads that the process starts have a default stack of at least 8 MiB.
+/// Renders a scene file. Throws InputError for bad input and settings, Error for other failures, std::bad_alloc, and
+/// anything that `progress` throws. Until it returns, threads that the process starts have a default stack of at least
+/// 8 MiB.
 RenderedImage render(const std::string& scene_file, const Settings& settings = {},
                      const ProgressFunction& progress = {});
 
