@@ -3,6 +3,8 @@
 # programs and modules that are linked to its internals, with undefined symbols and with their copies of what inline functions
 # define, which must be one with the library's.
 
+cmake_minimum_required(VERSION 3.25)
+
 # Returns the names of dynamic symbols that match `pattern`, a regular expression from "NAME TYPE".
 function(dynamic_symbols file pattern result)
   execute_process(COMMAND ${NM} -D -P ${file} OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)

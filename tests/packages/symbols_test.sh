@@ -39,7 +39,7 @@ unexpected() {
       [[ $name == "$namespace"* ]] || echo "$name is not of the namespace $namespace"
       name=${name#"$namespace"}
       name=${name%%[(<\[]*}
-      grep -rqw -- "${name##*::}" "$source/include/alhazen" || echo "$name is in no public header"
+      grep -rqw -- "${name##*[:~]}" "$source/include/alhazen" || echo "$name is in no public header"
     elif [[ $version == "$private" ]]; then
       [[ $name =~ ${kinds}(alhazen::impl::|.* alhazen::impl::) ]] || echo "$name is not of alhazen::impl"
       grep -qxF -- "$mangled" "$work/used.txt" || echo "$name is used by neither the program nor a module"
