@@ -96,7 +96,7 @@ end
 
 # Folders, and files with these extensions.
 function __alhazen_files
-  __fish_complete_path (commandline -ct) | string match -rie '^[^\t]*(/|\.('(string join '|' -- $argv)'))(\t.*)?$'
+  __fish_complete_path (commandline -ct) | string match -ri '^[^\t]*(?:/|\.(?:'(string join '|' -- $argv)'))(?:\t.*)?$'
 end
 
 complete -c alhazen -f

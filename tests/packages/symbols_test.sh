@@ -16,37 +16,41 @@ number() { sed -n "s/^#define ALHAZEN_VERSION_$1 //p" "$source/include/alhazen/v
 public=ALHAZEN_$(number MAJOR).$(number MINOR)
 private=ALHAZEN_PRIVATE_$(number MAJOR).$(number MINOR).$(number PATCH)
 namespace="alhazen::v$(number MAJOR)_$(number MINOR)::"
-kinds='^((typeinfo|typeinfo name|vtable|VTT|guard variable|TLS (init|wrapper) function|(non-)?virtual thunk) (for|to) )?'
 users=("$build/bin/alhazen")
 for module in "$build"/lib/alhazen/*.so; do
   if [[ -e $module ]]; then users+=("$module"); fi
 done
 "$nm" -D -P "${users[@]}" 2>/dev/null | sed -n 's/^\(_Z[^ @]*\)[ @].*/\1/p' | sort -u >"$work/used.txt"
+cat "$source"/include/alhazen/*.h | tr -cs 'A-Za-z0-9_' '\n' | sort -u >"$work/words.txt"
 
 # Prints the symbols of a library that it should not export, with the reason.
 unexpected() {
-  "$nm" -D -P --defined-only --with-symbol-versions "$1" >"$work/symbols.txt"
-  cut -d' ' -f1 "$work/symbols.txt" | sed 's/@.*//' | c++filt >"$work/names.txt"
-  paste -d'\t' "$work/symbols.txt" "$work/names.txt" | while IFS=$'\t' read -r symbol name; do
-    read -r mangled type _ <<<"$symbol"
-    local version=${mangled##*@}
-    mangled=${mangled%%@*}
-    if [[ $type == A && ($name == "$public" || $name == "$private") ]]; then
-      continue
-    elif [[ $version == "$public" ]]; then
-      [[ $name =~ $kinds ]]
-      name=${name#"${BASH_REMATCH[0]}"}
-      [[ $name == "$namespace"* ]] || echo "$name is not of the namespace $namespace"
-      name=${name#"$namespace"}
-      name=${name%%[(<\[]*}
-      grep -rqw -- "${name##*[:~]}" "$source/include/alhazen" || echo "$name is in no public header"
-    elif [[ $version == "$private" ]]; then
-      [[ $name =~ ${kinds}(alhazen::impl::|.* alhazen::impl::) ]] || echo "$name is not of alhazen::impl"
-      grep -qxF -- "$mangled" "$work/used.txt" || echo "$name is used by neither the program nor a module"
-    else
-      echo "$name has the version '$version'"
-    fi
-  done
+  "$nm" -D -P --defined-only --with-symbol-versions "$1" | cut -d' ' -f1,2 >"$work/symbols.txt"
+  sed 's/[@ ].*//' "$work/symbols.txt" | c++filt | paste -d'\t' "$work/symbols.txt" - >"$work/names.txt"
+  awk -F'\t' -v public="$public" -v private="$private" -v namespace="$namespace" '
+    FILENAME ~ /used.txt$/ { used[$1] = 1; next }
+    FILENAME ~ /words.txt$/ { words[$1] = 1; next }
+    {
+      split($1, symbol, " ")
+      mangled = version = symbol[1]
+      sub(/@.*/, "", mangled)
+      if (!sub(/.*@/, "", version)) version = ""
+      name = $2
+      sub(/^(typeinfo|typeinfo name|vtable|VTT|guard variable|TLS (init|wrapper) function|(non-)?virtual thunk) (for|to) /, "", name)
+      if (symbol[2] == "A" && (mangled == public || mangled == private)) next
+      if (version == public) {
+        if (index(name, namespace) != 1) { print $2 " is not of the namespace " namespace; next }
+        name = substr(name, length(namespace) + 1)
+        sub(/[(<[].*/, "", name)
+        sub(/.*[:~]/, "", name)
+        if (!(name in words)) print $2 " is in no public header"
+      } else if (version == private) {
+        if (name !~ /(^| )alhazen::impl::/) print $2 " is not of alhazen::impl"
+        if (!(mangled in used)) print $2 " is used by neither the program nor a module"
+      } else {
+        print $2 " has the version \047" version "\047"
+      }
+    }' "$work/used.txt" "$work/words.txt" "$work/names.txt"
 }
 
 library=$build/installed/libalhazen.so
