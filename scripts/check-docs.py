@@ -25,7 +25,7 @@ INPUT_SUFFIXES = {".pbrt", ".gltf", ".glb", ".ply", ".gz", ".hdr", ".exr", ".png
 OUTPUT_OPTIONS = {"-o", "--output", "--outfile", "--diff", "--checkpoint"}
 INPUT_OPTIONS = {"--environment", "--scene"}
 FOREIGN_OPTIONS = {"--fmad", "--preset", "--install", "--prefix", "--upgrade"}  # of nvcc, CMake and pbrt
-SUBCOMMANDS = {"render", "compare", "devices", "info", "study"}
+SUBCOMMANDS = {"render", "compare", "devices", "info", "study", "completion"}
 STUDY_SUBCOMMANDS = {"report", "tune", "compare"}
 OPTION = re.compile(r"--?[A-Za-z][\w-]*")
 
