@@ -1,4 +1,4 @@
-# `cmake --install` puts the program, the library, its one public header and the package files in place; modules are installed
+# `cmake --install` puts the program, the library, its public headers and the package files in place; modules are installed
 # where they are made (Modules.cmake).
 
 include(CMakePackageConfigHelpers)

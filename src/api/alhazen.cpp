@@ -1,5 +1,6 @@
 #include "alhazen/alhazen.h"
 
+#include "api/rendered_image.h"
 #include "pipeline/load_scene.h"
 #include "render/renderer.h"
 #include "util/thread_limit.h"
@@ -12,11 +13,10 @@ const float* RenderedImage::plane(const std::string& channel) const {
   return nullptr;
 }
 
-RenderedImage render(const std::string& scene_file, const Settings& settings, const ProgressFunction& progress) {
-  using namespace impl;
-  const ThreadDefaults defaults;
-  Diagnostics diagnostics;
-  LoadedScene loaded = load_scene(scene_file, settings, diagnostics);
+namespace impl {
+
+RenderedImage rendered_image(LoadedScene&& loaded, const Settings& settings, const ProgressFunction& progress,
+                             Diagnostics& diagnostics) {
   const RenderSettings resolved = resolve_settings(settings, loaded.scene);
   const Rendering rendering =
       render_scene(std::move(loaded.scene), resolved, loaded.seconds, RenderEvents{progress, {}, {}}, diagnostics);
@@ -37,6 +37,14 @@ RenderedImage render(const std::string& scene_file, const Settings& settings, co
     image.noise = ReachedNoise{statistics.noise.noise, statistics.noise.below, statistics.noise.mean_samples};
   for (const Diagnostics::Warning& warning : diagnostics.warnings()) image.warnings.push_back(warning.to_string());
   return image;
+}
+
+}  // namespace impl
+
+RenderedImage render(const std::string& scene_file, const Settings& settings, const ProgressFunction& progress) {
+  const impl::ThreadDefaults defaults;
+  impl::Diagnostics diagnostics;
+  return impl::rendered_image(impl::load_scene(scene_file, settings, diagnostics), settings, progress, diagnostics);
 }
 
 }  // namespace alhazen

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs Alhazen to a folder of its own, builds the example against what was installed, and runs it.
+# Installs Alhazen to a folder of its own, builds the examples against what was installed, and runs them.
 # Arguments: the build folder, the C++ compiler.
 set -euo pipefail
 build=$1 compiler=$2
@@ -29,3 +29,10 @@ status=0
 "$work/example/build/render_to_memory" "$work/missing.pbrt" 2>"$work/error.txt" || status=$?
 cat "$work/error.txt"
 [[ $status == 2 ]] || fail "a missing scene ended with $status, not 2"
+
+cp -r "$source/examples/scene_from_arrays" "$work/arrays"
+cmake -S "$work/arrays" -B "$work/arrays/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
+  -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" -DCMAKE_PREFIX_PATH="$work/prefix"
+cmake --build "$work/arrays/build"
+"$work/arrays/build/scene_from_arrays" | tee "$work/arrays.txt"
+grep -q '^160 x 90 pixels; green is' "$work/arrays.txt" || fail "the scene from arrays was not rendered"
