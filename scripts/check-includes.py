@@ -35,6 +35,7 @@ MAY_INCLUDE = {
 # Exceptions: (layer, path that it may include nevertheless, reason).
 EXCEPTIONS = [
     ("core", "immintrin.h", "intrinsics of x86, within core/simd/lanes.h"),
+    ("util", "alhazen/error.h", "the bases of what it throws"),
 ]
 
 # The core runs on devices too: of the standard library it may use only headers that need no run time support there.

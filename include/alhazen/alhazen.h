@@ -15,7 +15,10 @@
 #include <string>
 #include <vector>
 
-namespace alhazen {
+#include "alhazen/error.h"
+#include "alhazen/version.h"
+
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 /// How to render. Values left empty, zero or negative come from the scene file or are chosen automatically.
 struct Settings {
@@ -175,12 +178,13 @@ struct RenderedImage {
   const float* plane(const std::string& channel) const;
 };
 
-/// Renders a pbrt-v4 or glTF 2.0 scene. Throws std::runtime_error, whose what() is one message (for bad input
-/// `file:line:column: what is wrong and what to do`), std::bad_alloc, and anything that `progress` throws. Until it
-/// returns, threads that the process starts have a default stack of at least 8 MiB.
+/// Renders a scene file. Throws InputError for bad input and settings, Error for other failures, std::bad_alloc, and
+/// anything that `progress` throws. Until it returns, threads that the process starts have a default stack of at least
+/// 8 MiB.
 RenderedImage render(const std::string& scene_file, const Settings& settings = {},
                      const ProgressFunction& progress = {});
 
+/// Of the library: ALHAZEN_VERSION_STRING when it was built.
 const char* version();
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
-namespace alhazen {
+#include "alhazen/version.h"
+
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 /// A view of floats or doubles.
 class Reals {
@@ -65,4 +67,4 @@ struct Pixels {
   std::string name{};
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

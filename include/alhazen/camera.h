@@ -8,8 +8,9 @@
 #include <string>
 
 #include "alhazen/geometry.h"
+#include "alhazen/version.h"
 
-namespace alhazen {
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 enum class CameraKind {
   perspective,
@@ -62,4 +63,4 @@ struct RenderDefaults {
   bool pbrt_coats = false;       ///< coated materials lose as much light as pbrt-v4's
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

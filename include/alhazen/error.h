@@ -6,7 +6,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace alhazen {
+#include "alhazen/version.h"
+
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 /// Any failure that the library reports: `what()` is one complete message for a person.
 class Error : public std::runtime_error {
@@ -36,4 +38,4 @@ class InputError : public Error {
   std::shared_ptr<const Place> place_;  ///< shared, so that copying an exception never throws
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

@@ -5,7 +5,9 @@
 #include <array>
 #include <span>
 
-namespace alhazen {
+#include "alhazen/version.h"
+
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 struct Vec2 {
   double x = 0, y = 0;
@@ -90,4 +92,4 @@ struct MovingTransform {
   friend bool operator==(const MovingTransform&, const MovingTransform&) = default;
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

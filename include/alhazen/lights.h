@@ -8,8 +8,9 @@
 
 #include "alhazen/alternative.h"
 #include "alhazen/geometry.h"
+#include "alhazen/version.h"
 
-namespace alhazen {
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 /// Orthonormal axes in world space.
 struct Axes {
@@ -78,4 +79,4 @@ struct Light {
       : kind(std::forward<Kind>(of_kind)), name(std::move(its_name)) {}
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

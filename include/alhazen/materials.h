@@ -12,8 +12,9 @@
 
 #include "alhazen/alternative.h"
 #include "alhazen/textures.h"
+#include "alhazen/version.h"
 
-namespace alhazen {
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 /// Roughness of a microfacet surface: 0 is smooth. One value, or one along u and another along v.
 struct Roughness {
@@ -139,4 +140,4 @@ struct Material {
       : bsdf(std::forward<Kind>(kind)), name(std::move(its_name)) {}
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

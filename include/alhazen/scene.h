@@ -24,12 +24,13 @@
 #include "alhazen/materials.h"
 #include "alhazen/shapes.h"
 #include "alhazen/textures.h"
+#include "alhazen/version.h"
 
-namespace alhazen {
-
-namespace impl {
+namespace alhazen::impl {
 struct SceneState;
 }
+
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 /// How to read a scene file.
 struct LoadOptions {
@@ -222,4 +223,4 @@ class Scene {
 /// are LoadOptions here. Throws as render(file) does.
 RenderedImage render(const Scene& scene, const Settings& settings = {}, const ProgressFunction& progress = {});
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

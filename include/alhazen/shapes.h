@@ -8,8 +8,9 @@
 
 #include "alhazen/geometry.h"
 #include "alhazen/handles.h"
+#include "alhazen/version.h"
 
-namespace alhazen {
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 /// Centred at the origin of object space.
 struct Sphere {
@@ -55,4 +56,4 @@ struct Instance {
   std::string name{};  ///< empty: that of its group, with a number
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

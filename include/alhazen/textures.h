@@ -10,8 +10,9 @@
 #include "alhazen/alternative.h"
 #include "alhazen/geometry.h"
 #include "alhazen/handles.h"
+#include "alhazen/version.h"
 
-namespace alhazen {
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 /// A colour that is the same everywhere, or a texture.
 class ColourInput {
@@ -182,4 +183,4 @@ struct Texture {
       : node(std::forward<Kind>(kind)), name(std::move(its_name)) {}
 };
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

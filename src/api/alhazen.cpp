@@ -5,7 +5,7 @@
 #include "render/renderer.h"
 #include "util/thread_limit.h"
 
-namespace alhazen {
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 const float* RenderedImage::plane(const std::string& channel) const {
   for (size_t i = 0; i < channels.size(); ++i)
@@ -13,7 +13,9 @@ const float* RenderedImage::plane(const std::string& channel) const {
   return nullptr;
 }
 
-namespace impl {
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+
+namespace alhazen::impl {
 
 RenderedImage rendered_image(LoadedScene&& loaded, const Settings& settings, const ProgressFunction& progress,
                              Diagnostics& diagnostics) {
@@ -39,7 +41,9 @@ RenderedImage rendered_image(LoadedScene&& loaded, const Settings& settings, con
   return image;
 }
 
-}  // namespace impl
+}  // namespace alhazen::impl
+
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 RenderedImage render(const std::string& scene_file, const Settings& settings, const ProgressFunction& progress) {
   const impl::ThreadDefaults defaults;
@@ -47,4 +51,4 @@ RenderedImage render(const std::string& scene_file, const Settings& settings, co
   return impl::rendered_image(impl::load_scene(scene_file, settings, diagnostics), settings, progress, diagnostics);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

@@ -5,9 +5,7 @@
 
 #include "api/arguments.h"
 
-namespace alhazen {
-
-namespace impl {
+namespace alhazen::impl {
 
 ConductorRgb metal_rgb(alhazen::Metal metal) {
   constexpr std::array<const char*, 7> symbols{"Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2"};
@@ -18,7 +16,9 @@ ConductorRgb metal_rgb(alhazen::Metal metal) {
   return conductor_rgb(*eta, *k);
 }
 
-}  // namespace impl
+}  // namespace alhazen::impl
+
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 Conductor Conductor::of(Metal metal, const Roughness& roughness) {
   const impl::ConductorRgb rgb = impl::metal_rgb(metal);
@@ -26,4 +26,4 @@ Conductor Conductor::of(Metal metal, const Roughness& roughness) {
       .reflectance = {}, .eta = impl::public_colour(rgb.eta), .k = impl::public_colour(rgb.k), .roughness = roughness};
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

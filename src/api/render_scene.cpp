@@ -1,12 +1,11 @@
 // Renders a scene that is in memory.
 
 #include "alhazen/scene.h"
-#include "api/public_errors.h"
 #include "api/rendered_image.h"
 #include "api/scene_state.h"
 #include "util/thread_limit.h"
 
-namespace alhazen {
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 namespace {
 
@@ -37,4 +36,4 @@ RenderedImage render(const Scene& scene, const Settings& settings, const Progres
                               progress, diagnostics);
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

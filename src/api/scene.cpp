@@ -5,13 +5,12 @@
 #include <utility>
 
 #include "api/parts.h"
-#include "api/public_errors.h"
 #include "api/scene_state.h"
 #include "io/read_scene.h"
 #include "pipeline/load_scene.h"
 #include "scene/default_view.h"
 
-namespace alhazen {
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 Scene::Scene() : state_(std::make_unique<impl::SceneState>()) {}
 Scene::Scene(std::unique_ptr<impl::SceneState> state) : state_(std::move(state)) {}
@@ -44,13 +43,11 @@ Scene Scene::load(const std::string& file, const LoadOptions& options) {
   settings.search_paths = options.search_paths;
   settings.confine = options.confine;
   settings.strict = options.strict;
-  return impl::with_public_errors([&] {
-    impl::Diagnostics diagnostics;
-    impl::ReadOptions choice = impl::read_options(settings);
-    choice.record = std::make_shared<impl::InputRecord>();
-    impl::Scene scene = impl::read_scene(file, choice, diagnostics);
-    return Scene(std::make_unique<impl::SceneState>(std::move(scene), diagnostics, choice.record));
-  });
+  impl::Diagnostics diagnostics;
+  impl::ReadOptions choice = impl::read_options(settings);
+  choice.record = std::make_shared<impl::InputRecord>();
+  impl::Scene scene = impl::read_scene(file, choice, diagnostics);
+  return Scene(std::make_unique<impl::SceneState>(std::move(scene), diagnostics, choice.record));
 }
 
 std::vector<std::string> Scene::warnings() const {
@@ -129,4 +126,4 @@ std::vector<InstanceId> Scene::instances() const {
 
 std::vector<LightId> Scene::lights() const { return handles_with_place<LightId>(state().light_places, state().lights); }
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

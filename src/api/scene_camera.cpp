@@ -6,13 +6,12 @@
 
 #include "alhazen/scene.h"
 #include "api/parts.h"
-#include "api/public_errors.h"
 #include "pipeline/choose_view.h"
 #include "render/quality.h"
 #include "scene/filters.h"
 #include "scene/limits.h"
 
-namespace alhazen {
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 namespace {
 
@@ -56,19 +55,17 @@ impl::Camera described_camera(const Camera& given) {
 
 /// Places the camera as settings of a render do.
 void place_camera(impl::SceneState& s, const Settings& settings) {
-  impl::with_public_errors([&] {
-    const impl::Camera before = s.description.camera;
-    try {
-      impl::Camera camera = before.is_default ? impl::default_camera(s.description, 0) : before;
-      camera = impl::placed_camera(settings, camera, s.description);
-      camera.is_default = false;
-      s.description.camera = camera;
-    } catch (...) {
-      s.description.camera = before;
-      throw;
-    }
-    ++s.revisions.camera;
-  });
+  const impl::Camera before = s.description.camera;
+  try {
+    impl::Camera camera = before.is_default ? impl::default_camera(s.description, 0) : before;
+    camera = impl::placed_camera(settings, camera, s.description);
+    camera.is_default = false;
+    s.description.camera = camera;
+  } catch (...) {
+    s.description.camera = before;
+    throw;
+  }
+  ++s.revisions.camera;
 }
 
 /// Seeing the whole scene is possible with a perspective camera alone.
@@ -229,4 +226,4 @@ void Scene::set_render_defaults(const RenderDefaults& defaults) {
   ++state().revisions.film;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

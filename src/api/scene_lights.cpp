@@ -6,10 +6,9 @@
 #include "alhazen/scene.h"
 #include "api/image_texels.h"
 #include "api/parts.h"
-#include "api/public_errors.h"
 #include "io/environment.h"
 
-namespace alhazen {
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 namespace {
 
@@ -273,12 +272,10 @@ LightId Scene::set_environment(const Pixels& image) {
 }
 
 LightId Scene::load_environment(const std::string& file) {
-  return impl::with_public_errors([&] {
-    impl::ImageTexels map = impl::read_environment({file});
-    const std::string fault = impl::environment_fault(map);
-    if (!fault.empty()) throw impl::InputError({file}, fault);
-    return replace_environment(*this, state(), environment_of_map(state().description, file), std::move(map));
-  });
+  impl::ImageTexels map = impl::read_environment({file});
+  const std::string fault = impl::environment_fault(map);
+  if (!fault.empty()) throw impl::InputError({file}, fault);
+  return replace_environment(*this, state(), environment_of_map(state().description, file), std::move(map));
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

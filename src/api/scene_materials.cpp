@@ -6,12 +6,11 @@
 #include "api/image_texels.h"
 #include "api/material_slots.h"
 #include "api/parts.h"
-#include "api/public_errors.h"
 #include "api/texture_slots.h"
 #include "images/read_scalar_texture.h"
 #include "images/read_texture.h"
 
-namespace alhazen {
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
 namespace {
 
@@ -50,12 +49,12 @@ ImageId Scene::add(const Pixels& pixels) { return add_image(state(), impl::image
 
 ImageId Scene::load_image(const std::string& file, std::optional<Encoding> encoding) {
   const impl::TextureEncoding as = texture_encoding(encoding);
-  return impl::with_public_errors([&] { return add_image(state(), impl::read_texture({file}, as)); });
+  return add_image(state(), impl::read_texture({file}, as));
 }
 
 ImageId Scene::load_scalar_image(const std::string& file, std::optional<Encoding> encoding) {
   const impl::TextureEncoding as = texture_encoding(encoding);
-  return impl::with_public_errors([&] { return add_image(state(), impl::read_scalar_texture({file}, as).texels); });
+  return add_image(state(), impl::read_scalar_texture({file}, as).texels);
 }
 
 Pixels Scene::image(ImageId image) const {
@@ -120,4 +119,4 @@ void Scene::set(MaterialId id, const Material& material) {
   ++s.revisions.materials;
 }
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

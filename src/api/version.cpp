@@ -1,7 +1,7 @@
 #include "alhazen/alhazen.h"
 
-namespace alhazen {
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
 
-const char* version() { return ALHAZEN_VERSION; }
+const char* version() { return ALHAZEN_VERSION_STRING; }
 
-}  // namespace alhazen
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

@@ -28,7 +28,7 @@ struct CompileOptions {
   bool names_objects = false;
   /// Whether lights get groups: these, or one for each name if there are none (compile/light_groups.h).
   bool groups_lights = false;
-  std::vector<LightGroup> light_groups;
+  std::vector<LightGroup> light_groups = {};
 };
 
 /// Consumes the description while it compiles, so that meshes are not held twice in memory. Throws InputError for

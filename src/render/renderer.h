@@ -57,6 +57,23 @@ class Rendering {
   NoisyImage noisy_image() const;
 };
 
+/// An image that grows pass by pass. It refers to its SceneRenderer, which renders no other meanwhile.
+class GrowingImage {
+ public:
+  virtual ~GrowingImage() = default;
+  /// Takes some samples of every pixel. Returns whether more are to be taken: false at the end, when the time limit has
+  /// passed and once it is stopped. Throws as render_scene does, but for what `events` throws.
+  virtual bool take_pass() = 0;
+  /// Ends the pass under way soon. Any thread may call it.
+  virtual void stop() = 0;
+  virtual Progress progress() const = 0;
+  /// The image between two passes, not denoised.
+  virtual const Rendering& so_far() = 0;
+  /// Ends the render after any number of passes: saves its checkpoint and denoises the image. Throws what `events` has
+  /// thrown. Called once, and nothing after it.
+  virtual Rendering finish() = 0;
+};
+
 /// A scene that is compiled once, and rendered by one camera after another.
 class SceneRenderer {
  public:
@@ -67,6 +84,9 @@ class SceneRenderer {
   /// guiding. Throws as render_scene does.
   virtual Rendering render(const RenderEvents& events, const Camera* camera = nullptr,
                            const RenderSettings* preview = nullptr) = 0;
+  /// The same, to be rendered pass by pass.
+  virtual std::unique_ptr<GrowingImage> begin(const RenderEvents& events, const Camera* camera = nullptr,
+                                              const RenderSettings* preview = nullptr) = 0;
 };
 
 /// Compiles the scene; `settings` and `diagnostics` must outlive what is returned. Images do not depend on which others

@@ -17,11 +17,12 @@ static std::string located(const SourceLocation& where, const std::string& messa
 }
 
 InputError::InputError(const SourceLocation& where, const std::string& message, const std::string& excerpt)
-    : std::runtime_error(located(where, message) + (excerpt.empty() ? "" : "\n" + printable_lines(excerpt))) {}
+    : alhazen::InputError(located(where, message) + (excerpt.empty() ? "" : "\n" + printable_lines(excerpt)),
+                          printable(message), where.file, where.line, where.column) {}
 
-InputError::InputError(const std::string& message) : std::runtime_error(printable(message)) {}
+InputError::InputError(const std::string& message) : alhazen::InputError(printable(message)) {}
 
-RenderError::RenderError(const std::string& message) : std::runtime_error(printable_lines(message)) {}
+RenderError::RenderError(const std::string& message) : Error(printable_lines(message)) {}
 
 std::string Diagnostics::Warning::to_string() const { return located(where, message); }
 

@@ -5,10 +5,10 @@
 
 #include <cstddef>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "alhazen/error.h"
 #include "util/activity.h"
 
 namespace alhazen::impl {
@@ -26,14 +26,14 @@ struct SourceLocation {
 /// Input that cannot be used: a malformed or missing file, or a setting out of range. `what()` is one complete message:
 /// `file:line:column: what is wrong and what to do`, followed by an excerpt if there is one. It contains nothing that
 /// acts on a terminal (util/printable.h), whatever names the input contains. The command line exits with code 2.
-class InputError : public std::runtime_error {
+class InputError : public alhazen::InputError {
  public:
   explicit InputError(const std::string& message);
   InputError(const SourceLocation& where, const std::string& message, const std::string& excerpt = {});
 };
 
 /// A failure while the program runs, such as a full disk or a lack of memory. The command line exits with code 1.
-class RenderError : public std::runtime_error {
+class RenderError : public Error {
  public:
   explicit RenderError(const std::string& message);
 };

@@ -184,8 +184,7 @@ TEST_F(LayerOptions, LightGroupsAreLayers) {
   EXPECT_NE(idle.err.find("--light-group has no effect"), std::string::npos) << idle.err;
 
   ASSERT_EQ(lit({"--checkpoint", "state", "-o", "e.exr", "--light-group", "key=point.1"}).exit_code, 0);
-  const CommandResult other =
-      lit({"--checkpoint", "state", "--resume", "-o", "e.exr", "--light-group", "key=point.2"});
+  const CommandResult other = lit({"--checkpoint", "state", "--resume", "-o", "e.exr", "--light-group", "key=point.2"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_NE(other.err.find("light-group key=point.1"), std::string::npos) << other.err;
 }
