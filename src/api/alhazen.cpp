@@ -14,14 +14,9 @@ const float* RenderedImage::plane(const std::string& channel) const {
 }
 
 RenderedImage render(const std::string& scene_file, const Settings& settings, const ProgressFunction& progress) {
-  using namespace impl;
-  const ThreadDefaults defaults;
-  Diagnostics diagnostics;
-  LoadedScene loaded = load_scene(scene_file, settings, diagnostics);
-  const RenderSettings resolved = resolve_settings(settings, loaded.scene);
-  const Rendering rendering =
-      render_scene(std::move(loaded.scene), resolved, loaded.seconds, RenderEvents{progress, {}, {}}, diagnostics);
-  return rendered_image(rendering, diagnostics);
+  const impl::ThreadDefaults defaults;
+  impl::Diagnostics diagnostics;
+  return impl::rendered_image(impl::load_scene(scene_file, settings, diagnostics), settings, progress, diagnostics);
 }
 
 }  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE

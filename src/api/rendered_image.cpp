@@ -1,10 +1,33 @@
 #include "api/rendered_image.h"
 
+#include <string>
 #include <utility>
 
 #include "images/image.h"
 
 namespace alhazen::impl {
+
+void refuse_reading_settings(const Settings& settings) {
+  const auto refuse = [](bool is_given, const char* name) {
+    if (is_given)
+      throw InputError("the setting '" + std::string(name) +
+                       "' is about reading a file: give it to Scene::load instead");
+  };
+  refuse(!settings.camera.empty(), "camera");
+  refuse(!settings.variant.empty(), "variant");
+  refuse(!settings.animation.empty(), "animation");
+  refuse(settings.animation_time.has_value(), "animation_time");
+  refuse(settings.shutter.has_value(), "shutter");
+  refuse(!settings.definitions.empty(), "definitions");
+}
+
+RenderedImage rendered_image(LoadedScene&& loaded, const Settings& settings, const ProgressFunction& progress,
+                             Diagnostics& diagnostics) {
+  const RenderSettings resolved = resolve_settings(settings, loaded.scene);
+  const Rendering rendering =
+      render_scene(std::move(loaded.scene), resolved, loaded.seconds, RenderEvents{progress, {}, {}}, diagnostics);
+  return rendered_image(rendering, diagnostics);
+}
 
 RenderedImage rendered_image(const Rendering& rendering, const Diagnostics& diagnostics) {
   RenderedImage image;

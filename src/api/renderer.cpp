@@ -135,6 +135,7 @@ void Renderer::set_settings(const Settings& settings) { state_->asked = settings
 BuildReport Renderer::start(const Scene& scene, const ProgressFunction& progress) {
   const impl::ThreadDefaults defaults;
   const auto start = std::chrono::steady_clock::now();
+  impl::refuse_reading_settings(state_->asked);
   state_->set_image(nullptr);
   state_->progress = progress;
   BuildReport report;

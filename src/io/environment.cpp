@@ -66,13 +66,15 @@ double upward_irradiance(const ImageTexels& map) {
   return sum;
 }
 
-void use_environment(Scene& scene, const InputPath& path) {
-  ImageTexels map = read_environment(path);
-  const std::string fault = environment_fault(map);
-  if (!fault.empty()) throw InputError({path.name}, fault);
+void remove_infinite_lights(Scene& scene) {
   std::erase_if(scene.lights, [](const Light& light) {
     return light.kind == LightKind::constant_infinite || light.kind == LightKind::environment;
   });
+  scene.environments.clear();
+}
+
+void use_environment(Scene& scene, ImageTexels&& map, const std::string& name) {
+  remove_infinite_lights(scene);
   Light light;
   light.kind = LightKind::environment;
   light.radiance = {1, 1, 1};
@@ -80,9 +82,16 @@ void use_environment(Scene& scene, const InputPath& path) {
   // The map's centre is its -x; the direction to the left of it, its +y, is on the camera's left.
   const bool is_right_handed = scene.camera.world_from_camera.start.swaps_handedness();
   light.axes = {{0, 0, 1}, {is_right_handed ? -1.0 : 1.0, 0, 0}, {0, 1, 0}};
-  light.where = {path.name};
-  scene.environments.assign(1, std::move(map));
+  light.where = {name};
+  scene.environments.push_back(std::move(map));
   scene.lights.push_back(std::move(light));
+}
+
+void use_environment(Scene& scene, const InputPath& path) {
+  ImageTexels map = read_environment(path);
+  const std::string fault = environment_fault(map);
+  if (!fault.empty()) throw InputError({path.name}, fault);
+  use_environment(scene, std::move(map), path.name);
 }
 
 }  // namespace alhazen::impl

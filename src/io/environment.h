@@ -22,5 +22,10 @@ double upward_irradiance(const ImageTexels& map);
 /// Lights `scene` by the map of file `path` instead of its infinite lights: the map's top is towards +y, its centre
 /// towards -z, and the scene's camera sees it without mirroring. Throws InputError.
 void use_environment(Scene& scene, const InputPath& path);
+/// The same by a map in memory, in which environment_fault() finds none; `name` is for messages.
+void use_environment(Scene& scene, ImageTexels&& map, const std::string& name);
+
+/// Takes all infinite lights out of a scene.
+void remove_infinite_lights(Scene& scene);
 
 }  // namespace alhazen::impl

@@ -1,6 +1,7 @@
 #include "pipeline/load_scene.h"
 
 #include <chrono>
+#include <utility>
 
 #include "files/file_identity.h"
 #include "io/environment.h"
@@ -27,18 +28,16 @@ ReadOptions read_options(const Settings& settings) {
 
 namespace {
 
-LoadedScene load(const std::string& path, const Settings& settings, bool turns, Diagnostics& diagnostics) {
-  const auto start = std::chrono::steady_clock::now();
-  // Before the scene is read, which may take long.
+/// Before a scene is read, which may take long.
+void refuse_checkpoint_of(const std::string& path, const Settings& settings) {
   refuse_same_file({settings.checkpoint, "the checkpoint"}, {{path == standard_input_name ? "" : path, "the scene"},
                                                              {settings.environment, "the environment map"}});
-  diagnostics.activity().begin("reading the scene");
-  LoadedScene loaded;
-  loaded.inputs = std::make_shared<InputRecord>();
-  ReadOptions choice = read_options(settings);
-  choice.record = loaded.inputs;
-  loaded.scene = read_scene(path, choice, diagnostics);
-  loaded.inputs->refuse(settings.checkpoint, "the checkpoint");
+}
+
+/// Replaces what settings replace in a scene.
+void adapt(const std::string& path, const Settings& settings, bool turns, LoadedScene& loaded,
+           Diagnostics& diagnostics) {
+  if (loaded.inputs) loaded.inputs->refuse(settings.checkpoint, "the checkpoint");
   if (!settings.environment.empty()) {
     diagnostics.activity().begin("reading the environment map");
     use_environment(loaded.scene, path_beside(path, settings.environment, settings.confine));
@@ -48,7 +47,23 @@ LoadedScene load(const std::string& path, const Settings& settings, bool turns, 
     loaded.pivot = choose_turning_view(settings, loaded.scene, diagnostics);
   else
     choose_view(settings, loaded.scene, diagnostics);
-  loaded.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+LoadedScene load(const std::string& path, const Settings& settings, bool turns, Diagnostics& diagnostics) {
+  const auto start = std::chrono::steady_clock::now();
+  refuse_checkpoint_of(path, settings);
+  diagnostics.activity().begin("reading the scene");
+  LoadedScene loaded;
+  loaded.inputs = std::make_shared<InputRecord>();
+  ReadOptions choice = read_options(settings);
+  choice.record = loaded.inputs;
+  loaded.scene = read_scene(path, choice, diagnostics);
+  adapt(path, settings, turns, loaded, diagnostics);
+  loaded.seconds = seconds_since(start);
   return loaded;
 }
 
@@ -60,6 +75,18 @@ LoadedScene load_scene(const std::string& path, const Settings& settings, Diagno
 
 LoadedScene load_turning_scene(const std::string& path, const Settings& settings, Diagnostics& diagnostics) {
   return load(path, settings, true, diagnostics);
+}
+
+LoadedScene adapt_scene(Scene&& scene, std::shared_ptr<InputRecord> inputs, const Settings& settings,
+                        Diagnostics& diagnostics) {
+  const auto start = std::chrono::steady_clock::now();
+  refuse_checkpoint_of(scene.name, settings);
+  LoadedScene loaded;
+  loaded.scene = std::move(scene);
+  loaded.inputs = std::move(inputs);
+  adapt(loaded.scene.name, settings, false, loaded, diagnostics);
+  loaded.seconds = seconds_since(start);
+  return loaded;
 }
 
 }  // namespace alhazen::impl

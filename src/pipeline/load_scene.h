@@ -29,6 +29,10 @@ LoadedScene load_scene(const std::string& path, const Settings& settings, Diagno
 /// The same for a camera that will turn about the scene.
 LoadedScene load_turning_scene(const std::string& path, const Settings& settings, Diagnostics& diagnostics);
 
+/// The same for a scene that is in memory. `inputs`, if not null, are the files that it was read from.
+LoadedScene adapt_scene(Scene&& scene, std::shared_ptr<InputRecord> inputs, const Settings& settings,
+                        Diagnostics& diagnostics);
+
 /// What settings select in a file.
 ReadOptions read_options(const Settings& settings);
 

@@ -207,7 +207,7 @@ void resolve_aov_surface(const std::string& name, RenderSettings& s) {
 }
 
 CoatModel parse_coats(const std::string& text) {
-  if (text.empty() || text == "lossless") return CoatModel::lossless;
+  if (text == "lossless") return CoatModel::lossless;
   if (text == "pbrt") return CoatModel::pbrt;
   throw InputError("unknown coats '" + text + "'; use lossless or pbrt");
 }
@@ -238,7 +238,7 @@ Filter parse_filter(const std::string& text) {
 }  // namespace
 
 void apply_settings(const Settings& asked, Scene& scene) {
-  scene.coats = parse_coats(asked.coats);
+  if (!asked.coats.empty()) scene.coats = parse_coats(asked.coats);
   if (!asked.filter.empty()) scene.filter = parse_filter(asked.filter);
 }
 

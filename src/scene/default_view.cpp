@@ -126,18 +126,22 @@ void refuse_boundless(const std::vector<PlacedShape>& shapes) {
           "the shape reaches farther than 1e18, which is too far for ray tracing: scale it, or its transform, down");
 }
 
-void fit_camera(Scene& scene, double aspect) {
+Camera fitted_camera(const Scene& scene, double aspect) {
   if (!(aspect > 0)) aspect = static_cast<double>(scene.film.width) / static_cast<double>(scene.film.height);
   const std::vector<PlacedShape> shapes = placed_shapes(scene);
   refuse_boundless(shapes);
   const Vec3d backward = direction_to_eye(bounds_of(shapes).diagonal() * 0.5);
   const Vec3d right = normalize(cross(Vec3d{0, 1, 0}, backward)), up = cross(backward, right);
-  scene.camera.fov = 40;
-  const Vec3d eye = fitting_eye(scene, shapes, aspect, {right, up, backward}, scene.camera.fov);
-  scene.camera.world_from_camera.start = world_from_camera(eye, right, up, -backward);
-  scene.camera.world_from_camera.end = scene.camera.world_from_camera.start;
-  scene.camera.is_default = true;
+  Camera camera = scene.camera;
+  camera.fov = 40;
+  const Vec3d eye = fitting_eye(scene, shapes, aspect, {right, up, backward}, camera.fov);
+  camera.world_from_camera.start = world_from_camera(eye, right, up, -backward);
+  camera.world_from_camera.end = camera.world_from_camera.start;
+  camera.is_default = true;
+  return camera;
 }
+
+void fit_camera(Scene& scene, double aspect) { scene.camera = fitted_camera(scene, aspect); }
 
 void add_neutral_light(Scene& scene) {
   ImageTexels map;

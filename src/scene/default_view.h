@@ -29,8 +29,11 @@ inline constexpr double max_reach = 1e18;
 /// Throws InputError if a shape reaches beyond max_reach, so that no camera can be placed for it.
 void refuse_boundless(const std::vector<PlacedShape>& shapes);
 
-/// Adds a camera that sees the whole scene from the front, the side and above, for an image of that aspect ratio (width
-/// over height; 0: that of the film). The scene's y is up.
+/// The scene's camera, placed where it sees the whole scene from the front, the side and above, for an image of that
+/// aspect ratio (width over height; 0: that of the film). The scene's y is up.
+Camera fitted_camera(const Scene& scene, double aspect);
+
+/// Makes it the scene's.
 void fit_camera(Scene& scene, double aspect);
 
 /// Calls visit(point) for points in world space between which the shape is: the vertices of a mesh, the corners of a

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs Alhazen to a folder of its own, builds the example against what was installed, and runs it.
+# Installs Alhazen to a folder of its own, builds the examples against what was installed, and runs them.
 # Arguments: the build folder, the C++ compiler.
 set -euo pipefail
 build=$1 compiler=$2
@@ -42,3 +42,16 @@ build_example ambient_occlusion "$work/occlusion"
 # Black where rays miss, white where nothing is close, and grey in corners.
 shades=$(tail -c +16 "$work/occlusion.pgm" | od -An -v -tu1 -w1 | sort -n | uniq | wc -l)
 ((shades > 30)) || fail "the image of occlusion has only $shades shades"
+
+build_example scene_from_arrays "$work/arrays"
+"$work/arrays/build/scene_from_arrays" | tee "$work/arrays.txt"
+grep -q '^160 x 90 pixels; green is' "$work/arrays.txt" || fail "the scene from arrays was not rendered"
+
+build_example turntable "$work/turntable"
+(cd "$work/turntable" && build/turntable "$scene" 2 4) | tee "$work/turntable.txt"
+grep -q '^frame_001.png: not built again' "$work/turntable.txt" || fail "the second frame of the turntable was built again"
+[[ $(head -c 4 "$work/turntable/frame_001.png" | tail -c 3) == PNG ]] || fail "the turntable has no frame"
+
+build_example progressive "$work/progressive"
+(cd "$work/progressive" && build/progressive "$scene") | tee "$work/progressive.txt"
+grep -q '^so_far.png: complete' "$work/progressive.txt" || fail "the progressive image is not complete"

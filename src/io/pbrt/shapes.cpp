@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/quadrics.h"
 #include "geometry/tessellate.h"
 #include "io/pbrt/curves.h"
 #include "io/pbrt/materials.h"
@@ -28,11 +29,6 @@ using std::numbers::pi;
 struct Extent {
   double z_min = 0, z_max = 0, phi_max = 360;
 };
-
-bool is_similarity(const MovingTransform& transform) {
-  double scale = 0;
-  return transform.start.is_similarity(scale) && transform.end.is_similarity(scale);
-}
 
 double read_phi_max(ParameterList& list) {
   const double phi_max = std::min(list.number("phimax", 360), 360.0);
@@ -84,29 +80,6 @@ void read_sphere(Build& build, ParameterList& list, Shape& shape) {
   shape.type = ShapeType::sphere;
   if (!is_whole || !is_similarity(shape.world_from_object))
     become_mesh(shape, sphere_mesh(build, list, shape.radius, extent));
-}
-
-bool is_cylinder_or_disk(const Shape& shape) {
-  return shape.type == ShapeType::cylinder || shape.type == ShapeType::disk;
-}
-
-/// Returns whether a cylinder or disk is exact where `world_from_object` places it: it is at rest, and its thickness is
-/// not lost in the rounding of coordinates along it.
-bool stays_exact(const Shape& shape, const MovingTransform& world_from_object) {
-  constexpr double max_magnification = 1e4;  // of rounding, on the way to a shape of radius 1 and height 2, and back
-  const Matrix4& there = world_from_object.start.matrix();
-  const Matrix4 back = world_from_object.start.inverse().matrix();
-  if (world_from_object.is_moving() || there[3] != std::array<double, 4>{0, 0, 0, 1}) return false;
-  const bool is_disk = shape.type == ShapeType::disk;
-  const std::array<double, 3> size{shape.radius, shape.radius,
-                                   is_disk ? shape.radius : (shape.z_max - shape.z_min) / 2};
-  for (size_t i = 0; i < 3; ++i)
-    for (size_t j = 0; j < 3; ++j) {
-      double magnified = 0;
-      for (size_t k = 0; k < 3; ++k) magnified += std::abs(back[i][k] / size[i] * there[k][j] * size[j]);
-      if (!(magnified <= max_magnification)) return false;
-    }
-  return true;
 }
 
 uint32_t mesh_of_quadric(Build& build, const ParameterList& list, const Shape& shape) {
@@ -207,9 +180,6 @@ uint32_t read_alpha(Build& build, ParameterList& list, bool& visible) {
   visible = !constant || *constant > 0;
   return constant && *constant >= 1 ? no_index : alpha;
 }
-
-/// Instances copy cylinders and disks. Where these were more, they become meshes, which instances share.
-constexpr uint64_t max_quadric_copies = 1u << 17;
 
 }  // namespace
 

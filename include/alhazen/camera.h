@@ -1,0 +1,66 @@
+#pragma once
+
+// The camera, the film, and how a scene is rendered where settings leave that open.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "alhazen/geometry.h"
+#include "alhazen/version.h"
+
+namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+
+enum class CameraKind {
+  perspective,
+  orthographic,     ///< rays are parallel to z
+  equirectangular,  ///< the whole sphere of directions; the camera's y is up
+  equal_area,       ///< the whole sphere by the octahedral mapping
+};
+
+struct Camera {
+  CameraKind kind = CameraKind::perspective;
+  /// From camera space (x right, y up, z into the scene) to world space: Transform::look_at.
+  MovingTransform transform{};
+  double fov = 90;  ///< perspective: degrees over the shorter side of the image
+  /// x0, x1, y0, y1 of what is seen, of orthographic cameras in camera space, of perspective ones relative to `fov`;
+  /// absent: [-1, 1] over the shorter side.
+  std::optional<std::array<double, 4>> screen_window{};
+  std::optional<double> frame_aspect_ratio{};  ///< absent: that of the image
+  double lens_radius = 0;                      ///< camera space; 0: all is sharp
+  double focal_distance = 1e6;                 ///< camera space: of what is sharp, if the lens has a radius
+  double shutter_open = 0, shutter_close = 1;  ///< times of the motion that is seen
+};
+
+struct Film {
+  int64_t width = 1280, height = 720;                    ///< pixels
+  std::optional<std::array<int64_t, 4>> pixel_bounds{};  ///< x0, x1, y0, y1 of what is rendered, half open; absent: all
+  double exposure = 1;                                   ///< factor on the radiance
+};
+
+enum class FilterKind { box, triangle, gaussian, mitchell, sinc };
+
+struct PixelFilter {
+  FilterKind kind = FilterKind::gaussian;
+  double x_radius = 1.5, y_radius = 1.5;  ///< pixels
+  double sigma = 0.5;                     ///< gaussian
+  double b = 1.0 / 3, c = 1.0 / 3;        ///< mitchell
+  double tau = 3;                         ///< sinc
+};
+
+enum class Integrator { path, iterative, recursive, branching };
+enum class Sampler { sobol, zsobol, independent };
+
+/// Used where Settings leave them open. These are the defaults of new scenes; files have those of their format.
+struct RenderDefaults {
+  int64_t samples_per_pixel = 64;
+  uint32_t seed = 0;
+  int64_t max_depth = 8;  ///< bounces
+  Integrator integrator = Integrator::path;
+  Sampler sampler = Sampler::sobol;
+  std::string quality = "good";  ///< draft, good, final; empty: none (docs/noise.md)
+  bool pbrt_coats = false;       ///< coated materials lose as much light as pbrt-v4's
+};
+
+}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
