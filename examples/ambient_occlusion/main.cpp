@@ -26,9 +26,7 @@ Vector normalize(Vector a) { return a * (1 / std::sqrt(dot(a, a))); }
 constexpr size_t width = 480, height = 360, samples = 64;
 
 int main(int argc, char** argv) try {
-  if (argc != 10)
-    return std::fprintf(stderr, "usage: ambient_occlusion SCENE OUT.pgm EYE_X EYE_Y EYE_Z AT_X AT_Y AT_Z DISTANCE\n"),
-           2;
+  if (argc != 10) return std::fprintf(stderr, "usage: ambient_occlusion SCENE OUT.pgm EYE(3) AT(3) DISTANCE\n"), 2;
   float numbers[7];
   for (int i = 0; i < 7; ++i) numbers[i] = std::strtof(argv[3 + i], nullptr);
   const Vector eye{numbers[0], numbers[1], numbers[2]}, at{numbers[3], numbers[4], numbers[5]};

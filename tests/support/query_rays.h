@@ -1,11 +1,12 @@
 #pragma once
 
-// Arrays of rays and of hits for the tests of ray queries.
+// Arrays of rays and of hits, and scenes of one mesh, for the tests of ray queries.
 
 #include <limits>
 #include <vector>
 
 #include "alhazen/rays.h"
+#include "scene/scene.h"
 #include "support/random.h"
 
 namespace alhazen::impl::test {
@@ -51,6 +52,16 @@ QueryRays<Number> random_rays(size_t count, double reach, uint64_t seed) {
     rays.add(origin, random.on_sphere() * length, t_max, random.uniform<double>());
   }
   return rays;
+}
+
+inline Scene scene_of(const Mesh& mesh, const Transform& place = {}) {
+  Scene scene;
+  scene.meshes.push_back(mesh);
+  Shape shape;
+  shape.mesh = 0;
+  shape.world_from_object = {place, place};
+  scene.groups[0].shapes.push_back(shape);
+  return scene;
 }
 
 /// All that closest_hits may write, set to values that it never writes.

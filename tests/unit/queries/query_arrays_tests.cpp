@@ -9,6 +9,7 @@
 #include "queries/query_scene.h"
 #include "support/instanced_scenes.h"
 #include "support/query_rays.h"
+#include "support/reals.h"
 
 namespace alhazen::impl::test {
 
@@ -17,16 +18,6 @@ namespace {
 QueryScene query_scene(const Scene& description, Precision precision = Precision::single) {
   Diagnostics diagnostics;
   return QueryScene(Scene(description), precision, 1, diagnostics);
-}
-
-Scene scene_of(const Mesh& mesh, const Transform& place = {}) {
-  Scene scene;
-  scene.meshes.push_back(mesh);
-  Shape shape;
-  shape.mesh = 0;
-  shape.world_from_object = {place, place};
-  scene.groups[0].shapes.push_back(shape);
-  return scene;
 }
 
 /// The square [-1, 1]^2 in the plane z = 0, facing +z.
@@ -48,12 +39,11 @@ QueryRays<Number> mixed_rays(size_t count) {
   return rays;
 }
 
+}  // namespace
+
 template <class Number>
 class QueryArrays : public testing::Test {};
-using Numbers = testing::Types<float, double>;
-TYPED_TEST_SUITE(QueryArrays, Numbers);
-
-}  // namespace
+TYPED_TEST_SUITE(QueryArrays, Reals);
 
 TYPED_TEST(QueryArrays, ResultsDependOnNeitherThreadsNorInstructionSet) {
   constexpr size_t count = 20'000;
@@ -184,6 +174,20 @@ TYPED_TEST(QueryArrays, NoRaysNeedNoArrays) {
   const QueryScene scene = query_scene(scene_of(cube()));
   EXPECT_NO_THROW(scene.closest_hits(RayArrays<TypeParam>{}, {}, 0));
   EXPECT_NO_THROW(scene.occluded(RayArrays<TypeParam>{}, nullptr, 0));
+}
+
+TYPED_TEST(QueryArrays, EmptyScenesAreMissed) {
+  const QueryScene scene = query_scene({});
+  const QueryRays<TypeParam> rays = mixed_rays<TypeParam>(100);
+  QueryHits<TypeParam> hits(100);
+  std::vector<uint8_t> occluded(100, 7);
+  scene.closest_hits(rays.arrays(), hits.arrays(), 0);
+  scene.occluded(rays.arrays(), occluded.data(), 0);
+  for (size_t i = 0; i < 100; ++i) EXPECT_TRUE(hits.is_miss(i) && occluded[i] == 0) << i;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(infinity<double>, scene.bounds().low[axis]);
+    EXPECT_EQ(-infinity<double>, scene.bounds().high[axis]);
+  }
 }
 
 TYPED_TEST(QueryArrays, MissingArraysAreErrorsThatNameThem) {
