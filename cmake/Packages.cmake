@@ -42,15 +42,19 @@ function(alhazen_package component name section depends description)
           COMPONENT ${component} EXCLUDE_FROM_ALL)
 endfunction()
 
-set(what "Alhazen is a path tracer. It renders pbrt-v4, glTF 2.0 and Mitsuba scenes and models (OBJ, PLY, STL) to EXR, PNG,
-JPEG, HDR and PFM, with noise targets, path guiding, denoising, motion blur and layers.")
+set(what "Alhazen is a path tracer. It renders pbrt-v4, glTF 2.0 and Mitsuba scenes
+and models (OBJ, PLY, STL) to EXR, PNG, JPEG, HDR and PFM, with noise
+targets, path guiding, denoising, motion blur and layers.")
+# The first line of each description is the summary.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
 set(packages)
 # Program and modules share internals with the library of the same build.
 set(same "${library_package} (= ${debian_version})")
 alhazen_package(program alhazen graphics "${same}" "path tracer for pbrt, glTF and Mitsuba scenes
 ${what}
 .
-This package holds the program, its manual pages, completions for shells and some scenes.")
+This package holds the program, its manual pages, completions for shells
+and some scenes.")
 alhazen_package(library ${library_package} libs "" "path tracer for pbrt, glTF and Mitsuba scenes (library)
 ${what}
 .
@@ -58,7 +62,8 @@ This package holds the shared library.")
 alhazen_package(development libalhazen-dev libdevel "${same}" "path tracer for pbrt, glTF and Mitsuba scenes (headers)
 ${what}
 .
-This package holds what programs that embed Alhazen are compiled with: headers, and files for CMake and pkg-config.")
+This package holds what programs that embed Alhazen are compiled with:
+headers, and files for CMake and pkg-config.")
 set(recommended)
 foreach(module IN ITEMS embree cuda optix)
   if(TARGET alhazen_${module})
@@ -66,7 +71,8 @@ foreach(module IN ITEMS embree cuda optix)
                     "path tracer for pbrt, glTF and Mitsuba scenes (${module})
 ${what}
 .
-This package holds the module of the backend '${module}', which the library loads where it is installed.")
+This package holds the module of the backend '${module}', which the library
+loads where it is installed.")
     list(APPEND recommended libalhazen${ALHAZEN_SOVERSION}-${module})
   endif()
 endforeach()

@@ -16,7 +16,11 @@ fi
 
 step() { printf '\n== %s\n' "$*"; }
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
-install_packages() { inside apt-get install -y -q "$@" >"$root/root/apt.log" || { cat "$root/root/apt.log"; exit 1; }; }
+install_packages() {
+  inside apt-get install -y -q --no-install-recommends "$@" >"$root/root/apt.log" 2>&1 || { cat "$root/root/apt.log"; exit 1; }
+}
+# The package whose name matches, as a path within.
+package() { (cd "$root" && find root/packages -regex "root/packages/$1_[^_]*_[^_]*[.]deb" -printf '/%p\n'); }
 
 if [[ ! -e $root/etc/debian_version ]]; then
   step "debootstrap $suite"
@@ -30,18 +34,18 @@ cp -r examples/render_to_memory "$root/root/example"
 inside apt-get update -q >/dev/null
 
 step "apt install ./alhazen ./libalhazen0.1, without what they recommend"
-install_packages --no-install-recommends $(cd "$root" && printf './%s\n' root/packages/alhazen_*.deb root/packages/libalhazen[0-9.]*_*.deb | sed 's/^\./ /')
+install_packages "$(package alhazen)" "$(package 'libalhazen[0-9.]*')"
 inside alhazen --version
 inside alhazen devices
 inside alhazen render /usr/share/alhazen/scenes/cornell.pbrt --spp 4 --size 64x64 -o /root/cornell.png
 inside dpkg -l | awk '/^ii/ && /alhazen|embree/ { print $2, $3 }'
 
 step "the module of Embree"
-install_packages --no-install-recommends $(cd "$root" && printf ' /%s\n' root/packages/libalhazen*-embree_*.deb)
+install_packages "$(package 'libalhazen[0-9.]*-embree')"
 inside alhazen render /usr/share/alhazen/scenes/cornell.pbrt --backend embree --spp 4 --size 64x64 -o /root/embree.png
 
 step "the example, with libalhazen-dev, g++ and cmake"
-install_packages --no-install-recommends $(cd "$root" && printf ' /%s\n' root/packages/libalhazen-dev_*.deb) g++ cmake make
+install_packages "$(package libalhazen-dev)" g++ cmake make
 inside dpkg -l | awk '/^ii/ && $2 ~ /-dev(:|$)/ { print $2 }' | paste -sd' '
 inside cmake -S /root/example -B /root/example/build
 inside cmake --build /root/example/build

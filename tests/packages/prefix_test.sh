@@ -67,8 +67,8 @@ if command -v pkg-config >/dev/null; then
   "$compiler" -std=c++20 "$work/example/main.cpp" "${flags[@]}" -o "$work/by_pkg_config"
   expect_example env LD_LIBRARY_PATH="$(pkg-config --variable=libdir alhazen)" "$work/by_pkg_config"
   if [[ -n $archive ]]; then
-    read -ra flags <<<"$(pkg-config --static --libs alhazen)"
-    "$compiler" -std=c++20 "-I$prefix/include" "$work/example/main.cpp" "$archive" "${flags[@]/-lalhazen/}" -o "$work/static"
+    read -ra flags <<<"$(pkg-config --static --libs alhazen | sed 's/-lalhazen //')"
+    "$compiler" -std=c++20 "-I$prefix/include" "$work/example/main.cpp" "$archive" "${flags[@]}" -o "$work/static"
     expect_example "$work/static"
     ! readelf -d "$work/static" | grep -q 'NEEDED.*libalhazen' || fail "the static program needs the shared library"
   fi
