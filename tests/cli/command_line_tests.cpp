@@ -162,7 +162,10 @@ TEST_F(CommandLine, SaysInItsOwnWordsWhatIsWrongWithAValue) {
                {"--reduce must be a whole number from 1 to 4096, not 'x'"});
   expect_error({"study", "tune", "scene.pbrt", "--budget", "nan"}, 2,
                {"--budget must be a finite number from 1 to 1000000, not 'nan'"});
-  // What follows is not taken for the value.
+  // What follows is not taken for the value, nor for one more of an option that may be repeated.
+  EXPECT_EQ(
+      run({"render", "--aov", "albedo", "--aov", "depth", "scene.pbrt", "--spp", "1", "-q", "-o", "a.exr"}).exit_code,
+      0);
   expect_error({"render", "--checkpoint=", "scene.pbrt"}, 2, {"--checkpoint needs a value"});
   for (const char* option : {"--frames", "--format", "--exr-type", "--exr-compression", "--progress", "--exposure",
                              "--white-balance", "--tone-map", "--png-depth", "--jpeg-quality", "--spp", "-o"})
