@@ -155,7 +155,7 @@ TEST_F(CommandLine, SaysInItsOwnWordsWhatIsWrongWithAValue) {
   expect_error({"render", "scene.pbrt", "--turntable", "nan"}, 2,
                {"--turntable must be a whole number from 1 to 1000000, not 'nan'"});
   expect_error({"render", "scene.pbrt", "--exr-tiles", "99999999999"}, 2,
-               {"--exr-tiles must be a whole number from 8 to 1024, not '99999999999'"});
+               {"--exr-tiles must be a whole number from 8 to 1024 pixels, or 0 for none, not '99999999999'"});
   expect_error({"render", "scene.pbrt", "--quiet=maybe"}, 2, {"--quiet takes no value"});
   expect_error({"render", "scene.pbrt", "--list=false"}, 2, {"--list takes no value"});
   expect_error({"compare", "a.exr", "b.exr", "--reduce", "x"}, 2,
