@@ -132,7 +132,7 @@ CommandOption& CommandOption::common() {
 }
 
 CommandOption& CommandOption::repeatable() {
-  option_->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  option_->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   return *this;
 }
 

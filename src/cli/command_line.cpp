@@ -91,7 +91,7 @@ std::string message_of_values(const CLI::ParseError& error) {
     return name + " is given " + (times == "2" ? "twice" : times + " times") + ": give it once";
   }
   if (const size_t end = text.find(" was given a disallowed flag override"); end != std::string::npos)
-    return text.substr(0, end) + " takes no value: give it, or leave it out";
+    return (end > 1 ? "--" : "-") + text.substr(0, end) + " takes no value: give it, or leave it out";
   return text;
 }
 

@@ -25,7 +25,9 @@
 #include "render/renderer.h"
 #include "render/setting_table.h"
 #include "study/tuned.h"
+#include "util/parse_numbers.h"
 #include "util/printable.h"
+#include "util/quoted.h"
 
 namespace alhazen::impl {
 
@@ -47,6 +49,12 @@ ExrCompression parse_compression(const std::string& text) {
 
 void check_pixel_type(const std::string& text) {
   if (text != "half" && text != "float") throw InputError("unknown pixel type '" + text + "': it may be half, float");
+}
+
+void check_tile_size(const std::string& text) {
+  int size = 0;
+  if (!parse_number(text, size) || (size != 0 && (size < 8 || size > 1024)))
+    throw InputError("--exr-tiles must be a whole number from 8 to 1024 pixels, or 0 for none, not " + quoted(text));
 }
 
 void check_statistics(const std::string& text) {
@@ -321,7 +329,7 @@ void add_output_options(Command& command, RenderOptions& o, const char* group) {
       .group(group);
   command.add_flag("--exr-parts", o.output.how.has_parts, "EXR: write each layer to a part of its own").group(group);
   command.add_option("--exr-tiles", o.output.how.tile_size, "EXR: write tiles with sides of this many pixels")
-      .within(8, 1024)
+      .checked(check_tile_size)
       .value_name("N")
       .group(group);
   add_display_options(command, o.display, group);

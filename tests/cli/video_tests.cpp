@@ -225,7 +225,7 @@ TEST_F(Video, OfAnInterruptedRunHasTheFinishedFrames) {
 /// One Ctrl-C ends it, whether it takes no frames or does not come to its end.
 TEST_F(Video, AHungFfmpegIsEndedByAnInterrupt) {
   const std::string hung = "echo $$ > pid\n";
-  for (const std::string\& script :
+  for (const std::string& script :
        {hung + "exec /bin/sleep 1000", hung + "/bin/cat > /dev/null; exec /bin/sleep 1000"}) {
     with_stand_in(script, "--frames 0 -o unused_#.png");
     CommandOptions options;
