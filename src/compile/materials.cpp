@@ -53,8 +53,8 @@ bool follows_tangents(const Material& material) {
 template <class Real>
 class MaterialBuilder {
  public:
-  MaterialBuilder(const Scene& scene, TextureBuilder<Real>& textures, SceneArrays<Real>& out)
-      : scene_(scene), textures_(textures), out_(out), tables_(out) {}
+  MaterialBuilder(const Scene& scene, CoatModel coats, TextureBuilder<Real>& textures, SceneArrays<Real>& out)
+      : scene_(scene), coats_(coats), textures_(textures), out_(out), tables_(out) {}
 
   /// Adds a material, and returns whether it depends on uv, not counting the materials that it mixes.
   bool add(const Material& material) {
@@ -295,7 +295,7 @@ class MaterialBuilder {
     if (record.is_anisotropic) record.roughness_v = range(material.roughness_v);
   }
 
-  bool loses_light() const { return scene_.coats == CoatModel::pbrt; }
+  bool loses_light() const { return coats_ == CoatModel::pbrt; }
   double thickness_of(const Material& material) const {
     return material.thickness_is_given || loses_light() ? material.thickness : 0;
   }
@@ -344,6 +344,7 @@ class MaterialBuilder {
   }
 
   const Scene& scene_;
+  CoatModel coats_;
   TextureBuilder<Real>& textures_;
   SceneArrays<Real>& out_;
   StoredTables<Real> tables_;
@@ -371,10 +372,10 @@ std::vector<TextureRange> compile_emission(const Scene& scene, TextureBuilder<Re
 }
 
 template <class Real>
-CompiledMaterials compile(const Scene& scene, ImageBuilder<Real>& images, SceneArrays<Real>& out) {
+CompiledMaterials compile(const Scene& scene, CoatModel coats, ImageBuilder<Real>& images, SceneArrays<Real>& out) {
   add_texture_tables(out);
   TextureBuilder<Real> textures(scene, images, out);
-  MaterialBuilder<Real> materials(scene, textures, out);
+  MaterialBuilder<Real> materials(scene, coats, textures, out);
   CompiledMaterials compiled;
   for (const Material& material : scene.materials) compiled.needs_uv.push_back(materials.add(material));
   pass_on_to_mixes(scene, compiled.needs_uv);
@@ -382,6 +383,8 @@ CompiledMaterials compile(const Scene& scene, ImageBuilder<Real>& images, SceneA
   compiled.emission = compile_emission(scene, textures);
   compiled.images = images.pyramids();
   compiled.filtered_images = filtered_images(scene);
+  compiled.coats = coats;
+  for (const Material& material : scene.materials) compiled.names.push_back(material.name);
   return compiled;
 }
 
@@ -390,13 +393,13 @@ CompiledMaterials compile(const Scene& scene, ImageBuilder<Real>& images, SceneA
 template <class Real>
 CompiledMaterials compile_materials(Scene& scene, SceneArrays<Real>& out) {
   ImageBuilder<Real> images(scene, out);
-  return compile(scene, images, out);
+  return compile(scene, scene.coats, images, out);
 }
 
 template <class Real>
 CompiledMaterials compile_materials_again(const Scene& scene, const CompiledMaterials& before, SceneArrays<Real>& out) {
   ImageBuilder<Real> images(before.images, out);
-  return compile(scene, images, out);
+  return compile(scene, before.coats, images, out);
 }
 
 template CompiledMaterials compile_materials(Scene&, SceneArrays<float>&);

@@ -2,6 +2,7 @@
 
 // Compiles the images, textures and materials of a scene into records.
 
+#include <string>
 #include <vector>
 
 #include "compile/images.h"
@@ -15,6 +16,8 @@ struct CompiledMaterials {
   std::vector<bool> needs_uv;          ///< by material: whether it, or a material that it mixes, uses uv
   std::vector<ImagePyramid> images;    ///< by index into scene.images
   std::vector<bool> filtered_images;
+  std::vector<std::string> names;  ///< by material
+  CoatModel coats = CoatModel::lossless;
 };
 
 /// Fills the images, texels, texture programs and materials of `out`, and frees the texels of `scene`. Appends a
@@ -22,7 +25,7 @@ struct CompiledMaterials {
 template <class Real>
 CompiledMaterials compile_materials(Scene& scene, SceneArrays<Real>& out);
 
-/// The same without texels, for images that are those of `before`.
+/// The same without texels, for images and a model of coats that are those of `before`.
 template <class Real>
 CompiledMaterials compile_materials_again(const Scene& scene, const CompiledMaterials& before, SceneArrays<Real>& out);
 

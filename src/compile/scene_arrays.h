@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "compile/compiled_scene.h"
@@ -75,7 +77,7 @@ struct ArraySet {
 };
 
 /// Replaces these arrays of a compiled scene by those of `fresh`: in place where they have as many elements, else in
-/// another arena to which all others are copied.
+/// another arena to which all others are copied. Throws std::bad_alloc, and the scene is then unchanged.
 template <class Real>
 void replace_arrays(const SceneArrays<Real>& fresh, const ArraySet& replaced, CompiledScene<Real>& scene) {
   bool fits = true;
@@ -91,16 +93,32 @@ void replace_arrays(const SceneArrays<Real>& fresh, const ArraySet& replaced, Co
 #undef ALHAZEN_ARRAY
     return;
   }
-  SceneArrays<Real> all;
+  const auto padded = [](size_t size) { return (size + arena_alignment - 1) / arena_alignment * arena_alignment; };
+  size_t bytes = 0;
 #define ALHAZEN_ARRAY(type, name) \
-  if (replaced.name)              \
-    all.name = fresh.name;        \
-  else                            \
-    all.name.assign(scene.view.name, scene.view.name + scene.view.name##_count);
+  bytes += padded((replaced.name ? fresh.name.size() : scene.view.name##_count) * sizeof(type));
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY
-  all.bounds = scene.view.bounds;
-  all.move_into(scene);
+  bytes = std::max(bytes, arena_alignment);
+  std::unique_ptr<std::byte, FreeArena> arena(static_cast<std::byte*>(std::aligned_alloc(arena_alignment, bytes)));
+  if (!arena) throw std::bad_alloc();
+  std::byte* next = arena.get();
+  const auto copy = [&](const void* source, size_t size) {
+    std::byte* const place = next;
+    if (size > 0) std::memcpy(place, source, size);
+    std::memset(place + size, 0, padded(size) - size);
+    next += padded(size);
+    return place;
+  };
+#define ALHAZEN_ARRAY(type, name)                                                                    \
+  if (replaced.name) scene.view.name##_count = static_cast<uint32_t>(fresh.name.size());             \
+  scene.view.name = reinterpret_cast<const type*>(                                                   \
+      copy(replaced.name ? static_cast<const void*>(fresh.name.data()) : scene.view.name,            \
+           static_cast<size_t>(scene.view.name##_count) * sizeof(type)));
+  ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
+#undef ALHAZEN_ARRAY
+  scene.arena = std::move(arena);
+  scene.statistics.bytes = bytes;
 }
 
 }  // namespace alhazen::impl

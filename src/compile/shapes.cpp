@@ -207,7 +207,10 @@ void ShapeBuilder<Real>::reserve() {
 
 template <class Real>
 void ShapeBuilder<Real>::place(const ShapePlacement& p) {
-  if (names_) object_id_ = names_->object_id(*p.shape, p.instance);
+  if (names_) {
+    object_id_ = names_->object_id(*p.shape, p.instance);
+    if (emits(*p.shape)) emissive_objects_.push_back(object_id_);
+  }
   origin_ = p.origin;
   if (p.shape->type == ShapeType::sphere) return place_sphere(p);
   if (p.shape->type == ShapeType::cylinder) return place_quadric(p, cylinder_record<Real>, out_.cylinders);

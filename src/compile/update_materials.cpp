@@ -1,5 +1,6 @@
 #include "compile/update_materials.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "compile/materials.h"
@@ -13,11 +14,18 @@ namespace {
 
 bool are_same(const TextureRange& a, const TextureRange& b) { return a.first == b.first && a.count == b.count; }
 
-/// Whether lights have the same textures: they are chosen by the mean of these.
+/// Whether lights have the same textures, with the same mappings and images: they are chosen by the mean of these.
 template <class Real>
 bool have_same_emission(const CompiledMaterials& before, const CompiledMaterials& now, const SceneArrays<Real>& fresh,
                         const SceneView<Real>& view) {
   if (before.emission.size() != now.emission.size()) return false;
+  const auto are_equal = [](const auto& array, const auto* records, uint32_t count) {
+    return array.size() == count && (count == 0 || std::memcmp(array.data(), records, count * sizeof(array[0])) == 0);
+  };
+  if (std::any_of(now.emission.begin(), now.emission.end(), [](const TextureRange& range) { return range.count > 0; }) &&
+      !(are_equal(fresh.texture_mappings, view.texture_mappings, view.texture_mappings_count) &&
+        are_equal(fresh.images, view.images, view.images_count)))
+    return false;
   for (size_t i = 0; i < now.emission.size(); ++i) {
     const TextureRange& range = now.emission[i];
     if (!are_same(before.emission[i], range)) return false;
@@ -25,6 +33,11 @@ bool have_same_emission(const CompiledMaterials& before, const CompiledMaterials
       if (std::memcmp(&fresh.textures[k], &view.textures[k], sizeof(fresh.textures[k])) != 0) return false;
   }
   return true;
+}
+
+bool have_names(const Scene& scene, const std::vector<std::string>& names) {
+  return std::equal(scene.materials.begin(), scene.materials.end(), names.begin(), names.end(),
+                    [](const Material& material, const std::string& name) { return material.name == name; });
 }
 
 /// Whether what was compiled of the shapes is the same with these materials.
@@ -48,6 +61,7 @@ template <class Real>
 bool update_materials(const Scene& description, CompiledScene<Real>& scene) {
   if (!scene.materials || !is_zero(scene.world_origin)) return false;
   if (filtered_images(description) != scene.materials->filtered_images) return false;
+  if (!scene.material_names.empty() && !have_names(description, scene.materials->names)) return false;
   check_mixes(description);
   SceneArrays<Real> fresh;
   CompiledMaterials now = compile_materials_again(description, *scene.materials, fresh);
