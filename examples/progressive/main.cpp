@@ -24,15 +24,16 @@ int main(int argc, char** argv) try {
   settings.width = 320, settings.height = 240;
   settings.samples_per_pixel = 256;
   alhazen::Renderer renderer(settings);
-  renderer.start(scene);
+  renderer.start(scene, [](const alhazen::Progress&) { return !is_interrupted; });
   // Few samples first, so that something is to be seen soon; then twice as many each time.
   int64_t samples = 4;
-  while (renderer.render_pass(samples) && !is_interrupted) {
+  while (renderer.render_pass(samples)) {
     alhazen::save(renderer.image(), "so_far.png");
     std::printf("%3.0f %%\n", 100 * renderer.progress().fraction);
     samples *= 2;
   }
   const alhazen::RenderedImage image = renderer.finish();
+  if (image.planes.empty()) return std::printf("interrupted before the first sample\n"), 0;
   alhazen::save(image, "so_far.png");
   std::printf("so_far.png: %s\n", image.complete ? "complete" : "interrupted");
 } catch (const std::exception& error) {

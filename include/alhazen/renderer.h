@@ -55,12 +55,12 @@ class Renderer {
   /// For the next `start`.
   void set_settings(const Settings& settings);
 
-  /// Begins an image, and drops one that is under way.
+  /// Begins an image, and drops one that is under way, whose `progress` is called once more.
   BuildReport start(const Scene& scene, const ProgressFunction& progress = {});
 
-  /// Takes some samples of every pixel: `samples` rounded up to a multiple of 4, or if that is 0 as many as suit.
-  /// Returns whether more are to be taken: false at the end, once the time limit has passed or the noise target is
-  /// reached, and after `stop`.
+  /// Takes some samples of every pixel: `samples` rounded up to a multiple of 4, but at most those that are left and 64
+  /// (on GPUs 1024), or if that is 0 as many as suit. Returns whether more are to be taken: false at the end, once the
+  /// time limit has passed or the noise target is reached, and after `stop`. Time between passes does not count.
   bool render_pass(int64_t samples = 0);
 
   /// The image so far, with all its layers, not denoised: the mean of the samples of every pixel. Between passes all

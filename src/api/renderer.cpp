@@ -8,6 +8,7 @@
 
 #include "api/rendered_image.h"
 #include "api/scene_state.h"
+#include "compile/render_space.h"
 #include "pipeline/load_scene.h"
 #include "render/renderer.h"
 #include "util/thread_limit.h"
@@ -23,11 +24,17 @@ struct BuildKey {
   auto fields() const {
     return std::tuple(settings.precision, settings.backend, settings.strategy, settings.device, settings.block.x,
                       settings.block.y, settings.chunk.x, settings.chunk.y, settings.threads, settings.texture_budget,
-                      needs_names(), settings.aovs.light_groups, settings.integrator == IntegratorKind::path,
-                      std::tie(asked.light_groups, asked.coats, asked.filter, asked.environment,
-                               asked.environment_rotation, asked.environment_strength, asked.light_scale));
+                      settings.integrator == IntegratorKind::path,
+                      std::tie(asked.coats, asked.filter, asked.environment, asked.environment_rotation,
+                               asked.environment_strength, asked.light_scale, asked.confine, asked.search_paths));
   }
-  bool needs_names() const { return wants_names(settings.aovs); }
+
+  /// Whether layers need only names and light groups that were built with `built`.
+  bool has_names(const BuildKey& built) const {
+    const bool needs_groups = settings.aovs.light_groups, has_groups = built.settings.aovs.light_groups;
+    return (!wants_names(settings.aovs) || wants_names(built.settings.aovs) || has_groups) &&
+           (!needs_groups || (has_groups && asked.light_groups == built.asked.light_groups));
+  }
 
   const Settings& asked;
   const RenderSettings& settings;
@@ -50,6 +57,7 @@ bool is_same_film(const Scene& a, const Filter& filter, double exposure, CoatMod
 
 struct RendererState {
   explicit RendererState(const Settings& settings) : asked(settings) {}
+  ~RendererState() { set_image(nullptr); }  // its last progress may call `stop`
 
   /// Begins an image of what was built, if that is possible.
   bool reuse(const SceneState& scene) {
@@ -62,11 +70,23 @@ struct RendererState {
     if (description.camera.shutter_open != camera.shutter_open ||
         description.camera.shutter_close != camera.shutter_close || description.camera.is_default)
       return false;
+    refuse_checkpoint(description.name, scene.inputs.get(), asked);
     const RenderSettings resolved = resolve_settings(asked, description);
-    if (BuildKey(resolved).fields() != BuildKey(*built).fields()) return false;
-    if (scene.revisions.materials != revisions.materials && !renderer->change_materials(description)) return false;
-    revisions = scene.revisions;
-    set_image(renderer->begin(events(), &description.camera, &resolved));
+    const BuildKey key(resolved), before(*built);
+    if (key.fields() != before.fields() || !key.has_names(before)) return false;
+    if (scene.revisions.camera != revisions.camera &&
+        !(renderer->is_in_world_space() && is_in_render_space(description)))
+      return false;
+    diagnostics = build_diagnostics;
+    try {
+      if (scene.revisions.materials != revisions.materials && !renderer->change_materials(description)) return false;
+      revisions = scene.revisions;
+      warn_of_settings(description, resolved, diagnostics);
+      set_image(renderer->begin(events(), &description.camera, &resolved));
+    } catch (...) {
+      renderer.reset();  // it may be half changed
+      throw;
+    }
     return true;
   }
 
@@ -83,6 +103,7 @@ struct RendererState {
     coats = scene.description.coats;
     camera = scene.description.camera;
     renderer = make_scene_renderer(std::move(loaded.scene), *built, loaded.seconds, diagnostics);
+    build_diagnostics = diagnostics;
     set_image(renderer->begin(events()));
   }
 
@@ -105,12 +126,13 @@ struct RendererState {
   }
 
   Settings asked;
-  Diagnostics diagnostics;
+  Diagnostics diagnostics;        ///< of the scene and the image
+  Diagnostics build_diagnostics;  ///< of the scene alone
   ProgressFunction progress;
   std::unique_ptr<RenderSettings> built;  ///< `renderer` refers to it
   std::unique_ptr<SceneRenderer> renderer;
-  std::unique_ptr<GrowingImage> image;  ///< refers to `renderer`
   std::mutex mutex;                     ///< of `image`
+  std::unique_ptr<GrowingImage> image;  ///< refers to `renderer`
   // What was built.
   uint32_t scene_id = 0;
   SceneRevisions revisions;
@@ -168,8 +190,13 @@ RenderedImage Renderer::finish() {
 
 RenderedImage Renderer::render(const Scene& scene, const ProgressFunction& progress, const PassFunction& after_pass) {
   start(scene, progress);
-  while (render_pass())
-    if (after_pass && !after_pass(*this)) break;
+  try {
+    while (render_pass())
+      if (after_pass && !after_pass(*this)) break;
+  } catch (...) {
+    state_->set_image(nullptr);  // with the thread that calls `progress`
+    throw;
+  }
   return finish();
 }
 

@@ -149,10 +149,11 @@ class SceneCompiler {
     for (size_t i = 0; i < described.size(); ++i) {
       if (!is_background(i)) continue;
       if (has_background && group(described[i]) != flat.view.background_group)
-        throw InputError(scene_.lights[i].where,
-                         "the constant light '" + names.names()[described[i] - 1] +
-                             "' is in another light group than one before it: all of them are rendered as one light, so "
-                             "give them one group");
+        throw InputError(
+            scene_.lights[i].where,
+            "the constant light '" + names.names()[described[i] - 1] +
+                "' is in another light group than one before it: all of them are rendered as one light, so "
+                "give them one group");
       flat.view.background_group = group(described[i]);
       has_background = true;
     }

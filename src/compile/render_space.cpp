@@ -73,6 +73,11 @@ Vec3d origin_of(const Scene& scene) {
 
 }  // namespace
 
+bool is_in_render_space(const Scene& scene) {
+  const Vec3d origin = origin_of(scene);
+  return is_zero(origin) || !is_finite(origin);
+}
+
 Vec3d move_to_render_space(Scene& scene) {
   const Vec3d origin = origin_of(scene);
   if (is_zero(origin) || !is_finite(origin)) return {};

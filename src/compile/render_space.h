@@ -13,4 +13,7 @@ namespace alhazen::impl {
 /// the world that has become the origin.
 Vec3d move_to_render_space(Scene& scene);
 
+/// Whether it would leave the scene as it is.
+bool is_in_render_space(const Scene& scene);
+
 }  // namespace alhazen::impl

@@ -110,10 +110,10 @@ void replace_arrays(const SceneArrays<Real>& fresh, const ArraySet& replaced, Co
     next += padded(size);
     return place;
   };
-#define ALHAZEN_ARRAY(type, name)                                                                    \
-  if (replaced.name) scene.view.name##_count = static_cast<uint32_t>(fresh.name.size());             \
-  scene.view.name = reinterpret_cast<const type*>(                                                   \
-      copy(replaced.name ? static_cast<const void*>(fresh.name.data()) : scene.view.name,            \
+#define ALHAZEN_ARRAY(type, name)                                                         \
+  if (replaced.name) scene.view.name##_count = static_cast<uint32_t>(fresh.name.size());  \
+  scene.view.name = reinterpret_cast<const type*>(                                        \
+      copy(replaced.name ? static_cast<const void*>(fresh.name.data()) : scene.view.name, \
            static_cast<size_t>(scene.view.name##_count) * sizeof(type)));
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY

@@ -22,7 +22,8 @@ bool have_same_emission(const CompiledMaterials& before, const CompiledMaterials
   const auto are_equal = [](const auto& array, const auto* records, uint32_t count) {
     return array.size() == count && (count == 0 || std::memcmp(array.data(), records, count * sizeof(array[0])) == 0);
   };
-  if (std::any_of(now.emission.begin(), now.emission.end(), [](const TextureRange& range) { return range.count > 0; }) &&
+  if (std::any_of(now.emission.begin(), now.emission.end(),
+                  [](const TextureRange& range) { return range.count > 0; }) &&
       !(are_equal(fresh.texture_mappings, view.texture_mappings, view.texture_mappings_count) &&
         are_equal(fresh.images, view.images, view.images_count)))
     return false;

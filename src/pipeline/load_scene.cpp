@@ -77,6 +77,11 @@ LoadedScene load_turning_scene(const std::string& path, const Settings& settings
   return load(path, settings, true, diagnostics);
 }
 
+void refuse_checkpoint(const std::string& path, const InputRecord* inputs, const Settings& settings) {
+  refuse_checkpoint_of(path, settings);
+  if (inputs) inputs->refuse(settings.checkpoint, "the checkpoint");
+}
+
 LoadedScene adapt_scene(Scene&& scene, std::shared_ptr<InputRecord> inputs, const Settings& settings,
                         Diagnostics& diagnostics) {
   const auto start = std::chrono::steady_clock::now();

@@ -33,6 +33,10 @@ LoadedScene load_turning_scene(const std::string& path, const Settings& settings
 LoadedScene adapt_scene(Scene&& scene, std::shared_ptr<InputRecord> inputs, const Settings& settings,
                         Diagnostics& diagnostics);
 
+/// Throws InputError if the checkpoint is the scene's file, or one of those that it was read from. `inputs` may be
+/// null.
+void refuse_checkpoint(const std::string& path, const InputRecord* inputs, const Settings& settings);
+
 /// What settings select in a file.
 ReadOptions read_options(const Settings& settings);
 

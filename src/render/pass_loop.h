@@ -71,19 +71,26 @@ class PassLoop {
     set_total();
     saved_ = Clock::now();
     reporter_.emplace(events_.progress, control_);
-    limit_.emplace(settings_.asked.time_limit, control_);
   }
 
   /// Takes the samples of one pass: `wanted` in whole blocks, or as many as suit if it is 0. Returns whether another
   /// may follow.
-  bool take_pass(uint32_t wanted) { return !is_done() && !control_.is_stopped() && take_next_pass(wanted); }
+  bool take_pass(uint32_t wanted) {
+    if (is_done() || control_.is_stopped()) return false;
+    const Clock::time_point start = Clock::now();
+    const double limit = settings_.asked.time_limit;
+    // What a caller does between passes does not count.
+    const TimeLimit time_limit(limit > 0 ? std::max(limit - active_, 1e-9) : 0, control_);
+    const bool goes_on = !control_.is_stopped() && take_next_pass(wanted);
+    active_ += seconds_since(start);
+    return goes_on;
+  }
 
   /// Ends the render after any number of passes. Rethrows what a callback has thrown.
   void finish(RenderStatistics& statistics) {
     if (is_done()) control_.set_total(control_.samples_done());
     const std::exception_ptr problem = reporter_->finish();
     reporter_.reset();
-    limit_.reset();
     save_checkpoint();
     if (problem) std::rethrow_exception(problem);
     describe(statistics);
@@ -92,7 +99,11 @@ class PassLoop {
 
   void stop() { control_.stop(); }
 
-  Progress progress() const { return progress_of(control_, elapsed_, 0); }
+  Progress progress() {
+    const Progress now = progress_of(control_, elapsed_, fraction_);
+    fraction_ = now.fraction;
+    return now;
+  }
 
   /// Sets what is known of the samples so far.
   void describe(RenderStatistics& statistics) {
@@ -259,7 +270,8 @@ class PassLoop {
   double last_pass_per_sample_ = 0;  ///< seconds
   Clock::time_point saved_;          ///< when the last checkpoint was
   std::optional<ProgressReporter> reporter_;
-  std::optional<TimeLimit> limit_;
+  double active_ = 0;    ///< seconds in take_pass
+  double fraction_ = 0;  ///< that was told last
 };
 
 }  // namespace alhazen::impl

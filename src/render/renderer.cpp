@@ -97,7 +97,7 @@ class GrowingImageOf final : public GrowingImage {
 
   void stop() override { loop_->stop(); }
 
-  Progress progress() const override { return loop_->progress(); }
+  Progress progress() override { return loop_->progress(); }
 
   const Rendering& so_far() override {
     loop_->describe(rendering_.statistics);
@@ -181,6 +181,8 @@ class RendererOf final : public SceneRenderer {
     return std::make_unique<GrowingImageOf<Real>>(*backend_, flat_, std::move(rendering), events, diagnostics_);
   }
 
+  bool is_in_world_space() const override { return is_zero(flat_.world_origin); }
+
   bool change_materials(const Scene& description) override {
     const std::byte* const arena = flat_.arena.get();
     if (!update_materials(description, flat_)) return false;
@@ -197,9 +199,9 @@ class RendererOf final : public SceneRenderer {
   /// Replaces a backend that has been prepared.
   void drop_backend() {
     if (!is_prepared_) return;
+    is_prepared_ = false;  // also if it fails to start
     make_backend();
     started_.get();
-    is_prepared_ = false;
   }
 
   /// Sets what integrators read of the settings in the scene.
@@ -228,6 +230,19 @@ class RendererOf final : public SceneRenderer {
 };
 
 }  // namespace
+
+void warn_of_settings(const Scene& scene, const RenderSettings& settings, Diagnostics& diagnostics) {
+  if (settings.integrator != IntegratorKind::path)
+    for (const Light& light : scene.lights)
+      if (!light_traits(light.kind).has_size)
+        diagnostics.warn(light.where, "rays cannot hit delta lights: the integrator '" +
+                                          to_string(settings.integrator) + "' does not show them; 'path' does");
+  if (settings.asked.noise > 0 && settings.samples_per_pixel <= next_decision(0))
+    diagnostics.warn({scene.name}, "the noise target has no effect: pixels take " + std::to_string(next_decision(0)) +
+                                       " samples before one is finished, and have at most " +
+                                       std::to_string(settings.samples_per_pixel) + "; ask for more by --spp");
+  if (!settings.denoiser_warning.empty()) diagnostics.warn({scene.name}, settings.denoiser_warning);
+}
 
 namespace {
 
@@ -267,24 +282,10 @@ void denoise(Rendering& rendering, Diagnostics& diagnostics) {
   statistics.peak_rss_bytes = peak_rss_bytes();
 }
 
-/// Warns of what the settings do not show of the scene.
-void check_settings(const Scene& scene, const RenderSettings& settings, Diagnostics& diagnostics) {
-  if (settings.integrator != IntegratorKind::path)
-    for (const Light& light : scene.lights)
-      if (!light_traits(light.kind).has_size)
-        diagnostics.warn(light.where, "rays cannot hit delta lights: the integrator '" +
-                                          to_string(settings.integrator) + "' does not show them; 'path' does");
-  if (settings.asked.noise > 0 && settings.samples_per_pixel <= next_decision(0))
-    diagnostics.warn({scene.name}, "the noise target has no effect: pixels take " + std::to_string(next_decision(0)) +
-                                       " samples before one is finished, and have at most " +
-                                       std::to_string(settings.samples_per_pixel) + "; ask for more by --spp");
-  if (!settings.denoiser_warning.empty()) diagnostics.warn({scene.name}, settings.denoiser_warning);
-}
-
 std::unique_ptr<SceneRenderer> make_renderer(Scene&& scene, const RenderSettings& settings, double load_seconds,
                                              bool for_cameras, const std::optional<KernelChoice>& kernel,
                                              Diagnostics& diagnostics) {
-  check_settings(scene, settings, diagnostics);
+  warn_of_settings(scene, settings, diagnostics);
   if (settings.precision == Precision::single)
     return std::make_unique<RendererOf<float>>(std::move(scene), settings, load_seconds, for_cameras, kernel,
                                                diagnostics);

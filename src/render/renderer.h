@@ -68,7 +68,7 @@ class GrowingImage {
   virtual bool take_pass(uint32_t samples = 0) = 0;
   /// Ends the pass under way soon. Any thread may call it.
   virtual void stop() = 0;
-  virtual Progress progress() const = 0;
+  virtual Progress progress() = 0;
   /// The image between two passes, not denoised.
   virtual const Rendering& so_far() = 0;
   /// Ends the render after any number of passes: saves its checkpoint and denoises the image. Throws what `events` has
@@ -89,10 +89,15 @@ class SceneRenderer {
   /// The same, to be rendered pass by pass.
   virtual std::unique_ptr<GrowingImage> begin(const RenderEvents& events, const Camera* camera = nullptr,
                                               const RenderSettings* preview = nullptr) = 0;
+  /// Whether render space is the world: then it does not depend on the camera.
+  virtual bool is_in_world_space() const = 0;
   /// For the next images: other values of materials and textures, as update_materials does. Returns false where that
   /// does not do.
   virtual bool change_materials(const Scene& description) = 0;
 };
+
+/// Warns of what the settings do not show of the scene. Who makes a renderer need not call it.
+void warn_of_settings(const Scene& scene, const RenderSettings& settings, Diagnostics& diagnostics);
 
 /// Compiles the scene; `settings` and `diagnostics` must outlive what is returned. Images do not depend on which others
 /// were rendered before. Throws as render_scene does.

@@ -84,7 +84,8 @@ TEST(LightGroups, OfBlackLightsAreNone) {
   const GroupedLights by_name = group_light_names({"off", "sun"}, {false, true}, {});
   EXPECT_EQ(by_name.groups, Names{"sun"});
   EXPECT_EQ(by_name.group_of[1], 0u);
-  const GroupedLights named = group_light_names({"off", "sun", "dark"}, {false, true, false}, parse_light_groups({"a=sun,off"}));
+  const GroupedLights named =
+      group_light_names({"off", "sun", "dark"}, {false, true, false}, parse_light_groups({"a=sun,off"}));
   EXPECT_EQ(named.groups, Names{"a"}) << "nothing that shines is left";
 }
 
