@@ -173,8 +173,8 @@ std::string take_configuration(std::vector<std::string>& arguments) {
   return path;
 }
 
-/// Where in a file an option is given, by its main name.
-using Origins = std::map<std::string, SourceLocation>;
+/// What a file gives for options, by their main names.
+using Origins = std::map<std::string, FileOption>;
 
 std::string main_name(const CLI::Option& option) { return option.get_name(); }
 
@@ -217,10 +217,10 @@ Origins add_configuration(const CLI::App& app, std::vector<std::string>& argumen
   for (const FileOption& item : read_option_file(path)) {
     const CLI::Option* option = render.get_option_no_throw("--" + item.name);
     if (!option || item.name == "config") refuse_name(item);
-    const auto [first, is_new] = origins.try_emplace(main_name(*option), item.where);
+    const auto [first, is_new] = origins.try_emplace(main_name(*option), item);
     if (!is_new && option->get_multi_option_policy() != CLI::MultiOptionPolicy::TakeAll)
       throw InputError(item.where, quoted(item.name) + " is given twice, first in line " +
-                                       std::to_string(first->second.line) + ": give it once");
+                                       std::to_string(first->second.where.line) + ": give it once");
     const std::vector<std::string> meant = arguments_of(item, *option);
     if (!is_given(*option, given)) added.insert(added.end(), meant.begin(), meant.end());
   }
@@ -234,9 +234,15 @@ void parse(CLI::App& app, std::vector<std::string> arguments, const Origins& ori
   try {
     app.parse(std::move(arguments));
   } catch (const InputError& error) {
-    const auto origin = origins.find(refused_option());
-    if (origin == origins.end()) throw;
-    throw InputError(origin->second, error.what());
+    if (const auto origin = origins.find(refused_option()); origin != origins.end())
+      throw InputError(origin->second.where, error.what());
+    // Names of backends, layers and the like are looked up later: "unknown backend 'x': it may be ...".
+    const std::string message = error.what();
+    for (const auto& [name, item] : origins)
+      for (const std::string& value : item.values)
+        if (message.starts_with("unknown ") && message.find(" " + quoted(value) + ": ") != std::string::npos)
+          throw InputError(item.where, message);
+    throw;
   }
 }
 

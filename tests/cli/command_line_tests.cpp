@@ -110,6 +110,8 @@ TEST_F(CommandLine, NamesTheLineOfAFileWithOptions) {
         {"spp = 2\nspp = 3", "k.cfg:2: 'spp' is given twice, first in line 1"},
         {"\nspp = abc", "k.cfg:2: --spp must be a whole number"},
         {"\nturntable = abc", "k.cfg:2: --turntable must be a whole number from 1 to 1000000, not 'abc'"},
+        {"aov = [\n\"albedo\",\n\"x\"]", "k.cfg:1: unknown layer 'x'"},
+        {"backend = x", "k.cfg:1: unknown backend 'x'"},
         {"exr-type = abc", "k.cfg:1: unknown pixel type 'abc'"},
         {"progress = abc", "k.cfg:1: unknown progress 'abc'"},
         {"jpeg-quality = 200", "k.cfg:1: --jpeg-quality"},
