@@ -39,6 +39,8 @@ class CommandOption {
   CommandOption& separated_by(char separator);
   /// Inclusive limits, which appear in the error but not in the help. NaN is outside.
   CommandOption& within(double low, double high);
+  /// `check` throws InputError where a value is none of the option, before the subcommand runs.
+  CommandOption& checked(std::function<void(const std::string&)> check);
   template <std::integral Number>
   CommandOption& within(Number low, Number high) {
     return within_integers(low, high);
@@ -82,6 +84,9 @@ class Command {
  private:
   CLI::App* app_;
 };
+
+/// The option, "--spp", whose value was refused while the command line was parsed; empty if none was.
+const std::string& refused_option();
 
 /// By option, "--denoise": its value where it is given without one.
 const std::map<std::string, std::string>& implied_values();

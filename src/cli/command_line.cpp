@@ -2,8 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,9 +11,11 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/help.h"
+#include "cli/option_file.h"
 #include "cli/subcommands.h"
 #include "util/diagnostics.h"
 #include "util/printable.h"
+#include "util/quoted.h"
 
 namespace alhazen::impl {
 
@@ -79,9 +80,23 @@ std::vector<std::string> subcommand_names(const CLI::App& app) {
   return names;
 }
 
+/// What CLI11 says of the values of an option, in words of this program; else what it says.
+std::string message_of_values(const CLI::ParseError& error) {
+  const std::string text = error.what(), kind = error.get_name();
+  const std::string name = text.substr(0, text.find(':'));
+  if (kind == "ArgumentMismatch" && text.ends_with(" missing")) return name + " needs a value";
+  if (kind == "ArgumentMismatch" && text.find("At Most 1 required") != std::string::npos) {
+    const std::string times = text.substr(text.rfind(' ') + 1);
+    return name + " is given " + (times == "2" ? "twice" : times + " times") + ": give it once";
+  }
+  if (const size_t end = text.find(" was given a disallowed flag override"); end != std::string::npos)
+    return (end > 1 ? "--" : "-") + text.substr(0, end) + " takes no value: give it, or leave it out";
+  return text;
+}
+
 /// The message of an error, with arguments that were not expected in the order given: CLI11 reverses it.
 std::string message_of(const CLI::ParseError& error, const CLI::App& app) {
-  if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError)) return error.what();
+  if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError)) return message_of_values(error);
   const std::vector<std::string> unexpected = app.remaining(true);
   std::string message = unexpected.size() == 1 ? "The following argument was not expected:"
                                                : "The following arguments were not expected:";
@@ -102,12 +117,19 @@ bool renders_by_default(int argc, char** argv) {
   return is_file(first) || (first.starts_with('-') && std::any_of(argv + 2, argv + argc, is_file));
 }
 
+/// CLI11 takes the next argument for the value of `--name=`.
+void refuse_missing_value(const std::string& argument) {
+  if (argument.starts_with("--") && argument.find('=') == argument.size() - 1)
+    throw InputError(argument.substr(0, argument.size() - 1) + " needs a value, and there is none after its =");
+}
+
 /// The arguments without the program's name, with what may be left out.
 std::vector<std::string> complete_arguments(int argc, char** argv) {
   std::vector<std::string> arguments;
   if (renders_by_default(argc, argv)) arguments.emplace_back("render");
   for (int i = 1; i < argc; ++i) {
     arguments.emplace_back(argv[i]);
+    refuse_missing_value(arguments.back());
     if (arguments.back() == "--") {
       arguments.insert(arguments.end(), argv + i + 1, argv + argc);
       break;
@@ -150,52 +172,77 @@ std::string take_configuration(std::vector<std::string>& arguments) {
   return path;
 }
 
-std::vector<CLI::ConfigItem> read_configuration(const std::string& path) {
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path))
-    throw InputError({path}, "the file of --config cannot be read: does it exist?");
-  try {
-    return CLI::ConfigTOML().from_config(file);
-  } catch (const CLI::Error& error) {
-    throw InputError({path}, std::string("this is no list of options, name = value: ") + error.what());
+/// What a file gives for options, by their main names.
+using Origins = std::map<std::string, FileOption>;
+
+std::string main_name(const CLI::Option& option) { return option.get_name(); }
+
+[[noreturn]] void refuse_name(const FileOption& item) {
+  throw InputError(item.where, quoted(item.name) +
+                                   " is no option of 'render': write options by their long names, for "
+                                   "example spp = 64");
+}
+
+/// The arguments of the command line that mean the same.
+std::vector<std::string> arguments_of(const FileOption& item, const CLI::Option& option) {
+  const std::string name = "--" + item.name;
+  if (option.get_expected_max() == 0) {  // a flag
+    if (item.values.size() != 1 || (item.values[0] != "true" && item.values[0] != "false"))
+      throw InputError(item.where, quoted(item.name) + " is true or false");
+    return item.values[0] == "true" ? std::vector<std::string>{name} : std::vector<std::string>{};
   }
+  std::vector<std::string> all;
+  std::string joined;
+  for (const std::string& value : item.values) {
+    all.push_back(name + "=" + value);
+    joined += (joined.empty() ? "" : ",") + value;
+  }
+  // Options that may be repeated take one value at a time, the others all of a list.
+  if (option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll) return all;
+  const auto implied = implied_values().find(name);
+  return {name + "=" + (implied != implied_values().end() && joined == "true" ? implied->second : joined)};
 }
 
 /// Writes the options of a file for `render` out as arguments. What stands on the command line counts.
-void add_configuration(const CLI::App& app, std::vector<std::string>& arguments) {
+Origins add_configuration(const CLI::App& app, std::vector<std::string>& arguments) {
   const auto is_render = [](const CLI::App* command) { return command->get_name() == "render"; };
-  if (arguments.empty() || arguments[0] != "render") return;
+  if (arguments.empty() || arguments[0] != "render") return {};
   const std::string path = take_configuration(arguments);
-  if (path.empty()) return;
+  if (path.empty()) return {};
   const std::vector<std::string> given = arguments;  // of the command line
   const CLI::App& render = *app.get_subcommands(is_render).at(0);
+  Origins origins;
   std::vector<std::string> added;
-  for (const CLI::ConfigItem& item : read_configuration(path)) {
-    if (item.name == "++" || item.name == "--") continue;  // where a section begins and ends
+  for (const FileOption& item : read_option_file(path)) {
     const CLI::Option* option = render.get_option_no_throw("--" + item.name);
-    const bool is_section_right = item.parents.empty() || item.parents == std::vector<std::string>{given[0]};
-    if (!option || !is_section_right || item.name == "config")
-      throw InputError({path}, "'" + item.fullname() + "' is no option of '" + given[0] + "': write options by their " +
-                                   "long names, for example spp = 64");
-    if (is_given(*option, given)) continue;
-    if (option->get_expected_max() == 0) {  // a flag
-      if (item.inputs.size() != 1 || (item.inputs[0] != "true" && item.inputs[0] != "false"))
-        throw InputError({path}, "'" + item.name + "' is true or false");
-      if (item.inputs[0] == "true") added.push_back("--" + item.name);
-    } else {
-      // Options that may be repeated take one value at a time, the others all of a list.
-      const bool is_list = option->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
-      const auto implied = implied_values().find("--" + item.name);
-      std::string joined;
-      for (const std::string& value : item.inputs) {
-        if (is_list) added.push_back("--" + item.name + "=" + value);
-        joined += (joined.empty() ? "" : ",") + value;
-      }
-      if (implied != implied_values().end() && joined == "true") joined = implied->second;
-      if (!is_list) added.push_back("--" + item.name + "=" + joined);
-    }
+    if (!option || item.name == "config") refuse_name(item);
+    const auto [first, is_new] = origins.try_emplace(main_name(*option), item);
+    if (!is_new && option->get_multi_option_policy() != CLI::MultiOptionPolicy::TakeAll)
+      throw InputError(item.where, quoted(item.name) + " is given twice, first in line " +
+                                       std::to_string(first->second.where.line) + ": give it once");
+    const std::vector<std::string> meant = arguments_of(item, *option);
+    if (!is_given(*option, given)) added.insert(added.end(), meant.begin(), meant.end());
   }
   arguments.insert(arguments.begin() + 1, added.begin(), added.end());
+  return origins;
+}
+
+/// Parses, and names the file and the line of a value that is refused there.
+void parse(CLI::App& app, std::vector<std::string> arguments, const Origins& origins) {
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+  try {
+    app.parse(std::move(arguments));
+  } catch (const InputError& error) {
+    if (const auto origin = origins.find(refused_option()); origin != origins.end())
+      throw InputError(origin->second.where, error.what());
+    // Names of backends, layers and the like are looked up later: "unknown backend 'x': it may be ...".
+    const std::string message = error.what();
+    for (const auto& [name, item] : origins)
+      for (const std::string& value : item.values)
+        if (message.starts_with("unknown ") && message.find(" " + quoted(value) + ": ") != std::string::npos)
+          throw InputError(item.where, message);
+    throw;
+  }
 }
 
 }  // namespace
@@ -215,9 +262,8 @@ int run_command_line(const ProgramText& text, const std::function<void(Command&)
   add_subcommands(program);
   try {
     std::vector<std::string> arguments = complete_arguments(argc, argv);
-    add_configuration(app, arguments);
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
-    app.parse(std::move(arguments));
+    const Origins origins = add_configuration(app, arguments);
+    parse(app, std::move(arguments), origins);
     return exit_done;
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);

@@ -43,6 +43,8 @@ nlohmann::ordered_json json_of(const ImageDifference& d) {
   for (const auto& [name, value] : measures_of(d)) object[name] = value;
   object["nonfinite_a"] = d.nonfinite_a;
   object["nonfinite_b"] = d.nonfinite_b;
+  object["nonfinite_in_one"] = d.nonfinite_in_one;
+  object["compared"] = d.compared;
   return object;
 }
 
@@ -62,7 +64,9 @@ std::string table_text(const ImageDifference& d) {
   line("mean A", d.mean_a, "luminance");
   line("mean B", d.mean_b, "luminance, of the reference");
   if (d.nonfinite_a + d.nonfinite_b > 0)
-    text += fmt::format("excluded: pixels with NaN or infinity, {} in A and {} in B\n", d.nonfinite_a, d.nonfinite_b);
+    text += fmt::format("excluded: pixels with NaN or infinity, {} in A and {} in B, {} of them in one alone{}\n",
+                        d.nonfinite_a, d.nonfinite_b, d.nonfinite_in_one,
+                        d.compared == 0 ? "; no pixel is left to compare" : "");
   return text;
 }
 

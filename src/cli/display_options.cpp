@@ -25,6 +25,12 @@ void parse_exposure(const std::string& text, OutputOptions& output, Settings& se
   settings.noise_exposure = output.how.exposure;
 }
 
+void check_exposure(const std::string& text) {
+  OutputOptions output;
+  Settings settings;
+  parse_exposure(text, output, settings);
+}
+
 void parse_white_balance(const std::string& text, OutputOptions& output) {
   double& kelvin = output.how.white_temperature;
   if (text == "auto") output.display.estimates_white = true;
@@ -35,22 +41,47 @@ void parse_white_balance(const std::string& text, OutputOptions& output) {
                     min_white_temperature, max_white_temperature, text));
 }
 
+void check_white_balance(const std::string& text) {
+  OutputOptions output;
+  parse_white_balance(text, output);
+}
+
+void check_png_depth(const std::string& text) {
+  if (text != "8" && text != "16") throw InputError("--png-depth must be 8 or 16 bits per channel, not '" + text + "'");
+}
+
+int parse_jpeg_quality(const std::string& text) {
+  int quality = 0;
+  if (!parse_number(text, quality) || quality < 1 || quality > 100)
+    throw InputError("--jpeg-quality must be a whole number from 1 to 100, not '" + text + "'");
+  return quality;
+}
+
 }  // namespace
 
 void add_display_options(Command& command, DisplayOptions& o, const std::string& group) {
   command
       .add_option("--exposure", o.exposure,
                   "PNG, JPEG: brightness in stops, each of which doubles it; or auto, to expose for the surfaces seen")
+      .checked(check_exposure)
       .value_name("STOPS")
       .group(group);
   command
       .add_option("--white-balance", o.white_balance,
                   "PNG, JPEG: make light of this colour temperature white; or auto; or off, the default")
+      .checked(check_white_balance)
       .value_name("KELVIN")
       .group(group);
-  command.add_option("--tone-map", o.tone_map, "PNG, JPEG: " + tone_map_names()).value_name("NAME").group(group);
-  command.add_option("--png-depth", o.png_depth, "PNG: bits per channel, 8 or 16").value_name("BITS").group(group);
+  command.add_option("--tone-map", o.tone_map, "PNG, JPEG: " + tone_map_names())
+      .checked([](const std::string& text) { tone_map_named(text); })
+      .value_name("NAME")
+      .group(group);
+  command.add_option("--png-depth", o.png_depth, "PNG: bits per channel, 8 or 16")
+      .checked(check_png_depth)
+      .value_name("BITS")
+      .group(group);
   command.add_option("--jpeg-quality", o.jpeg_quality, "JPEG: 1 (smallest file) to 100 (best); 95 by default")
+      .checked([](const std::string& text) { parse_jpeg_quality(text); })
       .value_name("N")
       .group(group);
 }
@@ -60,12 +91,8 @@ void parse_display_options(const DisplayOptions& o, OutputOptions& output, Setti
   parse_white_balance(o.white_balance, output);
   output.how.tone_map = tone_map_named(o.tone_map);
   settings.noise_tone_map = o.tone_map;
-  if (!o.png_depth.empty() && o.png_depth != "8" && o.png_depth != "16")
-    throw InputError("--png-depth must be 8 or 16 bits per channel, not '" + o.png_depth + "'");
   if (o.png_depth == "16") output.how.png_depth = 16;
-  int& quality = output.how.jpeg_quality;
-  if (!o.jpeg_quality.empty() && (!parse_number(o.jpeg_quality, quality) || quality < 1 || quality > 100))
-    throw InputError("--jpeg-quality must be a whole number from 1 to 100, not '" + o.jpeg_quality + "'");
+  if (!o.jpeg_quality.empty()) output.how.jpeg_quality = parse_jpeg_quality(o.jpeg_quality);
 }
 
 void warn_of_display_options(const DisplayOptions& o, const std::vector<std::string>& outputs, bool limits_noise,

@@ -25,7 +25,9 @@
 #include "render/renderer.h"
 #include "render/setting_table.h"
 #include "study/tuned.h"
+#include "util/parse_numbers.h"
 #include "util/printable.h"
+#include "util/quoted.h"
 
 namespace alhazen::impl {
 
@@ -45,14 +47,29 @@ ExrCompression parse_compression(const std::string& text) {
   throw InputError("unknown compression '" + text + "': it may be " + choices);
 }
 
+void check_pixel_type(const std::string& text) {
+  if (text != "half" && text != "float") throw InputError("unknown pixel type '" + text + "': it may be half, float");
+}
+
+void check_tile_size(const std::string& text) {
+  int size = 0;
+  if (!parse_number(text, size) || (size != 0 && (size < 8 || size > 1024)))
+    throw InputError("--exr-tiles must be a whole number from 8 to 1024 pixels, or 0 for none, not " + quoted(text));
+}
+
+void check_statistics(const std::string& text) {
+  if (text != "text" && text != "json") throw InputError("unknown statistics '" + text + "': it may be text, json");
+}
+
+void check_format(const std::string& text) {
+  if (!has_written_extension("image." + text))
+    throw InputError("unknown --format '" + text + "': it may be the extension of " + written_extensions());
+}
+
 void parse_exr_options(RenderOptions& o) {
   WriteOptions& how = o.output.how;
-  if (!o.exr_type.empty() && o.exr_type != "half" && o.exr_type != "float")
-    throw InputError("unknown pixel type '" + o.exr_type + "': it may be half, float");
   how.pixel_type = o.exr_type == "float" ? ExrPixelType::single : ExrPixelType::half;
   how.compression = parse_compression(o.exr_compression);
-  if (how.tile_size != 0 && (how.tile_size < 8 || how.tile_size > 1024))
-    throw InputError("--exr-tiles must be from 8 to 1024 pixels, for example 64");
   const bool loses = how.compression == ExrCompression::dwaa || how.compression == ExrCompression::dwab;
   if (!loses || how.has_parts) return;
   for (const std::string& layer : o.settings.aovs)
@@ -65,8 +82,6 @@ void parse_exr_options(RenderOptions& o) {
 void parse_output_options(RenderOptions& o) {
   parse_display_options(o.display, o.output, o.settings);
   parse_exr_options(o);
-  if (!o.stats.empty() && o.stats != "text" && o.stats != "json")
-    throw InputError("unknown statistics '" + o.stats + "': it may be text, json");
 }
 
 }  // namespace
@@ -220,8 +235,6 @@ int finish(RenderOptions& options, Rendering& rendering) {
 void check_standard_output(RenderOptions& o) {
   const std::vector<std::string>& paths = o.output.paths;
   const bool is_used = std::find(paths.begin(), paths.end(), standard_output_name) != paths.end();
-  if (!o.format.empty() && !has_written_extension("image." + o.format))
-    throw InputError("unknown --format '" + o.format + "': it may be the extension of " + written_extensions());
   if (!o.format.empty()) o.output.standard_output_format = extension_of("image." + o.format);
   if (o.output.standard_output_format == "jpeg") o.output.standard_output_format = "jpg";
   if (!is_used) {
@@ -301,16 +314,22 @@ void add_output_options(Command& command, RenderOptions& o, const char* group) {
       .group(group)
       .common();
   command.add_option("--format", o.format, "What -o - writes: png (the default), exr, jpg, hdr or pfm")
+      .checked(check_format)
       .value_name("NAME")
       .group(group);
-  command.add_option("--exr-type", o.exr_type, "half or float").value_name("NAME").group(group);
+  command.add_option("--exr-type", o.exr_type, "half or float")
+      .checked(check_pixel_type)
+      .value_name("NAME")
+      .group(group);
   command
       .add_option("--exr-compression", o.exr_compression,
                   "zip, zips, piz, rle or none; dwaa and dwab change colours a little")
+      .checked([](const std::string& text) { parse_compression(text); })
       .value_name("NAME")
       .group(group);
   command.add_flag("--exr-parts", o.output.how.has_parts, "EXR: write each layer to a part of its own").group(group);
   command.add_option("--exr-tiles", o.output.how.tile_size, "EXR: write tiles with sides of this many pixels")
+      .checked(check_tile_size)
       .value_name("N")
       .group(group);
   add_display_options(command, o.display, group);
@@ -318,8 +337,13 @@ void add_output_options(Command& command, RenderOptions& o, const char* group) {
 
 void add_animation_options(Command& command, RenderOptions& o, const char* group) {
   command
-      .add_option("--frames", o.frames,
-                  "Render these frames, at the times A / fps to B / fps; those that are there are left as they are")
+      .add_option(
+          "--frames",
+          [&o](const std::string& text) {
+            parse_frame_range(text);  // also an empty one is refused
+            o.frames = text;
+          },
+          "Render these frames, at the times A / fps to B / fps; those that are there are left as they are")
       .value_name("A..B[:STEP]")
       .group(group)
       .common();
@@ -332,11 +356,13 @@ void add_animation_options(Command& command, RenderOptions& o, const char* group
 
 void add_running_options(Command& command, RenderOptions& o, const char* group) {
   command.add_option("--progress", o.progress, "auto (a bar on a terminal), plain, json or none")
+      .checked([](const std::string& text) { parse_progress_style(text); })
       .value_name("NAME")
       .group(group);
   command.add_flag("-q,--quiet", o.quiet, "Say nothing but warnings and errors").group(group).common();
   command.add_flag("-v,--verbose", o.verbose, "Say what is rendered and how").group(group);
   command.add_option("--stats", o.stats, "Print what it cost to stdout, as text or as one object (json)")
+      .checked(check_statistics)
       .implied("text")
       .value_name("[NAME]")
       .group(group)

@@ -40,11 +40,13 @@ struct Plan {
     for (const FramePattern& pattern : images) paths.push_back(pattern.path_of(frame));
     return paths;
   }
-  /// Whether the frame needs no rendering: the files of its images are there.
+  /// Whether the frame needs no rendering: the files of its images are there. One without a byte is what is left where
+  /// a machine lost its power, or was made by `touch`, and holds no image.
   bool has_files_of(int64_t frame) const {
     std::error_code ignored;
     return !images.empty() && std::all_of(images.begin(), images.end(), [&](const FramePattern& pattern) {
-      return pattern.has_number() && fs::is_regular_file(pattern.path_of(frame), ignored);
+      const std::string path = pattern.path_of(frame);
+      return pattern.has_number() && fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) > 0;
     });
   }
 };
@@ -129,8 +131,22 @@ class Sequence {
         overwrites_(std::exchange(options.settings.overwrite, false)) {}
 
   int run() {
+    try {
+      return run_uninterrupted();
+    } catch (const VideoInterrupted& stop) {
+      printer_.finish();
+      warnings_.show();
+      tell("interrupted: {}{}\n", stop.what(), plan_.images.empty() ? "" : "; the frames that are finished are kept");
+      return exit_interrupted;
+    }
+  }
+
+ private:
+  int run_uninterrupted() {
+    check_videos();
     leave_out_existing();
     if (pending_.empty() && plan_.videos.empty()) return exit_done;
+    if (pending_.empty()) check_videos_against_inputs();
     if (pending_.empty() && writes(is_displayed_format)) return write_videos_of_files();
     ActivityPrinter activity(diagnostics_.activity(), printer_);
     events_.progress = [this](const Progress& progress) {
@@ -141,7 +157,7 @@ class Sequence {
     events_.started = [&](const RenderStatistics& statistics) {
       if (std::exchange(is_started_, true)) return;
       activity.finish();
-      catch_interrupts();
+      watch_interrupts();
       warnings_.show();
       if (options_.verbose) print_start(statistics);
     };
@@ -163,16 +179,38 @@ class Sequence {
     return finish_videos();
   }
 
- private:
+  void watch_interrupts() {
+    if (!std::exchange(watches_interrupts_, true)) catch_interrupts();
+  }
+
+  /// No video may replace what it is made of, or what the scene is read from as far as that is known yet.
+  void check_videos() {
+    for (const std::string& video : plan_.videos) {
+      for (const int64_t frame : plan_.frames)
+        for (const std::string& path : plan_.paths_of(frame))
+          refuse_same_file({video, "the output"}, {{path, "a frame,"}});
+      const double asked = video_rate(), kept = playable_rate(video, asked);
+      if (kept != asked)
+        diagnostics_.warn({video},
+                          fmt::format("it plays at {:.6g} frames per second, not at {:.6g}: a GIF has delays of "
+                                      "0.02 to 655.35 seconds that all players keep; give --fps, or an .mp4",
+                                      kept, asked));
+    }
+    check_files(plan_.videos, {}, scene_files(), *inputs_);
+  }
+
   void leave_out_existing() {
     // Frames of a video are premultiplied by their alpha, and those that are read back from PNG would not be.
-    const bool reads_none = overwrites_ || (!plan_.videos.empty() && options_.settings.transparent_background);
-    for (const int64_t frame : plan_.frames)
-      if (reads_none || !plan_.has_files_of(frame)) pending_.push_back(frame);
-    const size_t skipped = plan_.frames.size() - pending_.size();
-    if (skipped > 0 && !options_.quiet)
-      tell("{} of {} frames are there and are left as they are; --overwrite renders them again\n", skipped,
-           plan_.frames.size());
+    const bool reads_none = !plan_.videos.empty() && options_.settings.transparent_background;
+    for (const int64_t frame : plan_.frames) {
+      const bool is_there = !overwrites_ && plan_.has_files_of(frame);
+      if (is_there) kept_.push_back(frame);
+      if (reads_none || !is_there) pending_.push_back(frame);
+    }
+    if (kept_.empty() || options_.quiet) return;
+    tell("{} of {} frames are there and are left as they are; {}\n", kept_.size(), plan_.frames.size(),
+         reads_none ? "they are rendered for the video alone, which is premultiplied by their alpha"
+                    : "--overwrite renders them again");
   }
 
   double seconds_of(int64_t frame) const { return static_cast<double>(frame) / options_.settings.frames_per_second; }
@@ -223,13 +261,19 @@ class Sequence {
     return !options_.settings.noise_exposure || (has_display() && choice.estimates_white);
   }
 
+  std::vector<NamedFile> scene_files() const {
+    return {{options_.scene == standard_input_name ? "" : options_.scene, "the scene"},
+            {options_.settings.environment, "the environment map"}};
+  }
+
   /// No frame may replace a file that the scene is read from.
   void check_outputs(int64_t frame) const {
-    const std::string scene = options_.scene == standard_input_name ? "" : options_.scene;
-    std::vector<std::string> paths = plan_.paths_of(frame);
+    std::vector<std::string> paths = writes_files_of(frame) ? plan_.paths_of(frame) : std::vector<std::string>{};
     paths.insert(paths.end(), plan_.videos.begin(), plan_.videos.end());
-    check_files(paths, {}, {{scene, "the scene"}, {options_.settings.environment, "the environment map"}}, *inputs_);
+    check_files(paths, {}, scene_files(), *inputs_);
   }
+
+  bool writes_files_of(int64_t frame) const { return !std::binary_search(kept_.begin(), kept_.end(), frame); }
 
   /// What must be known of the scene before it is compiled.
   RenderSettings prepare(LoadedScene& loaded, const Settings& settings) {
@@ -318,7 +362,7 @@ class Sequence {
     output.paths = plan_.paths_of(frame);
     if (has_display())
       rendering.statistics.display = display_ ? *display_ : choose_display(rendering, output.display, output.how);
-    const OutputReport report = write_outputs(output, rendering);
+    const OutputReport report = writes_files_of(frame) ? write_outputs(output, rendering) : OutputReport{};
     print_end(options_, report, statistics, fmt::format("frame {} ({} of {}): ", frame, index, pending_.size()), frame);
     if (!report.failures.empty()) return exit_failed;
     if (!plan_.videos.empty())
@@ -329,11 +373,13 @@ class Sequence {
 
   // Videos ------------------------------------------------------------------------------------------------------------
 
+  double video_rate() const { return options_.settings.frames_per_second / static_cast<double>(plan_.step); }
+
   void add_to_videos(int width, int height, const std::vector<uint8_t>& bytes) {
+    watch_interrupts();  // ffmpeg runs from now on
     if (videos_.empty())
       for (const std::string& path : plan_.videos)
-        videos_.push_back(std::make_unique<VideoWriter>(
-            path, width, height, options_.settings.frames_per_second / static_cast<double>(plan_.step)));
+        videos_.push_back(std::make_unique<VideoWriter>(path, width, height, video_rate()));
     for (const auto& video : videos_) {
       if (video->width() != width || video->height() != height)
         throw InputError(
@@ -359,9 +405,24 @@ class Sequence {
         display_bytes(path, source_of(image), is_displayed_format(path) ? WriteOptions{} : options_.output.how));
   }
 
+  /// The files that the scene names are known when it is read, which is needed only if a video is there already.
+  void check_videos_against_inputs() {
+    std::error_code ignored;
+    const auto exists = [&](const std::string& path) { return fs::exists(path, ignored); };
+    if (std::none_of(plan_.videos.begin(), plan_.videos.end(), exists)) return;
+    Diagnostics unsaid;  // nothing is rendered
+    Settings settings = options_.settings;
+    if (options_.turntable == 0) settings.animation_time = seconds_of(plan_.frames.front());
+    inputs_ = load_scene(options_.scene, settings, unsaid).inputs;
+    check_files(plan_.videos, {}, scene_files(), *inputs_);
+  }
+
   int write_videos_of_files() {
-    check_files(plan_.videos, {}, {}, InputRecord{});
-    for (const int64_t frame : plan_.frames) add_file_to_videos(frame);
+    warnings_.show();
+    for (const int64_t frame : plan_.frames) {
+      if (is_interrupted()) return stop();
+      add_file_to_videos(frame);
+    }
     return finish_videos();
   }
 
@@ -376,16 +437,20 @@ class Sequence {
   int stop() {
     printer_.finish();
     warnings_.show();
-    if (plan_.images.empty()) finish_videos();  // else they are made when all frames are there
-    tell("interrupted: {}\n", plan_.images.empty()
-                                  ? "the video has the frames so far; the same command begins again"
-                                  : "the frames that are finished are kept; the same command renders the others");
+    const bool has_images = !plan_.images.empty();
+    if (!has_images) finish_videos();  // else they are made when all frames are there
+    tell("interrupted: {}\n", pending_.empty() ? "no video is written; the same command makes it again"
+                              : has_images
+                                  ? "the frames that are finished are kept; the same command renders the others"
+                              : videos_.empty() ? "no frame is finished, and no video is written"
+                                                : "the video has the frames so far; the same command begins again");
     return exit_interrupted;
   }
 
   RenderOptions& options_;
   Plan plan_;
   std::vector<int64_t> pending_;  ///< frames to render
+  std::vector<int64_t> kept_;     ///< frames whose files are left as they are
   Diagnostics diagnostics_;
   ProgressPrinter printer_;
   WarningPrinter warnings_;
@@ -395,7 +460,7 @@ class Sequence {
   std::shared_ptr<InputRecord> inputs_ = std::make_shared<InputRecord>();  ///< of the last scene that was read
   std::vector<Camera> cameras_;              ///< of plan_.frames; empty: each frame reads the scene
   std::unique_ptr<SceneRenderer> renderer_;  ///< if there are cameras; refers to settings_
-  bool is_started_ = false, is_prepared_ = false;
+  bool is_started_ = false, is_prepared_ = false, watches_interrupts_ = false;
   bool fits_exposure_ = false;                ///< the first frame decides how all are displayed
   std::optional<DisplayStatistics> display_;  ///< by the first frame
   std::vector<std::unique_ptr<VideoWriter>> videos_;

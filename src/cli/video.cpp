@@ -2,20 +2,27 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <sstream>
+#include <system_error>
+#include <thread>
 
+#include "cli/interrupt.h"
 #include "files/atomic_file.h"
 #include "files/file_identity.h"
 #include "files/temporary_files.h"
@@ -30,6 +37,26 @@ namespace alhazen::impl {
 namespace {
 
 constexpr size_t shown_lines = 4;
+
+constexpr int room_interval = 50;  ///< milliseconds between looks at a pipe without room
+constexpr auto end_interval = std::chrono::milliseconds(5);
+
+/// Seconds that ffmpeg has after an interrupt: without using the processor, and in all.
+constexpr double idle_patience = 1.5, whole_patience = 30;
+constexpr double least_work = 0.01;  ///< seconds on the processor that count as work
+
+double seconds_of(clockid_t clock) {
+  timespec time{};
+  return ::clock_gettime(clock, &time) == 0
+             ? static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec)
+             : 0;
+}
+
+/// 0 if the process has ended.
+double processor_seconds(pid_t process) {
+  clockid_t clock{};
+  return ::clock_getcpuclockid(process, &clock) == 0 ? seconds_of(clock) : 0;
+}
 
 /// The path of a program, searched for as execvp does; empty if there is none.
 std::string program_path(const std::string& name) {
@@ -68,6 +95,9 @@ std::vector<std::string> arguments_of(const std::string& path, const std::string
   return all;
 }
 
+/// In delays of a GIF: hundredths of a second.
+constexpr double gif_ticks = 100, gif_min_delay = 2, gif_max_delay = 65535;
+
 }  // namespace
 
 bool is_video(const std::string& path) {
@@ -87,6 +117,11 @@ void check_video(const std::string& path) {
     throw InputError({path}, "a video is written to a file, and this is something else: give another name");
 }
 
+double playable_rate(const std::string& path, double frames_per_second) {
+  if (extension_of(path) != "gif") return frames_per_second;
+  return std::clamp(frames_per_second, gif_ticks / gif_max_delay, gif_ticks / gif_min_delay);
+}
+
 VideoWriter::VideoWriter(const std::string& path, int width, int height, double frames_per_second)
     : path_(path), width_(width), height_(height) {
   int error = 0;
@@ -94,7 +129,7 @@ VideoWriter::VideoWriter(const std::string& path, int width, int height, double 
   if (error != 0) throw WriteError(path_, error);
   try {
     create_temporary();
-    start(frames_per_second);
+    start(playable_rate(path, frames_per_second));
   } catch (...) {
     end();
     throw;
@@ -107,8 +142,10 @@ void VideoWriter::end() {
   if (pipe_ >= 0) ::close(pipe_);
   pipe_ = -1;
   if (process_ > 0) {
-    ::kill(process_, SIGKILL);
-    wait();
+    ::kill(-process_, SIGKILL);  // with what it has started
+    while (::waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
   }
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
   temporary_.clear();
@@ -139,6 +176,7 @@ void VideoWriter::start(double frames_per_second) {
   messages_ = ::memfd_create("ffmpeg", MFD_CLOEXEC);
   if (messages_ < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0) throw WriteError(path_, errno);
   pipe_ = ends[1];
+  ::fcntl(pipe_, F_SETFL, O_WRONLY | O_NONBLOCK);
   const std::string program = program_path("ffmpeg");
   std::vector<std::string> arguments = arguments_of(path_, temporary_, width, height, frames_per_second);
   std::vector<char*> pointers;
@@ -180,29 +218,88 @@ void VideoWriter::add(std::span<const uint8_t> frame) {
     }
     left = padded_;
   }
-  while (!left.empty()) {
-    const ssize_t written = ::write(pipe_, left.data(), left.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail("ffmpeg takes no more frames");
-    left = left.subspan(static_cast<size_t>(written));
+  send(left);
+}
+
+/// Waits for room in the pipe, after an interrupt only while ffmpeg works.
+void VideoWriter::send(std::span<const uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(pipe_, bytes.data(), bytes.size());
+    if (written > 0) {
+      bytes = bytes.subspan(static_cast<size_t>(written));
+      worked_at_ = 0;
+      continue;
+    }
+    if (written == 0 || (errno != EINTR && errno != EAGAIN)) {
+      wait_briefly();
+      fail(process_ > 0 ? "ffmpeg takes no more frames" : how_it_ended() + " before it had all frames");
+    }
+    if (stands_still()) give_up();
+    pollfd room{pipe_, POLLOUT, 0};
+    ::poll(&room, 1, room_interval);
   }
+}
+
+bool VideoWriter::has_ended() {
+  if (process_ > 0 && ::waitpid(process_, &status_, WNOHANG) != 0) process_ = -1;
+  return process_ < 0;
+}
+
+/// Returns whether an interrupt was a while ago, and ffmpeg does nothing, or does not come to its end.
+bool VideoWriter::stands_still() {
+  if (!is_interrupted()) return false;
+  const double now = seconds_of(CLOCK_MONOTONIC), worked = processor_seconds(process_);
+  if (asked_at_ == 0) asked_at_ = now;
+  if (worked_at_ == 0 || worked > worked_ + least_work) {
+    worked_at_ = now;
+    worked_ = worked;
+  }
+  return now - worked_at_ > idle_patience || now - asked_at_ > whole_patience;
 }
 
 void VideoWriter::wait() {
-  while (::waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
+  worked_at_ = 0;
+  while (!has_ended()) {
+    if (stands_still()) give_up();
+    std::this_thread::sleep_for(end_interval);
   }
-  process_ = -1;
 }
 
-void VideoWriter::fail(const std::string& problem) {
-  if (pipe_ >= 0) ::close(pipe_);
-  pipe_ = -1;
-  if (process_ > 0) wait();
+/// One that takes no more frames is about to end, or never will.
+void VideoWriter::wait_briefly() {
+  for (const double since = seconds_of(CLOCK_MONOTONIC); !has_ended();) {
+    if (seconds_of(CLOCK_MONOTONIC) - since > idle_patience) return;
+    std::this_thread::sleep_for(end_interval);
+  }
+}
+
+void VideoWriter::give_up() {
+  end();
+  throw VideoInterrupted("ffmpeg stood still and was ended, and " + printable(path_) + " is not written");
+}
+
+/// The end of what ffmpeg has said.
+std::string VideoWriter::messages() const {
   std::string text(4096, '\0');
   const off_t size = ::lseek(messages_, 0, SEEK_END);
   const off_t from = std::max<off_t>(0, size - static_cast<off_t>(text.size()));
   const ssize_t count = ::pread(messages_, text.data(), text.size(), from);
   text.resize(count > 0 ? static_cast<size_t>(count) : 0);
+  return text;
+}
+
+std::string VideoWriter::how_it_ended() const {
+  if (!WIFSIGNALED(status_)) return "ffmpeg ended with exit code " + std::to_string(WEXITSTATUS(status_));
+  const int number = WTERMSIG(status_);
+  return "ffmpeg was ended by signal " + std::to_string(number) + " (" + ::strsignal(number) + ")";
+}
+
+/// A full disk and a limit are said as for images.
+void VideoWriter::fail(const std::string& problem) {
+  const std::string text = messages();
+  if (process_ < 0 && WIFSIGNALED(status_) && WTERMSIG(status_) == SIGXFSZ) throw WriteError(path_, EFBIG);
+  for (const int error : {ENOSPC, EDQUOT, EFBIG})
+    if (text.find(std::generic_category().message(error)) != std::string::npos) throw WriteError(path_, error);
   std::vector<std::string> lines;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);)
@@ -213,13 +310,22 @@ void VideoWriter::fail(const std::string& problem) {
   throw RenderError("cannot write " + path_ + ": " + problem + (said.empty() ? "" : "; it says:" + said));
 }
 
+/// The exit code alone does not tell: ffmpeg ends with 0 where the disk is full, and says so at the level `error`.
+void VideoWriter::check_written() {
+  if (WIFSIGNALED(status_) || WEXITSTATUS(status_) != 0) fail(how_it_ended());
+  if (!messages().empty()) fail("ffmpeg reports an error");
+  struct stat written = {};
+  if (::stat(temporary_.c_str(), &written) != 0) throw WriteError(path_, errno);
+  if (written.st_size == 0) fail("ffmpeg has written nothing");
+  // Some network filesystems cannot sync and report it, as for images.
+  if (::fsync(lock_) != 0 && errno != EINVAL && errno != EROFS && errno != ENOTSUP) throw WriteError(path_, errno);
+}
+
 void VideoWriter::finish() {
   ::close(pipe_);
   pipe_ = -1;
   wait();
-  if (WIFSIGNALED(status_)) fail("ffmpeg was ended by signal " + std::to_string(WTERMSIG(status_)));
-  if (WEXITSTATUS(status_) != 0) fail("ffmpeg ended with exit code " + std::to_string(WEXITSTATUS(status_)));
-  ::fsync(lock_);
+  check_written();
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) throw WriteError(path_, errno);
   temporary_.clear();
 }

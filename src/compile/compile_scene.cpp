@@ -121,15 +121,38 @@ class SceneCompiler {
   void group_lights(CompiledScene<Real>& flat) {
     if (!options_.groups_lights) return;
     NameTable names;
-    std::vector<uint32_t> described, of_shapes;
+    const auto ids_of = [&](const std::vector<uint32_t>& objects) {
+      std::vector<uint32_t> ids;
+      for (const uint32_t object : objects) ids.push_back(names.id_of(names_.objects()[object - 1]));
+      return ids;
+    };
+    std::vector<uint32_t> described;
     for (const std::string& name : light_names(scene_)) described.push_back(names.id_of(name));
-    for (const uint32_t object : shapes_.light_objects())
-      of_shapes.push_back(names.id_of(names_.objects()[object - 1]));
-    const GroupedLights grouped = group_light_names(names.names(), options_.light_groups);
+    ids_of(shapes_.emissive_objects());
+    const std::vector<uint32_t> of_shapes = ids_of(shapes_.light_objects());
+    const auto is_background = [&](size_t i) {
+      return scene_.lights[i].kind == LightKind::constant_infinite && !is_zero(scene_.lights[i].radiance);
+    };
+    std::vector<bool> shines(names.names().size());
+    for (size_t i = 0; i < described.size(); ++i)
+      if (is_background(i)) shines[described[i] - 1] = true;
+    for (const size_t i : described_lights_) shines[described[i] - 1] = true;
+    for (const uint32_t name : of_shapes) shines[name - 1] = true;
+    const GroupedLights grouped = group_light_names(names.names(), shines, options_.light_groups);
     flat.light_groups = grouped.groups;
     const auto group = [&](uint32_t name) { return grouped.group_of[name - 1]; };
-    for (size_t i = 0; i < described.size(); ++i)
-      if (scene_.lights[i].kind == LightKind::constant_infinite) flat.view.background_group = group(described[i]);
+    bool has_background = false;
+    for (size_t i = 0; i < described.size(); ++i) {
+      if (!is_background(i)) continue;
+      if (has_background && group(described[i]) != flat.view.background_group)
+        throw InputError(
+            scene_.lights[i].where,
+            "the constant light '" + names.names()[described[i] - 1] +
+                "' is in another light group than one before it: all of them are rendered as one light, so "
+                "give them one group");
+      flat.view.background_group = group(described[i]);
+      has_background = true;
+    }
     for (const size_t i : described_lights_) out_.light_groups.push_back(group(described[i]));
     for (const uint32_t name : of_shapes) out_.light_groups.push_back(group(name));
   }

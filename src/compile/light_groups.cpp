@@ -1,9 +1,7 @@
 #include "compile/light_groups.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
-#include <cctype>
+#include <string_view>
 
 #include "core/integrators/light_parts.h"
 #include "util/diagnostics.h"
@@ -19,16 +17,36 @@ constexpr const char* form =
     "key=sun,lamp*";
 
 /// Characters that names of channels may have.
-bool is_plain(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; }
+bool is_plain(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-';
+}
 
-/// Of the pattern characters of a shell only * and ? are special.
-bool matches(const std::string& pattern, const std::string& name) {
-  std::string escaped;
-  for (const char c : pattern) {
-    if (c == '[' || c == '\\') escaped += '\\';
-    escaped += c;
+/// The number of bytes of the first character of UTF-8 text.
+size_t first_character(std::string_view text) {
+  size_t size = 1;
+  while (size < text.size() && (static_cast<unsigned char>(text[size]) & 0xc0) == 0x80) ++size;
+  return size;
+}
+
+/// Whether a name is that of the pattern, in which * stands for any characters and ? for any one.
+bool matches(std::string_view pattern, std::string_view name) {
+  std::string_view after_star, rest;  // what to go on with if the last * takes one character more
+  bool has_star = false;
+  while (!name.empty()) {
+    if (!pattern.empty() && pattern[0] == '*') {
+      pattern.remove_prefix(1);
+      after_star = pattern, rest = name, has_star = true;
+    } else if (!pattern.empty() && (pattern[0] == '?' || pattern[0] == name[0])) {
+      name.remove_prefix(pattern[0] == '?' ? first_character(name) : 1);
+      pattern.remove_prefix(1);
+    } else if (has_star) {
+      rest.remove_prefix(first_character(rest));
+      pattern = after_star, name = rest;
+    } else {
+      return false;
+    }
   }
-  return fnmatch(escaped.c_str(), name.c_str(), 0) == 0;
+  return pattern.find_first_not_of('*') == std::string_view::npos;
 }
 
 /// The first names, for messages.
@@ -47,20 +65,23 @@ uint32_t group_of(const std::string& light, const std::vector<LightGroup>& group
 }
 
 /// A group for each name, as far as channels can have such names.
-GroupedLights group_by_name(const std::vector<std::string>& names) {
-  if (names.size() > max_light_groups)
-    throw InputError("the lights have " + std::to_string(names.size()) + " names, and a render tells apart at most " +
+GroupedLights group_by_name(const std::vector<std::string>& names, const std::vector<bool>& shines) {
+  const auto count = static_cast<size_t>(std::count(shines.begin(), shines.end(), true));
+  if (count > max_light_groups)
+    throw InputError("the lights have " + std::to_string(count) + " names, and a render tells apart at most " +
                      std::to_string(max_light_groups) + " groups: make groups of them, for example --light-group key=" +
                      names[0] + ". They are " + some_of(names));
   GroupedLights grouped;
-  for (const std::string& name : names) {
-    std::string plain = name;
+  for (size_t i = 0; i < names.size(); ++i) {
+    grouped.group_of.push_back(0);
+    if (!shines[i]) continue;
+    std::string plain = names[i];
     std::replace_if(
         plain.begin(), plain.end(), [](char c) { return !is_plain(c); }, '_');
     const std::string base = plain;
     for (int n = 2; std::find(grouped.groups.begin(), grouped.groups.end(), plain) != grouped.groups.end(); ++n)
       plain = base + "_" + std::to_string(n);
-    grouped.group_of.push_back(static_cast<uint32_t>(grouped.groups.size()));
+    grouped.group_of.back() = static_cast<uint32_t>(grouped.groups.size());
     grouped.groups.push_back(plain);
   }
   return grouped;
@@ -94,8 +115,9 @@ std::vector<LightGroup> parse_light_groups(const std::vector<std::string>& texts
   return groups;
 }
 
-GroupedLights group_light_names(const std::vector<std::string>& names, const std::vector<LightGroup>& groups) {
-  if (groups.empty()) return group_by_name(names);
+GroupedLights group_light_names(const std::vector<std::string>& names, const std::vector<bool>& shines,
+                                const std::vector<LightGroup>& groups) {
+  if (groups.empty()) return group_by_name(names, shines);
   for (const LightGroup& group : groups)
     for (const std::string& pattern : group.patterns)
       if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return matches(pattern, name); }))
@@ -105,9 +127,10 @@ GroupedLights group_light_names(const std::vector<std::string>& names, const std
   GroupedLights grouped;
   for (const LightGroup& group : groups) grouped.groups.push_back(group.name);
   bool has_rest = false;
-  for (const std::string& name : names) {
-    grouped.group_of.push_back(group_of(name, groups));
-    has_rest |= grouped.group_of.back() == groups.size();
+  for (size_t i = 0; i < names.size(); ++i) {
+    grouped.group_of.push_back(group_of(names[i], groups));
+    if (grouped.group_of.back() < groups.size()) continue;
+    has_rest |= shines[i];
   }
   if (has_rest) grouped.groups.push_back(rest_of_lights);
   return grouped;

@@ -25,8 +25,10 @@ struct GroupedLights {
 };
 
 /// Gives lights of each of these names the first group one of whose patterns matches it, or else `rest`, which comes
-/// last. Without groups, each name is one. Throws InputError if a pattern matches no name, or if there would be more
-/// groups than max_light_groups.
-GroupedLights group_light_names(const std::vector<std::string>& names, const std::vector<LightGroup>& groups);
+/// last. Without groups, each name is one. `shines`, by name, is false where all lights of that name are black: they
+/// may be named, and make no group. Throws InputError if a pattern matches no name, or if there would be more groups
+/// than max_light_groups.
+GroupedLights group_light_names(const std::vector<std::string>& names, const std::vector<bool>& shines,
+                                const std::vector<LightGroup>& groups);
 
 }  // namespace alhazen::impl

@@ -202,7 +202,10 @@ void ShapeBuilder<Real>::reserve() {
 
 template <class Real>
 void ShapeBuilder<Real>::place(const ShapePlacement& p) {
-  if (names_) object_id_ = names_->object_id(*p.shape, p.instance);
+  if (names_) {
+    object_id_ = names_->object_id(*p.shape, p.instance);
+    if (emits(*p.shape)) emissive_objects_.push_back(object_id_);
+  }
   if (p.shape->type == ShapeType::sphere) return place_sphere(p);
   if (p.shape->type == ShapeType::cylinder) return place_quadric(p, cylinder_record<Real>, out_.cylinders);
   if (p.shape->type == ShapeType::disk) return place_quadric(p, disk_record<Real>, out_.disks);

@@ -49,6 +49,8 @@ class ShapeBuilder {
 
   /// The ids of the objects that the lights of shapes belong to, if there are names.
   const std::vector<uint32_t>& light_objects() const { return light_objects_; }
+  /// Those of shapes that are to emit, also where nothing of them could be placed.
+  const std::vector<uint32_t>& emissive_objects() const { return emissive_objects_; }
 
  private:
   void place_sphere(const ShapePlacement& p);
@@ -75,7 +77,7 @@ class ShapeBuilder {
   MeshSizes sizes_;
   std::vector<uint32_t> uses_;                ///< by mesh: placements still to come
   std::vector<const Shape*> surface_shapes_;  ///< by surface
-  std::vector<uint32_t> light_objects_;
+  std::vector<uint32_t> light_objects_, emissive_objects_;
   size_t without_area_ = 0;            ///< number of triangles that were left out
   SourceLocation without_area_place_;  ///< of the first of them
 };

@@ -114,6 +114,7 @@ class CameraChoice {
 
   /// What is on the right of the image stays there.
   void place(const Vec3d& eye, const ViewAxes& axes) {
+    if (!(max_component(abs(eye)) < max_reach)) refuse_boundless(placed_shapes(scene_));
     const Vec3d right = axes.right * (is_left_handed_ ? -scale_[0] : scale_[0]), up = axes.up * scale_[1],
                 forward = axes.backward * -scale_[2];
     camera_.world_from_camera.start = world_from_camera(eye, right, up, forward);

@@ -34,7 +34,7 @@ struct Header {
   uint32_t checksum;        ///< CRC-32 of the members above
 };
 static_assert(sizeof(Header) == 64);
-constexpr uint32_t max_settings_bytes = 4096;
+constexpr size_t max_settings_bytes = size_t{1} << 20;
 
 /// CRC-32 finds every flipped bit and every run of up to 32 damaged ones.
 uint32_t crc(uint32_t before, const void* data, size_t size) {
@@ -174,6 +174,7 @@ uint64_t scene_fingerprint(const CompiledScene<Real>& scene) {
   h.add_bytes(&v.camera, sizeof(v.camera));
   h.add_bytes(&v.filter, sizeof(v.filter));
   h.add_bytes(&v.background, sizeof(v.background));
+  h.add(uint64_t{v.background_group});
   h.add_bytes(&v.exposure, sizeof(v.exposure));
   h.add_bytes(&v.infinite_irradiance, sizeof(v.infinite_irradiance));
   return h.value();
@@ -183,7 +184,10 @@ CheckpointFile::CheckpointFile(const RenderSettings& settings, uint64_t scene_fi
     : path_(settings.asked.checkpoint),
       settings_(settings_text(settings)),
       fingerprint_(join_settings(settings_, scene_fingerprint)),
-      samples_per_pixel_(settings.samples_per_pixel) {}
+      samples_per_pixel_(settings.samples_per_pixel) {
+  if (settings_.size() > max_settings_bytes)
+    throw InputError({path_}, "the settings are too long for a checkpoint: shorten those of the light groups");
+}
 
 void check_checkpoint(const RenderSettings& settings) {
   const std::string& path = settings.asked.checkpoint;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <future>
 #include <optional>
@@ -20,6 +21,21 @@
 namespace alhazen::impl {
 
 namespace {
+
+/// Counts the pixels that images cannot show: each sample was finite, and their sum is not.
+size_t nonfinite_pixels(const Rendering& rendering) {
+  if (!rendering.has_samples()) return 0;
+  const ImageSource source = rendering.source();
+  const auto width = static_cast<size_t>(source.width);
+  std::vector<float> row(width * source.channels.size());
+  size_t count = 0;
+  for (int y = 0; y < source.height; ++y) {
+    source.fill_row(y, row);
+    for (size_t x = 0; x < width; ++x)
+      count += std::isfinite(row[x]) && std::isfinite(row[width + x]) && std::isfinite(row[2 * width + x]) ? 0 : 1;
+  }
+  return count;
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -96,6 +112,11 @@ class GrowingImageOf final : public GrowingImage {
       diagnostics_.warn({statistics.scene}, std::to_string(statistics.nonfinite_samples) +
                                                 " samples were infinite or NaN and were counted as black");
     if (!settings().denoiser.empty() && rendering_.has_samples()) denoise(rendering_, diagnostics_);
+    if (const size_t pixels = nonfinite_pixels(rendering_); pixels > 0)
+      diagnostics_.warn({statistics.scene},
+                        std::to_string(pixels) + (pixels == 1 ? " pixel of the image is" : " pixels of the image are") +
+                            " infinite or NaN, since the sum of their samples is out of range: scale the lights down, "
+                            "by --environment-strength or --light-scale");
     return std::move(rendering_);
   }
 

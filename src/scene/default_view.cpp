@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "core/lights/sphere_mapping.h"
+#include "util/diagnostics.h"
 
 namespace alhazen::impl {
 
@@ -102,15 +104,32 @@ Vec3d fitting_eye(const Scene& scene, const std::vector<PlacedShape>& shapes, do
 }
 
 Transform world_from_camera(const Vec3d& eye, const Vec3d& right, const Vec3d& up, const Vec3d& forward) {
-  return Transform(Matrix4{{{right.x, up.x, forward.x, eye.x},
-                            {right.y, up.y, forward.y, eye.y},
-                            {right.z, up.z, forward.z, eye.z},
-                            {0, 0, 0, 1}}});
+  const Matrix4 matrix{{{right.x, up.x, forward.x, eye.x},
+                        {right.y, up.y, forward.y, eye.y},
+                        {right.z, up.z, forward.z, eye.z},
+                        {0, 0, 0, 1}}};
+  try {
+    if (is_finite(eye)) return Transform(matrix);
+  } catch (const std::domain_error&) {
+    // said below
+  }
+  throw InputError(
+      "no camera can be placed there: what it is to see, or where it is to be, exceeds double precision; scale the "
+      "scene down");
+}
+
+void refuse_boundless(const std::vector<PlacedShape>& shapes) {
+  for (const PlacedShape& placed : shapes)
+    if (!(max_component(abs(placed.box.low)) < max_reach && max_component(abs(placed.box.high)) < max_reach))
+      throw InputError(
+          placed.shape->where,
+          "the shape reaches farther than 1e18, which is too far for ray tracing: scale it, or its transform, down");
 }
 
 Camera fitted_camera(const Scene& scene, double aspect) {
   if (!(aspect > 0)) aspect = static_cast<double>(scene.film.width) / static_cast<double>(scene.film.height);
   const std::vector<PlacedShape> shapes = placed_shapes(scene);
+  refuse_boundless(shapes);
   const Vec3d backward = direction_to_eye(bounds_of(shapes).diagonal() * 0.5);
   const Vec3d right = normalize(cross(Vec3d{0, 1, 0}, backward)), up = cross(backward, right);
   Camera camera = scene.camera;

@@ -23,6 +23,12 @@ std::vector<PlacedShape> placed_shapes(const Scene& scene);
 /// Of the origin if there are none.
 Bounds3<double> bounds_of(const std::vector<PlacedShape>& shapes);
 
+/// Coordinates beyond it are too large for ray tracing: their squares would be out of the range of float.
+inline constexpr double max_reach = 1e18;
+
+/// Throws InputError if a shape reaches beyond max_reach, so that no camera can be placed for it.
+void refuse_boundless(const std::vector<PlacedShape>& shapes);
+
 /// The scene's camera, placed where it sees the whole scene from the front, the side and above, for an image of that
 /// aspect ratio (width over height; 0: that of the film). The scene's y is up.
 Camera fitted_camera(const Scene& scene, double aspect);
@@ -88,7 +94,8 @@ struct ViewReach {
 Vec3d fitting_eye(const Scene& scene, const std::vector<PlacedShape>& shapes, double aspect, const ViewAxes& axes,
                   double fov);
 
-/// The transform of a camera at `eye`, whose axes in world space are its right, up and forward.
+/// The transform of a camera at `eye`, whose axes in world space are its right, up and forward. Throws InputError if
+/// they are out of range.
 Transform world_from_camera(const Vec3d& eye, const Vec3d& right, const Vec3d& up, const Vec3d& forward);
 
 /// Adds white light from everywhere, more of it from above, and from windows: a bright one in front of and above the

@@ -23,6 +23,21 @@ const char* kind_name(ShapeType type) {
   return "mesh";
 }
 
+const char* light_kind_name(LightKind kind) {
+  switch (kind) {
+#define ALHAZEN_CASE(name, Name) \
+  case LightKind::name:          \
+    return #name;
+    ALHAZEN_LIGHTS(ALHAZEN_CASE)
+#undef ALHAZEN_CASE
+    case LightKind::triangle:
+    case LightKind::sphere:
+    case LightKind::moving_sphere:
+      break;
+  }
+  return "light";
+}
+
 }  // namespace
 
 /// Names are written into headers, where bytes that are no UTF-8 would spoil all of them.
@@ -45,7 +60,7 @@ std::vector<std::string> light_names(const Scene& scene) {
   std::map<std::string, size_t> counts;
   for (const Light& light : scene.lights) {
     const bool surrounds = light.kind == LightKind::constant_infinite || light.kind == LightKind::environment;
-    const std::string kind = light_traits(light.kind).name;
+    const std::string kind = light_kind_name(light.kind);
     names.push_back(!light.name.empty() ? printable(light.name)
                     : surrounds         ? "environment"
                                         : kind + "." + std::to_string(++counts[kind]));

@@ -89,9 +89,88 @@ TEST_F(CommandLine, TakesOptionsFromAFile) {
   EXPECT_TRUE(exists("d.exr"));
   expect_error({"render", "scene.pbrt", "--config", "good.toml", "--config", "other.toml"}, 2, {"once"});
   expect_error({"render", "scene.pbrt", "--config="}, 2, {"--config"});
-  expect_error({"render", "scene.pbrt", "--config", "absent.toml"}, 2, {"absent.toml", "cannot be read"});
-  expect_error({"render", "scene.pbrt", "--config=."}, 2, {"cannot be read"});
+  expect_error({"render", "scene.pbrt", "--config", "absent.toml"}, 2, {"absent.toml: cannot be opened"});
+  expect_error({"render", "scene.pbrt", "--config=."}, 2, {"is a folder"});
   expect_error({"render", "scene.pbrt", "--config"}, 2, {"--config"});
+}
+
+TEST_F(CommandLine, NamesTheLineOfAFileWithOptions) {
+  for (const auto& [text, message] :
+       {std::pair{"checkpoint =\n", "k.cfg:1: 'checkpoint' has no value"},
+        {"# a\n\nspp =   # none\n", "k.cfg:3: 'spp' has no value"},
+        {"output = \"\"", "k.cfg:1: 'output' has no value"},
+        {"aov = []", "k.cfg:1: 'aov' has no value"},
+        {"aov = [\"albedo\",", "k.cfg:1: the array of 'aov' has no ]"},
+        {"aov = [\"albedo\" \"depth\"]", "k.cfg:1: the values of 'aov' need a comma"},
+        {"tone-map = \"aces", "k.cfg:1: the value of 'tone-map' has a quotation mark"},
+        {"tone-map = \"aces\" 1", "k.cfg:1: the value of 'tone-map' goes on"},
+        {"[render", "k.cfg:1: a section is a name in brackets"},
+        {"= 3", "k.cfg:1: this is no option"},
+        {"seed = 3\nspp = 2\nseed = 4", "k.cfg:3: 'seed' is given twice, first in line 1"},
+        {"spp = 2\nspp = 3", "k.cfg:2: 'spp' is given twice, first in line 1"},
+        {"\nspp = abc", "k.cfg:2: --spp must be a whole number"},
+        {"\nturntable = abc", "k.cfg:2: --turntable must be a whole number from 1 to 1000000, not 'abc'"},
+        {"aov = [\n\"albedo\",\n\"x\"]", "k.cfg:1: unknown layer 'x'"},
+        {"backend = x", "k.cfg:1: unknown backend 'x'"},
+        {"exr-type = abc", "k.cfg:1: unknown pixel type 'abc'"},
+        {"progress = abc", "k.cfg:1: unknown progress 'abc'"},
+        {"jpeg-quality = 200", "k.cfg:1: --jpeg-quality"},
+        {"exposure = x", "k.cfg:1: --exposure"},
+        {"tone-map = x", "k.cfg:1: unknown tone map"},
+        {"quiet = maybe", "k.cfg:1: 'quiet' is true or false"}}) {
+    folder_.write_text("k.cfg", text);
+    const CommandResult result = run({"render", "--config", "k.cfg", "scene.pbrt", "-q"});
+    EXPECT_EQ(result.exit_code, 2) << text << result.everything();
+    EXPECT_EQ(result.err.find(message), 0u) << message << "\n" << result.err;
+    EXPECT_EQ(lines_of(result.err).size(), 1u) << result.err;
+  }
+  // A list, its lines, a mark of the order of bytes, spaces in quotation marks, numbers with commas, Windows' lines.
+  folder_.write_text("k.cfg",
+                     "\xef\xbb\xbfspp = 1\r\noutput = \"a b#.pfm\"\r\noutput = c.exr\r\naov = [ \"albedo\",  # one\r\n"
+                     "  'normal' ]\r\n[render]\r\norbit = 60, 20\r\nquiet\r\n");
+  const CommandResult result = run({"render", "--config", "k.cfg", "scene.pbrt"});
+  EXPECT_EQ(result.exit_code, 0) << result.everything();
+  EXPECT_EQ(result.err, "");
+  EXPECT_TRUE(exists("a b#.pfm"));
+  EXPECT_GE(image("c.exr").channel("normal.X"), 0);
+}
+
+TEST_F(CommandLine, AFileWithOptionsIsRegular) {
+  CommandOptions options;
+  options.folder = folder_.path();
+  options.timeout = 20;
+  EXPECT_EQ(run_script("mkfifo pipe", options).exit_code, 0);
+  for (const auto& [name, message] : {std::pair{"pipe", "pipe: is a pipe, not a regular file"},
+                                      {"/dev/zero", "/dev/zero: is a device, not a regular file"}}) {
+    const CommandResult result = run({"render", "scene.pbrt", "--config", name}, options);
+    EXPECT_EQ(result.exit_code, 2) << result.everything();
+    EXPECT_EQ(result.err.find(message), 0u) << result.err;
+    EXPECT_EQ(lines_of(result.err).size(), 1u) << result.err;
+  }
+}
+
+TEST_F(CommandLine, SaysInItsOwnWordsWhatIsWrongWithAValue) {
+  expect_error({"render", "scene.pbrt", "--spp", "1", "--spp", "2"}, 2, {"--spp is given twice: give it once"});
+  expect_error({"render", "scene.pbrt", "--fps=1", "--fps=2", "--fps=3"}, 2, {"--fps is given 3 times: give it once"});
+  expect_error({"render", "scene.pbrt", "--spp"}, 2, {"--spp needs a value"});
+  expect_error({"render", "scene.pbrt", "--turntable", "nan"}, 2,
+               {"--turntable must be a whole number from 1 to 1000000, not 'nan'"});
+  expect_error({"render", "scene.pbrt", "--exr-tiles", "99999999999"}, 2,
+               {"--exr-tiles must be a whole number from 8 to 1024 pixels, or 0 for none, not '99999999999'"});
+  expect_error({"render", "scene.pbrt", "--quiet=maybe"}, 2, {"--quiet takes no value"});
+  expect_error({"render", "scene.pbrt", "--list=false"}, 2, {"--list takes no value"});
+  expect_error({"compare", "a.exr", "b.exr", "--reduce", "x"}, 2,
+               {"--reduce must be a whole number from 1 to 4096, not 'x'"});
+  expect_error({"study", "tune", "scene.pbrt", "--budget", "nan"}, 2,
+               {"--budget must be a finite number from 1 to 1000000, not 'nan'"});
+  // What follows is not taken for the value, nor for one more of an option that may be repeated.
+  EXPECT_EQ(
+      run({"render", "--aov", "albedo", "--aov", "depth", "scene.pbrt", "--spp", "1", "-q", "-o", "a.exr"}).exit_code,
+      0);
+  expect_error({"render", "--checkpoint=", "scene.pbrt"}, 2, {"--checkpoint needs a value"});
+  for (const char* option : {"--frames", "--format", "--exr-type", "--exr-compression", "--progress", "--exposure",
+                             "--white-balance", "--tone-map", "--png-depth", "--jpeg-quality", "--spp", "-o"})
+    expect_error({"render", "scene.pbrt", option, "", "-q"}, 2, {option == std::string("-o") ? "--output" : option});
 }
 
 TEST_F(CommandLine, SaysWhichOptionsHaveNoEffect) {

@@ -57,6 +57,50 @@ TEST_F(Compare, FailsAboveALimitAndSaysWhich) {
     EXPECT_EQ(compare({"--fail-above", wrong}).exit_code, 2) << wrong;
 }
 
+/// Colours that are NaN in some pixels.
+TEST_F(Compare, PixelsThatAreNotFinitePassNoLimit) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto write_pfm_of = [&](const std::string& name, size_t first_nan, size_t end_nan) {
+    Image image{8, 8, {"R", "G", "B"}, std::vector(3, std::vector<float>(64, 0.5f))};
+    for (size_t i = first_nan; i < end_nan; ++i) image.planes[i % 3][i] = nan;
+    write_image(folder_.file(name), source_of(image), {});
+  };
+  write_pfm_of("good.pfm", 0, 0);
+  write_pfm_of("one.pfm", 3, 4);
+  write_pfm_of("none.pfm", 0, 64);
+  const std::vector<std::vector<std::string>> limits{{"--fail-above", "mse=1"},          {"--fail-above", "flip=1"},
+                                                     {"--fail-below", "psnr=0"},         {"--fail-below", "ssim=-1"},
+                                                     {"--fail-above", "mean_a=9"},       {"--fail-above", "max_abs=9"},
+                                                     {"--fail-above", "nonfinite_a=1e9"}};
+  const auto compared = [&](const std::string& a, const std::string& b, std::vector<std::string> more) {
+    more.insert(more.begin(), {"compare", a, b});
+    return run(more);
+  };
+  for (const std::vector<std::string>& limit : limits) {
+    for (const auto& [a, b] : {std::pair{"none.pfm", "none.pfm"}, {"none.pfm", "good.pfm"}, {"good.pfm", "none.pfm"}}) {
+      const CommandResult result = compared(a, b, limit);
+      EXPECT_EQ(result.exit_code, 1) << a << b << limit[1] << result.everything();
+      EXPECT_EQ(result.err, "alhazen: no pixel is finite in both images: nothing is compared, and every limit fails\n");
+    }
+    EXPECT_EQ(compared("one.pfm", "one.pfm", limit).exit_code, 0) << limit[1] << ": at the same place";
+    const CommandResult alone = compared("one.pfm", "good.pfm", limit);
+    const bool is_decided = limit[1].starts_with("nonfinite");
+    EXPECT_EQ(alone.exit_code, is_decided ? 0 : 1) << limit[1] << alone.everything();
+    if (!is_decided) {
+      EXPECT_EQ(alone.err.find("alhazen: 1 pixel has NaN or infinity in one of the images alone"), 0u) << alone.err;
+    }
+  }
+  EXPECT_EQ(compared("one.pfm", "good.pfm", {"--fail-above", "nonfinite_in_one=0"}).exit_code, 1);
+  EXPECT_EQ(compared("one.pfm", "good.pfm", {"--fail-above", "nonfinite_in_one=1", "--fail-above", "mse=0"}).exit_code,
+            0);
+  const nlohmann::json of_none = only_json(compared("none.pfm", "good.pfm", {"--json"}).out);
+  EXPECT_NEAR(of_none["mean_b"].get<double>(), 0.5, 1e-9);
+  EXPECT_TRUE(of_none["mean_a"].is_null() && of_none["psnr"].is_null() && of_none["max_abs"].is_null());
+  EXPECT_EQ(of_none["compared"], 0);
+  const std::string table = compared("one.pfm", "good.pfm", {}).out;
+  EXPECT_NE(table.find("1 in A and 0 in B, 1 of them in one alone"), std::string::npos) << table;
+}
+
 TEST_F(Compare, Layers) {
   const nlohmann::json all = json({"--layer", "all"})["layers"];
   ASSERT_EQ(all.size(), 2u);

@@ -108,6 +108,17 @@ TEST_F(Frames, ThatAreThereAreLeftAsTheyAre) {
   EXPECT_EQ(bytes("f_00.png"), first);
 }
 
+/// A file without a byte is no image.
+TEST_F(Frames, WithEmptyFilesAreRenderedAgain) {
+  ASSERT_EQ(moving({"--frames", "0..1", "-o", "f_#.png"}).exit_code, 0);
+  const Bytes first = bytes("f_1.png");
+  folder_.write_text("f_1.png", "");
+  const CommandResult again = moving({"--frames", "0..1", "-o", "f_#.png"});
+  EXPECT_EQ(again.exit_code, 0) << again.everything();
+  EXPECT_NE(again.err.find("1 of 2 frames are there"), std::string::npos) << again.err;
+  EXPECT_EQ(bytes("f_1.png"), first);
+}
+
 TEST_F(Frames, AnInterruptKeepsFinishedOnesAndNothingElse) {
   CommandOptions options;
   options.signal_when = [](const std::string& err) {
@@ -125,7 +136,7 @@ TEST_F(Frames, AnInterruptKeepsFinishedOnesAndNothingElse) {
 }
 
 TEST_F(Frames, RefusesRangesThatMakeNoSense) {
-  for (const char* range : {"5..1", "1..", "..3", "a..b", "1..2:0", "1..2:x", "3:2", "1...2", "1.5..3", "0..1:2:3",
+  for (const char* range : {"", "5..1", "1..", "..3", "a..b", "1..2:0", "1..2:x", "3:2", "1...2", "1.5..3", "0..1:2:3",
                             "1e99", "0..2000000", "0..99999999999", "9999999999"})
     expect_refused({"--frames", range, "-o", "f_##.png"}, "--frames");
   expect_refused({"--frames=-3..2", "-o", "f_##.png"}, "frames are numbered from 0");

@@ -183,6 +183,10 @@ TEST_F(LayerOptions, LightGroupsAreLayers) {
   const CommandResult idle = lit({"-o", "d.png", "--light-group", "key=point.1"});
   EXPECT_NE(idle.err.find("--light-group has no effect"), std::string::npos) << idle.err;
 
+  std::string many = "key=point.1";
+  for (int i = 0; i < 1000; ++i) many += ",point.2";
+  ASSERT_EQ(lit({"--checkpoint", "long", "-o", "e.exr", "--light-group", many}).exit_code, 0);
+  ASSERT_EQ(lit({"--checkpoint", "long", "--resume", "-o", "e.exr", "--light-group", many}).exit_code, 0);
   ASSERT_EQ(lit({"--checkpoint", "state", "-o", "e.exr", "--light-group", "key=point.1"}).exit_code, 0);
   const CommandResult other = lit({"--checkpoint", "state", "--resume", "-o", "e.exr", "--light-group", "key=point.2"});
   EXPECT_EQ(other.exit_code, 2);

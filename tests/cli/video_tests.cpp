@@ -106,6 +106,95 @@ TEST_F(Video, SaysWhatFfmpegSaidWhenItFails) {
   EXPECT_FALSE(has_temporary());
 }
 
+/// ffmpeg ends with 0 where the disk is full, and says so; an older video is better than a broken one.
+TEST_F(Video, KeepsTheOlderOneWhereFfmpegFails) {
+  const std::string no_space = "echo 'av_interleaved_write_frame(): No space left on device' >&2\n";
+  for (const auto& [script, words] :
+       {std::pair<std::string, std::string>{"/bin/cat > /dev/null; exit 0", "ffmpeg has written nothing"},
+        {stand_in + no_space, "No space left on device: free some space"},
+        {stand_in + no_space + "exit 1", "No space left on device: free some space"},
+        {stand_in + "echo odd >&2", "ffmpeg reports an error; it says:\n  odd"},
+        {stand_in + "kill -9 $$", "ffmpeg was ended by signal 9 (Killed)"},
+        {"exit 3", "ffmpeg ended with exit code 3"}})
+    for (const std::string name : {"v.mp4", "v.gif"}) {
+      folder_.write_text(name, "an older one");
+      const CommandResult result = with_stand_in(script, "--frames 0..3 -o " + name);
+      EXPECT_EQ(result.exit_code, 1) << result.everything();
+      EXPECT_NE(result.err.find("cannot write " + name + ": " + words), std::string::npos) << result.err;
+      EXPECT_EQ(read_file(folder_.file(name)).size(), 12u) << script;
+      EXPECT_FALSE(has_temporary());
+    }
+}
+
+TEST_F(Video, OverALimitOnTheSizeOfFilesIsASentence) {
+  with_stand_in("for last; do :; done\nfile=${last#file:}\nexec /bin/cat > \"$file\"\n", "--frames 0 -o unused_#.png");
+  CommandOptions options;
+  options.folder = folder_.path();
+  options.file_size = 4096;
+  const CommandResult result =
+      run_script("PATH=" + folder_.file("bin") +
+                     " exec $ALHAZEN render moving.gltf --size 64x64 --spp 1 --progress none --frames 0..3 -o v.mp4",
+                 options);
+  EXPECT_EQ(result.exit_code, 1) << result.everything();
+  EXPECT_NE(result.err.find("ulimit -f"), std::string::npos) << result.err;
+  EXPECT_FALSE(exists("v.mp4"));
+  EXPECT_FALSE(has_temporary());
+}
+
+/// Neither by a symbolic nor by a hard link, also where no frame is left to render.
+TEST_F(Video, ReplacesNothingThatItIsMadeOf) {
+  ASSERT_EQ(with_stand_in(stand_in, "--frames 0..2 -o f_#.png").exit_code, 0);
+  for (const std::string input : {"f_1.png", "moving.gltf", "moving.bin"})
+    for (const bool is_hard : {false, true})
+      for (const std::string frames : {"0..2", "0..3"}) {
+        const Bytes before = read_file(folder_.file(input));
+        std::filesystem::remove(folder_.file("v.mp4"));
+        if (is_hard)
+          std::filesystem::create_hard_link(folder_.file(input), folder_.file("v.mp4"));
+        else
+          std::filesystem::create_symlink(input, folder_.file("v.mp4"));
+        const CommandResult result = with_stand_in(stand_in, "--frames " + frames + " -o v.mp4 -o f_#.png");
+        EXPECT_EQ(result.exit_code, 2) << input << frames << result.everything();
+        EXPECT_NE(result.err.find("the output is the same file as "), std::string::npos) << result.err;
+        EXPECT_EQ(read_file(folder_.file(input)), before) << input << frames;
+      }
+}
+
+/// A video is premultiplied by alpha, so its frames are rendered again, and their files are not written.
+TEST_F(Video, OfATransparentBackgroundLeavesFramesAsTheyAre) {
+  const std::string arguments = "--frames 0..2 --transparent-background -o v.mp4 -o f_#.png";
+  ASSERT_EQ(with_stand_in(stand_in, arguments).exit_code, 0);
+  const Bytes video = read_file(folder_.file("v.mp4"));
+  folder_.write_text("f_1.png", "mine");
+  std::filesystem::remove(folder_.file("f_2.png"));
+  const CommandResult again = with_stand_in(stand_in, arguments);
+  EXPECT_EQ(again.exit_code, 0) << again.everything();
+  EXPECT_NE(again.err.find("2 of 3 frames are there and are left as they are"), std::string::npos) << again.err;
+  EXPECT_EQ(read_file(folder_.file("f_1.png")).size(), 4u);
+  EXPECT_EQ(read_file(folder_.file("v.mp4")), video);
+  EXPECT_TRUE(exists("f_2.png"));
+  EXPECT_EQ(with_stand_in(stand_in, arguments + " --overwrite").exit_code, 0);
+  EXPECT_NO_THROW(image("f_1.png"));
+}
+
+TEST_F(Video, AGifPlaysAtARateThatPlayersKeep) {
+  const auto rendered = [&](const std::string& arguments) {
+    const CommandResult result = with_stand_in(stand_in, "--frames 0..1 -o v.gif " + arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.everything();
+    const Bytes said = read_file(folder_.file("arguments"));
+    return std::pair(result.err, std::string(said.begin(), said.end()));
+  };
+  const auto [err, arguments] = rendered("--fps 60");
+  EXPECT_NE(err.find("warning: v.gif: it plays at 50 frames per second, not at 60"), std::string::npos) << err;
+  EXPECT_NE(arguments.find("-framerate 50 "), std::string::npos) << arguments;
+  const auto [kept, same] = rendered("--fps 24");
+  EXPECT_EQ(kept.find("warning: v.gif"), std::string::npos) << kept;
+  EXPECT_NE(same.find("-framerate 24 "), std::string::npos) << same;
+  const auto [slow, slowest] = rendered("--fps 0.001");
+  EXPECT_NE(slow.find("warning: v.gif: it plays at 0.0015259 frames"), std::string::npos) << slow;
+  EXPECT_NE(slowest.find("-framerate 0.00152590"), std::string::npos) << slowest;
+}
+
 TEST_F(Video, RefusesWhatMakesNoVideo) {
   for (const std::string arguments :
        {"-o v.mp4", "-o v.gif", "--frames 0..3 -o none/v.mp4", "--frames 0..3 -o v.avi"}) {
@@ -131,6 +220,51 @@ TEST_F(Video, OfAnInterruptedRunHasTheFinishedFrames) {
   EXPECT_GE(video.size(), 2u * 64 * 64 * 3);
   EXPECT_EQ(video.size() % (64 * 64 * 3), 0u) << "whole frames";
   EXPECT_FALSE(has_temporary());
+}
+
+/// One Ctrl-C ends it, whether it takes no frames or does not come to its end.
+TEST_F(Video, AHungFfmpegIsEndedByAnInterrupt) {
+  const std::string hung = "echo $$ > pid\n";
+  for (const std::string& script :
+       {hung + "exec /bin/sleep 1000", hung + "/bin/cat > /dev/null; exec /bin/sleep 1000"}) {
+    with_stand_in(script, "--frames 0 -o unused_#.png");
+    CommandOptions options;
+    options.folder = folder_.path();
+    options.signal_when = [](const std::string& err) {
+      return err.find("frame 2 (3 of") != std::string::npos ? SIGINT : 0;
+    };
+    // 64 KiB of a pipe hold the first two frames.
+    const CommandResult result = run_script(
+        "PATH=" + folder_.file("bin") +
+            " exec $ALHAZEN render moving.gltf --size 100x100 --spp 1 --progress none --frames 0..2 -o v.mp4",
+        options);
+    EXPECT_EQ(result.exit_code, 130) << result.everything();
+    EXPECT_NE(result.err.find("interrupted: ffmpeg stood still and was ended, and v.mp4 is not written"),
+              std::string::npos)
+        << result.err;
+    EXPECT_FALSE(exists("v.mp4"));
+    EXPECT_FALSE(has_temporary());
+    const Bytes pid = read_file(folder_.file("pid"));
+    ASSERT_GT(pid.size(), 1u);
+    EXPECT_NE(::kill(std::stoi(std::string(pid.begin(), pid.end())), 0), 0) << "it still runs";
+  }
+}
+
+TEST_F(Video, OfARunInterruptedBeforeItsFirstFrameIsNone) {
+  with_stand_in(stand_in, "--frames 0 -o unused_#.png");
+  CommandOptions options;
+  options.folder = folder_.path();
+  options.signal_when = [](const std::string& err) {
+    return err.find("samples_done") != std::string::npos ? SIGINT : 0;
+  };
+  const CommandResult result = run_script("PATH=" + folder_.file("bin") +
+                                              " exec $ALHAZEN render moving.gltf --size 64x64 --spp 1000000 --progress "
+                                              "json --frames 0..3 --exposure 0 -o v.mp4",
+                                          options);
+  EXPECT_EQ(result.exit_code, 130) << result.everything();
+  EXPECT_NE(result.err.find("interrupted: no frame is finished, and no video is written"), std::string::npos)
+      << result.err;
+  EXPECT_FALSE(exists("v.mp4"));
 }
 
 TEST_F(Video, IsWhatFfmpegMakesOfIt) {

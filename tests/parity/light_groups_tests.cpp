@@ -103,6 +103,21 @@ TEST(LightGroups, HaveTheSameBitsOnEveryEngine) {
   }
 }
 
+TEST(LightGroups, OfConstantLightsAreOne) {
+  const auto skies = [](const std::string& second) {
+    return seen("LightSource \"infinite\" \"rgb L\" [ " + second + " ]\n" + rectangle(-1, 0, -1, 1));
+  };
+  EXPECT_NEAR(mean(plane(render_bits(skies("0 0 0"), serial({"light_groups"})), "light_environment.R")), 0.75, 1e-3);
+  Scene two = skies("1 1 1");
+  two.lights[0].name = "sky";
+  two.lights[1].name = "fog";
+  Settings settings = serial();
+  settings.light_groups = {"a=sky,fog"};
+  EXPECT_NEAR(mean(plane(render_bits(two, settings), "light_a.R")), 1.5, 1e-3);
+  settings.light_groups = {"a=sky", "b=fog"};
+  EXPECT_THROW(render_bits(two, settings), InputError);
+}
+
 TEST(LightGroups, DoNotChangeTheImage) {
   Settings settings = serial();
   const Outcome plain = render_bits(lit("sdpa"), settings);

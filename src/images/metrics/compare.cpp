@@ -58,40 +58,47 @@ Vec3d encoded(const Vec3d& colour) {
 
 double mean_of(const Vec3d& v) { return (v.x + v.y + v.z) / 3; }
 
+/// NaN of no terms, without the sign that 0 / 0 has.
+double mean(double sum, double count) { return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN(); }
+
 /// Mean of the terms without the thousandth of them, rounded down, that is largest: a few pixels that a bright path hit
 /// then do not decide. Reorders the terms.
 double trimmed_mean(std::vector<double>& terms) {
+  if (terms.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto end = terms.end() - static_cast<std::ptrdiff_t>(terms.size() / 1000);
   if (end != terms.end()) std::nth_element(terms.begin(), end, terms.end());
   return std::accumulate(terms.begin(), end, 0.0) / static_cast<double>(end - terms.begin());
 }
 
-/// Computes the metrics that treat each pixel separately. Returns the number of valid pixels.
-int64_t compare_pixels(const Pair& pair, ImageDifference& result) {
-  int64_t count = 0;
+/// Computes the metrics that treat each pixel separately.
+void compare_pixels(const Pair& pair, ImageDifference& result) {
   double encoded_mse = 0;
   std::vector<double> relative_errors;
   for (size_t i = 0; i < pair.size(); ++i) {
     const Vec3d a = pair.a(i), b = pair.b(i);
+    if (is_finite(a)) result.mean_a += luminance(a);
+    if (is_finite(b)) result.mean_b += luminance(b);
     result.nonfinite_a += is_finite(a) ? 0 : 1;
     result.nonfinite_b += is_finite(b) ? 0 : 1;
+    result.nonfinite_in_one += is_finite(a) != is_finite(b) ? 1 : 0;
     if (!pair.counts(i)) continue;
-    ++count;
+    ++result.compared;
     const Vec3d difference = a - b, encoded_difference = encoded(a) - encoded(b);
     result.mse += mean_of(difference * difference);
     relative_errors.push_back(mean_of(difference * difference / (b * b + splat(0.01))));
     result.relmse += relative_errors.back();
     encoded_mse += mean_of(encoded_difference * encoded_difference);
-    result.mean_a += luminance(a);
-    result.mean_b += luminance(b);
     result.max_abs = std::max(result.max_abs, max_component(abs(difference)));
   }
-  const double pixels = static_cast<double>(count);
-  for (double* sum : {&result.mse, &result.relmse, &result.mean_a, &result.mean_b}) *sum /= pixels;
+  const auto pixels = static_cast<double>(result.compared), all = static_cast<double>(pair.size());
+  result.mse = mean(result.mse, pixels);
+  result.relmse = mean(result.relmse, pixels);
+  result.mean_a = mean(result.mean_a, all - static_cast<double>(result.nonfinite_a));
+  result.mean_b = mean(result.mean_b, all - static_cast<double>(result.nonfinite_b));
+  if (result.compared == 0) result.max_abs = encoded_mse = std::numeric_limits<double>::quiet_NaN();
   result.rmse = std::sqrt(result.mse);
   result.relmse_trimmed = trimmed_mean(relative_errors);
   result.psnr = encoded_mse == 0 ? std::numeric_limits<double>::infinity() : -10 * std::log10(encoded_mse / pixels);
-  return count;
 }
 
 // Invalid pixels are black in both images, so that they add no difference to their neighbours.
@@ -112,7 +119,7 @@ double mean_ssim(const Pair& pair) {
         sum += map.row(y)[x];
         ++count;
       }
-  return sum / count;
+  return mean(sum, count);
 }
 
 Plane<float> flip_of(const Pair& pair) {
@@ -129,12 +136,15 @@ Plane<float> flip_of(const Pair& pair) {
   return flip_map(a, b);
 }
 
-double mean_flip(const Pair& pair, int64_t count) {
+double mean_flip(const Pair& pair) {
   const Plane<float> map = flip_of(pair);
-  double sum = 0;
+  double sum = 0, count = 0;
   for (size_t i = 0; i < pair.size(); ++i)
-    if (pair.counts(i)) sum += static_cast<double>(map.values[i]);
-  return sum / static_cast<double>(count);
+    if (pair.counts(i)) {
+      sum += static_cast<double>(map.values[i]);
+      ++count;
+    }
+  return mean(sum, count);
 }
 
 }  // namespace
@@ -142,9 +152,9 @@ double mean_flip(const Pair& pair, int64_t count) {
 ImageDifference compare_images(const Image& a, const Image& b) {
   const Pair pair(a, b);
   ImageDifference result;
-  const int64_t count = compare_pixels(pair, result);
+  compare_pixels(pair, result);
   result.ssim = mean_ssim(pair);
-  result.flip = mean_flip(pair, count);
+  result.flip = mean_flip(pair);
   return result;
 }
 

@@ -8,8 +8,8 @@
 
 namespace alhazen::impl {
 
-/// Metrics over the channels R, G, B of linear values unless said otherwise; pixels that are not finite in either image
-/// are counted and excluded from every mean.
+/// Metrics over the channels R, G, B of linear values unless said otherwise. Pixels that are not finite in one of the
+/// images, or in both, are counted and excluded; without any other pixel the metrics are NaN.
 struct ImageDifference {
   double mse = 0;             ///< mean squared error
   double rmse = 0;            ///< its root
@@ -18,9 +18,11 @@ struct ImageDifference {
   double psnr = 0;            ///< dB, of the sRGB-encoded values clamped to [0, 1]; infinite for equal images
   double ssim = 0;  ///< structural similarity of the encoded luminance (Wang et al. 2004), Gaussian window of 11
   double flip = 0;  ///< mean LDR-FLIP (Andersson et al. 2020) at 67 pixels per degree
-  double mean_a = 0, mean_b = 0;             ///< mean luminance of each
+  double mean_a = 0, mean_b = 0;             ///< mean luminance of each, over all its finite pixels
   double max_abs = 0;                        ///< largest absolute difference of a channel
   int64_t nonfinite_a = 0, nonfinite_b = 0;  ///< pixels with a NaN or infinite channel
+  int64_t nonfinite_in_one = 0;              ///< of those, pixels that are finite in the other image
+  int64_t compared = 0;                      ///< pixels that are finite in both
 };
 
 /// Throws InputError if the sizes differ or an image has neither R, G, B nor a single channel.

@@ -1,5 +1,6 @@
 #include "io/obj/obj_file.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -100,8 +101,13 @@ class ObjReader {
     if (!has_colour && colours_.empty()) return;
     colours_.resize(positions_.size(), {1, 1, 1, 1});
     if (!has_colour) return;
-    for (size_t i = 0; i < 3; ++i)
-      colours_.back()[i] = static_cast<float>(srgb_decode(std::fmin(std::fmax(lines_.number(4 + i), 0), 1)));
+    bool is_clamped = false;
+    for (size_t i = 0; i < 3; ++i) {
+      const double read = lines_.number(4 + i), value = std::clamp(read, 0.0, 1.0);
+      is_clamped = is_clamped || value != read;
+      colours_.back()[i] = static_cast<float>(srgb_decode(value));
+    }
+    if (is_clamped) diagnostics_.warn(lines_.place(), "colours of vertices that are not from 0 to 1 are clamped");
   }
 
   void set_object() {

@@ -1,5 +1,6 @@
 #include "io/ply/vertex_rows.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -112,13 +113,15 @@ void VertexRows::add(const Row& row) {
   if (colours_ != PlyColours::none) add_colour(row);
 }
 
-/// Values that are not from 0 to 1 are clamped, NaN to 0.
 void VertexRows::add_colour(const Row& row) {
   std::array<float, 4> colour{};
+  bool is_clamped = false;
   for (size_t i = 0; i < 4; ++i) {
-    const double value = std::fmin(std::fmax(row[slot_red + i] / colour_unit_, 0), 1);
+    const double read = row[slot_red + i] / colour_unit_, value = std::clamp(read, 0.0, 1.0);
+    is_clamped = is_clamped || value != read;
     colour[i] = static_cast<float>(i < 3 && colours_ == PlyColours::displayed ? srgb_decode(value) : value);
   }
+  clamped_ += is_clamped ? 1 : 0;
   mesh_.colours.push_back(colour);
 }
 
@@ -151,6 +154,10 @@ void VertexRows::add_uv(const Row& row) {
 void VertexRows::warn(Diagnostics& diagnostics) const {
   for (const std::string& complaint : {complaint_about_normals_, complaint_about_uvs_})
     if (!complaint.empty()) diagnostics.warn({mesh_.name}, complaint);
+  if (clamped_ > 0)
+    diagnostics.warn({mesh_.name}, "the colours of " + std::to_string(clamped_) +
+                                       (clamped_ == 1 ? " vertex" : " vertices") +
+                                       " are not from 0 to 1: they are clamped");
 }
 
 }  // namespace alhazen::impl

@@ -43,7 +43,7 @@ VertexLayout vertex_layout(const PlyElement& element, const std::string& name, P
                            Diagnostics& diagnostics);
 
 /// Accepts rows in the order of slots. If normals or uvs are unusable, they are dropped for all vertices, with a
-/// warning.
+/// warning; colours that are not from 0 to 1 are clamped, with one.
 class VertexRows {
  public:
   using Row = std::array<double, slot_count>;
@@ -62,11 +62,13 @@ class VertexRows {
   PlyColours colours_;
   double colour_unit_;
   std::string complaint_about_normals_, complaint_about_uvs_;
+  uint64_t clamped_ = 0;  ///< vertices
 };
 
 template <class Values>
 void read_vertices(Values& values, const PlyElement& element, const VertexLayout& layout, VertexRows& rows) {
   static constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+  static constexpr std::array<const char*, 4> colours{"red", "green", "blue", "alpha"};
   VertexRows::Row row{};
   row[slot_alpha] = layout.colour_unit;
   for (uint64_t i = 0; i < element.count; ++i) {
@@ -81,6 +83,9 @@ void read_vertices(Values& values, const PlyElement& element, const VertexLayout
       row[slot] = values.real(property);
       if (slot <= slot_z && !std::isfinite(row[slot]))
         values.fail(std::string(axes[slot]) + " is " + std::to_string(row[slot]) + "; coordinates must be finite");
+      if (slot >= slot_red && slot <= slot_alpha && !std::isfinite(row[slot]))
+        values.fail(std::string(colours[slot - slot_red]) + " is " + std::to_string(row[slot]) +
+                    "; colours must be finite");
     }
     values.end_row();
     rows.add(row);

@@ -11,6 +11,10 @@ namespace {
 
 using Names = std::vector<std::string>;
 
+GroupedLights group_names(const Names& names, const std::vector<LightGroup>& groups) {
+  return group_light_names(names, std::vector<bool>(names.size(), true), groups);
+}
+
 std::string refusal_of(const Names& texts) {
   try {
     parse_light_groups(texts);
@@ -39,24 +43,24 @@ TEST(LightGroups, AreParsed) {
 
 TEST(LightGroups, TakeTheFirstThatNamesALight) {
   const GroupedLights grouped =
-      group_light_names({"sun", "lamp.1", "lamp.2", "sky"}, parse_light_groups({"b=lamp.2,sun", "a=lamp.?"}));
+      group_names({"sun", "lamp.1", "lamp.2", "sky"}, parse_light_groups({"b=lamp.2,sun", "a=lamp.?"}));
   EXPECT_EQ(grouped.groups, (Names{"b", "a", "rest"}));
   EXPECT_EQ(grouped.group_of, (std::vector<uint32_t>{0, 1, 0, 2}));
 }
 
 TEST(LightGroups, HaveNoRestWhereAllAreNamed) {
-  EXPECT_EQ(group_light_names({"sun", "sky"}, parse_light_groups({"all=*"})).groups, Names{"all"});
+  EXPECT_EQ(group_names({"sun", "sky"}, parse_light_groups({"all=*"})).groups, Names{"all"});
 }
 
 TEST(LightGroups, NamesMayHaveBracketsAndBackslashes) {
   const GroupedLights grouped =
-      group_light_names({"lamp[1]", "lamp1", "a\\b"}, parse_light_groups({"a=lamp[1]", "b=lamp1", "c=a\\b"}));
+      group_names({"lamp[1]", "lamp1", "a\\b"}, parse_light_groups({"a=lamp[1]", "b=lamp1", "c=a\\b"}));
   EXPECT_EQ(grouped.group_of, (std::vector<uint32_t>{0, 1, 2}));
   EXPECT_EQ(grouped.groups, (Names{"a", "b", "c"}));
 }
 
 TEST(LightGroups, OfEachNameHavePlainOnes) {
-  const GroupedLights grouped = group_light_names({"Light.001", "Light 001", "L\xc3\xa4mp"}, {});
+  const GroupedLights grouped = group_names({"Light.001", "Light 001", "L\xc3\xa4mp"}, {});
   EXPECT_EQ(grouped.groups, (Names{"Light_001", "Light_001_2", "L__mp"}));
   EXPECT_EQ(grouped.group_of, (std::vector<uint32_t>{0, 1, 2}));
 }
@@ -64,9 +68,25 @@ TEST(LightGroups, OfEachNameHavePlainOnes) {
 TEST(LightGroups, OfEachNameMayNotBeTooMany) {
   Names names;
   for (int i = 0; i < 9; ++i) names.push_back("lamp" + std::to_string(i));
-  EXPECT_THROW(group_light_names(names, {}), InputError);
+  EXPECT_THROW(group_names(names, {}), InputError);
   names.pop_back();
-  EXPECT_EQ(group_light_names(names, {}).groups, names);
+  EXPECT_EQ(group_names(names, {}).groups, names);
+}
+
+TEST(LightGroups, QuestionMarksAreCharacters) {
+  const GroupedLights grouped = group_names({"L\xc3\xa4mp", "Lamp", "Lp"}, parse_light_groups({"a=L?mp", "b=*p*"}));
+  EXPECT_EQ(grouped.group_of, (std::vector<uint32_t>{0, 0, 1}));
+  EXPECT_EQ(group_names({"abcabd", "ab"}, parse_light_groups({"a=*ab?", "b=a*b*"})).group_of,
+            (std::vector<uint32_t>{0, 1}));
+}
+
+TEST(LightGroups, OfBlackLightsAreNone) {
+  const GroupedLights by_name = group_light_names({"off", "sun"}, {false, true}, {});
+  EXPECT_EQ(by_name.groups, Names{"sun"});
+  EXPECT_EQ(by_name.group_of[1], 0u);
+  const GroupedLights named =
+      group_light_names({"off", "sun", "dark"}, {false, true, false}, parse_light_groups({"a=sun,off"}));
+  EXPECT_EQ(named.groups, Names{"a"}) << "nothing that shines is left";
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ TEST(Models, ColoursOfPlyAreReadOnlyWhereTheyAreWanted) {
   const std::string text =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
       "property float red\nproperty float green\nproperty float blue\nelement face 1\n"
-      "property list uchar int vertex_indices\nend_header\n0 0 0 0.5 0 0\n1 0 0 2 0 0\n1 1 0 nan 0 1\n3 0 1 2\n";
+      "property list uchar int vertex_indices\nend_header\n0 0 0 0.5 0 0\n1 0 0 2 0 0\n1 1 0 -1 0 1\n3 0 1 2\n";
   const auto red = [&](PlyColours colours) {
     Diagnostics diagnostics;
     MemorySource source(text);
