@@ -306,8 +306,8 @@ class NestingCheck {
     Nesting sum{1, std::max(inputs, 1u), 1};
     for (uint32_t i = 0; i < inputs; ++i) {
       const uint32_t input = texture.inputs[i];
-      if (input == root_) refuse_argument("texture", "would be an input of itself");
       if (input >= known_.size()) continue;  // a constant that is not made yet
+      if (input == root_) refuse_argument("texture", "would be an input of itself");
       if (known_[input].nodes == 0) known_[input] = of(scene_.textures[input], level + 1);
       const Nesting& part = known_[input];
       sum.levels = std::max(sum.levels, part.levels + 1);
