@@ -19,25 +19,17 @@ struct PreparedRays {
   Real limit[capacity];  ///< in units of world space; 0 for rays that hit nothing
   Real origin[3][capacity], direction[3][capacity], time[capacity];
 
-  /// Returns whether the rays [first, first + size) start within a box of that size, in directions close to each other,
-  /// so that most of them visit the same nodes.
-  bool is_coherent(uint32_t first, uint32_t size, Real max_spread) const {
+  /// Returns whether the rays of a packet, of which the first is `first`, start within about `max_spread` of each other
+  /// in directions close to each other, so that most of them visit the same nodes.
+  ALHAZEN_INLINE bool is_coherent(uint32_t first, Real max_spread) const {
+    using V = Lanes<Real, RayPacket<Real>::width>;
     constexpr Real max_direction_spread = Real(0.125);
-    for (int axis = 0; axis < 3; ++axis)
-      if (!(spread(origin[axis] + first, size) <= max_spread) ||
-          !(spread(direction[axis] + first, size) <= max_direction_spread))
-        return false;
-    return true;
-  }
-
- private:
-  static Real spread(const Real* row, uint32_t size) {
-    Real least = row[0], most = row[0];
-    for (uint32_t i = 1; i < size; ++i) {
-      least = min(least, row[i]);
-      most = max(most, row[i]);
-    }
-    return most - least;
+    const auto is_within = [&](const Real* row, Real spread) {
+      return less(V::all(spread), magnitude(V::load(row + first) - V::all(row[first]))) == 0;
+    };
+    return is_within(direction[0], max_direction_spread) && is_within(direction[1], max_direction_spread) &&
+           is_within(direction[2], max_direction_spread) && is_within(origin[0], max_spread) &&
+           is_within(origin[1], max_spread) && is_within(origin[2], max_spread);
   }
 };
 
@@ -58,7 +50,7 @@ class ChunkTracer {
       : scene_(&scene),
         intersector_(scene),
         uses_packets_(scene.instances_count == 0 && !BruteForcePackets<Real>(scene).is_worthwhile()),
-        max_spread_(max_component(scene.bounds.high - scene.bounds.low) * Real(1.0 / 64)) {}
+        max_spread_(max_component(scene.bounds.high - scene.bounds.low) * Real(1.0 / 128)) {}
 
   /// `prefetches` the records of the primitives that are hit.
   ALHAZEN_NOINLINE void closest_hits(const Rays& rays, bool prefetches, ChunkHits<Real>& hits) {
@@ -71,7 +63,7 @@ class ChunkTracer {
     uint32_t run = 0, others = 0;  // the coherent rays before `first` start at `run`
     for (uint32_t first = 0; first < rays.count; first += width) {
       const uint32_t size = min(width, rays.count - first);
-      if (uses_packets_ && rays.is_coherent(first, size, max_spread_)) continue;
+      if (uses_packets_ && size == width && rays.is_coherent(first, max_spread_)) continue;
       trace_packets(rays, run, first - run, answer);
       for (uint32_t i = 0; i < size; ++i) others_[others++] = first + i;
       run = first + size;

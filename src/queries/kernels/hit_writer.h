@@ -25,6 +25,9 @@ class HitWriter {
     const uint32_t count = rays.count;
     const bool* const found = results.found;
     const Hit<Real>* const hits = results.hit;
+    if (hits_.primitives || hits_.barycentrics)
+      for (uint32_t i = 0; i < count; ++i)
+        if (found[i] && is_triangle(hits[i])) __builtin_prefetch(request_->triangles + hits[i].primitive.index());
     if (hits_.t)
       for (uint32_t i = 0; i < count; ++i)
         store_number(hits_.t + first + i, found[i] ? rays.parameter(i, hits[i].t) : infinity<Number>);
