@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# The symbols that the installed library exports: those of the public headers under their version, and internals that the
+# program or a module uses under a private one. Arguments: the build folder, nm.
+set -euo pipefail
+build=$1 nm=$2
+source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+fail() {
+  echo "symbols_test: $1" >&2
+  exit 1
+}
+
+number() { sed -n "s/^#define ALHAZEN_VERSION_$1 //p" "$source/include/alhazen/version.h"; }
+public=ALHAZEN_$(number MAJOR).$(number MINOR)
+private=ALHAZEN_PRIVATE_$(number MAJOR).$(number MINOR).$(number PATCH)
+namespace="alhazen::v$(number MAJOR)_$(number MINOR)::"
+users=("$build/bin/alhazen")
+for module in "$build"/lib/alhazen/*.so; do
+  if [[ -e $module ]]; then users+=("$module"); fi
+done
+"$nm" -D -P "${users[@]}" 2>/dev/null | sed -n 's/^\(_Z[^ @]*\)[ @].*/\1/p' | sort -u >"$work/used.txt"
+cat "$source"/include/alhazen/*.h | tr -cs 'A-Za-z0-9_' '\n' | sort -u >"$work/words.txt"
+
+# Prints the symbols of a library that it should not export, with the reason.
+unexpected() {
+  "$nm" -D -P --defined-only --with-symbol-versions "$1" | cut -d' ' -f1,2 >"$work/symbols.txt"
+  sed 's/[@ ].*//' "$work/symbols.txt" | c++filt | paste -d'\t' "$work/symbols.txt" - >"$work/names.txt"
+  awk -F'\t' -v public="$public" -v private="$private" -v namespace="$namespace" '
+    FILENAME ~ /used.txt$/ { used[$1] = 1; next }
+    FILENAME ~ /words.txt$/ { words[$1] = 1; next }
+    {
+      split($1, symbol, " ")
+      mangled = version = symbol[1]
+      sub(/@.*/, "", mangled)
+      if (!sub(/.*@/, "", version)) version = ""
+      name = $2
+      sub(/^(typeinfo|typeinfo name|vtable|VTT|guard variable|TLS (init|wrapper) function|(non-)?virtual thunk) (for|to) /, "", name)
+      if (symbol[2] == "A" && (mangled == public || mangled == private)) next
+      if (version == public) {
+        if (index(name, namespace) != 1) { print $2 " is not of the namespace " namespace; next }
+        name = substr(name, length(namespace) + 1)
+        sub(/[(<[].*/, "", name)
+        sub(/.*[:~]/, "", name)
+        if (!(name in words)) print $2 " is in no public header"
+      } else if (version == private) {
+        if (name !~ /(^| )alhazen::impl::/) print $2 " is not of alhazen::impl"
+        if (!(mangled in used)) print $2 " is used by neither the program nor a module"
+      } else {
+        print $2 " has the version \047" version "\047"
+      }
+    }' "$work/used.txt" "$work/words.txt" "$work/names.txt"
+}
+
+library=$build/installed/libalhazen.so
+unexpected "$library" >"$work/unexpected.txt"
+[[ ! -s $work/unexpected.txt ]] || { cat "$work/unexpected.txt"; fail "the installed library exports too much"; }
+for function in 'render(' 'version()' 'RenderedImage::plane('; do
+  grep -qF "$namespace$function" "$work/names.txt" || fail "the installed library does not export $namespace$function"
+done
+echo "$(grep -c "@$public " "$work/symbols.txt") public symbols, $(grep -c "@$private " "$work/symbols.txt") internals"
+
+# That of the build folder, which the tests are linked to, exports every internal: this check must see it.
+unexpected "$build/lib/libalhazen.so" >"$work/unexpected.txt"
+grep -q 'is used by neither' "$work/unexpected.txt" || fail "the check does not find internals that nothing uses"
+grep -v 'is used by neither' "$work/unexpected.txt" | grep -v 'is in no public header' >"$work/strange.txt" || true
+[[ ! -s $work/strange.txt ]] || { cat "$work/strange.txt"; fail "the library of the build folder exports more than its namespaces"; }
+
+readelf -d "$library" | grep -q "SONAME.*\[libalhazen.so.${public#ALHAZEN_}\]" || fail "the soname is not that of ${public#ALHAZEN_}"
+for file in "${users[@]}"; do
+  LD_LIBRARY_PATH=$build/installed ldd -r "$file" >"$work/ldd.txt" 2>&1
+  grep -qF "$build/installed/libalhazen.so" "$work/ldd.txt" || echo "note: $file is bound to the library of its RUNPATH"
+  ! grep -E 'undefined symbol|version .* not found' "$work/ldd.txt" || fail "$file needs more than the installed library exports"
+done
