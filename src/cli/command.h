@@ -1,7 +1,7 @@
 #pragma once
 
-// Subcommands and their options. Only command.cpp, command_line.cpp and help.cpp include the parser, whose header takes
-// a compiler longer than all that is done with it here.
+// Subcommands and their options. Only command.cpp, command_line.cpp, completion.cpp and help.cpp include the parser,
+// whose header takes a compiler longer than all that is done with it here.
 
 #include <concepts>
 #include <cstdint>

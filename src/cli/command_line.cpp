@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/completion.h"
 #include "cli/console.h"
 #include "cli/help.h"
 #include "cli/subcommands.h"
@@ -213,6 +214,7 @@ int run_command_line(const ProgramText& text, const std::function<void(Command&)
   Command program(app);
   program.require_subcommand();
   add_subcommands(program);
+  add_completion(app);
   try {
     std::vector<std::string> arguments = complete_arguments(argc, argv);
     add_configuration(app, arguments);

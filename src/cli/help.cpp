@@ -62,19 +62,13 @@ std::string entry(const std::string& name, const std::string& description) {
   return line + wrapped(description, name_columns, name_columns);
 }
 
-/// The first clauses of a description, as many as fit on two lines, and at least one. A colon ends one if need be.
-std::string shortened(const std::string& description) {
-  constexpr size_t room = 2 * (help_columns - name_columns) - 4;  // words do not fill lines
-  if (description.size() <= room) return description;
-  for (const char* const ends : {"; ", ". ", ": "})
-    if (const size_t end = description.rfind(ends, room); end != std::string::npos) return description.substr(0, end);
-  return description.substr(0, std::min(description.find("; "), description.find(". ")));
-}
+/// Fits on two lines; words do not fill them.
+constexpr size_t short_description = 2 * (help_columns - name_columns) - 4;
 
 std::string entry(const CLI::Option& option, bool whole) {
   std::string name = option.get_name(option.get_positional(), true);
   if (option.get_type_size() != 0 && !option.get_type_name().empty()) name += " " + option.get_type_name();
-  return entry(name, whole ? option.get_description() : shortened(option.get_description()));
+  return entry(name, whole ? option.get_description() : shortened(option.get_description(), short_description));
 }
 
 std::string usage(const CLI::App& app, const std::string& name) {
@@ -114,6 +108,13 @@ std::vector<const CLI::App*> subcommands(const CLI::App& app) {
 }
 
 }  // namespace
+
+std::string shortened(const std::string& description, size_t room) {
+  if (description.size() <= room) return description;
+  for (const char* const ends : {"; ", ". ", ": "})
+    if (const size_t end = description.rfind(ends, room); end != std::string::npos) return description.substr(0, end);
+  return description.substr(0, std::min(description.find("; "), description.find(". ")));
+}
 
 void mark_common(const CLI::Option& option) { common_options().insert(&option); }
 

@@ -17,6 +17,10 @@ inline constexpr size_t help_columns = 80, max_help_lines = 80;
 /// Marks an option as one that --help lists.
 void mark_common(const CLI::Option& option);
 
+/// The first clauses of a description, as many as fit into so many characters, and at least one. A colon ends one if
+/// need be.
+std::string shortened(const std::string& description, size_t room);
+
 /// The help of a subcommand, or of the program, which is called `name` on the command line. Where options are marked
 /// as common, `all` is needed for the others, and for the whole of long descriptions; where none is, all of them are
 /// listed.

@@ -12,8 +12,8 @@ namespace {
 class Help : public Command {
  protected:
   static inline const std::vector<std::vector<std::string>> subcommands{
-      {},        {"render"},          {"compare"},       {"devices"},         {"info"},
-      {"study"}, {"study", "report"}, {"study", "tune"}, {"study", "compare"}};
+      {},        {"render"},          {"compare"},       {"devices"},          {"info"},
+      {"study"}, {"study", "report"}, {"study", "tune"}, {"study", "compare"}, {"completion"}};
 
   std::vector<std::string> lines(std::vector<std::string> subcommand, const std::string& flag) const {
     subcommand.push_back(flag);
