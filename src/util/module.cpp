@@ -14,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+#ifndef ALHAZEN_STATIC
+
 /// Returns how a module differs from the program, or an empty string if it does not.
 std::string explain_difference(const ModuleIdentity& module, const std::string& name) {
   if (module.name != name) return "is the module '" + std::string(module.name) + "' under another name";
@@ -32,6 +34,8 @@ std::string explain_load_error(const std::string& path) {
   return path + " needs the library " + reason.substr(0, end) + ", which is not on this machine: install it";
 }
 
+#endif
+
 }  // namespace
 
 std::string module_folder() {
@@ -42,6 +46,18 @@ std::string module_folder() {
   const fs::path library = fs::canonical(here.dli_fname, error);
   return ((error ? fs::path(here.dli_fname) : library).parent_path() / "alhazen").string();
 }
+
+#ifdef ALHAZEN_STATIC  // as in the archive (cmake/StaticLibrary.cmake)
+
+Module open_module(const std::string&, const std::string& name, const std::string&) {
+  // A module would bring the shared library with it, and a second copy of all state.
+  return {
+      "", nullptr,
+      "its module libalhazen_" + name +
+          ".so needs the shared library, and this program is linked to the static one: link it to alhazen::alhazen"};
+}
+
+#else
 
 Module open_module(const std::string& folder, const std::string& name, const std::string& how_to_get) {
   const std::string file = "libalhazen_" + name + ".so", path = (fs::path(folder) / file).string();
@@ -61,5 +77,7 @@ Module open_module(const std::string& folder, const std::string& name, const std
   if (!functions) return {path, nullptr, path + " exports no functions: build or install it again"};
   return {path, functions(), ""};
 }
+
+#endif
 
 }  // namespace alhazen::impl
