@@ -11,7 +11,7 @@ endfunction()
 # No contraction of a*b+c into fused operations: the same code then gives the same bits wherever it is inlined, and the
 # places where fused operations matter ask for them (core/math/scalar.h).
 alhazen_cxx_options(
-  -Wall -Wextra -Wshadow -Wconversion -Werror -Wdouble-promotion)
+  -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${ALHAZEN_WERROR}>:-Werror> -Wdouble-promotion)
 set(ALHAZEN_CODE_OPTIONS -fno-math-errno -fno-trapping-math -ffp-contract=off)
 alhazen_cxx_options(${ALHAZEN_CODE_OPTIONS})
 list(JOIN ALHAZEN_CODE_OPTIONS " " ALHAZEN_CXX_OPTIONS)

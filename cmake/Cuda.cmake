@@ -1,6 +1,11 @@
 # The module of the CUDA backend. Sets ALHAZEN_WITH_CUDA and enables the language; without nvcc says so and goes on.
 
-set(ALHAZEN_CUDA AUTO CACHE STRING
+# Within another project the language is enabled only where that asks for it.
+set(default OFF)
+if(PROJECT_IS_TOP_LEVEL)
+  set(default AUTO)
+endif()
+set(ALHAZEN_CUDA ${default} CACHE STRING
     "Build the CUDA backend: ON, OFF, or AUTO: where nvcc and a GPU are, or ALHAZEN_CUDA_ARCHITECTURES is set")
 set_property(CACHE ALHAZEN_CUDA PROPERTY STRINGS AUTO ON OFF)
 set(ALHAZEN_CUDA_ARCHITECTURES "" CACHE STRING

@@ -35,7 +35,9 @@ function(alhazen_module name)
   target_link_libraries(alhazen_${name} PRIVATE alhazen alhazen_options alhazen_interface)
   add_dependencies(alhazen_${name} alhazen_interface_header)
   target_link_options(alhazen_${name} PRIVATE ${ALHAZEN_SHARED_LINK_OPTIONS})
-  # A build of the program alone has none to install.
-  install(TARGETS alhazen_${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/alhazen OPTIONAL)
+  if(ALHAZEN_INSTALL)
+    # A build of the program alone has none to install.
+    install(TARGETS alhazen_${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/alhazen COMPONENT ${name} OPTIONAL)
+  endif()
   set_property(GLOBAL APPEND PROPERTY ALHAZEN_MODULES alhazen_${name})
 endfunction()

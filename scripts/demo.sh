@@ -5,6 +5,6 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 scripts/install-deps.sh --program
-scripts/build.sh --program alhazen_cli
+scripts/build.sh --program
 build/release/bin/alhazen render scenes/spheres.pbrt --spp "${1:-64}" -o spheres.png -o spheres.exr
 echo "The picture: $PWD/spheres.png (to look at) and $PWD/spheres.exr (linear radiance)"
