@@ -24,8 +24,9 @@ SOURCE_SUFFIXES = {".h", ".cpp", ".cu", ".cuh", ".py", ".sh", ".cmake"}
 INPUT_SUFFIXES = {".pbrt", ".gltf", ".glb", ".ply", ".gz", ".hdr", ".exr", ".png", ".state", ".json"}
 OUTPUT_OPTIONS = {"-o", "--output", "--outfile", "--diff", "--checkpoint"}
 INPUT_OPTIONS = {"--environment", "--scene"}
-FOREIGN_OPTIONS = {"--fmad", "--preset", "--install", "--prefix", "--upgrade"}  # of nvcc, CMake and pbrt
-SUBCOMMANDS = {"render", "compare", "devices", "info", "study"}
+FOREIGN_OPTIONS = {"--fmad", "--preset", "--install", "--prefix", "--upgrade", "--static", "--cflags", "--libs",
+                   "--no-install-recommends"}  # of nvcc, CMake, pbrt, pkg-config and apt
+SUBCOMMANDS = {"render", "compare", "devices", "info", "study", "completion"}
 STUDY_SUBCOMMANDS = {"report", "tune", "compare"}
 OPTION = re.compile(r"--?[A-Za-z][\w-]*")
 
@@ -194,7 +195,7 @@ class Page:
     def check_word(self, word):
         """A word of code: a path, or a variable of CMake."""
         for variable in re.findall(r"ALHAZEN_[A-Z_]+\b", word):
-            if not re.search(rf"{variable}\b", text_of("CMakeLists.txt", "CMakePresets.json", "cmake", "src", "bench",
+            if not re.search(rf"{variable}\b", text_of("CMakeLists.txt", "CMakePresets.json", "cmake", "include", "src", "bench",
                                                          "tests")):
                 self.fault(f"nothing reads {variable}")
         word = word.strip("`'\"(),;:")
