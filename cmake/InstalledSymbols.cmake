@@ -1,7 +1,7 @@
 # cmake -DNM=nm -DLIBRARY=FILE -DUSERS="FILE;FILE" -DPUBLIC=SCOPE -DPRIVATE=SCOPE -DVERSION=0.1.0 -DOUTPUT=FILE
 #   -P InstalledSymbols.cmake: the linker's version script of the installed library. LIBRARY exports everything; USERS are the
-# programs and modules that are linked to its internals, with undefined symbols and with their copies of what inline functions
-# define, which must be one with the library's.
+# programs and modules that are linked to its internals, with undefined symbols (U, w) and with copies of variables of inline
+# functions and of type information (u, V), which must be one with the library's.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -19,7 +19,7 @@ dynamic_symbols(${LIBRARY} "_ZT[ISTV]N${PUBLIC}[^ ]* [A-Z]" types)
 set(public ${functions} ${types})
 set(private)
 foreach(file IN LISTS USERS)
-  dynamic_symbols(${file} "_Z(N|NK|ZN|ZNK|T[ISTVHW]N|T[hv][^ ]*_NK?|GVN|GVZN|GVZNK)${PRIVATE}[^ ]* [A-Za-z]" used)
+  dynamic_symbols(${file} "_Z(N|NK|ZN|ZNK|T[ISTVHW]N|T[hv][^ ]*_NK?|GVN|GVZN|GVZNK)${PRIVATE}[^ ]* [UwVu]" used)
   list(APPEND private ${used})
 endforeach()
 if(NOT public OR NOT private)

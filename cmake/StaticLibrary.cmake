@@ -13,6 +13,17 @@ alhazen_same_objects(alhazen_static "/util/module\\.cpp")
 set_target_properties(alhazen_static PROPERTIES
   OUTPUT_NAME alhazen ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
 
+# The kernels of an instruction set are looked for by weak symbols (render/sample_kernel.h), which take nothing out of an archive.
+set(kernels)
+foreach(set IN LISTS ALHAZEN_KERNEL_SETS)
+  string(LENGTH ${set} length)
+  foreach(name 17denoising_kernelsEv 20select_double_kernelEjj 19select_float_kernelEjj
+          19select_study_kernelENS0_11StudyKernelEb)
+    list(APPEND kernels -Wl,--undefined=_ZN7alhazen4impl${length}${set}${name})
+  endforeach()
+endforeach()
+target_link_options(alhazen_static INTERFACE ${kernels})
+
 # What programs must be linked to besides: for CMake by the names of packages, for pkg-config as flags.
 get_target_property(libraries alhazen LINK_LIBRARIES)
 if(ALHAZEN_WITH_WEBP)
@@ -44,4 +55,6 @@ if(PkgConfig_FOUND)
   set(flags ${ALHAZEN_STATIC_MODULES_LDFLAGS} ${flags})
 endif()
 list(JOIN flags " " ALHAZEN_STATIC_LINK_FLAGS)
+list(JOIN kernels " " kernels)
+string(PREPEND ALHAZEN_STATIC_LINK_FLAGS "${kernels} ")
 string(APPEND ALHAZEN_STATIC_LINK_FLAGS " ${OpenMP_CXX_FLAGS} -pthread -ldl -lm")
