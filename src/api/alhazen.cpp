@@ -4,7 +4,7 @@
 #include "render/renderer.h"
 #include "util/thread_limit.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 const float* RenderedImage::plane(const std::string& channel) const {
   for (size_t i = 0; i < channels.size(); ++i)
@@ -39,4 +39,4 @@ RenderedImage render(const std::string& scene_file, const Settings& settings, co
   return image;
 }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE
