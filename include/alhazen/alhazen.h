@@ -18,7 +18,7 @@
 #include "alhazen/error.h"
 #include "alhazen/version.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 /// How to render. Values left empty, zero or negative come from the scene file or are chosen automatically.
 struct Settings {
@@ -187,4 +187,4 @@ RenderedImage render(const std::string& scene_file, const Settings& settings = {
 /// Of the library: ALHAZEN_VERSION_STRING when it was built.
 const char* version();
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

@@ -7,7 +7,7 @@
 
 #include "alhazen/version.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 template <class Type, class Variant>
 inline constexpr bool is_alternative = false;
@@ -18,4 +18,4 @@ inline constexpr bool is_alternative<Type, std::variant<Kinds...>> = (std::is_sa
 template <class Type, class Variant>
 concept AlternativeOf = is_alternative<std::remove_cvref_t<Type>, Variant>;
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

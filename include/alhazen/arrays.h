@@ -12,7 +12,7 @@
 
 #include "alhazen/version.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 /// A view of floats or doubles.
 class Reals {
@@ -67,4 +67,4 @@ struct Pixels {
   std::string name{};
 };
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

@@ -10,7 +10,7 @@
 #include "alhazen/geometry.h"
 #include "alhazen/version.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 enum class CameraKind {
   perspective,
@@ -63,4 +63,4 @@ struct RenderDefaults {
   bool pbrt_coats = false;       ///< coated materials lose as much light as pbrt-v4's
 };
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

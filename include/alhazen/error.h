@@ -8,7 +8,7 @@
 
 #include "alhazen/version.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 /// Any failure that the library reports: `what()` is one complete message for a person.
 class Error : public std::runtime_error {
@@ -38,4 +38,4 @@ class InputError : public Error {
   std::shared_ptr<const Place> place_;  ///< shared, so that copying an exception never throws
 };
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

@@ -7,7 +7,7 @@
 
 #include "alhazen/version.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 struct Vec2 {
   double x = 0, y = 0;
@@ -92,4 +92,4 @@ struct MovingTransform {
   friend bool operator==(const MovingTransform&, const MovingTransform&) = default;
 };
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

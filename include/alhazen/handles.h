@@ -13,7 +13,7 @@ namespace alhazen::impl {
 struct HandleAccess;
 }
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 /// Names a part of one scene; each kind of part has a type of its own. A handle stays valid for as long as the scene
 /// has the part, and is also valid in copies of the scene that were made after it was given. Functions that get a
@@ -54,7 +54,7 @@ using GroupId = Handle<part::Group>;
 using InstanceId = Handle<part::Instance>;
 using LightId = Handle<part::Light>;
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE
 
 template <class Part>
 struct std::hash<alhazen::Handle<Part>> {

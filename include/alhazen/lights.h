@@ -10,7 +10,7 @@
 #include "alhazen/geometry.h"
 #include "alhazen/version.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 /// Orthonormal axes in world space.
 struct Axes {
@@ -79,4 +79,4 @@ struct Light {
       : kind(std::forward<Kind>(of_kind)), name(std::move(its_name)) {}
 };
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

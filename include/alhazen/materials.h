@@ -14,7 +14,7 @@
 #include "alhazen/textures.h"
 #include "alhazen/version.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 /// Roughness of a microfacet surface: 0 is smooth. One value, or one along u and another along v.
 struct Roughness {
@@ -140,4 +140,4 @@ struct Material {
       : bsdf(std::forward<Kind>(kind)), name(std::move(its_name)) {}
 };
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

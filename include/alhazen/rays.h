@@ -26,7 +26,7 @@ namespace alhazen::impl {
 class QueryScene;
 }
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 /// Rays to trace, in arrays of the caller. A hit at the parameter t, at origin + t * direction, counts if
 /// 0 < t < t_max: both ends are open.
@@ -124,4 +124,4 @@ class RayQueries {
   std::shared_ptr<const impl::QueryScene> scene_;
 };
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

@@ -21,7 +21,7 @@ namespace alhazen::impl {
 struct RendererState;
 }
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 /// What `start` did.
 struct BuildReport {
@@ -87,4 +87,4 @@ class Renderer {
   std::unique_ptr<impl::RendererState> state_;
 };
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

@@ -7,7 +7,7 @@
 #include "alhazen/alhazen.h"
 #include "alhazen/version.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 /// How values above 1 come within what a display shows.
 enum class ToneMapping { none, reinhard, filmic, aces, agx };
@@ -29,4 +29,4 @@ struct SaveOptions {
 /// written.
 void save(const RenderedImage& image, const std::string& file, const SaveOptions& options = {});
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

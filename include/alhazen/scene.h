@@ -30,7 +30,7 @@ namespace alhazen::impl {
 struct SceneState;
 }
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 /// How to read a scene file.
 struct LoadOptions {
@@ -223,4 +223,4 @@ class Scene {
 /// are LoadOptions here. Throws as render(file) does.
 RenderedImage render(const Scene& scene, const Settings& settings = {}, const ProgressFunction& progress = {});
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

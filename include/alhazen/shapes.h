@@ -10,7 +10,7 @@
 #include "alhazen/handles.h"
 #include "alhazen/version.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 /// Centred at the origin of object space.
 struct Sphere {
@@ -56,4 +56,4 @@ struct Instance {
   std::string name{};  ///< empty: that of its group, with a number
 };
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

@@ -12,7 +12,7 @@
 #include "alhazen/handles.h"
 #include "alhazen/version.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 /// A colour that is the same everywhere, or a texture.
 class ColourInput {
@@ -183,4 +183,4 @@ struct Texture {
       : node(std::forward<Kind>(kind)), name(std::move(its_name)) {}
 };
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

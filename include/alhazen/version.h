@@ -13,8 +13,8 @@
 #define ALHAZEN_VERSION_STRING \
   ALHAZEN_TEXT_OF_VERSION(ALHAZEN_VERSION_MAJOR, ALHAZEN_VERSION_MINOR, ALHAZEN_VERSION_PATCH)
 
-/// v0_1: what the linker sees of `namespace alhazen::inline ALHAZEN_ABI_NAMESPACE`, which every public header opens.
-/// Names in source code are alhazen::NAME all the same, but objects of incompatible versions cannot be linked together.
+/// What public headers open: names are alhazen::NAME in source code, and have the version, v0_1, for the linker.
+#define ALHAZEN_NAMESPACE alhazen::inline ALHAZEN_ABI_NAMESPACE
 #define ALHAZEN_ABI_NAMESPACE ALHAZEN_NAME_OF_VERSION(ALHAZEN_VERSION_MAJOR, ALHAZEN_VERSION_MINOR)
 
 // The arguments are expanded before the second of each pair joins them.

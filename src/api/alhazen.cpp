@@ -5,7 +5,7 @@
 #include "render/renderer.h"
 #include "util/thread_limit.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 const float* RenderedImage::plane(const std::string& channel) const {
   for (size_t i = 0; i < channels.size(); ++i)
@@ -19,4 +19,4 @@ RenderedImage render(const std::string& scene_file, const Settings& settings, co
   return impl::rendered_image(impl::load_scene(scene_file, settings, diagnostics), settings, progress, diagnostics);
 }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

@@ -1,6 +1,6 @@
 #include "alhazen/error.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 Error::Error(const std::string& message) : std::runtime_error(message) {}
 
@@ -11,4 +11,4 @@ InputError::InputError(const std::string& what, const std::string& message, cons
                        int column)
     : Error(what), place_(std::make_shared<const Place>(Place{message, file, line, column})) {}
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

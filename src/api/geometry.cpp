@@ -7,7 +7,7 @@
 #include "scene/default_view.h"
 #include "scene/transform.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 namespace {
 
@@ -94,4 +94,4 @@ Transform Transform::product(const Transform& a, const Transform& b) {
   return impl::public_transform(impl::transform_of(a) * impl::transform_of(b));
 }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

@@ -18,7 +18,7 @@ ConductorRgb metal_rgb(alhazen::Metal metal) {
 
 }  // namespace alhazen::impl
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 Conductor Conductor::of(Metal metal, const Roughness& roughness) {
   const impl::ConductorRgb rgb = impl::metal_rgb(metal);
@@ -26,4 +26,4 @@ Conductor Conductor::of(Metal metal, const Roughness& roughness) {
       .reflectance = {}, .eta = impl::public_colour(rgb.eta), .k = impl::public_colour(rgb.k), .roughness = roughness};
 }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

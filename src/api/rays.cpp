@@ -7,7 +7,7 @@
 #include "render/setting_table.h"
 #include "util/thread_limit.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 namespace {
 
@@ -64,4 +64,4 @@ const Box& RayQueries::bounds() const { return scene_->bounds(); }
 
 const std::vector<std::string>& RayQueries::warnings() const { return scene_->warnings(); }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

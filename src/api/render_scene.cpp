@@ -5,7 +5,7 @@
 #include "api/scene_state.h"
 #include "util/thread_limit.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 RenderedImage render(const Scene& scene, const Settings& settings, const ProgressFunction& progress) {
   impl::refuse_reading_settings(settings);
@@ -17,4 +17,4 @@ RenderedImage render(const Scene& scene, const Settings& settings, const Progres
                               progress, diagnostics);
 }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

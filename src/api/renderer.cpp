@@ -144,7 +144,7 @@ struct RendererState {
 
 }  // namespace alhazen::impl
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 Renderer::Renderer(const Settings& settings) : state_(std::make_unique<impl::RendererState>(settings)) {}
 Renderer::~Renderer() = default;
@@ -206,4 +206,4 @@ std::vector<std::string> Renderer::warnings() const {
   return texts;
 }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

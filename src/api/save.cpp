@@ -6,7 +6,7 @@
 #include "colour/white_point.h"
 #include "images/image.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 namespace {
 
@@ -66,4 +66,4 @@ void save(const RenderedImage& image, const std::string& file, const SaveOptions
                     how);
 }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

@@ -10,7 +10,7 @@
 #include "pipeline/load_scene.h"
 #include "scene/default_view.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 Scene::Scene() : state_(std::make_unique<impl::SceneState>()) {}
 Scene::Scene(std::unique_ptr<impl::SceneState> state) : state_(std::move(state)) {}
@@ -126,4 +126,4 @@ std::vector<InstanceId> Scene::instances() const {
 
 std::vector<LightId> Scene::lights() const { return handles_with_place<LightId>(state().light_places, state().lights); }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

@@ -11,7 +11,7 @@
 #include "scene/filters.h"
 #include "scene/limits.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 namespace {
 
@@ -226,4 +226,4 @@ void Scene::set_render_defaults(const RenderDefaults& defaults) {
   ++state().revisions.film;
 }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

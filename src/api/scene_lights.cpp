@@ -8,7 +8,7 @@
 #include "api/parts.h"
 #include "io/environment.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 namespace {
 
@@ -278,4 +278,4 @@ LightId Scene::load_environment(const std::string& file) {
   return replace_environment(*this, state(), environment_of_map(state().description, file), std::move(map));
 }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

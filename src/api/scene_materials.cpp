@@ -10,7 +10,7 @@
 #include "images/read_scalar_texture.h"
 #include "images/read_texture.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 namespace {
 
@@ -119,4 +119,4 @@ void Scene::set(MaterialId id, const Material& material) {
   ++s.revisions.materials;
 }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

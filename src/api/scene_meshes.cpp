@@ -6,7 +6,7 @@
 #include "alhazen/scene.h"
 #include "api/parts.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 namespace {
 
@@ -155,4 +155,4 @@ void Scene::set_positions(MeshId mesh, const Reals& positions, const Reals& norm
   ++state().revisions.geometry;
 }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

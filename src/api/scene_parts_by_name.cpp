@@ -7,7 +7,7 @@
 #include "api/parts.h"
 #include "scene/scene_names.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 namespace {
 
@@ -140,4 +140,4 @@ std::vector<LightId> Scene::find_lights(const std::string& name) const {
   return found;
 }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

@@ -5,7 +5,7 @@
 #include "alhazen/scene.h"
 #include "api/parts.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 namespace {
 
@@ -235,4 +235,4 @@ void Scene::remove(InstanceId instance) {
   ++s.revisions.transforms;
 }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

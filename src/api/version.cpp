@@ -1,7 +1,7 @@
 #include "alhazen/alhazen.h"
 
-namespace alhazen::inline ALHAZEN_ABI_NAMESPACE {
+namespace ALHAZEN_NAMESPACE {
 
 const char* version() { return ALHAZEN_VERSION_STRING; }
 
-}  // namespace alhazen::inline ALHAZEN_ABI_NAMESPACE
+}  // namespace ALHAZEN_NAMESPACE

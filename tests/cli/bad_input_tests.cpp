@@ -357,7 +357,7 @@ TEST_F(BadInput, Targets) {
   expect_bad_usage({"-o", "folder.exr"}, {"folder.exr", "folder"});
   expect_bad_usage({"-o", "a.tiff"}, {"a.tiff", ".exr, .png, .jpg, .hdr or .pfm"});
   expect_bad_usage({"-o", "a"}, {".exr, .png, .jpg, .hdr or .pfm"});
-  expect_bad_usage({"-o", ""}, {".exr, .png, .jpg, .hdr or .pfm"});
+  expect_bad_usage({"-o", ""}, {"--output needs a value"});
   expect_bad_usage({"-o", "a.jpg", "--size", "65501x1"}, {"a.jpg", "at most 65500 pixels"});
   expect_bad_usage({"-o", "scene.pbrt/a.exr"}, {"scene.pbrt/a.exr"});
   std::filesystem::create_symlink("loop.exr", folder_.file("loop.exr"));

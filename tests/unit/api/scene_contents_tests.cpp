@@ -77,7 +77,8 @@ const std::vector<SceneCase> shape_cases{
                                                 .indices = std::vector<uint32_t>{0, 1, 2}});
        scene.add(shape_at({mesh}, {Transform(), Transform::rotate(20, {0, 1, 0})}));
      }},
-    {"normals", R"(Shape "trianglemesh" "point3 P" [-1 0 0  1 0 0  0 1 0] "integer indices" [0 2 1] "normal N" [0 0.5 -1  0.5 0 -1  0 0 -1])",
+    {"normals",
+     R"(Shape "trianglemesh" "point3 P" [-1 0 0  1 0 0  0 1 0] "integer indices" [0 2 1] "normal N" [0 0.5 -1  0.5 0 -1  0 0 -1])",
      [](Scene& scene) {
        scene.add({scene.add(MeshArrays{.positions = std::vector<float>{-1, 0, 0, 1, 0, 0, 0, 1, 0},
                                        .indices = std::vector<uint32_t>{0, 2, 1},
