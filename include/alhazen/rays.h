@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "alhazen/alhazen.h"
+#include "alhazen/geometry.h"
 #include "alhazen/version.h"
 
 namespace alhazen::impl {
@@ -72,11 +73,6 @@ struct HitArrays {
   /// valid, otherwise among those that are not part of an object.
   uint32_t* shapes = nullptr;
   uint32_t* instances = nullptr;  ///< index of the instance, in the order of the file; invalid_id if there is none
-};
-
-/// Axis-aligned box.
-struct Box {
-  std::array<double, 3> low, high;
 };
 
 /// Answers ray queries on a scene. Its methods can be called by several threads at the same time. Copies share the

@@ -72,11 +72,11 @@ void QueryScene::compile(Scene&& scene, int threads, Diagnostics& diagnostics) {
   CompiledScene<Real>& compiled =
       compiled_.emplace<CompiledScene<Real>>(compile_scene<Real>(std::move(scene), options, diagnostics));
   const Bounds3<Real>& box = compiled.view.bounds;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto at = static_cast<size_t>(axis);
-    bounds_.low[at] = static_cast<double>(box.low[axis]) + compiled.world_origin[axis];
-    bounds_.high[at] = static_cast<double>(box.high[axis]) + compiled.world_origin[axis];
-  }
+  const auto in_world = [&](const Vec3<Real>& p) {
+    const Vec3d q = convert<double>(p) + compiled.world_origin;
+    return alhazen::Vec3{q.x, q.y, q.z};
+  };
+  bounds_ = {in_world(box.low), in_world(box.high)};
 }
 
 template <class Number>

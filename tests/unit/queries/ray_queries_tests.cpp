@@ -47,12 +47,10 @@ TEST(RayQueries, ReadFilesOfScenes) {
   EXPECT_TRUE(queries.warnings().empty());
   const Box& box = queries.bounds();
   QueryRays<double> rays;
-  Vec3d middle;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto at = static_cast<size_t>(axis);
-    EXPECT_LT(box.low[at], box.high[at]);
-    middle[axis] = (box.low[at] + box.high[at]) / 2;
-  }
+  EXPECT_LT(box.low.x, box.high.x);
+  EXPECT_LT(box.low.y, box.high.y);
+  EXPECT_LT(box.low.z, box.high.z);
+  const Vec3d middle{(box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2, (box.low.z + box.high.z) / 2};
   Random random(1);
   for (int i = 0; i < 100; ++i) rays.add(middle, random.on_sphere());
   const QueryHits<double> hits = hits_of(queries, rays);
