@@ -91,7 +91,7 @@ TEST(Renderer, BuildsOnlyForWhatNeedsIt) {
   expect(true, "a precision");
   room.scene.set(room.floor, Diffuse{.reflectance = Colour{0.1, 0.8, 0.1}});
   expect(false, "a material's colour");
-  room.scene.set(room.floor, Principled{.base_colour = Colour{0.1, 0.8, 0.1}, .roughness = 0.3, .clearcoat = 1.0});
+  room.scene.set(room.floor, CoatedDiffuse{.reflectance = Colour{0.1, 0.8, 0.1}});
   expect(false, "a material's kind");
   room.scene.set(room.floor, Diffuse{.reflectance = room.scene.add(CheckerboardTexture{})});
   expect(true, "a texture over uv");
