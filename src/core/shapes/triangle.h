@@ -45,7 +45,7 @@ Real exact_difference_of_products(Real a, Real b, Real c, Real d) {
 
 /// Products of floats are exact in double.
 inline double exact_difference_of_products(float a, float b, float c, float d) {
-  return double{a} * double{b} - double{c} * double{d};
+  return static_cast<double>(a) * static_cast<double>(b) - static_cast<double>(c) * static_cast<double>(d);
 }
 
 /// Recomputes the edge functions of a triangle that was hit, from its vertices in the sheared space of the ray. If the

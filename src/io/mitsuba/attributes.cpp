@@ -72,7 +72,8 @@ void Definitions::require_use(const std::string& scene) const {
 }
 
 void check_attributes(const Element& element, std::initializer_list<std::string_view> known) {
-  for (const auto& [name, value] : element.attributes) {
+  for (const auto& attribute : element.attributes) {
+    const std::string& name = attribute.first;
     const auto is_it = [&](std::string_view each) {
       return each == name || (each[0] == '!' && each.substr(1) == name);
     };
