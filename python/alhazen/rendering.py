@@ -44,9 +44,9 @@ def progressive(scene: SceneOrFile, settings: Optional[Settings] = None, *, prog
     samples_per_pass: how many samples a pixel gets between two images, rounded up to a multiple of 4, at most 64 (on
     GPUs 1024). 0: as many as take about `interval` seconds.
 
-    Yields alhazen.RenderedImage: snapshots that are not denoised, and at the end the finished image, which has the same bits as
-    that of alhazen.render. `break` ends the render; its checkpoint, if there is one, is saved. A scene may be changed
-    meanwhile: that is not seen.
+    Yields alhazen.RenderedImage: snapshots that are not denoised, and at the end the finished image, which has the same
+    bits as that of alhazen.render. `break` ends the render; its checkpoint, if there is one, is saved. A scene may be
+    changed meanwhile: that is not seen.
     """
     chosen = _settings("progressive", settings, keywords)
     return _snapshots(scene, chosen, progress, samples_per_pass, interval)

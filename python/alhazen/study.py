@@ -102,8 +102,8 @@ class Study:
         raise KeyError(f"there is no trial {key!r}")
 
     def plot(self, name: Optional[str] = None, style: bool = True):
-        """Draws a plot of the report by matplotlib: headline, forms, batches, scaling, blocks, chunks, figure3, balance,
-        queries, depth, glass, objects, error.
+        """Draws a plot of the report by matplotlib: headline, forms, batches, scaling, blocks, chunks, figure3,
+        balance, queries, depth, glass, objects, error.
 
         Returns its matplotlib.figure.Figure, or None if the study has no measurements for it. Without a name all are
         drawn, and a dict of the figures is returned. style: False keeps matplotlib's own settings.
@@ -121,8 +121,9 @@ class Study:
 
     def __str__(self):
         scene, machine = self.scene, self.machine
-        lines = [f"Study of {scene['name']}, {scene['width']} x {scene['height']}, {self.date}, on {machine['processor']}, "
-                 f"{machine['processors']} processors{'' if self.complete else ', not complete'}"]
+        lines = [f"Study of {scene['name']}, {scene['width']} x {scene['height']}, {self.date}, on "
+                 f"{machine['processor']}, {machine['processors']} processors"
+                 f"{'' if self.complete else ', not complete'}"]
         lines += [f"  {table.id:<10} {table.title}: {len(table.rows)} x {len(table.columns)}"
                   for table in self.tables.values()]
         return "\n".join(lines)

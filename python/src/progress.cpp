@@ -37,6 +37,8 @@ ProgressFunction progress_function(const py::object& progress, std::shared_ptr<c
 }
 
 void bind_progress(py::module_& m) {
+  py::options options;
+  options.disable_function_signatures();
   py::class_<Progress>(m, "Progress", "How far a render is: what functions given as `progress` get.")
       .def_readonly("fraction", &Progress::fraction, "float: of the samples, 0 to 1; it does not decrease.")
       .def_readonly("seconds", &Progress::seconds, "float: of rendering so far.")

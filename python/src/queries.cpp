@@ -126,20 +126,20 @@ void bind_hits(py::module_& m) {
       "What rays hit: arrays of NumPy with a value for each ray. After a miss t is infinity, indices\n"
       "are alhazen.INVALID_ID, and all else is 0.");
   const std::pair<const char*, const char*> fields[] = {
-      {"t", "(n,) in units of the direction's length: the hit is at origin + t * direction."},
-      {"position", "(n, 3) in world space, on the surface: more accurate than origin + t * direction."},
-      {"normal", "(n, 3) unit geometric normal on the front of the surface, whichever side is hit."},
-      {"shading_normal", "(n, 3) unit interpolated vertex normal; the geometric one where there are none."},
-      {"offset", "(n,) how far to move a position along its normal, or against it, to start another ray there."},
-      {"uv", "(n, 2) texture coordinates of the first set."},
-      {"barycentric", "(n, 2) weights of the second and third vertex of the triangle; 0 on other shapes."},
-      {"primitive", "(n,) uint32: index of the triangle in its mesh; 0 on other shapes."},
-      {"shape", "(n,) uint32: index of the shape, within its group if `instance` is valid."},
-      {"instance", "(n,) uint32: index of the instance; alhazen.INVALID_ID if there is none."}};
+      {"t", "array: (n,) in units of the direction's length: the hit is at origin + t * direction."},
+      {"position", "array: (n, 3) in world space, on the surface: more accurate than origin + t * direction."},
+      {"normal", "array: (n, 3) unit geometric normal on the front of the surface, whichever side is hit."},
+      {"shading_normal", "array: (n, 3) unit interpolated vertex normal; the geometric one where there are none."},
+      {"offset", "array: (n,) how far to move a position along its normal, or against it, to start another ray there."},
+      {"uv", "array: (n, 2) texture coordinates of the first set."},
+      {"barycentric", "array: (n, 2) weights of the second and third vertex of the triangle; 0 on other shapes."},
+      {"primitive", "array: (n,) uint32, index of the triangle in its mesh; 0 on other shapes."},
+      {"shape", "array: (n,) uint32, index of the shape, within its group if `instance` is valid."},
+      {"instance", "array: (n,) uint32, index of the instance; alhazen.INVALID_ID if there is none."}};
   for (const auto& [name, doc] : fields)
     hits.def_property_readonly(
         name, [name = name](const Hits& h) { return h.field(name); }, doc);
-  hits.def_property_readonly("hit", &Hits::hit, "(n,) bool: whether the ray hits anything.")
+  hits.def_property_readonly("hit", &Hits::hit, "array: (n,) bool, whether the ray hits anything.")
       .def_property_readonly(
           "fields",
           [](const Hits& h) {
@@ -164,14 +164,21 @@ void bind_hits(py::module_& m) {
 }  // namespace
 
 void bind_queries(py::module_& m) {
+  py::options options;
+  options.disable_function_signatures();
   m.attr("INVALID_ID") = invalid_id;
   bind_hits(m);
+  const std::string arguments =
+      "(self, origins: array, directions: array, t_max: array | None = None, *, "
+      "time: array | None = None, ";
+  const std::string fields = "fields: Sequence[str] | None = None, ", threads = "threads: int = 0",
+                    precision = ", precision: str | None = None";
   const std::string intersect_doc =
-      std::string("Finds the closest hit of every ray.\n\n") + rays_doc +
+      std::string("\n\nFinds the closest hit of every ray.\n\n") + rays_doc +
       "fields: names of the arrays that are wanted, each of which takes time; None: all. t is always there.\n\n"
       "Returns an alhazen.Hits, in double precision if an array of rays is float64, otherwise in float32. Raises\n"
       "InputError, which names the argument, for other shapes, NaN and infinite components.";
-  const std::string occluded_doc = std::string("Finds whether anything is between 0 and t_max of every ray.\n\n") +
+  const std::string occluded_doc = std::string("\n\nFinds whether anything is between 0 and t_max of every ray.\n\n") +
                                    rays_doc +
                                    "Returns an array of bool with the shape (n,). It is faster than `intersect`.";
   py::class_<PythonQueries>(
@@ -183,7 +190,7 @@ void bind_queries(py::module_& m) {
       .def(py::init([](const py::object& scene, const py::kwargs& settings) {
              return build(scene, settings_of("RayQueries", py::none(), settings));
            }),
-           py::arg("scene"))
+           py::arg("scene"), "__init__(self, scene: Scene | path, **settings)")
       .def(
           "intersect",
           [](const PythonQueries& queries, const py::object& origins, const py::object& directions,
@@ -191,7 +198,8 @@ void bind_queries(py::module_& m) {
             return intersect(queries, {origins, directions, t_max, time}, fields, threads);
           },
           py::arg("origins"), py::arg("directions"), py::arg("t_max") = py::none(), py::kw_only(),
-          py::arg("time") = py::none(), py::arg("fields") = py::none(), py::arg("threads") = 0, intersect_doc.c_str())
+          py::arg("time") = py::none(), py::arg("fields") = py::none(), py::arg("threads") = 0,
+          ("intersect" + arguments + fields + threads + ") -> Hits" + intersect_doc).c_str())
       .def(
           "occluded",
           [](const PythonQueries& queries, const py::object& origins, const py::object& directions,
@@ -199,10 +207,11 @@ void bind_queries(py::module_& m) {
             return occluded(queries, {origins, directions, t_max, time}, threads);
           },
           py::arg("origins"), py::arg("directions"), py::arg("t_max") = py::none(), py::kw_only(),
-          py::arg("time") = py::none(), py::arg("threads") = 0, occluded_doc.c_str())
+          py::arg("time") = py::none(), py::arg("threads") = 0,
+          ("occluded" + arguments + threads + ") -> array" + occluded_doc).c_str())
       .def_property_readonly(
           "bounds", [](const PythonQueries& queries) { return bounds_of(queries.queries); },
-          "(2, 3): the low and the high corner of a box that contains all surfaces at all times.")
+          "array: (2, 3), the low and the high corner of a box that contains all surfaces at all times.")
       .def_readonly("precision", &PythonQueries::precision, "str: float or double.")
       .def_property_readonly(
           "warnings",
@@ -217,8 +226,8 @@ void bind_queries(py::module_& m) {
 
   // Methods of alhazen.Scene.
   const py::object scene = m.attr("Scene");
-  const auto add = [&](const char* name, auto function, const std::string& doc, auto... arguments) {
-    scene.attr(name) = py::cpp_function(function, py::name(name), py::is_method(scene), doc.c_str(), arguments...);
+  const auto add = [&](const char* name, auto function, const std::string& doc, auto... named) {
+    scene.attr(name) = py::cpp_function(function, py::name(name), py::is_method(scene), doc.c_str(), named...);
   };
   const std::string kept =
       "\n\nThe first call builds a BVH, which is kept until the scene changes. precision: float or double, in which "
@@ -231,9 +240,9 @@ void bind_queries(py::module_& m) {
         const RayArguments rays{origins, directions, t_max, time};
         return intersect(*queries_of(of, is_double(rays, precision)), rays, fields, threads);
       },
-      intersect_doc + kept, py::arg("origins"), py::arg("directions"), py::arg("t_max") = py::none(), py::kw_only(),
-      py::arg("time") = py::none(), py::arg("fields") = py::none(), py::arg("threads") = 0,
-      py::arg("precision") = py::none());
+      "intersect" + arguments + fields + threads + precision + ") -> Hits" + intersect_doc + kept, py::arg("origins"),
+      py::arg("directions"), py::arg("t_max") = py::none(), py::kw_only(), py::arg("time") = py::none(),
+      py::arg("fields") = py::none(), py::arg("threads") = 0, py::arg("precision") = py::none());
   add(
       "occluded",
       [](const PythonScene& of, const py::object& origins, const py::object& directions, const py::object& t_max,
@@ -241,8 +250,9 @@ void bind_queries(py::module_& m) {
         const RayArguments rays{origins, directions, t_max, time};
         return occluded(*queries_of(of, is_double(rays, precision)), rays, threads);
       },
-      occluded_doc + kept, py::arg("origins"), py::arg("directions"), py::arg("t_max") = py::none(), py::kw_only(),
-      py::arg("time") = py::none(), py::arg("threads") = 0, py::arg("precision") = py::none());
+      "occluded" + arguments + threads + precision + ") -> array" + occluded_doc + kept, py::arg("origins"),
+      py::arg("directions"), py::arg("t_max") = py::none(), py::kw_only(), py::arg("time") = py::none(),
+      py::arg("threads") = 0, py::arg("precision") = py::none());
 }
 
 }  // namespace alhazen::python

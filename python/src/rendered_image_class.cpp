@@ -153,6 +153,8 @@ void bind_reached_noise(py::module_& m) {
 }  // namespace
 
 void bind_rendered_image(py::module_& m) {
+  py::options options;
+  options.disable_function_signatures();
   bind_reached_noise(m);
   py::class_<PythonRenderedImage, std::shared_ptr<PythonRenderedImage>> image(
       m, "RenderedImage",
@@ -168,7 +170,7 @@ void bind_rendered_image(py::module_& m) {
       .def(py::init([](const py::object& pixels) {
              return std::make_shared<PythonRenderedImage>(RenderedImage(*image_argument("pixels", pixels)));
            }),
-           py::arg("pixels"))
+           py::arg("pixels"), "__init__(self, pixels: array)")
       .def_property_readonly(
           "width", [](const PythonRenderedImage& i) { return i.rendered().width; }, "int: pixels.")
       .def_property_readonly(
@@ -188,6 +190,7 @@ void bind_rendered_image(py::module_& m) {
             return py::cast<const PythonRenderedImage&>(self).layer(self, name);
           },
           py::arg("name"),
+          "layer(self, name: str) -> array\n\n"
           "The array of a layer: (h, w, 3) of albedo or normals, (h, w) of a single channel such as depth, which is a\n"
           "view without a copy. Raises KeyError that lists the layers.")
       .def(
@@ -196,6 +199,7 @@ void bind_rendered_image(py::module_& m) {
             const auto& i = py::cast<const PythonRenderedImage&>(self);
             return i.has_channel(name) ? i.channel(self, name) : i.layer(self, name);
           },
+          "__getitem__(self, name: str) -> array\n\n"
           "The array (h, w) of a channel, a view without a copy, or that of a layer: image['R'], image['albedo'].")
       .def("__contains__", [](const PythonRenderedImage& i,
                               const std::string& name) { return i.has_channel(name) || i.has_layer(name); })
@@ -206,19 +210,19 @@ void bind_rendered_image(py::module_& m) {
           "bool: False if stopped before all samples were taken or the noise target was reached.")
       .def_property_readonly(
           "noise", [](const PythonRenderedImage& i) { return i.rendered().noise; },
-          "alhazen.ReachedNoise of a render with a noise target, else None.")
+          "ReachedNoise | None: of a render with a noise target.")
       .def_property_readonly(
           "denoiser",
           [](const PythonRenderedImage& i) {
             return i.rendered().denoiser.empty() ? py::object(py::none()) : py::cast(i.rendered().denoiser);
           },
-          "str: the denoiser of R, G and B; None: they are not denoised.")
+          "str | None: the denoiser of R, G and B; None: they are not denoised.")
       .def_property_readonly(
           "quality",
           [](const PythonRenderedImage& i) {
             return i.rendered().quality.empty() ? py::object(py::none()) : py::cast(i.rendered().quality);
           },
-          "str: the quality that was rendered (draft, good or final), or None.")
+          "str | None: the quality that was rendered (draft, good or final), or None.")
       .def_property_readonly(
           "warnings", [](const PythonRenderedImage& i) { return tuple_of(warning_texts(i.rendered().warnings)); },
           "tuple[str, ...]: of the scene reader and the renderer.")
@@ -229,7 +233,7 @@ void bind_rendered_image(py::module_& m) {
             if (i.rendered().width == 0 || !i.has_channel("R")) return py::none();
             return png_of(i, {});
           },
-          "How notebooks show it.")
+          "_repr_png_(self) -> bytes | None\n\nHow notebooks show it.")
       .def(py::pickle(&state_of, &image_of_state));
   image.attr("__iter__") = py::none();
   image.def(
@@ -243,6 +247,8 @@ void bind_rendered_image(py::module_& m) {
       py::arg("file"), py::kw_only(), py::arg("exposure") = 0.0, py::arg("white_balance") = py::none(),
       py::arg("tone_map") = py::none(), py::arg("png_depth") = 8, py::arg("jpeg_quality") = 95,
       py::arg("exr_type") = "half", py::arg("overwrite") = true,
+      "save(self, file: path, *, exposure: float = 0, white_balance: float | None = None, tone_map: str | None = None, "
+      "png_depth: int = 8, jpeg_quality: int = 95, exr_type: str = 'half', overwrite: bool = True) -> None\n\n"
       "Writes the image, completely or not at all; the extension of the name chooses the format: .exr (all channels),\n"
       ".png, .jpg (sRGB, clamped to [0, 1]), .hdr, .pfm (R, G and B).\n\n"
       "exposure: stops, for PNG and JPEG. white_balance: kelvin; light of this color becomes white. tone_map: none,\n"
@@ -261,6 +267,7 @@ void bind_rendered_image(py::module_& m) {
         return python_image(std::move(read));
       },
       py::arg("file"),
+      "read_image(file: path) -> RenderedImage\n\n"
       "Reads an image as an alhazen.RenderedImage: EXR (all its channels, unchanged), PNG, JPEG, TGA, BMP, QOI, HDR, "
       "PFM or WebP\n"
       "(R, G and B; formats for displays are decoded to linear). Raises InputError.");

@@ -255,8 +255,9 @@ const std::vector<SettingField>& setting_fields() {
       bounds_field("pixel_bounds", &S::pixel_bounds, "tuple[int, int, int, int] | None",
                    "Part of the image: x0, x1, y0, y1, in pixels, half open."),
       name_or_number_field("camera", &S::camera, "glTF: a camera by name, or by number from 0."),
-      reals_field("look_at", "Sequence[float] | tuple[point, point] | tuple[point, point, vector]", &S::look_at,
-                  "Position of the camera, what it looks at, and perhaps the way up; points of the world."),
+      reals_field("look_at", "Sequence[float]", &S::look_at,
+                  "Position of the camera, what it looks at, and perhaps the way up: six or nine numbers, or two or "
+                  "three points."),
       reals_field(
           "orbit", "Sequence[float]", &S::orbit,
           "Turns the camera about the middle of the scene: azimuth, elevation (degrees), perhaps the distance."),

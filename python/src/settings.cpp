@@ -61,6 +61,8 @@ alhazen::Settings settings_of(const std::string& function, const py::object& bas
 
 void bind_settings(py::module_& m) {
   using alhazen::Settings;
+  py::options options;
+  options.disable_function_signatures();
   py::class_<Settings> settings(
       m, "Settings",
       "How to render. Every setting is a keyword argument of the constructor and an attribute; what is left open "
@@ -68,7 +70,8 @@ void bind_settings(py::module_& m) {
       "from the scene or is chosen automatically. None stands for the default.\n\n"
       "The same keyword arguments are taken by alhazen.render, alhazen.progressive and alhazen.Renderer.\n\n"
       "Raises TypeError for unknown names, InputError for values of a wrong type or out of range.");
-  settings.def(py::init([](const py::kwargs& keywords) { return settings_of("Settings", py::none(), keywords); }));
+  settings.def(py::init([](const py::kwargs& keywords) { return settings_of("Settings", py::none(), keywords); }),
+               "__init__(self, **keywords)");
   for (const SettingField& field : setting_fields()) {
     const std::string doc = std::string(field.type) + ": " + field.help;
     settings.def_property(
@@ -81,8 +84,9 @@ void bind_settings(py::module_& m) {
           [](const py::object& self, const py::kwargs& keywords) {
             return settings_of("Settings.replace", self, keywords);
           },
-          "A copy in which these settings have other values.")
-      .def("as_dict", &changed_fields, "The settings that are not at their defaults, by name.")
+          "replace(self, **keywords) -> Settings\n\nA copy in which these settings have other values.")
+      .def("as_dict", &changed_fields,
+           "as_dict(self) -> dict[str, object]\n\nThe settings that are not at their defaults, by name.")
       .def("__eq__",
            [](const Settings& a, const py::object& b) -> py::object {
              if (!py::isinstance<Settings>(b)) return py::reinterpret_borrow<py::object>(Py_NotImplemented);

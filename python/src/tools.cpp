@@ -40,6 +40,8 @@ std::shared_ptr<Comparison> compare_images(const py::object& a, const py::object
 }
 
 void bind_comparison(py::module_& m) {
+  py::options options;
+  options.disable_function_signatures();
   py::class_<Comparison, std::shared_ptr<Comparison>>(
       m, "Comparison",
       "How much two images differ, over R, G and B of linear values unless said otherwise. Pixels that are not finite\n"
@@ -67,10 +69,10 @@ void bind_comparison(py::module_& m) {
             const auto& c = py::cast<const Comparison&>(self);
             return read_only(py::array(py::dtype::of<float>(), {c.height, c.width}, c.flip_map.data(), self));
           },
-          "(h, w) float32: FLIP error of each pixel, 0 to 1; a view without a copy.")
+          "array: (h, w) float32, FLIP error of each pixel, 0 to 1; a view without a copy.")
       .def_property_readonly(
           "heat_map", [](const Comparison& c) { return python_image(alhazen::heat_map(c)); },
-          "alhazen.RenderedImage: the errors as colors, from black over purple and orange to pale yellow, as\n"
+          "RenderedImage: the errors as colors, from black over purple and orange to pale yellow, as\n"
           "`alhazen compare --heat-map` writes them.")
       .def("__repr__", [](const Comparison& c) {
         char text[160];
@@ -80,6 +82,8 @@ void bind_comparison(py::module_& m) {
       });
   m.def("compare", &compare_images, py::arg("a"), py::arg("b"), py::kw_only(), py::arg("layer") = py::none(),
         py::arg("region") = py::none(), py::arg("reduce") = 1,
+        "compare(a: RenderedImage | path | array, b: RenderedImage | path | array, *, layer: str | None = None, "
+        "region: Sequence[int] | None = None, reduce: int = 1) -> Comparison\n\n"
         "Compares an image with a reference, as `alhazen compare` does.\n\n"
         "a, b: each an alhazen.RenderedImage, the name of a file, or an array of floats (linear values) of the shape "
         "(h, w),\n"
@@ -99,6 +103,8 @@ std::string availability(const std::string& kind, const std::string& name, bool 
 }
 
 void bind_device_classes(py::module_& m) {
+  py::options options;
+  options.disable_function_signatures();
   py::class_<BackendInfo>(m, "BackendInfo", "A backend: what renders.")
       .def_readonly("name", &BackendInfo::name, "str: a value of the setting `backend`.")
       .def_readonly("available", &BackendInfo::available, "bool: whether it is here.")
@@ -111,7 +117,7 @@ void bind_device_classes(py::module_& m) {
       .def_property_readonly(
           "module",
           [](const BackendInfo& b) { return b.module.empty() ? py::object(py::none()) : path_text(b.module); },
-          "str: the file that it was loaded from; None: it is part of the library.")
+          "str | None: the file that it was loaded from; None: it is part of the library.")
       .def("__repr__",
            [](const BackendInfo& b) { return availability("BackendInfo", b.name, b.available, b.details); });
   py::class_<DenoiserInfo>(m, "DenoiserInfo", "A denoiser.")
@@ -123,10 +129,12 @@ void bind_device_classes(py::module_& m) {
 }
 
 void bind_devices(py::module_& m) {
+  py::options options;
+  options.disable_function_signatures();
   bind_device_classes(m);
   py::class_<Devices>(m, "Devices", "What this machine can render with.")
-      .def_readonly("backends", &Devices::backends, "list[alhazen.BackendInfo]")
-      .def_readonly("denoisers", &Devices::denoisers, "list[alhazen.DenoiserInfo]")
+      .def_readonly("backends", &Devices::backends, "list[BackendInfo]: what may render.")
+      .def_readonly("denoisers", &Devices::denoisers, "list[DenoiserInfo]: what may denoise.")
       .def_readonly("processor", &Devices::processor, "str: model of the CPU.")
       .def_readonly("processors", &Devices::processors, "int: hardware threads that this process may use.")
       .def_readonly("instruction_sets", &Devices::instruction_sets, "list[str]: that kernels on CPUs are built for.")
@@ -148,6 +156,7 @@ void bind_devices(py::module_& m) {
         return text + ">";
       });
   m.def("devices", &alhazen::devices, py::call_guard<py::gil_scoped_release>(),
+        "devices() -> Devices\n\n"
         "Lists the backends, their GPUs, the CPU and the denoisers, as `alhazen devices` does.\n\n"
         "Returns an alhazen.Devices. It loads the modules of all backends, which may take a second where there are "
         "GPUs.");

@@ -154,7 +154,7 @@ def test_nan_in_strided_arrays_is_found(queries):
 
 
 def test_rays_of_a_scene():
-    scene = alhazen.Scene.load(CORNELL)
+    scene = alhazen.load(CORNELL)
     of_file = {name: alhazen.RayQueries(CORNELL, precision=name) for name in ("float", "double")}
     of_scene = alhazen.RayQueries(scene)
     low, high = of_scene.bounds

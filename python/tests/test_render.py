@@ -21,7 +21,7 @@ def test_same_bits_as_the_program(tmp_path):
     run_program("render", CORNELL, "--spp", 16, "--size", "40x30", "-t", 2, "--exr-type", "float", "-q", "-o", exr)
     expected = pixels_of_exr(exr)
     assert expected.mean() > 0.01
-    scene = alhazen.Scene.load(CORNELL)
+    scene = alhazen.load(CORNELL)
     of_renderer = alhazen.Renderer(**SMALL).render(scene)
     *_, last = alhazen.progressive(scene, samples_per_pass=4, **SMALL)
     *_, last_of_file = alhazen.progressive(CORNELL, **SMALL)
@@ -91,11 +91,11 @@ def test_bad_arguments(tmp_path):
     with pytest.raises(alhazen.InputError, match="call start first"):
         alhazen.Renderer().render_pass()
     with pytest.raises(alhazen.InputError, match="camera"):
-        alhazen.render(alhazen.Scene.load(CORNELL), camera="front")
+        alhazen.render(alhazen.load(CORNELL), camera="front")
 
 
 def each_render():
-    scene = alhazen.Scene.load(CORNELL)
+    scene = alhazen.load(CORNELL)
     return {"file": lambda **k: alhazen.render(CORNELL, **k), "scene": lambda **k: alhazen.render(scene, **k),
             "renderer": lambda progress, **k: alhazen.Renderer(**k).render(scene, progress)}
 
@@ -145,7 +145,7 @@ def test_exceptions_of_progress_reach_the_caller(of):
 
 
 def test_after_pass_sees_the_image_and_stops():
-    scene = alhazen.Scene.load(CORNELL)
+    scene = alhazen.load(CORNELL)
     renderer = alhazen.Renderer(spp=4096, width=64, height=48)
     seen = []
 
@@ -170,7 +170,7 @@ def test_after_pass_sees_the_image_and_stops():
 
 
 def test_renderer_by_steps():
-    scene = alhazen.Scene.load(CORNELL)
+    scene = alhazen.load(CORNELL)
     renderer = alhazen.Renderer(**SMALL)
     report = renderer.start(scene)
     assert report.is_new and report.seconds > 0 and "built" in repr(report)
@@ -220,14 +220,14 @@ def ready(state):
 options = dict(spp=1 << 20, width=300, height=300)
 try:
     if kind == "file": alhazen.render(file, progress=ready, **options)
-    if kind == "scene": alhazen.render(alhazen.Scene.load(file), progress=ready, **options)
+    if kind == "scene": alhazen.render(alhazen.load(file), progress=ready, **options)
     if kind == "plain":
         print("ready", flush=True)
         alhazen.render(file, **options)
-    if kind == "renderer": alhazen.Renderer(**options).render(alhazen.Scene.load(file), ready)
+    if kind == "renderer": alhazen.Renderer(**options).render(alhazen.load(file), ready)
     if kind == "pass":
         renderer = alhazen.Renderer(backend="serial", **options)
-        renderer.start(alhazen.Scene.load(file), ready)
+        renderer.start(alhazen.load(file), ready)
         while renderer.render_pass(): pass
     if kind == "progressive":
         for image in alhazen.progressive(file, progress=ready, **options): pass
@@ -271,7 +271,7 @@ def test_a_signal_handler_that_does_not_raise_ends_nothing():
 
 def test_several_threads_render_at_once_and_others_run():
     expected = np.asarray(alhazen.render(CORNELL, **SMALL))
-    scene = alhazen.Scene.load(CORNELL)
+    scene = alhazen.load(CORNELL)
     images, steps, is_over = {}, [0], threading.Event()
 
     def count():
@@ -304,7 +304,7 @@ def test_a_renderer_is_used_by_one_thread_and_stopped_by_any():
     renderer = alhazen.Renderer(**ENDLESS)
     has_begun = threading.Event()
     images = []
-    scene = alhazen.Scene.load(CORNELL)
+    scene = alhazen.load(CORNELL)
     thread = threading.Thread(target=lambda: images.append(renderer.render(scene, lambda state: has_begun.set())))
     thread.start()
     has_begun.wait()
@@ -358,7 +358,7 @@ def test_a_thousand_renders_take_no_more_memory():
     """Peak memory after 1,000 renders is that after 200, but for what an allocator needs."""
     process = start_python("""
 import resource, sys, alhazen
-scene = alhazen.Scene.load(sys.argv[1])
+scene = alhazen.load(sys.argv[1])
 peaks = []
 renderer = alhazen.Renderer(spp=1, width=8, height=8, threads=1)
 for i in range(1000):

@@ -91,8 +91,9 @@ def test_devices_are_those_of_the_program():
     printed = json.loads(run_program("devices", "--json"))
     assert [backend.name for backend in devices.backends] == [backend["name"] for backend in printed["backends"]]
     for backend, expected in zip(devices.backends, printed["backends"]):
-        assert (backend.available, backend.details, backend.devices, backend.strategies, backend.module or "") == (
-            expected["available"], expected["details"], expected["devices"], expected["strategies"], expected["module"])
+        for name in ("available", "details", "devices", "strategies"):
+            assert getattr(backend, name) == expected[name]
+        assert (backend.module or "") == expected["module"]
     for denoiser, expected in zip(devices.denoisers, printed["denoisers"]):
         assert dict(name=denoiser.name, available=denoiser.available, details=denoiser.details) == expected
     assert devices.processors >= 1 and devices.processor and "AVX" in " ".join(devices.instruction_sets).upper()
@@ -104,8 +105,8 @@ def test_devices_are_those_of_the_program():
 def study_json():
     """What a study of one table writes, as src/study/json.cpp has it."""
     def cell(row, column, median, **others):
-        return {"row": row, "column": column, "status": "ok", "trial": f"--{row} {column}", "spp": 8, "speedup": 2 / median,
-                "seconds": {"median": median, "min": median / 2, "max": median * 2, "samples": [median]}, **others}
+        return {"row": row, "column": column, "status": "ok", "trial": f"--{row} {column}", "spp": 8,
+                "speedup": 2 / median, "seconds": {"median": median, "min": median / 2, "max": median * 2, "samples": [median]}, **others}
     cells = [cell("1 static", "double", 2.0), cell("1 static", "float", 1.0, doubt="it was disturbed"),
              cell("2 static", "double", 1.0), {"row": "2 static", "column": "float", "status": "failed", "trial": "x"}]
     table = {"id": "table3", "title": "Table 3: threads", "text": "", "row_title": "threads", "measure": "seconds",
@@ -251,8 +252,8 @@ def test_a_real_notebook_shows_the_bar_and_the_image(tmp_path):
     cell = {"cell_type": "code", "execution_count": None, "id": "a", "metadata": {}, "outputs": [], "source": code}
     kernel = {"kernelspec": {"name": "python3", "display_name": "python3", "language": "python"}}
     notebook.write_text(json.dumps({"cells": [cell], "metadata": kernel, "nbformat": 4, "nbformat_minor": 5}))
-    converted = subprocess.run([sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--inplace", notebook],
-                               capture_output=True, text=True, timeout=120)
+    command = [sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--inplace", notebook]
+    converted = subprocess.run(command, capture_output=True, text=True, timeout=120)
     if "No such kernel" in converted.stderr:
         pytest.skip("there is no kernel python3")
     assert converted.returncode == 0, converted.stderr
