@@ -25,19 +25,28 @@ namespace ALHAZEN_NAMESPACE {
 
 /// What `start` did.
 struct BuildReport {
-  /// False if the scene that was built before is used.
+  /// True if everything was built. False if the scene that was built before is used, with these parts of it built anew:
   bool is_new = false;
-  double seconds = 0;  ///< that `start` took
+  bool materials = false;    ///< values of materials and textures
+  bool lights = false;       ///< values of all lights, and how they are chosen among
+  bool environment = false;  ///< environment maps, and images of lights, with their distributions
+  bool transforms = false;   ///< where shapes and instances are, and the BVH of the world; none of groups
+  double seconds = 0;        ///< that `start` took
 };
 
 /// Keeps what it built of a scene, its BVH above all, and a copy of what it needs: scenes may be changed and destroyed
-/// while it renders. Each `start` compares the scene with what was built. Without building, it takes
-/// - another camera, image size, crop, number of samples, seed, noise target, guiding, denoiser, and layers unless they
-///   need names or light groups that were not built;
+/// while it renders. Each `start` compares the scene with what was built. Nothing is built for another camera (of the
+/// scene or by settings), image size, crop, number of samples, seed, noise target, guiding, denoiser, and layers unless
+/// they need names or light groups that were not built. Only what depends on it is built for
 /// - other values and kinds of materials and textures, as long as no surface begins or ceases to be one-sided, to have
-/// an
-///   opacity, or to use uv coordinates, and no texture of a light changes.
-/// All else is built anew as a whole.
+///   an opacity, or to use uv coordinates, and no texture of a light changes;
+/// - other values, kinds and numbers of lights, also by settings, and another emission of shapes that emit before and
+///   after, as long as layers for light groups need no other groups;
+/// - another environment;
+/// - other transforms of instances and of shapes in the world, as long as no instance of a group begins or ceases to be
+///   the only one that moves during the exposure, and no shape with a one-sided material is copied or moved.
+/// All else is built anew as a whole: meshes, images, what there is in groups, and which shapes and instances there are.
+/// docs/library.md says what each takes.
 ///
 /// Images have the same bits as those of `render(scene, settings)`, whatever was rendered before.
 ///
