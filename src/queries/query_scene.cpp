@@ -94,14 +94,10 @@ void QueryScene::answer(const RayArrays<Number>& rays, const HitArrays<Number>& 
   const RayQueryRequest<Number> whole = std::visit(
       [&](const auto& compiled) {
         const Vec3d& origin = compiled.world_origin;
-        return RayQueryRequest<Number>{&compiled.view,
-                                       {origin.x, origin.y, origin.z},
-                                       &origins_,
-                                       compiled.origins.instances.data(),
-                                       rays,
-                                       hits,
-                                       occluded,
-                                       0,
+        return RayQueryRequest<Number>{&compiled.view, {origin.x, origin.y, origin.z},
+                                       &origins_,      compiled.origins.instances.data(),
+                                       rays,           hits,
+                                       occluded,       0,
                                        rays.count};
       },
       compiled_);

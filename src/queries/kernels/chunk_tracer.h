@@ -8,6 +8,24 @@
 
 namespace ALHAZEN_CORE {
 
+/// Vectors of a caller that are read later.
+class LaterVectors {
+ public:
+  LaterVectors() = default;
+  template <class Number>
+  LaterVectors(const Number* array, std::ptrdiff_t stride, size_t first)
+      : step_(static_cast<uintptr_t>(stride) * sizeof(Number)),
+        first_(reinterpret_cast<uintptr_t>(array) + first * step_) {}
+
+  /// Prefetches vector i; there need not be one.
+  ALHAZEN_INLINE void prefetch(uint32_t i) const {
+    __builtin_prefetch(reinterpret_cast<const void*>(first_ + i * step_));
+  }
+
+ private:
+  uintptr_t step_ = 0, first_ = 0;
+};
+
 /// Rays as the core traces them, some of a request's.
 template <class Real>
 struct PreparedRays {
@@ -19,6 +37,14 @@ struct PreparedRays {
   Ray<Real> rays[capacity];
   Real limit[capacity];                 ///< in units of world space; 0 for rays that hit nothing
   bool is_coherent[capacity / packet];  ///< of the whole packets: most of their rays visit the same nodes
+  /// Those of the next chunk. They come into the caches while this one is traced, little by little: all at once would
+  /// wait for memory.
+  LaterVectors next_origins, next_directions;
+
+  ALHAZEN_INLINE void prefetch_next(uint32_t i) const {
+    next_origins.prefetch(i);
+    next_directions.prefetch(i);
+  }
 };
 
 /// What they hit.
@@ -35,14 +61,14 @@ class ChunkTracer {
  public:
   using Rays = PreparedRays<Real>;
 
-  explicit ChunkTracer(const SceneView<Real>& scene)
-      : intersector_(scene), uses_packets_(scene.instances_count == 0) {}
+  explicit ChunkTracer(const SceneView<Real>& scene) : intersector_(scene), uses_packets_(scene.instances_count == 0) {}
 
   /// Calls prefetch(hit) for each hit if more than `t` is wanted.
   template <class Prefetch>
   ALHAZEN_NOINLINE void closest_hits(const Rays& rays, bool wants_more, const Prefetch& prefetch,
                                      ChunkHits<Real>& hits) {
     const auto answer = [&](uint32_t i, bool found, const Hit<Real>& hit) {
+      rays.prefetch_next(i);
       hits.t[i] = found ? hit.t : infinity<Real>;
       if (!wants_more) return;
       hits.hit[i] = found ? hit : missing_hit<Real>;
@@ -73,7 +99,10 @@ class ChunkTracer {
     intersector_.template trace<true>(
         rays.count, [&](uint32_t i) -> const Ray<Real>& { return rays.rays[i]; },
         [&](uint32_t i) { return rays.limit[i]; },
-        [&](uint32_t i, bool found, const Hit<Real>&) { to[i] = found ? 1 : 0; });
+        [&](uint32_t i, bool found, const Hit<Real>&) {
+          rays.prefetch_next(i);
+          to[i] = found ? 1 : 0;
+        });
   }
 
  private:

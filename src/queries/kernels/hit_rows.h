@@ -35,10 +35,11 @@ class HitRows {
 /// The weights of the second and third vertex of a triangle, in the order of the description.
 template <class Real>
 ALHAZEN_INLINE Vec2<Real> described_weights(const Hit<Real>& hit, uint32_t turn) {
-  const Real b0 = 1 - hit.b1 - hit.b2;
-  const Real turned[4] = {hit.b1, hit.b2, b0, hit.b1};
-  const uint32_t second = (3 - turn) % 3;
-  return {turned[second], turned[second + 1]};
+  if (ALHAZEN_UNLIKELY(turn != 0)) {
+    const Real b0 = 1 - hit.b1 - hit.b2;
+    return turn == 1 ? Vec2<Real>{b0, hit.b1} : Vec2<Real>{hit.b2, b0};
+  }
+  return {hit.b1, hit.b2};
 }
 
 }  // namespace ALHAZEN_CORE

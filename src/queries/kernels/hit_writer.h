@@ -28,9 +28,8 @@ class HitWriter {
   /// Writes the results of the rays of a chunk, of which the first is `first` of all.
   void write(const RayChunk<Real, Number>& rays, const ChunkHits<Real>& results, size_t first) {
     if (hits_.t)
-      write_vectors<1>(hits_.t + first, rays.count, [&](uint32_t i, size_t) ALHAZEN_INLINE_LAMBDA {
-        return rays.parameter(i, results.t[i]);
-      });
+      write_vectors<1>(hits_.t + first, rays.count,
+                       [&](uint32_t i, size_t) ALHAZEN_INLINE_LAMBDA { return rays.parameter(i, results.t[i]); });
     if (hits_.primitives || hits_.shapes || hits_.instances || hits_.barycentrics)
       write_ids(results.hit, first, rays.count);
     if (!wants_surface()) return;
@@ -74,8 +73,9 @@ class HitWriter {
     const auto position = [&](uint32_t i, size_t k) ALHAZEN_INLINE_LAMBDA {
       return static_cast<double>(points_.point(i).position[static_cast<int>(k)]) + from[k];
     };
-    const auto if_hit = [&](uint32_t i, auto number)
-                            ALHAZEN_INLINE_LAMBDA { return select(points_.is_hit(i) != 0, number, decltype(number)(0)); };
+    const auto if_hit = [&](uint32_t i, auto number) ALHAZEN_INLINE_LAMBDA {
+      return select(points_.is_hit(i) != 0, number, decltype(number)(0));
+    };
     if (hits_.positions)
       write_vectors<3>(hits_.positions + 3 * first, count,
                        [&](uint32_t i, size_t k) ALHAZEN_INLINE_LAMBDA { return if_hit(i, position(i, k)); });
@@ -107,9 +107,9 @@ class HitWriter {
     const auto along = [&](Real normal, Real error, double at) ALHAZEN_INLINE_LAMBDA {
       return std::abs(static_cast<double>(normal)) * (static_cast<double>(error) + rounding * std::abs(at));
     };
-    return offset_margin * (along(si.normal.x, si.position_error.x, position.x) +
-                            along(si.normal.y, si.position_error.y, position.y) +
-                            along(si.normal.z, si.position_error.z, position.z));
+    return offset_margin *
+           (along(si.normal.x, si.position_error.x, position.x) + along(si.normal.y, si.position_error.y, position.y) +
+            along(si.normal.z, si.position_error.z, position.z));
   }
   static constexpr double offset_margin = 4;
 

@@ -21,7 +21,8 @@ ALHAZEN_INLINE void store_number(Number* to, Number number) {
   __builtin_memcpy(to, &number, sizeof(number));
 }
 
-/// Reads the vectors [first, first + count) of an array to one row per axis. SIMD instructions take adjacent ones apart.
+/// Reads the vectors [first, first + count) of an array to one row per axis. SIMD instructions take adjacent ones
+/// apart.
 template <class Number, size_t size>
 ALHAZEN_NOINLINE void read_vectors(const Number* array, std::ptrdiff_t stride, size_t first, uint32_t count,
                                    Number (&to)[3][size]) {
@@ -35,16 +36,6 @@ ALHAZEN_NOINLINE void read_vectors(const Number* array, std::ptrdiff_t stride, s
   for (uint32_t i = 0; i < count; ++i)
     for (uint32_t axis = 0; axis < 3; ++axis)
       to[axis][i] = load_number(from + static_cast<std::ptrdiff_t>(i) * stride + axis);
-}
-
-/// Prefetches the chunk of vectors from `first` on, up to `end`, if they are adjacent: those of other strides may be far
-/// from each other, and so many that they would evict what traversal needs.
-template <uint32_t chunk, class Number>
-ALHAZEN_INLINE void prefetch_vectors(const Number* array, std::ptrdiff_t stride, size_t first, size_t end) {
-  if (stride != 3 || first >= end) return;
-  const size_t vectors = end - first < chunk ? end - first : chunk;
-  const char* const from = reinterpret_cast<const char*>(array + 3 * first);
-  for (size_t byte = 0; byte < 3 * vectors * sizeof(Number); byte += 64) __builtin_prefetch(from + byte);
 }
 
 /// Reads the numbers [first, first + count) of an array; `absent` if there is none.

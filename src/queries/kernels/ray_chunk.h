@@ -34,9 +34,8 @@ class RayChunk : public PreparedRays<Real> {
   /// Loads the rays [first, first + size), size <= capacity, of the request's.
   void load(const RayQueryRequest<Number>& request, size_t first, uint32_t size) {
     this->count = size;
-    prefetch_vectors<capacity>(request.rays.origins, request.rays.origin_stride, first + capacity, request.first + request.count);
-    prefetch_vectors<capacity>(request.rays.directions, request.rays.direction_stride, first + capacity,
-                     request.first + request.count);
+    this->next_origins = {request.rays.origins, request.rays.origin_stride, first + size};
+    this->next_directions = {request.rays.directions, request.rays.direction_stride, first + size};
     const double(&origin)[3] = request.world_origin;
     const bool is_moved = origin[0] != 0 || origin[1] != 0 || origin[2] != 0;
     for (uint32_t from = 0; from < size; from += tile) {

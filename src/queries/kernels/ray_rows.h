@@ -16,7 +16,9 @@ class FourByFour {
   typedef Real Row __attribute__((vector_size(4 * sizeof(Real))));
 
   ALHAZEN_INLINE FourByFour(const Real* a, const Real* b, const Real* c, const Real* d) {
-    const Row row[4] = {load(a), load(b), load(c), load(d)};
+    const Real* const from[4] = {a, b, c, d};
+    Row row[4];
+    for (int i = 0; i < 4; ++i) __builtin_memcpy(&row[i], from[i], sizeof(Row));
     const Row ab_low = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
     const Row ab_high = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
     const Row cd_low = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
@@ -30,12 +32,6 @@ class FourByFour {
   ALHAZEN_INLINE void store_column(uint32_t i, void* to) const { __builtin_memcpy(to, &column_[i], sizeof(Row)); }
 
  private:
-  static ALHAZEN_INLINE Row load(const Real* from) {
-    Row row;
-    __builtin_memcpy(&row, from, sizeof(row));
-    return row;
-  }
-
   Row column_[4];
 };
 

@@ -37,16 +37,20 @@ class SurfacePoints {
         continue;
       }
       const TriangleRecord& triangle = scene.triangles[hit.primitive.index()];
-      const TriangleCorners<Real> corners = triangle_corners(scene, triangle);
-      corners_.template set_only<&Corners::position, &Corners::has_normals, &Corners::flip_normal>(i, corners);
-      if (corners.has_normals) corners_.template set_only<&Corners::normal>(i, corners);
+      const SurfaceRecord& surface = scene.surfaces[triangle.surface];
+      const bool has_normals = surface.normal_offset != no_offset;
+      for (int v = 0; v < 3; ++v) {
+        copy(scene.positions[triangle.vertex[v]], i, position_[v]);
+        if (has_normals) copy(vertex_normal(scene, surface, triangle.vertex[v]), i, normal_[v]);
+      }
+      has_normals_[i] = has_normals;
+      flip_normal_[i] = surface.flip_normal;
       b1_[i] = hit.b1;
       b2_[i] = hit.b2;
       if (wanted.uv)
-        uv_.set(i, scene.surfaces[triangle.surface].uv_offset != no_offset ? triangle_uv(scene, triangle, hit)
-                                                                           : corner_uv(rows, hit));
+        uv_.set(i, surface.uv_offset != no_offset ? triangle_uv(scene, triangle, hit) : corner_uv(rows, hit));
       ++triangles;
-      normals |= corners.has_normals;
+      normals |= has_normals;
     }
     if (triangles > 0) {
       if (normals)
@@ -71,7 +75,6 @@ class SurfacePoints {
   ALHAZEN_INLINE Vec2<Real> uv(uint32_t i) const { return uv_[i]; }
 
  private:
-  using Corners = TriangleCorners<Real>;
   using Interaction = SurfaceInteraction<Real>;
 
   /// The uv in a mesh without: its corners have (0, 0), (1, 0) and (1, 1).
@@ -83,13 +86,30 @@ class SurfacePoints {
   /// Hits whose vertices are fetched into the caches before they are read.
   static constexpr uint32_t ahead = 8;
 
+  static ALHAZEN_INLINE void copy(const Vec3<Real>& from, uint32_t i, Real (&to)[3][capacity]) {
+    to[0][i] = from.x;
+    to[1][i] = from.y;
+    to[2][i] = from.z;
+  }
+
+  ALHAZEN_INLINE TriangleCorners<Real> corners_of(uint32_t i) const {
+    TriangleCorners<Real> corners;
+    for (int v = 0; v < 3; ++v) {
+      corners.position[v] = {position_[v][0][i], position_[v][1][i], position_[v][2][i]};
+      corners.normal[v] = {normal_[v][0][i], normal_[v][1][i], normal_[v][2][i]};
+    }
+    corners.has_normals = has_normals_[i];
+    corners.flip_normal = flip_normal_[i];
+    return corners;
+  }
+
   template <bool with_normals, bool with_positions>
   ALHAZEN_NOINLINE void compute(uint32_t count) {
     uint32_t any_near_edge = 0;
     const uint32_t end = whole_rows(count);
     ALHAZEN_SIDE_BY_SIDE
     for (uint32_t i = 0; i < end; ++i) {
-      Corners corners = corners_[i];
+      TriangleCorners<Real> corners = corners_of(i);
       if constexpr (!with_normals) corners.has_normals = 0;
       const Interaction si = point_in_plane(corners, b1_[i], b2_[i]);
       if constexpr (with_positions) {
@@ -106,13 +126,15 @@ class SurfacePoints {
 
   /// Does what point_of_triangle does beyond point_in_plane.
   ALHAZEN_NOINLINE void clear_edges(uint32_t i) {
-    const Corners corners = corners_[i];
+    const TriangleCorners<Real> corners = corners_of(i);
     Interaction si = points_[i];
     si.position += away_from_edges(corners.position, b1_[i], b2_[i], si.position_error);
     points_.template set_only<&Interaction::position>(i, si);
   }
 
-  SoA<Corners, capacity> corners_;
+  // Of triangles: a row per coordinate of a corner, and what TriangleCorners has besides.
+  Real position_[3][3][capacity]{}, normal_[3][3][capacity]{};
+  uint32_t has_normals_[capacity]{}, flip_normal_[capacity]{};
   Real b1_[capacity]{}, b2_[capacity]{};
   uint32_t is_near_edge_[capacity]{}, is_hit_[capacity]{};
   SoA<Interaction, capacity,
