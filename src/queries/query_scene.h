@@ -8,6 +8,7 @@
 
 #include "alhazen/rays.h"
 #include "compile/compiled_scene.h"
+#include "queries/primitive_origins.h"
 #include "render/sample_kernel.h"
 #include "render/settings.h"
 #include "scene/scene.h"
@@ -41,6 +42,7 @@ class QueryScene {
               InstructionSet set) const;
 
   std::variant<CompiledScene<float>, CompiledScene<double>> compiled_;
+  PrimitiveOrigins origins_;  ///< instead of compiled_'s of triangles and surfaces
   Box bounds_;
   std::vector<std::string> warnings_;
 };
