@@ -31,7 +31,7 @@ class QueryScene {
                 InstructionSet set = instruction_sets().back()) const;
 
   const Box& bounds() const { return bounds_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<alhazen::Warning>& warnings() const { return warnings_; }
 
  private:
   template <class Real>
@@ -42,7 +42,7 @@ class QueryScene {
 
   std::variant<CompiledScene<float>, CompiledScene<double>> compiled_;
   Box bounds_;
-  std::vector<std::string> warnings_;
+  std::vector<alhazen::Warning> warnings_;
 };
 
 }  // namespace alhazen::impl
