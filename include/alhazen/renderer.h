@@ -51,7 +51,8 @@ struct BuildReport {
 /// Images have the same bits as those of `render(scene, settings)`, whatever was rendered before.
 ///
 /// Of one renderer, functions may be called by one thread at a time, but `stop` by any at any time; several renderers
-/// are independent. All but `stop` throw what `render` throws, and InputError where they are called at the wrong time.
+/// are independent, also of the same scene as long as it is not changed while one of them starts. All but `stop` throw
+/// what `render` throws, and InputError where they are called at the wrong time.
 class Renderer {
  public:
   /// Settings about reading (camera, variant, animation, definitions, ...) must be empty: they are LoadOptions.
@@ -64,7 +65,9 @@ class Renderer {
   /// For the next `start`.
   void set_settings(const Settings& settings);
 
-  /// Begins an image, and drops one that is under way, whose `progress` is called once more.
+  /// Begins an image, and drops one that is under way, whose `progress` is called once more. Throws Cancelled if
+  /// `progress` returns false or `stop` is called before everything is built; then no image is under way, and the
+  /// next `start` builds the scene.
   BuildReport start(const Scene& scene, const ProgressFunction& progress = {});
 
   /// Takes some samples of every pixel: `samples` rounded up to a multiple of 4, but at most those that are left and 64
@@ -77,7 +80,8 @@ class Renderer {
   RenderedImage image() const;
   Progress progress() const;
 
-  /// Ends the pass under way within a few milliseconds; `render_pass` then returns false.
+  /// Ends the pass under way within a few milliseconds; `render_pass` then returns false. A `start` under way ends by
+  /// Cancelled before its next step. Without either it has no effect.
   void stop();
 
   /// Ends an image, after any number of passes: saves its checkpoint, denoises it. Rethrows what `progress` has thrown.
@@ -86,11 +90,12 @@ class Renderer {
   /// Called between passes, on the thread that renders. Returning false stops; an exception does too, and is rethrown.
   using PassFunction = std::function<bool(const Renderer&)>;
 
-  /// All of it: start, passes until there are no more, finish.
+  /// All of it: start, passes until there are no more, finish. Where start is cancelled, the image is empty.
   RenderedImage render(const Scene& scene, const ProgressFunction& progress = {}, const PassFunction& after_pass = {});
 
-  /// Of the scene that was built last and of the image, each once.
-  std::vector<std::string> warnings() const;
+  /// What was warned of while the scene was built last, and since then by the image; each once. Those of the scene's
+  /// reader are Scene::warnings.
+  std::vector<Warning> warnings() const;
 
  private:
   std::unique_ptr<impl::RendererState> state_;

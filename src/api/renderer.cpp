@@ -189,10 +189,22 @@ struct RendererState {
 
   void stop() {
     const std::lock_guard lock(mutex);
-    if (image) image->stop();
+    if (image)
+      image->stop();
+    else if (listener)
+      listener->cancel();
   }
 
-  RenderEvents events() const { return {progress, {}, {}, {}}; }
+  RenderEvents events() const { return {listener->function(), {}, {}, {}}; }
+
+  /// The progress function of the image that begins.
+  void listen(const ProgressFunction& progress) {
+    auto next = std::make_unique<Listener>(progress);
+    next->watch(diagnostics.activity());
+    next->watch(adapted.activity());
+    const std::lock_guard lock(mutex);
+    listener = std::move(next);
+  }
 
   GrowingImage& under_way() const {
     if (!image) throw InputError("no image is under way: call start first");
@@ -203,10 +215,10 @@ struct RendererState {
   Diagnostics diagnostics;  ///< of the scene and the image
   Diagnostics adapted;      ///< of what settings replace in the scene
   std::vector<Diagnostics::Warning> compiled;  ///< of what was built
-  ProgressFunction progress;
+  std::unique_ptr<Listener> listener;
   std::unique_ptr<RenderSettings> built;  ///< `renderer` refers to it
   std::unique_ptr<SceneRenderer> renderer;
-  std::mutex mutex;                     ///< of `image`
+  std::mutex mutex;                     ///< of `image` and `listener`
   std::unique_ptr<GrowingImage> image;  ///< refers to `renderer`
   // What was built.
   uint32_t scene_id = 0;
@@ -236,9 +248,11 @@ BuildReport Renderer::start(const Scene& scene, const ProgressFunction& progress
   const auto start = std::chrono::steady_clock::now();
   impl::refuse_reading_settings(state_->asked);
   state_->set_image(nullptr);
-  state_->progress = progress;
+  state_->listen(progress);
   BuildReport report;
-  if (!state_->reuse(scene.state(), report)) state_->build(scene.state(), report);
+  state_->listener->for_caller([&] {
+    if (!state_->reuse(scene.state(), report)) state_->build(scene.state(), report);
+  });
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }
@@ -246,11 +260,12 @@ BuildReport Renderer::start(const Scene& scene, const ProgressFunction& progress
 bool Renderer::render_pass(int64_t samples) {
   const impl::ThreadDefaults defaults;
   if (samples < 0) throw InputError("samples of a pass must not be negative");
-  return state_->under_way().take_pass(static_cast<uint32_t>(std::min<int64_t>(samples, 0xffffff00u)));
+  return impl::for_caller(
+      [&] { return state_->under_way().take_pass(static_cast<uint32_t>(std::min<int64_t>(samples, 0xffffff00u))); });
 }
 
 RenderedImage Renderer::image() const {
-  return impl::rendered_image(state_->under_way().so_far(), state_->diagnostics);
+  return impl::for_caller([&] { return impl::rendered_image(state_->under_way().so_far(), state_->diagnostics); });
 }
 
 Progress Renderer::progress() const { return state_->under_way().progress(); }
@@ -261,11 +276,16 @@ RenderedImage Renderer::finish() {
   const impl::ThreadDefaults defaults;
   state_->under_way();
   const std::unique_ptr<impl::GrowingImage> image = state_->set_image(nullptr);
-  return impl::rendered_image(image->finish(), state_->diagnostics);
+  return state_->listener->for_caller([&] { return impl::rendered_image(image->finish(), state_->diagnostics); });
 }
 
 RenderedImage Renderer::render(const Scene& scene, const ProgressFunction& progress, const PassFunction& after_pass) {
-  start(scene, progress);
+  try {
+    start(scene, progress);
+  } catch (const Cancelled&) {
+    if (state_->listener->has_thrown()) throw;
+    return impl::empty_image(state_->diagnostics);
+  }
   try {
     while (render_pass())
       if (after_pass && !after_pass(*this)) break;
@@ -276,10 +296,6 @@ RenderedImage Renderer::render(const Scene& scene, const ProgressFunction& progr
   return finish();
 }
 
-std::vector<std::string> Renderer::warnings() const {
-  std::vector<std::string> texts;
-  for (const impl::Diagnostics::Warning& warning : state_->diagnostics.warnings()) texts.push_back(warning.to_string());
-  return texts;
-}
+std::vector<Warning> Renderer::warnings() const { return state_->diagnostics.public_warnings(); }
 
 }  // namespace ALHAZEN_NAMESPACE

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/caller_errors.h"
 #include "colour/white_point.h"
 #include "images/image.h"
+#include "pipeline/write_outputs.h"
 
 namespace ALHAZEN_NAMESPACE {
 
@@ -34,12 +36,22 @@ void check(const RenderedImage& image, const std::string& file, const SaveOption
   if (pixels == 0 || image.planes.size() != image.channels.size() ||
       std::any_of(image.planes.begin(), image.planes.end(), [&](const auto& plane) { return plane.size() != pixels; }))
     throw InputError("image: it has no pixels, or its planes do not hold width * height values each");
+  if (image.full_width != 0 || image.full_height != 0) {
+    const auto is_within = [](int64_t first, int64_t size, int64_t full) { return first >= 0 && first + size <= full; };
+    if (!is_within(image.x, image.width, image.full_width) || !is_within(image.y, image.height, image.full_height))
+      throw InputError("image: its pixels from x, y are not within full_width and full_height");
+  }
   if (!std::isfinite(options.exposure)) throw InputError("exposure must be a finite number of stops");
   if (options.white_temperature != 0 && !(options.white_temperature >= impl::min_white_temperature &&
                                           options.white_temperature <= impl::max_white_temperature))
     throw InputError("white_temperature must be 0, or from 1000 to 25000 kelvin");
   if (options.png_depth != 8 && options.png_depth != 16) throw InputError("png_depth must be 8 or 16");
   if (options.jpeg_quality < 1 || options.jpeg_quality > 100) throw InputError("jpeg_quality must be from 1 to 100");
+}
+
+/// Of an entry of the metadata: only EXR files have layers.
+bool is_about_layers(const std::pair<const std::string, std::string>& entry) {
+  return entry.first.starts_with("cryptomatte/") || entry.first == "object" || entry.first == "material";
 }
 
 }  // namespace
@@ -53,17 +65,21 @@ void save(const RenderedImage& image, const std::string& file, const SaveOptions
   how.tone_map = tone_map_of(options.tone_mapping);
   how.png_depth = options.png_depth;
   how.jpeg_quality = options.jpeg_quality;
+  how.metadata = image.metadata;
   how.metadata["software"] = std::string("Alhazen ") + version();
+  if (impl::extension_of(file) != "exr") std::erase_if(how.metadata, is_about_layers);
+  if (impl::is_displayed_format(file)) how.metadata["display"] = impl::display_text(how);
+  how.x_offset = image.full_width > 0 ? image.x : 0;
+  how.y_offset = image.full_height > 0 ? image.y : 0;
+  how.full_width = image.full_width;
+  how.full_height = image.full_height;
   const size_t width = static_cast<size_t>(image.width);
-  impl::write_image(file,
-                    {image.width, image.height, image.channels,
-                     [&](int y, std::span<float> row) {
-                       for (size_t c = 0; c < image.planes.size(); ++c)
-                         std::copy_n(
-                             image.planes[c].begin() + static_cast<std::ptrdiff_t>(static_cast<size_t>(y) * width),
-                             width, row.begin() + static_cast<std::ptrdiff_t>(c * width));
-                     }},
-                    how);
+  const auto fill_row = [&](int y, std::span<float> row) {
+    for (size_t c = 0; c < image.planes.size(); ++c)
+      std::copy_n(image.planes[c].begin() + static_cast<std::ptrdiff_t>(static_cast<size_t>(y) * width), width,
+                  row.begin() + static_cast<std::ptrdiff_t>(c * width));
+  };
+  impl::for_caller([&] { impl::write_image(file, {image.width, image.height, image.channels, fill_row}, how); });
 }
 
 }  // namespace ALHAZEN_NAMESPACE

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "alhazen/scene.h"
+#include "api/caller_errors.h"
 #include "api/image_texels.h"
 #include "api/parts.h"
 #include "io/environment.h"
@@ -160,7 +161,7 @@ LightId Scene::add(const Light& light, const Pixels& image) {
   described.where.file = light.name;
   impl::ImageTexels map;
   if (has_image(described.kind))
-    map = light_image_of(described.kind, image);
+    map = impl::for_caller([&] { return light_image_of(described.kind, image); });
   else if (is_given(image))
     impl::refuse_argument("image", "is for goniometric, projection and environment lights alone");
   return append_light(state(), std::move(described), std::move(map));
@@ -210,7 +211,7 @@ void Scene::set(LightId id, const Light& light, const Pixels& image) {
   const bool keeps_image = described.kind == present.kind && !is_given(image);
   impl::ImageTexels map;
   if (has_image(described.kind) && !keeps_image)
-    map = light_image_of(described.kind, image);
+    map = impl::for_caller([&] { return light_image_of(described.kind, image); });
   else if (!has_image(described.kind) && is_given(image))
     impl::refuse_argument("image", "is for goniometric, projection and environment lights alone");
   count_change(s, present, !keeps_image);
@@ -268,12 +269,12 @@ LightId Scene::set_environment(const Colour& radiance) {
 }
 
 LightId Scene::set_environment(const Pixels& image) {
-  impl::ImageTexels map = light_image_of(impl::LightKind::environment, image);
+  impl::ImageTexels map = impl::for_caller([&] { return light_image_of(impl::LightKind::environment, image); });
   return replace_environment(*this, state(), environment_of_map(state().description, image.name), std::move(map));
 }
 
 LightId Scene::load_environment(const std::string& file) {
-  impl::ImageTexels map = impl::read_environment({file});
+  impl::ImageTexels map = impl::for_caller([&] { return impl::read_environment({file}); });
   const std::string fault = impl::environment_fault(map);
   if (!fault.empty()) throw impl::InputError({file}, fault);
   return replace_environment(*this, state(), environment_of_map(state().description, file), std::move(map));

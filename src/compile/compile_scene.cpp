@@ -276,7 +276,7 @@ class SceneCompiler {
     for (const Instance& instance : scene_.instances)
       if (!is_object[instance.group]) placed_shapes_ += scene_.groups[instance.group].shapes.size();
     if (placed_shapes_ * sizeof(ShapePlacement) > physical_memory() / 10 * 9)
-      throw InputError({scene_.name}, too_large());
+      throw TooLargeError({scene_.name}, too_large());
   }
 
   /// Checks that indices can hold the numbers of primitives and instances, and that the triangles fit into memory.
@@ -326,7 +326,7 @@ CompiledScene<Real> compile(Scene& scene, const CompileOptions& options, Diagnos
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {
   }
-  throw InputError({scene.name}, compiler.too_large());
+  throw TooLargeError({scene.name}, compiler.too_large());
 }
 
 }  // namespace

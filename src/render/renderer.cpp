@@ -45,8 +45,8 @@ using Clock = std::chrono::steady_clock;
 void check_memory(uint64_t bytes, const std::string& what) {
   const uint64_t memory = static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
   if (bytes > memory / 10 * 9)
-    throw InputError(what + " takes " + std::to_string(bytes >> 30) + " GiB, and this machine has " +
-                     std::to_string(memory >> 30) + ": render parts of it with --crop, or with fewer layers");
+    throw TooLargeError(what + " takes " + std::to_string(bytes >> 30) + " GiB, and this machine has " +
+                        std::to_string(memory >> 30) + ": render parts of it with --crop, or with fewer layers");
 }
 
 template <class Real>
@@ -63,8 +63,9 @@ std::unique_ptr<Film<Real>> make_film(const RenderSettings& settings, bool weigh
   try {
     return std::make_unique<Film<Real>>(settings.window, settings.aovs, extras);
   } catch (const std::bad_alloc&) {
-    throw InputError("the image with its layers takes " + std::to_string(bytes >> 20) +
-                     " MiB, more than is left beside the scene: render parts of it with --crop, or with fewer layers");
+    throw TooLargeError(
+        "the image with its layers takes " + std::to_string(bytes >> 20) +
+        " MiB, more than is left beside the scene: render parts of it with --crop, or with fewer layers");
   }
 }
 
