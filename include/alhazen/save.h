@@ -2,7 +2,9 @@
 
 // Writes images to files.
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "alhazen/alhazen.h"
 #include "alhazen/version.h"
@@ -30,5 +32,9 @@ struct SaveOptions {
 /// without pixels, OutOfMemoryError, and Error if it cannot be written. Any number of threads may save at once, to
 /// different files.
 void save(const RenderedImage& image, const std::string& file, const SaveOptions& options = {});
+
+/// The bytes of the file that `save` writes under a name that ends in .png. Throws what `save` throws, and Error for an
+/// image without R, G and B.
+std::vector<uint8_t> encode_png(const RenderedImage& image, const SaveOptions& options = {});
 
 }  // namespace ALHAZEN_NAMESPACE

@@ -5,6 +5,7 @@
 
 #include "api/caller_errors.h"
 #include "colour/white_point.h"
+#include "images/codecs/encode_png.h"
 #include "images/image.h"
 #include "pipeline/write_outputs.h"
 
@@ -28,10 +29,7 @@ impl::ToneMap tone_map_of(ToneMapping mapping) {
   return impl::ToneMap::none;
 }
 
-void check(const RenderedImage& image, const std::string& file, const SaveOptions& options) {
-  if (!impl::has_written_extension(file))
-    throw impl::InputError(
-        {file}, "images are written as " + impl::written_extensions() + ": give a name that ends in one of them");
+void check(const RenderedImage& image, const SaveOptions& options) {
   const size_t pixels = static_cast<size_t>(std::max(image.width, 0)) * static_cast<size_t>(std::max(image.height, 0));
   if (pixels == 0 || image.planes.size() != image.channels.size() ||
       std::any_of(image.planes.begin(), image.planes.end(), [&](const auto& plane) { return plane.size() != pixels; }))
@@ -54,10 +52,7 @@ bool is_about_layers(const std::pair<const std::string, std::string>& entry) {
   return entry.first.starts_with("cryptomatte/") || entry.first == "object" || entry.first == "material";
 }
 
-}  // namespace
-
-void save(const RenderedImage& image, const std::string& file, const SaveOptions& options) {
-  check(image, file, options);
+impl::WriteOptions write_options(const RenderedImage& image, const std::string& file, const SaveOptions& options) {
   impl::WriteOptions how;
   how.pixel_type = options.single_precision ? impl::ExrPixelType::single : impl::ExrPixelType::half;
   how.exposure = options.exposure;
@@ -73,13 +68,36 @@ void save(const RenderedImage& image, const std::string& file, const SaveOptions
   how.y_offset = image.full_height > 0 ? image.y : 0;
   how.full_width = image.full_width;
   how.full_height = image.full_height;
+  return how;
+}
+
+impl::ImageSource source_of(const RenderedImage& image) {
   const size_t width = static_cast<size_t>(image.width);
-  const auto fill_row = [&](int y, std::span<float> row) {
-    for (size_t c = 0; c < image.planes.size(); ++c)
-      std::copy_n(image.planes[c].begin() + static_cast<std::ptrdiff_t>(static_cast<size_t>(y) * width), width,
-                  row.begin() + static_cast<std::ptrdiff_t>(c * width));
-  };
-  impl::for_caller([&] { impl::write_image(file, {image.width, image.height, image.channels, fill_row}, how); });
+  return {image.width, image.height, image.channels, [&image, width](int y, std::span<float> row) {
+            const auto begin = static_cast<std::ptrdiff_t>(static_cast<size_t>(y) * width);
+            for (size_t c = 0; c < image.planes.size(); ++c)
+              std::copy_n(image.planes[c].begin() + begin, width, row.begin() + static_cast<std::ptrdiff_t>(c * width));
+          }};
+}
+
+}  // namespace
+
+void save(const RenderedImage& image, const std::string& file, const SaveOptions& options) {
+  if (!impl::has_written_extension(file))
+    throw impl::InputError(
+        {file}, "images are written as " + impl::written_extensions() + ": give a name that ends in one of them");
+  check(image, options);
+  impl::for_caller([&] { impl::write_image(file, source_of(image), write_options(image, file, options)); });
+}
+
+std::vector<uint8_t> encode_png(const RenderedImage& image, const SaveOptions& options) {
+  check(image, options);
+  std::vector<uint8_t> bytes;
+  impl::for_caller([&] {
+    impl::encode_png("an image as PNG", source_of(image), write_options(image, ".png", options),
+                     [&](const uint8_t* data, size_t size) { bytes.insert(bytes.end(), data, data + size); });
+  });
+  return bytes;
 }
 
 }  // namespace ALHAZEN_NAMESPACE
