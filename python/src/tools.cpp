@@ -1,0 +1,7 @@
+#include "bindings.h"
+
+namespace alhazen::python {
+
+void bind_tools(py::module_&) {}
+
+}  // namespace alhazen::python
