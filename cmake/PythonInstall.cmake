@@ -29,4 +29,5 @@ endif()
 set_target_properties(alhazen_python PROPERTIES INSTALL_RPATH "$ORIGIN/lib;${library}")
 install(TARGETS alhazen_python LIBRARY DESTINATION ${package} COMPONENT python)
 install(DIRECTORY python/alhazen/ DESTINATION ${package} COMPONENT python
-        FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+        FILES_MATCHING PATTERN *.py PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+install(FILES ${ALHAZEN_PYTHON_STUBS} DESTINATION ${package} COMPONENT python)

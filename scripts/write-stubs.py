@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Writes the type stubs of the Python module from its documentation: what type checkers and editors know of the extension.
 
-usage: scripts/write-stubs.py FOLDER OUTPUT [--strict]
+usage: scripts/write-stubs.py FOLDER [OUTPUT] [--strict]
 
-FOLDER has the package alhazen. The first line of a class or function is its signature, and what a property says begins with its
+FOLDER has the package alhazen; OUTPUT, by default FOLDER/alhazen, gets _alhazen.pyi and __init__.pyi. The first line of a class or function is its signature, and what a property says begins with its
 type; types are those of Python or the words of TYPES. What is not understood becomes Any; --strict makes it an error.
 """
 
@@ -304,17 +304,39 @@ class Writer:
         return HEAD + "\n".join(self.lines) + "\n"
 
 
+def package_stub(package, extension, problems):
+    """That of the package: it lists the names of its __all__, and where each is from."""
+    lines = ["# Written by scripts/write-stubs.py.", ""]
+    for name in package.__all__:
+        value = getattr(package, name)
+        module = getattr(value, "__module__", "") or ""
+        if inspect.ismodule(value):
+            lines.append(f"from . import {name} as {name}")
+        elif name in vars(extension):
+            lines.append(f"from ._alhazen import {name} as {name}")
+        elif module.startswith("alhazen."):
+            lines.append(f"from {module.removeprefix('alhazen')} import {name} as {name}")
+        else:
+            problems.append(f"{name}: it is defined in __init__.py, not in a file of its own")
+            lines += ["from typing import Any", f"{name}: Any"]
+    quoted = ", ".join(f'"{name}"' for name in package.__all__)
+    return "\n".join([*lines, "", *textwrap.wrap(f"__all__ = [{quoted}]", 120)]) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
-    parser.add_argument("output", type=Path)
+    parser.add_argument("output", type=Path, nargs="?")
     parser.add_argument("--strict", action="store_true")
     options = parser.parse_args()
     sys.dont_write_bytecode = True
     sys.path.insert(0, str(options.folder))
-    writer = Writer(importlib.import_module("alhazen._alhazen"))
-    text = writer.write()
-    options.output.write_text(text, encoding="utf-8")
+    extension = importlib.import_module("alhazen._alhazen")
+    writer = Writer(extension)
+    output = options.output or options.folder / "alhazen"
+    (output / "_alhazen.pyi").write_text(writer.write(), encoding="utf-8")
+    package = package_stub(importlib.import_module("alhazen"), extension, writer.problems)
+    (output / "__init__.pyi").write_text(package, encoding="utf-8")
     for problem in writer.problems if options.strict else []:
         print(f"write-stubs: {problem}", file=sys.stderr)
     sys.exit(1 if options.strict and writer.problems else 0)

@@ -26,7 +26,7 @@ version=$(cd "$work" && PYTHONPATH=$(dirname "$package") PYTHONDONTWRITEBYTECODE
   "$work/moved" "$source/scenes/cornell.pbrt")
 numbers=$(sed -n 's/^#define ALHAZEN_VERSION_\(MAJOR\|MINOR\|PATCH\) //p' "$source/include/alhazen/version.h" | paste -sd.)
 [[ $version == "$numbers" ]] || fail "the module has version $version, not $numbers"
-for file in "$source"/python/alhazen/*.py "$source"/python/alhazen/*.pyi; do
+for file in "$source"/python/alhazen/*.py "$build"/python/alhazen/*.pyi; do
   cmp "$file" "$package/${file##*/}" || fail "${file##*/} is not installed"
 done
 ! "$python" -c 'import alhazen' 2>/dev/null || echo "note: another alhazen is installed for $python"
