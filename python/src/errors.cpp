@@ -2,18 +2,21 @@
 
 #include "alhazen/error.h"
 
-#include <cstring>
+#include <cerrno>
+#include <filesystem>
 #include <string>
 #include <utility>
 
 #include "bindings.h"
+#include "convert.h"
+#include "value.h"
 
 namespace alhazen::python {
 
 namespace {
 
 /// Owned for as long as the process: exceptions may be raised while the interpreter shuts down.
-PyObject *error_class = nullptr, *input_error_class = nullptr;
+PyObject *error_class = nullptr, *input_error_class = nullptr, *missing_file_class = nullptr;
 
 PyObject* new_class(py::module_& m, const char* name, const char* doc, const py::tuple& bases) {
   const std::string full_name = std::string("alhazen.") + name;
@@ -38,10 +41,28 @@ void raise(PyObject* of_class, const char* message, const Attributes&... attribu
 
 py::object place(int number) { return number > 0 ? py::object(py::int_(number)) : py::object(py::none()); }
 
-py::object file_name(const std::string& file) {
-  if (file.empty()) return py::none();
-  return py::reinterpret_steal<py::object>(
-      PyUnicode_DecodeFSDefaultAndSize(file.data(), static_cast<Py_ssize_t>(file.size())));
+/// What arguments are called in Python, where the library's names differ.
+constexpr std::pair<const char*, const char*> renamed[] = {
+    {"lens_radius", "aperture"}, {"focal_distance", "focus"}, {"positions", "vertices"}, {"indices", "faces"}};
+
+/// The message of an argument, with the names of Python between its quotation marks.
+std::string with_python_names(const std::string& message) {
+  std::string result = message;
+  for (const auto& [ours, pythons] : renamed) {
+    const std::string quoted = "'" + std::string(ours) + "'";
+    for (size_t at = 0; (at = result.find(quoted, at)) != std::string::npos;)
+      result.replace(at + 1, quoted.size() - 2, pythons);
+  }
+  // The first quotation is the argument.
+  const size_t end = result.starts_with('\'') ? result.find('\'', 1) : std::string::npos;
+  if (end == std::string::npos) return result;
+  return american(result.substr(0, end)) + result.substr(end);
+}
+
+bool is_missing(const InputError& error) {
+  std::error_code ignored;
+  return !error.file().empty() && error.line() == 0 &&
+         std::filesystem::symlink_status(error.file(), ignored).type() == std::filesystem::file_type::not_found;
 }
 
 /// Most derived classes first.
@@ -49,8 +70,15 @@ void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const InputError& error) {
-    raise(input_error_class, error.what(), std::pair("file", file_name(error.file())),
-          std::pair("line", place(error.line())), std::pair("column", place(error.column())));
+    const bool has_file = !error.file().empty();
+    const std::string message = has_file ? error.what() : with_python_names(error.what());
+    const py::object file = has_file ? py::object(path_text(error.file())) : py::object(py::none());
+    if (is_missing(error))
+      raise(missing_file_class, message, std::pair("file", file), std::pair("filename", file),
+            std::pair("errno", py::object(py::int_(ENOENT))));
+    else
+      raise(input_error_class, message, std::pair("file", file), std::pair("line", place(error.line())),
+            std::pair("column", place(error.column())));
   } catch (const Error& error) {
     raise(error_class, error.what());
   }
@@ -70,6 +98,12 @@ void bind_errors(py::module_& m) {
       "names the argument where there is none.\n\n"
       "Attributes: file (str or None), line (int from 1, or None), column (int from 1, or None).",
       py::make_tuple(py::handle(error_class), py::handle(PyExc_ValueError)));
+  missing_file_class = new_class(m, "MissingFileError",
+                                 "An InputError for a file that does not exist, which is a FileNotFoundError, too.\n\n"
+                                 "Attributes: file, filename (str), errno.",
+                                 py::make_tuple(py::handle(input_error_class), py::handle(PyExc_FileNotFoundError)));
+  // That of OSError makes a text of its own of errno and filename.
+  py::setattr(py::handle(missing_file_class), "__str__", py::handle(PyExc_Exception).attr("__str__"));
   for (const char* attribute : {"file", "line", "column"})
     py::setattr(py::handle(input_error_class), attribute, py::none());
   py::register_exception_translator(&translate);
