@@ -70,6 +70,10 @@ grep -q 'is used by neither' "$work/unexpected.txt" || fail "the check does not 
 grep -vE 'is used by neither|is in no public header|would be shared' "$work/unexpected.txt" >"$work/strange.txt" || true
 [[ ! -s $work/strange.txt ]] || { cat "$work/strange.txt"; fail "the library of the build folder exports more than its namespaces"; }
 
+# Kernels are weak symbols, and a library without them is linked all the same: those absent are the same in both.
+absent() { "$nm" -D -P --undefined-only "$1" | grep -E '^_ZNK?7alhazen' | sed 's/[@ ].*//' | sort; }
+diff <(absent "$build/lib/libalhazen.so") <(absent "$library") || fail "the installed library lacks kernels of the other one (>)"
+
 readelf -d "$library" | grep -q "SONAME.*\[libalhazen.so.${public#ALHAZEN_}\]" || fail "the soname is not that of ${public#ALHAZEN_}"
 for file in "${users[@]}"; do
   LD_LIBRARY_PATH=$build/installed ldd -r "$file" >"$work/ldd.txt" 2>&1
