@@ -2,7 +2,9 @@
 
 // Writes images to files.
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "alhazen/alhazen.h"
 #include "alhazen/version.h"
@@ -28,5 +30,9 @@ struct SaveOptions {
 /// Throws InputError for another extension, options out of range and an image without pixels, Error if it cannot be
 /// written.
 void save(const RenderedImage& image, const std::string& file, const SaveOptions& options = {});
+
+/// The bytes of the file that `save` writes under a name that ends in .png. Throws what `save` throws, and Error for an
+/// image without R, G and B.
+std::vector<uint8_t> encode_png(const RenderedImage& image, const SaveOptions& options = {});
 
 }  // namespace ALHAZEN_NAMESPACE

@@ -179,6 +179,8 @@ class Scene {
   std::vector<TextureId> textures() const;  ///< without the constants that are inputs of others
   std::vector<MaterialId> materials() const;
   std::vector<ShapeId> shapes() const;  ///< of the world, then of the groups
+  /// Of a group, or with GroupId() of the world, in the order in which ray queries count them (HitArrays::shapes).
+  std::vector<ShapeId> shapes(GroupId group) const;
   std::vector<GroupId> groups() const;
   std::vector<InstanceId> instances() const;
   std::vector<LightId> lights() const;

@@ -12,6 +12,7 @@ const alhazen::Scene& PythonScene::read() const {
 alhazen::Scene& PythonScene::change() {
   read();
   if (readers_ > 0) throw Error("the scene is being rendered: wait until that has ended, or change a copy of it");
+  ++changes_;
   return scene_;
 }
 

@@ -2,6 +2,7 @@
 
 // The scene behind alhazen.Scene, and who may use it while the interpreter's lock (GIL) is released.
 
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -21,12 +22,20 @@ class PythonScene : public std::enable_shared_from_this<PythonScene> {
   /// Throws Error while another thread reads or changes it.
   alhazen::Scene& change();
 
+  /// How often `change` or SceneChange was used.
+  uint64_t changes() const { return changes_; }
+  /// What queries.cpp keeps for the scene.
+  const std::shared_ptr<void>& kept_queries() const { return kept_queries_; }
+  void keep_queries(std::shared_ptr<void> queries) const { kept_queries_ = std::move(queries); }
+
  private:
   friend class SceneReading;
   friend class SceneChange;
   alhazen::Scene scene_;
   mutable int readers_ = 0;
   bool is_changing_ = false;
+  uint64_t changes_ = 0;
+  mutable std::shared_ptr<void> kept_queries_;
 };
 
 /// Lets a thread read the scene without the GIL: as long as one exists, changes are refused. It is made and destroyed

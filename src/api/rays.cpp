@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "alhazen/scene.h"
+#include "api/scene_state.h"
 #include "pipeline/load_scene.h"
 #include "queries/query_scene.h"
 #include "render/setting_table.h"
@@ -42,6 +44,15 @@ RayQueries RayQueries::from_file(const std::string& scene_file, const Settings& 
   impl::LoadedScene loaded = impl::load_scene(scene_file, reading_settings(settings), diagnostics);
   return RayQueries(
       std::make_shared<const impl::QueryScene>(std::move(loaded.scene), precision, settings.threads, diagnostics));
+}
+
+RayQueries::RayQueries(const Scene& scene, const Settings& settings) {
+  const impl::ThreadDefaults defaults;
+  const impl::Precision precision = precision_of(settings);
+  impl::check_setting(settings, "threads");
+  impl::Diagnostics diagnostics;
+  scene_ =
+      std::make_shared<const impl::QueryScene>(scene.state().to_render(0), precision, settings.threads, diagnostics);
 }
 
 RayQueries::RayQueries(std::shared_ptr<const impl::QueryScene> scene) : scene_(std::move(scene)) {}

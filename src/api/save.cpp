@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "colour/white_point.h"
+#include "images/codecs/encode_png.h"
 #include "images/image.h"
 
 namespace ALHAZEN_NAMESPACE {
@@ -26,10 +27,7 @@ impl::ToneMap tone_map_of(ToneMapping mapping) {
   return impl::ToneMap::none;
 }
 
-void check(const RenderedImage& image, const std::string& file, const SaveOptions& options) {
-  if (!impl::has_written_extension(file))
-    throw impl::InputError(
-        {file}, "images are written as " + impl::written_extensions() + ": give a name that ends in one of them");
+void check(const RenderedImage& image, const SaveOptions& options) {
   const size_t pixels = static_cast<size_t>(std::max(image.width, 0)) * static_cast<size_t>(std::max(image.height, 0));
   if (pixels == 0 || image.planes.size() != image.channels.size() ||
       std::any_of(image.planes.begin(), image.planes.end(), [&](const auto& plane) { return plane.size() != pixels; }))
@@ -42,10 +40,7 @@ void check(const RenderedImage& image, const std::string& file, const SaveOption
   if (options.jpeg_quality < 1 || options.jpeg_quality > 100) throw InputError("jpeg_quality must be from 1 to 100");
 }
 
-}  // namespace
-
-void save(const RenderedImage& image, const std::string& file, const SaveOptions& options) {
-  check(image, file, options);
+impl::WriteOptions write_options(const SaveOptions& options) {
   impl::WriteOptions how;
   how.pixel_type = options.single_precision ? impl::ExrPixelType::single : impl::ExrPixelType::half;
   how.exposure = options.exposure;
@@ -54,16 +49,34 @@ void save(const RenderedImage& image, const std::string& file, const SaveOptions
   how.png_depth = options.png_depth;
   how.jpeg_quality = options.jpeg_quality;
   how.metadata["software"] = std::string("Alhazen ") + version();
+  return how;
+}
+
+impl::ImageSource source_of(const RenderedImage& image) {
   const size_t width = static_cast<size_t>(image.width);
-  impl::write_image(file,
-                    {image.width, image.height, image.channels,
-                     [&](int y, std::span<float> row) {
-                       for (size_t c = 0; c < image.planes.size(); ++c)
-                         std::copy_n(
-                             image.planes[c].begin() + static_cast<std::ptrdiff_t>(static_cast<size_t>(y) * width),
-                             width, row.begin() + static_cast<std::ptrdiff_t>(c * width));
-                     }},
-                    how);
+  return {image.width, image.height, image.channels, [&image, width](int y, std::span<float> row) {
+            const auto begin = static_cast<std::ptrdiff_t>(static_cast<size_t>(y) * width);
+            for (size_t c = 0; c < image.planes.size(); ++c)
+              std::copy_n(image.planes[c].begin() + begin, width, row.begin() + static_cast<std::ptrdiff_t>(c * width));
+          }};
+}
+
+}  // namespace
+
+void save(const RenderedImage& image, const std::string& file, const SaveOptions& options) {
+  if (!impl::has_written_extension(file))
+    throw impl::InputError(
+        {file}, "images are written as " + impl::written_extensions() + ": give a name that ends in one of them");
+  check(image, options);
+  impl::write_image(file, source_of(image), write_options(options));
+}
+
+std::vector<uint8_t> encode_png(const RenderedImage& image, const SaveOptions& options) {
+  check(image, options);
+  std::vector<uint8_t> bytes;
+  impl::encode_png("an image as PNG", source_of(image), write_options(options),
+                   [&](const uint8_t* data, size_t size) { bytes.insert(bytes.end(), data, data + size); });
+  return bytes;
 }
 
 }  // namespace ALHAZEN_NAMESPACE

@@ -116,6 +116,15 @@ std::vector<ShapeId> Scene::shapes() const {
   return handles;
 }
 
+std::vector<ShapeId> Scene::shapes(GroupId group) const {
+  const uint32_t index = group ? impl::index_of("group", group, state()) : 0;
+  std::vector<ShapeId> handles(state().description.groups[index].shapes.size());
+  for (uint32_t i = 0; i < state().shape_places.size(); ++i)
+    if (const impl::ShapePlace place = state().shape_places[i]; place.group == index)
+      handles[place.index] = impl::handle_of<ShapeId>(i, state().shapes);
+  return handles;
+}
+
 std::vector<GroupId> Scene::groups() const {
   return handles_up_to<GroupId>(state().description.groups.size(), state().groups, 1);
 }
