@@ -157,7 +157,8 @@ class Writer:
         self.problems = []
 
     def problem(self, place, what):
-        self.problems.append(f"{place}: {what}")
+        if not place.startswith("_"):
+            self.problems.append(f"{place}: {what}")
 
     def type(self, text, given, place):
         try:
@@ -290,7 +291,7 @@ class Writer:
 
     def write(self):
         for name, value in vars(self.module).items():
-            if name.startswith("_"):
+            if name.startswith("__"):
                 continue
             if isinstance(value, type):
                 if value.__name__ != name:
