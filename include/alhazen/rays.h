@@ -106,7 +106,7 @@ class RayQueries {
   /// range, and for geometry that cannot be represented in this precision.
   explicit RayQueries(const Scene& scene, const Settings& settings = {}, const ProgressFunction& progress = {});
 
-  /// For scenes that are built within the library.
+  /// For scenes that are built within the library. Throws InputError for null.
   explicit RayQueries(std::shared_ptr<const impl::QueryScene> scene);
 
   // There is no moved-from state: moving copies.

@@ -55,9 +55,11 @@ struct BuildReport {
 /// what `render` throws, and InputError where they are called at the wrong time.
 class Renderer {
  public:
-  /// Settings about reading (camera, variant, animation, definitions, ...) must be empty: they are LoadOptions.
+  /// Settings about reading must be empty: camera, variant, animation, animation_time, shutter and definitions are
+  /// LoadOptions. So are strict and frames_per_second, which have no effect here.
   explicit Renderer(const Settings& settings = {});
   ~Renderer();
+  /// Of a renderer that was moved from, all functions throw InputError, but `stop`, which does nothing.
   Renderer(Renderer&& other) noexcept;
   Renderer& operator=(Renderer&& other) noexcept;
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "alhazen/error.h"
+#include "api/option_names.h"
 
 namespace alhazen::impl {
 
@@ -22,6 +23,14 @@ void rethrow_to_caller() {
     throw OutOfMemoryError(out_of_memory);
   } catch (const std::length_error&) {
     throw OutOfMemoryError(out_of_memory);
+  } catch (const alhazen::InputError& error) {
+    // Input errors of arguments have fields' names already, and no option's.
+    throw alhazen::InputError(with_field_names(error.what()), with_field_names(error.message()), error.file(),
+                              error.line(), error.column());
+  } catch (const alhazen::UnsupportedError& error) {
+    throw alhazen::UnsupportedError(with_field_names(error.what()));
+  } catch (const OutOfMemoryError& error) {
+    throw OutOfMemoryError(with_field_names(error.what()));
   }
 }
 

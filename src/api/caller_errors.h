@@ -1,13 +1,14 @@
 #pragma once
 
-// What leaves the public interface: failures to allocate become OutOfMemoryError.
+// What leaves the public interface: failures to allocate become OutOfMemoryError, and messages name the fields
+// of Settings in the place of options (api/option_names.h).
 
 #include <utility>
 
 namespace alhazen::impl {
 
 /// To be called while an exception is handled: throws OutOfMemoryError in the place of std::bad_alloc and
-/// std::length_error, and rethrows all others.
+/// std::length_error, those of the library with names of fields, and rethrows all others.
 [[noreturn]] void rethrow_to_caller();
 
 /// Returns what `work` returns.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "alhazen/scene.h"
+#include "api/arguments.h"
 #include "api/building.h"
 #include "api/scene_state.h"
 #include "pipeline/load_scene.h"
@@ -41,7 +42,7 @@ RayQueries RayQueries::from_file(const std::string& scene_file, const Settings& 
                                  const ProgressFunction& progress) {
   const impl::ThreadDefaults defaults;
   const impl::Precision precision = precision_of(settings);
-  impl::check_setting(settings, "threads");
+  impl::for_caller([&] { impl::check_setting(settings, "threads"); });
   impl::Diagnostics diagnostics;
   impl::Listener listener(progress);
   listener.watch(diagnostics.activity());
@@ -55,7 +56,7 @@ RayQueries RayQueries::from_file(const std::string& scene_file, const Settings& 
 RayQueries::RayQueries(const Scene& scene, const Settings& settings, const ProgressFunction& progress) {
   const impl::ThreadDefaults defaults;
   const impl::Precision precision = precision_of(settings);
-  impl::check_setting(settings, "threads");
+  impl::for_caller([&] { impl::check_setting(settings, "threads"); });
   impl::Diagnostics diagnostics;
   impl::Listener listener(progress);
   listener.watch(diagnostics.activity());
@@ -65,7 +66,9 @@ RayQueries::RayQueries(const Scene& scene, const Settings& settings, const Progr
   });
 }
 
-RayQueries::RayQueries(std::shared_ptr<const impl::QueryScene> scene) : scene_(std::move(scene)) {}
+RayQueries::RayQueries(std::shared_ptr<const impl::QueryScene> scene) : scene_(std::move(scene)) {
+  if (!scene_) impl::refuse_argument("scene", "must not be null");
+}
 
 void RayQueries::closest_hits(const RayArrays<float>& rays, const HitArrays<float>& hits, int threads) const {
   scene_->closest_hits(rays, hits, threads);

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "api/option_names.h"
 #include "images/image.h"
 #include "pipeline/write_outputs.h"
 
@@ -25,7 +26,7 @@ void refuse_reading_settings(const Settings& settings) {
 RenderedImage empty_image(const Diagnostics& diagnostics) {
   RenderedImage image;
   image.complete = false;
-  image.warnings = diagnostics.public_warnings();
+  image.warnings = with_field_names(diagnostics.public_warnings());
   return image;
 }
 
@@ -61,7 +62,7 @@ RenderedImage rendered_image(const Rendering& rendering, const Diagnostics& diag
   image.quality = statistics.settings.asked.quality;
   if (statistics.settings.asked.noise > 0)
     image.noise = ReachedNoise{statistics.noise.noise, statistics.noise.below, statistics.noise.mean_samples};
-  image.warnings = diagnostics.public_warnings();
+  image.warnings = with_field_names(diagnostics.public_warnings());
   return image;
 }
 

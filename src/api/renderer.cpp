@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "api/option_names.h"
 #include "api/rendered_image.h"
 #include "api/scene_state.h"
 #include "compile/render_space.h"
@@ -233,23 +234,33 @@ struct RendererState {
 
 namespace ALHAZEN_NAMESPACE {
 
+namespace {
+
+impl::RendererState& present(const std::unique_ptr<impl::RendererState>& state) {
+  if (!state) throw InputError("the renderer was moved from: assign another to it first");
+  return *state;
+}
+
+}  // namespace
+
 Renderer::Renderer(const Settings& settings) : state_(std::make_unique<impl::RendererState>(settings)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&& other) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
 
-const Settings& Renderer::settings() const { return state_->asked; }
-void Renderer::set_settings(const Settings& settings) { state_->asked = settings; }
+const Settings& Renderer::settings() const { return present(state_).asked; }
+void Renderer::set_settings(const Settings& settings) { present(state_).asked = settings; }
 
 BuildReport Renderer::start(const Scene& scene, const ProgressFunction& progress) {
   const impl::ThreadDefaults defaults;
   const auto start = std::chrono::steady_clock::now();
-  impl::refuse_reading_settings(state_->asked);
-  state_->set_image(nullptr);
-  state_->listen(progress);
+  impl::RendererState& state = present(state_);
+  impl::refuse_reading_settings(state.asked);
+  state.set_image(nullptr);
+  state.listen(progress);
   BuildReport report;
-  state_->listener->for_caller([&] {
-    if (!state_->reuse(scene.state(), report)) state_->build(scene.state(), report);
+  state.listener->for_caller([&] {
+    if (!state.reuse(scene.state(), report)) state.build(scene.state(), report);
   });
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
@@ -258,42 +269,49 @@ BuildReport Renderer::start(const Scene& scene, const ProgressFunction& progress
 bool Renderer::render_pass(int64_t samples) {
   const impl::ThreadDefaults defaults;
   if (samples < 0) throw InputError("samples of a pass must not be negative");
-  return impl::for_caller(
-      [&] { return state_->under_way().take_pass(static_cast<uint32_t>(std::min<int64_t>(samples, 0xffffff00u))); });
+  return impl::for_caller([&] {
+    return present(state_).under_way().take_pass(static_cast<uint32_t>(std::min<int64_t>(samples, 0xffffff00u)));
+  });
 }
 
 RenderedImage Renderer::image() const {
-  return impl::for_caller([&] { return impl::rendered_image(state_->under_way().so_far(), state_->diagnostics); });
+  const impl::RendererState& state = present(state_);
+  return impl::for_caller([&] { return impl::rendered_image(state.under_way().so_far(), state.diagnostics); });
 }
 
-Progress Renderer::progress() const { return state_->under_way().progress(); }
+Progress Renderer::progress() const { return present(state_).under_way().progress(); }
 
-void Renderer::stop() { state_->stop(); }
+void Renderer::stop() {
+  if (state_) state_->stop();
+}
 
 RenderedImage Renderer::finish() {
   const impl::ThreadDefaults defaults;
-  state_->under_way();
-  const std::unique_ptr<impl::GrowingImage> image = state_->set_image(nullptr);
-  return state_->listener->for_caller([&] { return impl::rendered_image(image->finish(), state_->diagnostics); });
+  impl::RendererState& state = present(state_);
+  state.under_way();
+  const std::unique_ptr<impl::GrowingImage> image = state.set_image(nullptr);
+  return state.listener->for_caller([&] { return impl::rendered_image(image->finish(), state.diagnostics); });
 }
 
 RenderedImage Renderer::render(const Scene& scene, const ProgressFunction& progress, const PassFunction& after_pass) {
   try {
     start(scene, progress);
   } catch (const Cancelled&) {
-    if (state_->listener->has_thrown()) throw;
+    if (!state_ || state_->listener->has_thrown()) throw;
     return impl::empty_image(state_->diagnostics);
   }
   try {
     while (render_pass())
       if (after_pass && !after_pass(*this)) break;
   } catch (...) {
-    state_->set_image(nullptr);  // with the thread that calls `progress`
+    if (state_) state_->set_image(nullptr);  // with the thread that calls `progress`
     throw;
   }
   return finish();
 }
 
-std::vector<Warning> Renderer::warnings() const { return state_->diagnostics.public_warnings(); }
+std::vector<Warning> Renderer::warnings() const {
+  return impl::with_field_names(present(state_).diagnostics.public_warnings());
+}
 
 }  // namespace ALHAZEN_NAMESPACE

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "api/building.h"
+#include "api/option_names.h"
 #include "api/parts.h"
 #include "api/scene_state.h"
 #include "io/read_scene.h"
@@ -60,7 +61,7 @@ Scene Scene::load(const std::string& file, const LoadOptions& options, const Pro
 std::vector<Warning> Scene::warnings() const {
   std::vector<Warning> list;
   for (const impl::Diagnostics::Warning& warning : state().warnings) list.push_back(warning.to_public());
-  return list;
+  return impl::with_field_names(std::move(list));
 }
 
 std::string Scene::file() const { return state().is_read ? state().description.name : std::string(); }
