@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "alhazen/handles.h"
+#include "api/part_names.h"
 #include "files/input_record.h"
 #include "scene/scene.h"
 #include "util/diagnostics.h"
@@ -96,6 +97,7 @@ struct SceneState {
   std::vector<uint32_t> instance_places, light_places;  ///< no_index: it was removed
   std::vector<ConstantUse> constant_uses;               ///< by texture
   std::vector<uint32_t> unused_constants;               ///< textures
+  PartNameCache names;
 
   /// The description that is compiled: completed by a camera and light where it has none, with meshes for quadrics that
   /// are not exact where they are. `aspect` is that of the image that is asked for, 0: of the film.
