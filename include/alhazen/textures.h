@@ -14,15 +14,16 @@
 
 namespace ALHAZEN_NAMESPACE {
 
-/// A colour that is the same everywhere, or a texture.
+/// A colour that is the same everywhere, or a texture. A handle that names nothing is a texture too: functions that get
+/// it throw InputError.
 class ColourInput {
  public:
   constexpr ColourInput(const Colour& colour) : colour_(colour) {}  // NOLINT: either is an input
   constexpr ColourInput(double grey) : colour_(grey) {}             // NOLINT
   constexpr ColourInput(double r, double g, double b) : colour_(r, g, b) {}
-  constexpr ColourInput(TextureId texture) : texture_(texture) {}  // NOLINT
+  constexpr ColourInput(TextureId texture) : texture_(texture), is_texture_(true) {}  // NOLINT
 
-  constexpr bool is_texture() const { return static_cast<bool>(texture_); }
+  constexpr bool is_texture() const { return is_texture_; }
   constexpr const Colour& colour() const { return colour_; }  ///< black if it is a texture
   constexpr TextureId texture() const { return texture_; }    ///< none if it is a colour
   friend constexpr bool operator==(const ColourInput&, const ColourInput&) = default;
@@ -30,16 +31,17 @@ class ColourInput {
  private:
   Colour colour_;
   TextureId texture_;
+  bool is_texture_ = false;
 };
 
 /// A number that is the same everywhere, or a texture, of which it is the red channel or all three where they are
 /// equal.
 class NumberInput {
  public:
-  constexpr NumberInput(double number) : number_(number) {}        // NOLINT: either is an input
-  constexpr NumberInput(TextureId texture) : texture_(texture) {}  // NOLINT
+  constexpr NumberInput(double number) : number_(number) {}                           // NOLINT: either is an input
+  constexpr NumberInput(TextureId texture) : texture_(texture), is_texture_(true) {}  // NOLINT
 
-  constexpr bool is_texture() const { return static_cast<bool>(texture_); }
+  constexpr bool is_texture() const { return is_texture_; }
   constexpr double number() const { return number_; }       ///< 0 if it is a texture
   constexpr TextureId texture() const { return texture_; }  ///< none if it is a number
   friend constexpr bool operator==(const NumberInput&, const NumberInput&) = default;
@@ -47,6 +49,7 @@ class NumberInput {
  private:
   double number_ = 0;
   TextureId texture_;
+  bool is_texture_ = false;
 };
 
 enum class MappingKind {

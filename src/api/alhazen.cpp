@@ -8,7 +8,7 @@
 namespace ALHAZEN_NAMESPACE {
 
 const float* RenderedImage::plane(const std::string& channel) const {
-  for (size_t i = 0; i < channels.size(); ++i)
+  for (size_t i = 0; i < channels.size() && i < planes.size(); ++i)
     if (channels[i] == channel) return planes[i].data();
   return nullptr;
 }

@@ -1,8 +1,11 @@
 #include "alhazen/save.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
+#include <set>
+#include <string>
 
+#include "api/arguments.h"
 #include "api/caller_errors.h"
 #include "colour/white_point.h"
 #include "images/codecs/encode_png.h"
@@ -39,7 +42,15 @@ void check(const RenderedImage& image, const SaveOptions& options) {
     if (!is_within(image.x, image.width, image.full_width) || !is_within(image.y, image.height, image.full_height))
       throw InputError("image: its pixels from x, y are not within full_width and full_height");
   }
-  if (!std::isfinite(options.exposure)) throw InputError("exposure must be a finite number of stops");
+  std::set<std::string> names;
+  for (const std::string& name : image.channels)
+    if (name.empty() || !names.insert(name).second)
+      impl::refuse_argument("channels", name.empty() ? "has an empty name" : "has '" + name + "' twice");
+  // 2^exposure must be a number of single precision.
+  if (!(options.exposure >= -126 && options.exposure <= 127))
+    throw InputError("exposure must be from -126 to 127 stops");
+  if (static_cast<uint32_t>(options.tone_mapping) > static_cast<uint32_t>(ToneMapping::agx))
+    throw InputError("tone_mapping is none of its values");
   if (options.white_temperature != 0 && !(options.white_temperature >= impl::min_white_temperature &&
                                           options.white_temperature <= impl::max_white_temperature))
     throw InputError("white_temperature must be 0, or from 1000 to 25000 kelvin");

@@ -4,6 +4,7 @@
 
 #include "alhazen/scene.h"
 #include "api/parts.h"
+#include "scene/default_view.h"
 
 namespace ALHAZEN_NAMESPACE {
 
@@ -37,11 +38,28 @@ void set_geometry(const impl::SceneState& state, const Shape& given, impl::Shape
   }
 }
 
+/// Refuses what no image can show. Of shapes in groups the place in the world is not known, and points of meshes are
+/// too many to be looked at.
+void check_reach(const impl::Shape& shape, const impl::MovingTransform& world_from_object, uint32_t group,
+                 const char* transform_name) {
+  if (shape.type == impl::ShapeType::mesh || group != 0) return;
+  const auto is_near = [](const impl::Vec3d& p) { return max_component(abs(p)) < impl::max_reach; };
+  for (const impl::Transform* transform : {&world_from_object.start, &world_from_object.end}) {
+    bool fits = true;
+    impl::for_each_point({}, shape, *transform, [&](const impl::Vec3d& p) { fits = fits && is_near(p); });
+    if (fits) continue;
+    const char* const size = shape.radius < impl::max_reach ? "z_max" : "radius";
+    impl::refuse_argument(is_near(shape.reach()) ? transform_name : size,
+                          "reaches farther than 1e18, which is too far for ray tracing: scale the scene down");
+  }
+}
+
 /// `shape` is the one that is changed, or a new one.
-impl::Shape described_shape(const impl::SceneState& state, const Shape& given, impl::Shape shape) {
+impl::Shape described_shape(const impl::SceneState& state, const Shape& given, impl::Shape shape, uint32_t group) {
   set_geometry(state, given, shape);
   shape.material = given.material ? impl::index_of("material", given.material, state) : impl::no_index;
   shape.world_from_object = impl::moving_transform("transform", given.transform);
+  check_reach(shape, shape.world_from_object, group, "transform");
   shape.emission.reset();
   if (given.emission) {
     impl::Emission& emission = shape.emission.emplace();
@@ -124,7 +142,7 @@ impl::Instance described_instance(const impl::SceneState& state, const Instance&
 ShapeId Scene::add(const Shape& shape, GroupId group) {
   impl::SceneState& s = state();
   const uint32_t in = group ? impl::index_of("group", group, s) : 0;
-  impl::Shape described = described_shape(s, shape, {});
+  impl::Shape described = described_shape(s, shape, {}, in);
   const auto handle = static_cast<uint32_t>(s.shape_places.size());
   std::vector<impl::Shape>& shapes = s.description.groups[in].shapes;
   s.shape_places.push_back({in, static_cast<uint32_t>(shapes.size())});
@@ -142,13 +160,15 @@ Shape Scene::shape(ShapeId shape) const {
 
 void Scene::set(ShapeId id, const Shape& shape) {
   impl::Shape& present = shape_at(state(), id);
-  replace_shape(state(), present, described_shape(state(), shape, present));
+  const uint32_t group = impl::index_of("shape", id, state()).group;
+  replace_shape(state(), present, described_shape(state(), shape, present, group));
 }
 
 void Scene::set_transform(ShapeId shape, const MovingTransform& world_from_object) {
   impl::Shape& present = shape_at(state(), shape);
   const impl::MovingTransform transform = impl::moving_transform("world_from_object", world_from_object);
   if (is_same(transform, present.world_from_object)) return;
+  check_reach(present, transform, impl::index_of("shape", shape, state()).group, "world_from_object");
   present.world_from_object = transform;
   ++state().revisions.transforms;
 }

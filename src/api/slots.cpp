@@ -58,7 +58,7 @@ void SlotWriter::colour(std::string_view name, const ColourInput& input, uint32_
   ColourInput present = 0.0;
   reader_.colour(name, present, slot, absent, range);
   if (present == input) return;
-  if (input.is_texture()) return texture(name, input.texture(), slot);
+  if (input.is_texture()) return given_texture(name, input.texture(), slot);
   const Vec3d value = vector_of(input.colour());
   for (int i = 0; i < 3; ++i) check_range(name, value[i], range);
   if (!writes_) return;
@@ -71,7 +71,7 @@ void SlotWriter::number(std::string_view name, const NumberInput& input, uint32_
   NumberInput present = 0.0;
   reader_.number(name, present, slot, absent, range);
   if (present == input) return;
-  if (input.is_texture()) return texture(name, input.texture(), slot);
+  if (input.is_texture()) return given_texture(name, input.texture(), slot);
   check_range(name, input.number(), range);
   if (!writes_) return;
   if (input.number() == absent) return release(slot);
@@ -87,10 +87,15 @@ void SlotWriter::optional_colour(std::string_view name, const std::optional<Colo
     if (writes_) release(slot);
     return;
   }
-  if (input->is_texture()) return texture(name, input->texture(), slot);
+  if (input->is_texture()) return given_texture(name, input->texture(), slot);
   const Vec3d value = vector_of(input->colour());
   for (int i = 0; i < 3; ++i) check_range(name, value[i], range);
   if (writes_) put_constant(slot, value);
+}
+
+void SlotWriter::given_texture(std::string_view name, TextureId input, uint32_t& slot) {
+  index_of(name, input, state_);
+  texture(name, input, slot);
 }
 
 void SlotWriter::texture(std::string_view name, TextureId input, uint32_t& slot) {

@@ -44,7 +44,10 @@ class SlotWriter {
   void number(std::string_view name, const NumberInput& input, uint32_t& slot, double absent, ValueRange range);
   void optional_colour(std::string_view name, const std::optional<ColourInput>& input, uint32_t& slot,
                        ValueRange range);
+  /// A handle that names nothing says that there is no texture.
   void texture(std::string_view name, TextureId input, uint32_t& slot);
+  /// A handle that names nothing is refused.
+  void given_texture(std::string_view name, TextureId input, uint32_t& slot);
   void material(std::string_view name, MaterialId input, uint32_t& index);
   template <class Public, class Internal, class ToPublic, class ToInternal>
   void value(const Public& outside, Internal& inside, const ToPublic& to_public, const ToInternal& to_internal) {

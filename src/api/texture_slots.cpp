@@ -32,7 +32,7 @@ struct NodeWriter {
 
   /// Inputs are never absent: one that is missing so far is equal to no colour.
   void input(const char* name, const ColourInput& outside, uint32_t& slot) const {
-    if (outside.is_texture()) return slots.texture(name, outside.texture(), slot);
+    if (outside.is_texture()) return slots.given_texture(name, outside.texture(), slot);
     const bool is_missing = slot == no_index;
     const Colour& c = outside.colour();
     if (is_missing) {

@@ -6,6 +6,7 @@
 #include "files/file_identity.h"
 #include "io/environment.h"
 #include "io/read_scene.h"
+#include "pipeline/far_scene.h"
 #include "render/setting_table.h"
 #include "render/settings.h"
 
@@ -47,6 +48,7 @@ void adapt(const std::string& path, const Settings& settings, bool turns, Loaded
     loaded.pivot = choose_turning_view(settings, loaded.scene, diagnostics);
   else
     choose_view(settings, loaded.scene, diagnostics);
+  warn_of_far_scene(loaded.scene, diagnostics);
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
