@@ -11,6 +11,7 @@
 #include "pipeline/choose_view.h"
 #include "scene/default_view.h"
 #include "scene/outline.h"
+#include "scene/scene_names.h"
 
 namespace alhazen::impl {
 
@@ -34,6 +35,13 @@ bool has_light(const Scene& scene) {
     return std::any_of(group.shapes.begin(), group.shapes.end(),
                        [](const Shape& shape) { return shape.emission.has_value(); });
   });
+}
+
+/// Stretched spheres become meshes, which layers still call spheres.
+void make_exact(Scene& scene) {
+  if (!has_inexact_quadrics(scene)) return;
+  name_world_shapes(scene);
+  tessellate_inexact_quadrics(scene);
 }
 
 }  // namespace
@@ -119,7 +127,7 @@ Camera default_camera(const Scene& scene, double aspect) {
 
 Scene SceneState::outline_to_render(const Camera& camera, bool with_light_maps) const {
   Scene outline = outline_of(description, with_light_maps);
-  tessellate_inexact_quadrics(outline);
+  make_exact(outline);
   outline.camera = camera;
   if (!is_read && !has_light(outline)) add_neutral_light(outline);
   return outline;
@@ -127,7 +135,7 @@ Scene SceneState::outline_to_render(const Camera& camera, bool with_light_maps) 
 
 Scene SceneState::to_render(double aspect) const {
   Scene scene = description;
-  tessellate_inexact_quadrics(scene);
+  make_exact(scene);
   if (scene.camera.is_default) scene.camera = default_camera(scene, aspect);
   if (!is_read && !has_light(scene)) add_neutral_light(scene);
   return scene;

@@ -86,6 +86,17 @@ std::vector<std::string> instance_names(const Scene& scene) {
 void name_instances(Scene& scene) {
   std::vector<std::string> names = instance_names(scene);
   for (size_t i = 0; i < names.size(); ++i) scene.instances[i].name = std::move(names[i]);
+  const std::vector<Shape>& shapes = scene.groups.at(0).shapes;
+  if (std::any_of(shapes.begin(), shapes.end(), [](const Shape& s) { return s.world_from_object.is_moving(); }))
+    name_world_shapes(scene);
+}
+
+void name_world_shapes(Scene& scene) {
+  SceneNames names(scene);
+  for (Shape& shape : scene.groups.at(0).shapes) {
+    const uint32_t id = names.object_id(shape);
+    if (shape.name.empty()) shape.name = names.objects()[id - 1];
+  }
 }
 
 std::vector<std::string> material_names(const Scene& scene) {

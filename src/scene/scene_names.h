@@ -45,8 +45,11 @@ std::vector<std::string> instance_names(const Scene& scene);
 std::vector<std::string> material_names(const Scene& scene);
 
 /// Gives instances of named groups their names, with numbers: `tree.1`. Before moving meshes get groups of their own,
-/// whose instances keep them.
+/// whose instances keep them; where there are such, it names the shapes too.
 void name_instances(Scene& scene);
+
+/// Gives all shapes that are in no group the names that SceneNames makes: before what they are counted by changes.
+void name_world_shapes(Scene& scene);
 
 /// Of Scene::lights, in their order. All that surrounds the scene, whether an image or of one colour, is called
 /// `environment`. What a file leaves without a name is called by its kind and a number that no part has: `point.1`.

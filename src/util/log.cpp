@@ -33,15 +33,11 @@ void log_line(LogLevel level, const std::string& line) noexcept try {
   // A log that fails must not end the work.
 }
 
-}  // namespace alhazen::impl
-
-namespace ALHAZEN_NAMESPACE {
-
-void set_log(LogFunction log) {
-  impl::Listener& to = impl::listener();
+void set_log_function(LogFunction log) {
+  Listener& to = listener();
   const std::lock_guard lock(to.mutex);
   to.is_set = static_cast<bool>(log);
   to.function = std::move(log);
 }
 
-}  // namespace ALHAZEN_NAMESPACE
+}  // namespace alhazen::impl

@@ -11,6 +11,9 @@ namespace alhazen::impl {
 /// Whether a program listens, so that texts need to be made.
 bool is_logged();
 
+/// As alhazen::set_log, with lines as the command line would word them.
+void set_log_function(LogFunction log);
+
 /// Never throws.
 void log_line(LogLevel level, const std::string& line) noexcept;
 

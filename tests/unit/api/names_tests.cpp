@@ -105,6 +105,37 @@ TEST(PartNames, OfTheLayerAreThoseOfTheScene) {
   }
 }
 
+/// Meshes that move, and stretched spheres, are described in other ways once they are compiled.
+TEST(PartNames, OfTheLayerAreThoseOfTheSceneAfterShapesBecomeOthers) {
+  Scene scene;
+  const std::vector<float> positions{-1, -1, 0, 1, -1, 0, 0, 1, 0};
+  const std::vector<uint32_t> indices{0, 1, 2};
+  const MeshId mesh = scene.add(MeshArrays{.positions = positions, .indices = indices});
+  std::vector<ShapeId> shapes;
+  shapes.push_back(scene.add(alhazen::Shape{mesh, {}, {Transform(), Transform::translate({0.5, 0, 0})}}));
+  shapes.push_back(scene.add(alhazen::Shape{mesh, {}, Transform::translate({3, 0, 0})}));
+  shapes.push_back(
+      scene.add(alhazen::Shape{Sphere{1}, {}, Transform::translate({6, 0, 0}) * Transform::scale({0.5, 1, 1})}));
+  Settings settings = quick_settings();
+  settings.width = 90;
+  settings.aovs = {"object"};
+  Camera camera;
+  camera.transform = Transform::look_at({3, 0, -8}, {3, 0, 0}, {0, 1, 0}, Handedness::left);
+  scene.set_camera(camera);
+  const RenderedImage image = render(scene, settings);
+  // From left to right.
+  std::vector<float> numbers;
+  const float* row = image.plane("object.Y") + 90 * (image.height / 2);
+  for (int x = 0; x < 90; ++x)
+    if (row[x] > 0 && (numbers.empty() || numbers.back() != row[x])) numbers.push_back(row[x]);
+  ASSERT_EQ(numbers.size(), 3u);
+  const std::string& names = image.metadata.at("object");
+  for (size_t i = 0; i < 3; ++i) {
+    const std::string entry = "\"" + scene.name(shapes[i]) + "\":" + std::to_string(static_cast<int>(numbers[i]));
+    EXPECT_NE(names.find(entry), std::string::npos) << entry << " in " << names;
+  }
+}
+
 /// docs/library.md: where a point of the world is in the image.
 TEST(PartNames, AreFoundWhereTheCameraShowsThem) {
   Scene scene;
