@@ -74,6 +74,7 @@ ${what}
 .
 This package holds the Python module, which makes scenes from NumPy arrays
 or files and renders them to arrays.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-matplotlib)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
       ${PROJECT_SOURCE_DIR}/packaging/debian/python/postinst ${PROJECT_SOURCE_DIR}/packaging/debian/python/prerm)
 endif()

@@ -5,7 +5,8 @@ option(ALHAZEN_PYTHON "The Python module, where an interpreter with headers and 
        ${PROJECT_IS_TOP_LEVEL})
 
 set(ALHAZEN_WITH_PYTHON OFF)
-if(NOT ALHAZEN_PYTHON OR ALHAZEN_PROGRAM_ONLY)
+# An interpreter that is compiled without AddressSanitizer does not load a module with it.
+if(NOT ALHAZEN_PYTHON OR ALHAZEN_PROGRAM_ONLY OR ALHAZEN_SANITIZE)
   return()
 endif()
 set(parts Interpreter Development.Module NumPy)

@@ -46,7 +46,7 @@ _Path = str | bytes | os.PathLike[str] | os.PathLike[bytes]
 TRIPLE = "tuple[float, float, float]"
 # Words of the documentation: what is taken, and what is given back where that differs.
 TYPES = {
-    "color": (f"float | _Numbers", TRIPLE),
+    "color": ("float | _Numbers", TRIPLE),
     "number": ("float",),
     "array": ("npt.ArrayLike", "npt.NDArray[Any]"),
     "path": ("_Path", "str"),
@@ -113,12 +113,14 @@ class Types:
             return text
         if text in TYPES:
             return TYPES[text][0 if given else -1]
-        if match := re.fullmatch(r"(?:tuple of )?(\d+|two|three|four)(?: numbers| floats)?", text):
-            count = COUNTS.get(match[1]) or int(match[1])
+        if match := re.fullmatch(r"(?:tuple of )?(\d+|two|three|four) numbers|tuple of (\d+)", text):
+            count = COUNTS.get(match[1]) or int(match[1] or match[2])
             return "_Numbers" if given else f"tuple[{', '.join(['float'] * count)}]"
         if re.fullmatch(r"\d+x\d+ (array|matrix)|array of (the )?shape \(\d+, \d+\)( or \(\d+, \d+\))?", text):
             return "_Matrix" if given else "npt.NDArray[np.float64]"
-        if re.match(r"arrays? ", text):
+        if match := re.fullmatch(r"(?:read-only )?(?:\([^()]*\) )?array(?: of (?:the shape \([^()]*\)|(u?int\d+|float\d+)))?", text):
+            if match[1] and not given:
+                return f"npt.NDArray[np.{match[1]}]"
             return TYPES["array"][0 if given else -1]
         if match := re.match(r"(?:numpy\.)?ndarray\[(?:numpy\.|np\.)?(\w+)", text):
             return f"npt.NDArray[np.{match[1]}]"
@@ -142,8 +144,8 @@ class Types:
         raise Unknown(text)
 
     def union(self, text, given):
-        parts = [part for piece in split(text, "|") for part in self.one(piece, given).split(" | ")] if "[" not in text else [
-            self.one(piece, given) for piece in split(text, "|")]
+        """Of 'a | b', each type once."""
+        parts = [part for piece in split(text, "|") for part in split(self.one(piece, given), "|")]
         return " | ".join(dict.fromkeys(parts))
 
 
@@ -155,7 +157,8 @@ class Writer:
         self.problems = []
 
     def problem(self, place, what):
-        self.problems.append(f"{place}: {what}")
+        if not place.startswith("_"):
+            self.problems.append(f"{place}: {what}")
 
     def type(self, text, given, place):
         try:
@@ -288,7 +291,7 @@ class Writer:
 
     def write(self):
         for name, value in vars(self.module).items():
-            if name.startswith("_"):
+            if name.startswith("__"):
                 continue
             if isinstance(value, type):
                 if value.__name__ != name:

@@ -117,7 +117,8 @@ class RayQueries {
   /// all processors. Throws InputError, before it writes anything, if `origins` or `directions` is null although there
   /// are rays, or `threads` is negative.
   ///
-  /// The arrays must not overlap, and outlive only the call. They need not be aligned.
+  /// The arrays must outlive only the call, and need not be aligned. One of hits may be one of rays that has as many
+  /// elements for each ray, without gaps: `t` may be `t_max`. Otherwise those that are written must not overlap any.
   void closest_hits(const RayArrays<float>& rays, const HitArrays<float>& hits, int threads = 0) const;
   void closest_hits(const RayArrays<double>& rays, const HitArrays<double>& hits, int threads = 0) const;
 

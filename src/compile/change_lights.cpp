@@ -11,9 +11,7 @@ namespace alhazen::impl {
 
 namespace {
 
-bool has_map(const Light& light) {
-  return light.kind == LightKind::environment || light_traits(light.kind).has_image;
-}
+bool has_map(const Light& light) { return light.kind == LightKind::environment || light_traits(light.kind).has_image; }
 
 /// Whether the map of every light is compiled, or has its texels.
 template <class Real>
@@ -65,16 +63,17 @@ void shift_surfaces(size_t before, size_t after, CompiledScene<Real>& scene) {
   if (before == after) return;
   auto* const surfaces = const_cast<SurfaceRecord*>(scene.view.surfaces);  // the arena is the scene's own
   for (uint32_t i = 0; i < scene.view.surfaces_count; ++i)
-    if (surfaces[i].light != no_light) surfaces[i].light += static_cast<uint32_t>(after) - static_cast<uint32_t>(before);
+    if (surfaces[i].light != no_light)
+      surfaces[i].light += static_cast<uint32_t>(after) - static_cast<uint32_t>(before);
 }
 
 }  // namespace
 
 template <class Real>
-bool change_lights(const std::vector<MovedShape>& emitters, const std::vector<uint8_t>& is_new, Scene& outline,
-                   CompiledScene<Real>& scene, BuiltParts<Real>& parts) {
+bool change_lights(const std::vector<MovedShape>& emitters, const std::vector<uint8_t>& is_new, bool changes_maps,
+                   Scene& outline, CompiledScene<Real>& scene, BuiltParts<Real>& parts) {
   SceneView<Real>& view = scene.view;
-  const bool keeps_maps = has_maps(outline, parts.maps, false);
+  const bool keeps_maps = !changes_maps && has_maps(outline, parts.maps, false);
   if (!keeps_maps && !has_maps(outline, parts.maps, true)) return false;
   SceneArrays<Real> fresh;
   if (!keeps_maps) {
@@ -123,9 +122,9 @@ bool change_lights(const std::vector<MovedShape>& emitters, const std::vector<ui
   return true;
 }
 
-template bool change_lights(const std::vector<MovedShape>&, const std::vector<uint8_t>&, Scene&, CompiledScene<float>&,
-                            BuiltParts<float>&);
-template bool change_lights(const std::vector<MovedShape>&, const std::vector<uint8_t>&, Scene&, CompiledScene<double>&,
-                            BuiltParts<double>&);
+template bool change_lights(const std::vector<MovedShape>&, const std::vector<uint8_t>&, bool, Scene&,
+                            CompiledScene<float>&, BuiltParts<float>&);
+template bool change_lights(const std::vector<MovedShape>&, const std::vector<uint8_t>&, bool, Scene&,
+                            CompiledScene<double>&, BuiltParts<double>&);
 
 }  // namespace alhazen::impl

@@ -45,9 +45,8 @@ class SceneUpdate {
       if (!move_shapes(moved_, outline_, scene_, parts_, is_new_light_)) return false;
     }
     const bool emitters_moved = std::find(is_new_light_.begin(), is_new_light_.end(), 1) != is_new_light_.end();
-    if (changes_.light_maps) parts_.maps = {};
     if (changes_.lights || changes_.light_maps || emitters_moved)
-      if (!change_lights(emitters_, is_new_light_, outline_, scene_, parts_)) return false;
+      if (!change_lights(emitters_, is_new_light_, changes_.light_maps, outline_, scene_, parts_)) return false;
     ++scene_.generation;
     keep();
     return true;

@@ -20,7 +20,7 @@ for name in loaded:
     assert folder in Path(name).resolve().parents, f"{name} is not in {folder}"
 assert (Path(alhazen.__file__).parent / "py.typed").is_file()
 
-image = alhazen.load(scene).render(width=32, height=32, spp=4)
+image = alhazen.render(scene, width=32, height=32, spp=4)
 pixels = np.asarray(image)
 assert pixels.shape[:2] == (32, 32) and np.isfinite(pixels).all() and pixels.mean() > 0, pixels
 print(alhazen.__version__)

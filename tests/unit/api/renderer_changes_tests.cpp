@@ -164,7 +164,7 @@ TEST_P(RendererChanges, BuildsOnlyTheirParts) {
   scene.set_transform(stage.lamp, Transform::translate({1, 2, 0}) * Transform::rotate(120, {1, 0, 0}) *
                                       Transform::scale(0.2));
   checked.expect(scene, "transforms", "a light with a shape");
-  scene.set(stage.clay, Conductor{});
+  scene.set(stage.clay, CoatedDiffuse{.reflectance = Colour{0.3, 0.3, 0.1}});
   scene.set(stage.sun, DistantLight{.irradiance = 2, .direction = {1, -1, 0}});
   scene.set_transform(stage.instances[0], Transform::translate({1, 0.1, 2}));
   scene.look_at({2, 3, 4}, {0, 0, 0});

@@ -54,7 +54,6 @@ ObjectBegin "pair"
 ObjectEnd
 ObjectBegin "lamp"
   Shape "trianglemesh" "point3 P" [0 0 0  0.3 0 0  0 0.3 0] "integer indices" [0 1 2]
-  AreaLightSource "diffuse" "rgb L" [1 2 1]
   Shape "sphere" "float radius" 0.1
 ObjectEnd
 AttributeBegin Translate -2 0 0 ObjectInstance "pair" AttributeEnd
@@ -96,6 +95,7 @@ Scene whole_scene() {
   goniometric.position = {0, 4, 1};
   goniometric.image = 0;
   scene.lights.push_back(goniometric);
+  scene.groups.at(2).shapes.at(1).emission = Emission{{1, 2, 1}};
   return scene;
 }
 
