@@ -1,6 +1,7 @@
 # cmake -DHEADERS=FILE -DBUILT_BY=TEXT -DOUTPUT=FILE -P InterfaceHash.cmake: a header with the hash of what
 # program and modules must have in common: the headers that HEADERS lists, one per line, and how they are compiled.
 
+cmake_minimum_required(VERSION 3.25)
 file(STRINGS ${HEADERS} headers)
 set(text "${BUILT_BY}")
 foreach(header IN LISTS headers)

@@ -17,7 +17,7 @@ if [[ -z $tool ]]; then
   exit 77
 fi
 
-mapfile -d '' -t files < <(find bench examples include src tests -type f \( -name '*.h' -o -name '*.cpp' -o -name '*.cu' -o -name '*.cuh' \) -print0 2>/dev/null | sort -z)
+mapfile -d '' -t files < <(find bench examples include python src tests -type f \( -name '*.h' -o -name '*.cpp' -o -name '*.cu' -o -name '*.cuh' \) -print0 2>/dev/null | sort -z)
 if [[ ${1:-} == --check ]]; then
   "$tool" --dry-run -Werror "${files[@]}" || {
     echo "format: run scripts/format.sh" >&2

@@ -2,7 +2,7 @@
 
 // Ray queries: the closest hits of arrays of rays with a scene, or whether anything occludes them.
 //
-//   alhazen::RayQueries queries = alhazen::RayQueries::from_file("scene.pbrt");
+//   alhazen::RayQueries queries(scene);  // or RayQueries::from_file("scene.pbrt")
 //   std::vector<float> origins(3 * n), directions(3 * n), t(n), normals(3 * n);
 //   alhazen::RayArrays<float> rays{origins.data(), directions.data(), n};
 //   alhazen::HitArrays<float> hits;
@@ -10,7 +10,7 @@
 //   hits.normals = normals.data();
 //   queries.closest_hits(rays, hits);
 //
-// All positions and directions are in the world space of the scene file, in its unit of length.
+// All positions and directions are in the world space of the scene, in its unit of length.
 
 #include <array>
 #include <cstddef>
@@ -28,6 +28,8 @@ class QueryScene;
 }
 
 namespace ALHAZEN_NAMESPACE {
+
+class Scene;
 
 /// Rays to trace, in arrays of the caller. A hit at the parameter t, at origin + t * direction, counts if
 /// 0 < t < t_max: both ends are open.
@@ -66,13 +68,20 @@ struct HitArrays {
   Real* offsets = nullptr;
   Real* uvs = nullptr;           ///< u, v of the first set; a mesh without has (0, 0), (1, 0), (1, 1) in each triangle
   Real* barycentrics = nullptr;  ///< weights of the second and third vertex of the triangle; 0, 0 on other shapes
-  /// Index of the triangle in its mesh as the file or the reader gives it, triangles without area counted; 0 on other
-  /// shapes.
+  /// Index of the triangle in its mesh as the file, its reader or MeshArrays::indices gives it, triangles without area
+  /// counted; 0 on other shapes. Stretched spheres and some cylinders and disks are traced as meshes, whose triangles
+  /// then count.
   uint32_t* primitives = nullptr;
-  /// Index of the shape, in the order of the file: among the shapes of the object that is instanced if `instances` is
-  /// valid, otherwise among those that are not part of an object.
+  /// Index of the shape, in the order of the file or in which shapes were added: among the shapes of the group (pbrt:
+  /// object) that is instanced if `instances` is valid, otherwise among those that are not part of a group.
+  ///
+  /// Of a Scene that has not changed since, the shape is the ShapeId `scene.shapes(group)[shape]`, where the group is
+  /// `scene.instance(scene.instances()[instance]).group`, or GroupId() if there is no instance. Its mesh, if it is one,
+  /// is the MeshId `std::get<MeshId>(scene.shape(id).geometry)`.
   uint32_t* shapes = nullptr;
-  uint32_t* instances = nullptr;  ///< index of the instance, in the order of the file; invalid_id if there is none
+  /// Index of the instance, in the order of the file or in which instances were added: `scene.instances()[instance]` is
+  /// its InstanceId. invalid_id if there is none.
+  uint32_t* instances = nullptr;
 };
 
 /// Answers ray queries on a scene. Its methods can be called by several threads at the same time. Copies share the
@@ -88,7 +97,14 @@ class RayQueries {
   /// Reads a scene in any format that `render` reads, and builds a BVH. Of `settings`, only `precision`, `threads`, and
   /// those that choose what is read (confine, search_paths, strict, variant, animation, animation_time, shutter,
   /// frames_per_second, definitions) matter. Throws what `render` throws for a bad scene.
-  static RayQueries from_file(const std::string& scene_file, const Settings& settings = {});
+  static RayQueries from_file(const std::string& scene_file, const Settings& settings = {},
+                              const ProgressFunction& progress = {});
+
+  /// Builds a BVH of a copy of the scene's geometry: the scene may be changed and destroyed afterwards, which the
+  /// queries do not see. Of `settings`, only `precision` and `threads` matter. Results are the same as those of
+  /// `from_file` if the scene was loaded from that file and not changed. Throws InputError for these settings out of
+  /// range, and for geometry that cannot be represented in this precision.
+  explicit RayQueries(const Scene& scene, const Settings& settings = {}, const ProgressFunction& progress = {});
 
   /// For scenes that are built within the library.
   explicit RayQueries(std::shared_ptr<const impl::QueryScene> scene);
@@ -115,7 +131,7 @@ class RayQueries {
   const Box& bounds() const;
 
   /// Of the scene reader and of building.
-  const std::vector<std::string>& warnings() const;
+  const std::vector<Warning>& warnings() const;
 
  private:
   std::shared_ptr<const impl::QueryScene> scene_;

@@ -60,7 +60,7 @@ QueryScene::QueryScene(Scene&& scene, Precision precision, int threads, Diagnost
     compile<double>(std::move(scene), threads, diagnostics);
   else
     compile<float>(std::move(scene), threads, diagnostics);
-  for (const Diagnostics::Warning& warning : diagnostics.warnings()) warnings_.push_back(warning.to_string());
+  warnings_ = diagnostics.public_warnings();
 }
 
 template <class Real>

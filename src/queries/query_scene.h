@@ -32,7 +32,7 @@ class QueryScene {
                 InstructionSet set = instruction_sets().back()) const;
 
   const Box& bounds() const { return bounds_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<alhazen::Warning>& warnings() const { return warnings_; }
 
  private:
   template <class Real>
@@ -44,7 +44,7 @@ class QueryScene {
   std::variant<CompiledScene<float>, CompiledScene<double>> compiled_;
   PrimitiveOrigins origins_;  ///< instead of compiled_'s of triangles and surfaces
   Box bounds_;
-  std::vector<std::string> warnings_;
+  std::vector<alhazen::Warning> warnings_;
 };
 
 }  // namespace alhazen::impl

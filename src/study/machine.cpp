@@ -28,6 +28,14 @@ void read_cpuinfo(const Line& line) {
   }
 }
 
+std::string first_word_of(const char* path) {
+  std::string word;
+  std::ifstream(path) >> word;
+  return word;
+}
+
+}  // namespace
+
 std::string processor_name() {
   std::string model, family, number;
   read_cpuinfo([&](const std::string& name, const std::string& value) {
@@ -38,14 +46,6 @@ std::string processor_name() {
   if (model.empty()) return "unknown";
   return family.empty() ? model : model + " (family " + family + ", model " + number + ")";
 }
-
-std::string first_word_of(const char* path) {
-  std::string word;
-  std::ifstream(path) >> word;
-  return word;
-}
-
-}  // namespace
 
 Machine this_machine() {
   Machine m;

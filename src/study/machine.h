@@ -28,6 +28,9 @@ struct Machine {
 
 Machine this_machine();
 
+/// The model of the processor, with its family and model numbers; "unknown" where the system does not say.
+std::string processor_name();
+
 /// Number of running or waiting processes, averaged over a minute; 0 if unknown.
 double load_average();
 /// The current mean frequency of the processors; 0 if unknown.

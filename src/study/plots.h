@@ -1,6 +1,6 @@
 #pragma once
 
-// Draws the plots of a study by Python and matplotlib: python/study_plots.py, which is embedded in the program.
+// Draws the plots of a study by Python and matplotlib: python/alhazen/study_plots.py, which is embedded in the program.
 
 #include <string>
 #include <vector>

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <csetjmp>
+#include <exception>
 
 #include "files/atomic_file.h"
+#include "images/codecs/encode_png.h"
 #include "images/display/display_transform.h"
 #include "images/image.h"
 #include "util/printable.h"
@@ -19,9 +21,9 @@ namespace {
 /// destructor in its frame; no C++ exception passes through libpng's frames.
 class PngWriter {
  public:
-  PngWriter(const std::string& path, AtomicFile& file, const WriteOptions& options, bool has_alpha)
-      : path_(path), file_(file), depth_(options.png_depth), has_alpha_(has_alpha) {
-    for (const auto& [name, text] : options.metadata) add_text(name == "software" ? "Software" : name, text);
+  PngWriter(const std::string& name, const PngSink& sink, const WriteOptions& options, bool has_alpha)
+      : name_(name), sink_(sink), depth_(options.png_depth), has_alpha_(has_alpha) {
+    for (const auto& [key, text] : options.metadata) add_text(key == "software" ? "Software" : key, text);
     for (const auto& [keyword, text] : texts_) chunks_.push_back(text_chunk(keyword, text));
   }
   ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
@@ -89,8 +91,8 @@ class PngWriter {
 
   void require(bool succeeded) const {
     if (succeeded) return;
-    if (file_.failed()) file_.commit();  // throws the failure of the disk
-    throw RenderError("cannot write " + path_ + ": " + (message_[0] != '\0' ? message_ : "not enough memory"));
+    if (failure_) std::rethrow_exception(failure_);
+    throw RenderError("cannot write " + name_ + ": " + (message_[0] != '\0' ? message_ : "not enough memory"));
   }
 
   static void on_error(png_structp png, png_const_charp message) {
@@ -106,15 +108,17 @@ class PngWriter {
   }
   bool take(const uint8_t* data, size_t size) noexcept {
     try {
-      file_.write(data, size);
+      sink_(data, size);
       return true;
-    } catch (const RenderError&) {
-      return false;  // the file remembers the cause
+    } catch (...) {
+      failure_ = std::current_exception();
+      return false;
     }
   }
 
-  const std::string& path_;
-  AtomicFile& file_;
+  const std::string& name_;
+  const PngSink& sink_;
+  std::exception_ptr failure_;
   int depth_;
   bool has_alpha_;
   std::vector<std::pair<std::string, std::string>> texts_;
@@ -127,13 +131,12 @@ class PngWriter {
 
 }  // namespace
 
-void write_png(const std::string& path, const ImageSource& source, const WriteOptions& options) {
-  const std::array<size_t, 3> channels = rgb_channels(path, source);
-  AtomicFile file(path);
+void encode_png(const std::string& name, const ImageSource& source, const WriteOptions& options, const PngSink& sink) {
+  const std::array<size_t, 3> channels = rgb_channels(name, source);
   const auto found = std::find(source.channels.begin(), source.channels.end(), "A");
   const bool has_alpha = found != source.channels.end();
   const size_t alpha = static_cast<size_t>(found - source.channels.begin());
-  PngWriter writer(path, file, options, has_alpha);
+  PngWriter writer(name, sink, options, has_alpha);
   writer.begin(source.width, source.height);
   const DisplayTransform display(options);
   const size_t width = static_cast<size_t>(source.width);
@@ -156,6 +159,12 @@ void write_png(const std::string& path, const ImageSource& source, const WriteOp
     }
   }
   writer.end();
+}
+
+void write_png(const std::string& path, const ImageSource& source, const WriteOptions& options) {
+  rgb_channels(path, source);  // before the file is made
+  AtomicFile file(path);
+  encode_png(path, source, options, [&](const uint8_t* data, size_t size) { file.write(data, size); });
   file.commit();
 }
 

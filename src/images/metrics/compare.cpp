@@ -136,8 +136,7 @@ Plane<float> flip_of(const Pair& pair) {
   return flip_map(a, b);
 }
 
-double mean_flip(const Pair& pair) {
-  const Plane<float> map = flip_of(pair);
+double mean_flip(const Pair& pair, const Plane<float>& map) {
   double sum = 0, count = 0;
   for (size_t i = 0; i < pair.size(); ++i)
     if (pair.counts(i)) {
@@ -150,20 +149,27 @@ double mean_flip(const Pair& pair) {
 }  // namespace
 
 ImageDifference compare_images(const Image& a, const Image& b) {
+  Plane<float> flip_map(0, 0);
+  return compare_images(a, b, flip_map);
+}
+
+ImageDifference compare_images(const Image& a, const Image& b, Plane<float>& flip_map) {
   const Pair pair(a, b);
   ImageDifference result;
   compare_pixels(pair, result);
   result.ssim = mean_ssim(pair);
-  result.flip = mean_flip(pair);
+  flip_map = flip_of(pair);
+  result.flip = mean_flip(pair, flip_map);
   return result;
 }
 
-Image difference_image(const Image& a, const Image& b) {
-  const Plane<float> map = flip_of(Pair(a, b));
-  Image image{a.width, a.height, {"R", "G", "B"}, {}};
-  image.planes.assign(3, std::vector<float>(map.values.size()));
-  for (size_t i = 0; i < map.values.size(); ++i) {
-    const Vec3f colour = convert<float>(error_colour(static_cast<double>(map.values[i])));
+Image difference_image(const Image& a, const Image& b) { return error_colours(flip_of(Pair(a, b))); }
+
+Image error_colours(const Plane<float>& errors) {
+  Image image{static_cast<int>(errors.width), static_cast<int>(errors.height), {"R", "G", "B"}, {}};
+  image.planes.assign(3, std::vector<float>(errors.values.size()));
+  for (size_t i = 0; i < errors.values.size(); ++i) {
+    const Vec3f colour = convert<float>(error_colour(static_cast<double>(errors.values[i])));
     for (size_t c = 0; c < 3; ++c) image.planes[c][i] = colour[static_cast<int>(c)];
   }
   return image;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "images/image.h"
+#include "images/metrics/separable_filter.h"
 
 namespace alhazen::impl {
 
@@ -28,11 +29,18 @@ struct ImageDifference {
 /// Throws InputError if the sizes differ or an image has neither R, G, B nor a single channel.
 ImageDifference compare_images(const Image& a, const Image& b);
 
+/// The same; `flip_map` becomes the FLIP error of each pixel, in [0, 1]. Excluded pixels
+/// are black in both images.
+ImageDifference compare_images(const Image& a, const Image& b, Plane<float>& flip_map);
+
 /// The image downsampled: each pixel is the mean of `factor` x `factor` pixels; remaining rows and columns at the right
 /// and the bottom are dropped. Throws InputError if nothing would be left.
 Image reduced(const Image& image, int factor);
 
 /// An image (R, G, B) of the differences: the FLIP error of each pixel through a perceptually ordered colour map.
 Image difference_image(const Image& a, const Image& b);
+
+/// Errors in [0, 1] in the colours of that map (R, G, B).
+Image error_colours(const Plane<float>& errors);
 
 }  // namespace alhazen::impl

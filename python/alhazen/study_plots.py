@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the plots of a study, as PNG and SVG.
 
-usage: python/study_plots.py FOLDER [INTO]
+usage: python/alhazen/study_plots.py FOLDER [INTO]
 
 FOLDER holds the study.json that `alhazen study report` wrote. The plots go to the folder INTO, by default the same.
 Plots without measurements are omitted.
@@ -14,11 +14,9 @@ import sys
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import matplotlib.ticker  # noqa: E402
-import numpy as np  # noqa: E402
+import matplotlib.pyplot as plt
+import matplotlib.ticker
+import numpy as np
 
 COLOURS = {"blue": "#0b6e8f", "orange": "#d9762b", "green": "#4c8c4a", "red": "#b5424b", "grey": "#98a4af"}
 CYCLE = [COLOURS[name] for name in ("blue", "orange", "green", "red", "grey")]
@@ -55,6 +53,12 @@ class Study:
     def columns(self, table):
         return self.tables.get(table, {"columns": []})["columns"]
 
+    def save(self, figure, name):
+        write_whole(self.into / f"{name}.svg",
+                    lambda path: figure.savefig(path, format="svg", metadata={"Date": None}))
+        write_whole(self.into / f"{name}.png", lambda path: figure.savefig(path, format="png", dpi=150))
+        plt.close(figure)
+
 
 def write_whole(path, write):
     """An interrupted plot leaves no partial file."""
@@ -64,12 +68,6 @@ def write_whole(path, write):
         os.replace(temporary, os.path.realpath(path))
     finally:
         temporary.unlink(missing_ok=True)
-
-
-def save(figure, folder, name):
-    write_whole(folder / f"{name}.svg", lambda path: figure.savefig(path, format="svg", metadata={"Date": None}))
-    write_whole(folder / f"{name}.png", lambda path: figure.savefig(path, format="png", dpi=150))
-    plt.close(figure)
 
 
 def error_of_speedup(cell):
@@ -134,7 +132,7 @@ def draw_headline(study):
     doubt = "; ?: in doubt" if any(cell.get("doubt") for cell in cells) else ""
     axes.set_xlabel(f"speedup over one core, float{scale} (whiskers: fastest and slowest repeat{doubt})",
                     fontsize=9.5)
-    save(figure, study.into, "headline")
+    study.save(figure, "headline")
 
 
 def draw_forms(study):
@@ -158,7 +156,7 @@ def draw_forms(study):
     largest = max([cell["speedup"] for cell in cells] + list(report.values()))
     for axes in (left, right):
         axes.set_xlim(0, 1.2 * largest)
-    save(figure, study.into, "forms")
+    study.save(figure, "forms")
 
 
 def draw_batches(study):
@@ -190,7 +188,7 @@ def draw_batches(study):
         axes.set_xlim(min(values) / 2, 4 * max(values))
     axes.set_xlabel(f"nanoseconds per camera sample, float{', logarithmic axis' if is_log else ''} (?: in doubt)")
     axes.legend(loc="lower right")
-    save(figure, study.into, "batches")
+    study.save(figure, "batches")
 
 
 def draw_scaling(study):
@@ -217,7 +215,7 @@ def draw_scaling(study):
         axes.set_ylim(bottom=0)
     np.atleast_1d(all_axes)[0].set_ylabel("speedup over one core")
     np.atleast_1d(all_axes)[-1].legend(loc="lower right")
-    save(figure, study.into, "scaling")
+    study.save(figure, "scaling")
 
 
 def draw_gpu(study, table, name):
@@ -235,7 +233,7 @@ def draw_gpu(study, table, name):
     axes.grid(axis="x", visible=False)
     axes.set_ylabel("speedup over one core")
     axes.legend()
-    save(figure, study.into, name)
+    study.save(figure, name)
 
 
 def read_pfm(path):
@@ -265,7 +263,7 @@ def draw_figure3(study):
         for spine in axes.spines.values():
             spine.set_visible(False)
     figure.colorbar(image, ax=[left, right], label="mean segments of a thread's paths", shrink=0.85)
-    save(figure, study.into, "figure3")
+    study.save(figure, "figure3")
 
 
 def draw_balance(study):
@@ -282,7 +280,7 @@ def draw_balance(study):
     axes.grid(axis="y", visible=False)
     axes.set_xlim(1, 1 + 1.15 * max(0.02, max(values) - 1))
     axes.set_xlabel("busiest thread over mean, float (1: all threads end together)")
-    save(figure, study.into, "balance")
+    study.save(figure, "balance")
 
 
 def draw_queries(study):
@@ -306,7 +304,7 @@ def draw_queries(study):
     axes.margins(x=0.12)
     axes.set_xlabel("nanoseconds per ray, one thread, shading included")
     axes.legend(loc="lower right")
-    save(figure, study.into, "queries")
+    study.save(figure, "queries")
 
 
 def draw_depth(study, table, name):
@@ -346,7 +344,7 @@ def draw_depth(study, table, name):
     for axes in all_axes[1]:
         axes.set_xlabel("D, maximum number of segments of a path")
     all_axes[0][0].legend(fontsize=9)
-    save(figure, study.into, name)
+    study.save(figure, name)
 
 
 def draw_objects(study):
@@ -362,7 +360,7 @@ def draw_objects(study):
     axes.set_xlabel("spheres, logarithmic axis")
     axes.set_ylabel("nanoseconds per ray, logarithmic axis")
     axes.legend()
-    save(figure, study.into, "objects")
+    study.save(figure, "objects")
 
 
 def draw_error(study):
@@ -382,22 +380,27 @@ def draw_error(study):
         axes.set_xlabel("seconds, logarithmic axis (S: samples per pixel)")
         axes.set_ylabel("RMSE, logarithmic axis")
         axes.legend()
-        save(figure, study.into, "error")
+        study.save(figure, "error")
     plt.close(figure)
+
+
+PLOTS = {"headline": draw_headline, "forms": draw_forms, "batches": draw_batches, "scaling": draw_scaling,
+         "blocks": lambda study: draw_gpu(study, "table4", "blocks"),
+         "chunks": lambda study: draw_gpu(study, "table5", "chunks"),
+         "figure3": draw_figure3, "balance": draw_balance, "queries": draw_queries,
+         "depth": lambda study: draw_depth(study, "depth", "depth"),
+         "glass": lambda study: draw_depth(study, "glass", "glass"),
+         "objects": draw_objects, "error": draw_error}
 
 
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__.strip())
+    plt.switch_backend("Agg")
     set_style()
     study = Study(Path(sys.argv[1]), Path(sys.argv[-1]))
-    plots = {"headline": draw_headline, "forms": draw_forms, "batches": draw_batches, "scaling": draw_scaling,
-             "blocks": lambda s: draw_gpu(s, "table4", "blocks"), "chunks": lambda s: draw_gpu(s, "table5", "chunks"),
-             "figure3": draw_figure3, "balance": draw_balance, "queries": draw_queries,
-             "depth": lambda s: draw_depth(s, "depth", "depth"), "glass": lambda s: draw_depth(s, "glass", "glass"),
-             "objects": draw_objects, "error": draw_error}
     failures = []
-    for name, draw in plots.items():
+    for name, draw in PLOTS.items():
         try:
             draw(study)
         except Exception as error:  # the other plots are still drawn

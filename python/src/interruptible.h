@@ -1,0 +1,23 @@
+#pragma once
+
+// Long calls of the library: without the interpreter's lock (GIL), and ended by Ctrl-C.
+
+#include <functional>
+
+#include "bindings.h"
+
+namespace alhazen::python {
+
+/// Runs `call` without the GIL, and returns when it has ended; throws what it throws. Needs the GIL.
+///
+/// On the main thread, on which alone Python handles signals, `call` runs on a thread of its own, while this one runs
+/// the handlers about twenty times a second. Once one of them raises, as that of Ctrl-C does, `stop` is called, without
+/// the GIL; it should let `call` end soon, whatever it then throws. Then what the handler raised is thrown.
+///
+/// `stop` is also called, on some thread, when the interpreter ends while a daemon thread runs this.
+void run_interruptible(const std::function<void()>& call, const std::function<void()>& stop);
+
+/// Lets the interpreter wait at its end for what daemon threads render.
+void bind_interrupts(py::module_& m);
+
+}  // namespace alhazen::python
