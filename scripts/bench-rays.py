@@ -2,7 +2,7 @@
 """Compares traversal, whole renders and builds with Embree: interleaved repeats in one run, medians, ratios.
 
 usage: scripts/bench-rays.py [--binary build/release/bench/alhazen_bench] [--mesh MESH.ply] [--repeats 5]
-                             [--filter REGEX] [--than ENGINE] [--json FILE] [--markdown]
+                             [--filter REGEX] [--than ENGINE] [--cpu] [--json FILE] [--markdown]
 
 Each group of the same rays, renders or builds is compared with Embree's line in it, or with that of another engine. A
 ratio above 1 is faster than that.
@@ -29,7 +29,7 @@ def run(options):
     return json.loads(finished.stdout)
 
 
-def groups_of(report):
+def groups_of(report, clock):
     """{group: {engine: (milliseconds of each repeat, number of rays or None, bytes per triangle or None)}}"""
     groups = {}
     for entry in report["benchmarks"]:
@@ -37,9 +37,10 @@ def groups_of(report):
             continue
         name = entry["run_name"].removesuffix("/real_time").removesuffix("/manual_time")
         group, engine = name.rsplit("/", 1)
-        rays = entry["rays"] * entry["real_time"] / 1e3 if "rays" in entry else None
+        rated_by = "real_time" if entry["run_name"].endswith("_time") else "cpu_time"
+        rays = entry["rays"] * entry[rated_by] / 1e3 if "rays" in entry else None
         line = groups.setdefault(group, {}).setdefault(engine, ([], rays, entry.get("bytes a triangle")))
-        line[0].append(entry["real_time"])
+        line[0].append(entry[clock])
     return groups
 
 
@@ -50,6 +51,8 @@ def main():
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--filter", default="^(rays|whole|build)/")
     parser.add_argument("--than", default="float embree", help="the engine that ratios are to")
+    parser.add_argument("--cpu", action="store_true",
+                        help="processor time of the one thread, where other programs run meanwhile")
     parser.add_argument("--json", help="write the raw report here")
     parser.add_argument("--markdown", action="store_true", help="tables for docs/results")
     options = parser.parse_args()
@@ -63,7 +66,7 @@ def main():
     print(row.format("what", "engine", "median ms (min to max)", "Mrays/s", "ratio"))
     if options.markdown:
         print("|---|---|---|---|---|")
-    for group, engines in sorted(groups_of(report).items()):
+    for group, engines in sorted(groups_of(report, "cpu_time" if options.cpu else "real_time").items()):
         than = engines.get(options.than)
         for engine, (times, rays, memory) in sorted(engines.items(), key=lambda line: line[0].split(" ")[::-1]):
             median = statistics.median(times)

@@ -97,13 +97,14 @@ class RayQueries {
   /// Reads a scene in any format that `render` reads, and builds a BVH. Of `settings`, only `precision`, `threads`, and
   /// those that choose what is read (confine, search_paths, strict, variant, animation, animation_time, shutter,
   /// frames_per_second, definitions) matter. Throws what `render` throws for a bad scene.
-  static RayQueries from_file(const std::string& scene_file, const Settings& settings = {});
+  static RayQueries from_file(const std::string& scene_file, const Settings& settings = {},
+                              const ProgressFunction& progress = {});
 
   /// Builds a BVH of a copy of the scene's geometry: the scene may be changed and destroyed afterwards, which the
   /// queries do not see. Of `settings`, only `precision` and `threads` matter. Results are the same as those of
   /// `from_file` if the scene was loaded from that file and not changed. Throws InputError for these settings out of
   /// range, and for geometry that cannot be represented in this precision.
-  explicit RayQueries(const Scene& scene, const Settings& settings = {});
+  explicit RayQueries(const Scene& scene, const Settings& settings = {}, const ProgressFunction& progress = {});
 
   /// For scenes that are built within the library.
   explicit RayQueries(std::shared_ptr<const impl::QueryScene> scene);
@@ -116,7 +117,8 @@ class RayQueries {
   /// all processors. Throws InputError, before it writes anything, if `origins` or `directions` is null although there
   /// are rays, or `threads` is negative.
   ///
-  /// The arrays must not overlap, and outlive only the call. They need not be aligned.
+  /// The arrays must outlive only the call, and need not be aligned. One of hits may be one of rays that has as many
+  /// elements for each ray, without gaps: `t` may be `t_max`. Otherwise those that are written must not overlap any.
   void closest_hits(const RayArrays<float>& rays, const HitArrays<float>& hits, int threads = 0) const;
   void closest_hits(const RayArrays<double>& rays, const HitArrays<double>& hits, int threads = 0) const;
 
@@ -129,7 +131,7 @@ class RayQueries {
   const Box& bounds() const;
 
   /// Of the scene reader and of building.
-  const std::vector<std::string>& warnings() const;
+  const std::vector<Warning>& warnings() const;
 
  private:
   std::shared_ptr<const impl::QueryScene> scene_;

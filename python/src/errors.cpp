@@ -17,6 +17,8 @@ namespace {
 
 /// Owned for as long as the process: exceptions may be raised while the interpreter shuts down.
 PyObject *error_class = nullptr, *input_error_class = nullptr, *missing_file_class = nullptr;
+PyObject *unsupported_class = nullptr, *out_of_memory_class = nullptr, *device_class = nullptr,
+         *cancelled_class = nullptr;
 
 PyObject* new_class(py::module_& m, const char* name, const char* doc, const py::tuple& bases) {
   const std::string full_name = std::string("alhazen.") + name;
@@ -78,6 +80,14 @@ void translate(std::exception_ptr thrown) {
     else
       raise(input_error_class, message, std::pair("file", file), std::pair("line", place(error.line())),
             std::pair("column", place(error.column())));
+  } catch (const UnsupportedError& error) {
+    raise(unsupported_class, error.what());
+  } catch (const OutOfMemoryError& error) {
+    raise(out_of_memory_class, error.what());
+  } catch (const DeviceError& error) {
+    raise(device_class, error.what());
+  } catch (const Cancelled& error) {
+    raise(cancelled_class, error.what());
   } catch (const Error& error) {
     raise(error_class, error.what());
   }
@@ -86,10 +96,12 @@ void translate(std::exception_ptr thrown) {
 }  // namespace
 
 void bind_errors(py::module_& m) {
-  error_class = new_class(m, "Error",
-                          "A failure that Alhazen reports; the text is one complete message for a person.\n\n"
-                          "It is a RuntimeError. InputError is its subclass for input that cannot be used.",
-                          py::make_tuple(py::handle(PyExc_RuntimeError)));
+  error_class =
+      new_class(m, "Error",
+                "A failure that Alhazen reports; the text is one complete message for a person.\n\n"
+                "It is a RuntimeError. Its subclasses are InputError, UnsupportedError, OutOfMemoryError, DeviceError\n"
+                "and Cancelled.",
+                py::make_tuple(py::handle(PyExc_RuntimeError)));
   input_error_class = new_class(
       m, "InputError",
       "Input that cannot be used: a malformed or missing file, a setting or an argument out of range.\n\n"
@@ -101,6 +113,24 @@ void bind_errors(py::module_& m) {
                                  "An InputError for a file that does not exist, which is a FileNotFoundError, too.\n\n"
                                  "Attributes: file, filename (str), errno.",
                                  py::make_tuple(py::handle(input_error_class), py::handle(PyExc_FileNotFoundError)));
+  const py::tuple plain = py::make_tuple(py::handle(error_class));
+  unsupported_class = new_class(m, "UnsupportedError",
+                                "A setting asks for what this build or this machine does not have, such as a GPU or a\n"
+                                "denoiser's library. Other settings may work.",
+                                plain);
+  out_of_memory_class =
+      new_class(m, "OutOfMemoryError",
+                "The memory of this machine or of its GPU, or a limit set on it, does not suffice.\n\n"
+                "It is an Error and a MemoryError.",
+                py::make_tuple(py::handle(error_class), py::handle(PyExc_MemoryError)));
+  device_class = new_class(m, "DeviceError",
+                           "A GPU, or a library that drives it, has failed while it worked. The process may not be\n"
+                           "able to use it any more.",
+                           plain);
+  cancelled_class = new_class(m, "Cancelled",
+                              "A progress function has returned False before there was an image: while a scene was\n"
+                              "read or built. Renders do not raise it, but return the image so far.",
+                              plain);
   // That of OSError makes a text of its own of errno and filename.
   py::setattr(py::handle(missing_file_class), "__str__", py::handle(PyExc_Exception).attr("__str__"));
   for (const char* attribute : {"file", "line", "column"})

@@ -144,7 +144,7 @@ void bind_scene(py::module_& m) {
           "warnings",
           [](const PythonScene& self) {
             py::list texts;
-            for (const std::string& warning : self.read().warnings()) texts.append(path_text(warning));
+            for (const auto& warning : self.read().warnings()) texts.append(path_text(warning.text()));
             return texts;
           },
           "What the reader of the file warned of, each with its place: a list of str.")

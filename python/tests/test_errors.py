@@ -15,6 +15,9 @@ def test_classes():
     assert issubclass(alhazen.InputError, alhazen.Error) and issubclass(alhazen.InputError, ValueError)
     assert issubclass(alhazen.MissingFileError, alhazen.InputError)
     assert issubclass(alhazen.MissingFileError, FileNotFoundError)
+    for kind in (alhazen.UnsupportedError, alhazen.OutOfMemoryError, alhazen.DeviceError, alhazen.Cancelled):
+        assert issubclass(kind, alhazen.Error)
+    assert issubclass(alhazen.OutOfMemoryError, MemoryError)
     assert alhazen.InputError.__module__ == "alhazen" and alhazen.InputError("text").file is None
 
 
@@ -248,3 +251,13 @@ def test_loading_lets_other_threads_run(tmp_path):
         turns += 1
     thread.join()
     assert turns > 100 and len(scenes[0].meshes) == 1
+
+
+def test_a_backend_that_is_not_there_is_unsupported():
+    missing = [b for b in alhazen.devices().backends if not b.available]
+    if not missing:
+        pytest.skip("this machine has all backends")
+    scene = alhazen.Scene()
+    scene.add(alhazen.Sphere(1))
+    with pytest.raises(alhazen.UnsupportedError):
+        alhazen.render(scene, spp=1, width=4, height=4, backend=missing[0].name)
