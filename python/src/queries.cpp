@@ -172,7 +172,7 @@ void bind_queries(py::module_& m) {
   options.disable_function_signatures();
   m.attr("INVALID_ID") = invalid_id;
   bind_hits(m);
-  const std::string arguments =
+  const std::string rays_text =
       "(self, origins: array, directions: array, t_max: array | None = None, *, "
       "time: array | None = None, ";
   const std::string fields_text = "fields: Sequence[str] | None = None, ", threads_text = "threads: int = 0",
