@@ -32,6 +32,14 @@ function(alhazen_shared_library target script)
   target_link_options(${target} PRIVATE ${ALHAZEN_SHARED_LINK_OPTIONS} -Wl,--version-script=${script})
 endfunction()
 
+# Of a module that others load, only its entry is seen.
+function(alhazen_export_only target symbol)
+  set(script ${PROJECT_BINARY_DIR}/generated/${target}.map)
+  file(CONFIGURE OUTPUT ${script} CONTENT "{ global: ${symbol}; local: *; };\n")
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${script})
+  target_link_options(${target} PRIVATE -Wl,--version-script=${script})
+endfunction()
+
 # The library as it is installed, from the same objects: of the internals, it exports what the program and the modules use.
 function(alhazen_installed_library)
   get_property(modules GLOBAL PROPERTY ALHAZEN_MODULES)

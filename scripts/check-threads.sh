@@ -20,5 +20,6 @@ fi
 cmake --preset threads
 cmake --build --preset threads
 export OMP_TOOL_LIBRARIES=$openmp/libarcher.so
+export OMP_WAIT_POLICY=passive  # several teams share the processors
 export TSAN_OPTIONS="ignore_noninstrumented_modules=1 halt_on_error=1 second_deadlock_stack=1"
 LD_PRELOAD=$openmp/libomp.so.5 build/threads/tests/threads_tests "$@"

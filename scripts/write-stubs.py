@@ -19,7 +19,7 @@ HEAD = '''\
 # Written by scripts/write-stubs.py.
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections import abc
 from types import TracebackType
 from typing import Any, Generic, Literal, TypeVar, overload
 
@@ -38,8 +38,8 @@ class _Attribute(Generic[_Get, _Set]):
     def __get__(self, instance: object, owner: type) -> _Get: ...
     def __set__(self, instance: object, value: _Set) -> None: ...
 
-_Numbers = Sequence[float] | npt.NDArray[Any]
-_Matrix = Sequence[Sequence[float]] | npt.NDArray[Any]
+_Numbers = abc.Sequence[float] | npt.NDArray[Any]
+_Matrix = abc.Sequence[abc.Sequence[float]] | npt.NDArray[Any]
 _Path = str | bytes | os.PathLike[str] | os.PathLike[bytes]
 '''
 
@@ -52,16 +52,35 @@ TYPES = {
     "path": ("_Path", "str"),
     "object": ("Any",), "handle": ("Any",), "Any": ("Any",),
     "tuple": ("tuple[Any, ...]",), "list": ("list[Any]",), "dict": ("dict[str, Any]",), "set": ("set[Any]",),
-    "Callable": ("Callable[..., Any]",), "callable": ("Callable[..., Any]",), "function": ("Callable[..., Any]",),
+    "Callable": ("abc.Callable[..., Any]",), "callable": ("abc.Callable[..., Any]",), "function": ("abc.Callable[..., Any]",),
     "numpy.ndarray": ("npt.NDArray[Any]",), "ndarray": ("npt.NDArray[Any]",), "buffer": ("bytes | bytearray | memoryview",),
-    "iterable": ("Iterable[Any]",), "Iterator": ("Iterator[Any]",), "Iterable": ("Iterable[Any]",),
-    "sequence": ("Sequence[Any]",), "Sequence": ("Sequence[Any]",),
+    "iterable": ("abc.Iterable[Any]",), "Iterator": ("abc.Iterator[Any]",), "Iterable": ("abc.Iterable[Any]",),
+    "sequence": ("abc.Sequence[Any]",), "Sequence": ("abc.Sequence[Any]",),
     "os.PathLike": ("os.PathLike[str]",), "PathLike": ("os.PathLike[str]",),
 }
 BUILTINS = {"int", "float", "str", "bool", "bytes", "None", "complex", "type", "bytearray", "memoryview"}
 GENERICS = {"list": "list", "List": "list", "dict": "dict", "Dict": "dict", "tuple": "tuple", "Tuple": "tuple", "set": "set",
-            "Set": "set", "Callable": "Callable", "Iterator": "Iterator", "Iterable": "Iterable", "Sequence": "Sequence",
-            "Mapping": "Mapping", "type": "type"}
+            "Set": "set", "Callable": "abc.Callable", "Iterator": "abc.Iterator", "Iterable": "abc.Iterable", "Sequence": "abc.Sequence",
+            "Mapping": "abc.Mapping", "type": "type"}
+# Attributes whose documentation begins with no type: what they give back, and what they take where that differs.
+ATTRIBUTES = {
+    "Transform.matrix": ("4x4 array",), "MovingTransform.start": ("4x4 array",), "MovingTransform.end": ("4x4 array",),
+    "Box.low": ("3 numbers",), "Box.high": ("3 numbers",), "Box.center": ("3 numbers",), "Box.extents": ("3 numbers",),
+    "Box.is_empty": ("bool",), "Image.pixels": ("array | None",), "Image.file": ("str | None",),
+    "Image.encoding": ("str | None",), "SceneImage.encoding": ("str",), "SceneImage.pixels": ("array", "array | Image"),
+    "SceneMesh.vertices": ("array of float64",), "Scene.warnings": ("list[str]",), "Scene.file": ("str | None",),
+    "Scene.bounds": ("Box",), "Scene.up": ("3 numbers",), "Scene.environment": ("SceneLight | None", "object"),
+    "Scene.camera": ("SceneCamera", "SceneCamera | Camera"), "Scene.film": ("SceneFilm", "SceneFilm | Film"),
+    "Scene.pixel_filter": ("ScenePixelFilter", "ScenePixelFilter | PixelFilter"),
+    "Scene.defaults": ("SceneDefaults", "SceneDefaults | RenderDefaults"), "SceneLight.image": ("array | None", "object"),
+    "SceneShape.geometry": ("SceneMesh | Sphere | Cylinder | Disk",), "SceneShape.material": ("SceneMaterial | None", "object"),
+    "SceneShape.emission": ("Emission | None", "object"), "SceneShape.group": ("SceneGroup | None",),
+    "SceneInstance.group": ("SceneGroup",), "SceneGroup.shapes": ("list[SceneShape]",), "Live.value": ("object",),
+    "*.is_moving": ("bool",), "*.scene": ("Scene",), "*.end_transform": ("4x4 array", "4x4 array | Transform"),
+    "*.transform": ("4x4 array", "4x4 array | Transform | MovingTransform"),
+    **{f"Scene.{kind.lower()}{'es' if kind == 'Mesh' else 's'}": (f"Scene{kind}List",)
+       for kind in ("Mesh", "Image", "Texture", "Material", "Shape", "Group", "Instance", "Light")},
+}
 COUNTS = {"two": 2, "three": 3, "four": 4}
 # What operators take and give is what Python says of them.
 OPERATORS = {
@@ -72,7 +91,8 @@ OPERATORS = {
     "__exit__": "(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None",
     "__matmul__": "(self, other: {self} | _Matrix) -> {self}", "__rmatmul__": "(self, other: {self} | _Matrix) -> {self}",
     "__array__": "(self, dtype: npt.DTypeLike = ..., copy: bool | None = ...) -> npt.NDArray[Any]",
-    "__getattr__": None, "__setattr__": None, "__delattr__": None, "__getstate__": None, "__setstate__": None,
+    "__iter__": "(self) -> abc.Iterator[{item}]", "__reversed__": "(self) -> abc.Iterator[{item}]",
+    "__getattr__": "(self, name: str) -> Any", "__setattr__": "(self, name: str, value: Any) -> None", "__delattr__": None, "__getstate__": None, "__setstate__": None,
     "__dir__": None, "__reduce__": None, "__reduce_ex__": None,
 }
 
@@ -117,8 +137,10 @@ class Types:
             count = COUNTS.get(match[1]) or int(match[1] or match[2])
             return "_Numbers" if given else f"tuple[{', '.join(['float'] * count)}]"
         if re.fullmatch(r"\d+x\d+ (array|matrix)|array of (the )?shape \(\d+, \d+\)( or \(\d+, \d+\))?", text):
-            return "_Matrix" if given else "npt.NDArray[np.float64]"
-        if match := re.fullmatch(r"(?:read-only )?(?:\([^()]*\) )?array(?: of (?:the shape \([^()]*\)|(u?int\d+|float\d+)))?", text):
+            if not given:
+                return "npt.NDArray[np.float64]"
+            return "_Matrix | Transform" if "Transform" in self.names and "4" in text else "_Matrix"
+        if match := re.fullmatch(r"(?:read-only )?(?:(?:\([^()]*\) or )?\([^()]*\) )?array(?: of (?:the shape \([^()]*\)|(u?int\d+|float\d+)(?: or float\d+)?))?", text):
             if match[1] and not given:
                 return f"npt.NDArray[np.{match[1]}]"
             return TYPES["array"][0 if given else -1]
@@ -135,13 +157,19 @@ class Types:
             if match[1] == "Callable" and len(inner) == 2:
                 arguments = split(inner[0].strip("[]"), ",") if inner[0] != "..." else None
                 listed = "..." if arguments is None else f"[{', '.join(self.union(a, not given) for a in arguments)}]"
-                return f"Callable[{listed}, {self.union(inner[1], given)}]"
+                return f"abc.Callable[{listed}, {self.union(inner[1], given)}]"
             if match[1] in GENERICS:
                 return f"{GENERICS[match[1]]}[{', '.join('...' if a == '...' else self.union(a, given) for a in inner)}]"
         names = re.findall(r"'[^']*'", text)
         if names and not re.sub(r"'[^']*'|one of|and|or|,|\s", "", text):
             return f"Literal[{', '.join(names)}]"
         raise Unknown(text)
+
+    def know(self, text):
+        try:
+            return bool(text) and text != "object" and bool(self.union(text, True))
+        except Unknown:
+            return False
 
     def union(self, text, given):
         """Of 'a | b', each type once."""
@@ -197,8 +225,6 @@ class Writer:
                 continue
             kind = found[2]
             written = f"{found[1]}: {self.type(kind, True, f'{place}({found[1]})') if kind else 'Any'}"
-            if not kind and not found[1].startswith("*"):
-                self.problem(place, f"the argument '{found[1]}' has no type")
             if len(split(part, "=")) > 1:
                 written += " = ..."
             parameters.append(written)
@@ -220,9 +246,13 @@ class Writer:
         doc = inspect.getdoc(value) or ""
         with_self = bool(owner) and decorator != "@staticmethod"
         if name in OPERATORS:
-            if OPERATORS[name]:
-                self.add(indent, f"def {name}{OPERATORS[name].format(self=owner)}: ...")
+            # Those of values are for other spellings alone.
+            if OPERATORS[name] and not (owner == "Value" and name.endswith("attr__")):
+                item = owner.removesuffix("List") if owner.endswith("List") else "Any"
+                self.add(indent, f"def {name}{OPERATORS[name].format(self=owner, item=item)}: ...")
             return
+        if name == "__init__" and (not doc or doc.startswith("Initialize self.")):
+            return  # the class has no constructor
         overloaded = doc.startswith(f"{name}(*args, **kwargs)\nOverloaded function.")
         lines = re.findall(rf"^\d+\. ({re.escape(name)}\(.*)$", doc, re.MULTILINE) if overloaded else doc.splitlines()[:1]
         found = [self.signature(line, name, place, with_self) for line in lines]
@@ -241,11 +271,14 @@ class Writer:
         place = f"{owner}.{name}"
         doc = (value.__doc__ or getattr(value.fget, "__doc__", None) or "").strip()
         returned = re.match(rf"(?:{name})?\(self.*?\) -> (.*)", doc.splitlines()[0] if doc else "")
-        words = returned[1] if returned else split(doc.split("\n\n")[0].replace("\n", " "), ":")[0] if doc else ""
-        if not words or words == "object":
-            self.problem(place, "its documentation does not begin with a type")
-            words = "object"
-        given, taken = self.type(words, False, place), self.type(words, True, place)
+        words = returned[1] if returned else split(doc.split("\n\n")[0].replace("\n", " "), ":")[0].rstrip(".") if doc else ""
+        words = taken_words = words.replace(", or None", " | None")
+        if not self.types.know(words):
+            found = ATTRIBUTES.get(place) or ATTRIBUTES.get(f"*.{name}")
+            if not found:
+                self.problem(place, "its documentation does not begin with a type")
+            words, taken_words = (found[0], found[-1]) if found else ("object", "object")
+        given, taken = self.type(words, False, place), self.type(taken_words, True, place)
         text = doc[len(words) + 1:].strip() if not returned and doc.startswith(words) else ""
         if value.fset and given != taken:
             self.add(4, f"{name}: _Attribute[{given}, {taken}]")
@@ -276,8 +309,10 @@ class Writer:
                 self.add(4, f"def __init__{own[:own.rindex(' -> ')]} -> None: ...")
             elif member == "__hash__" and thing is None:
                 self.add(4, "__hash__: None  # type: ignore[assignment]")
+            elif member.startswith("__") and thing is None and member != "__doc__":
+                self.add(4, f"{member}: None")  # what others of its kind have, and this has not
             elif callable(thing) and (not member.startswith("__") or member in OPERATORS or member.startswith("__init__") or
-                                      member in ("__getitem__", "__iter__", "__next__")):
+                                      member in ("__getitem__", "__next__")):
                 if issubclass(value, BaseException):
                     continue
                 self.function(member, thing, 4, name)
@@ -340,7 +375,7 @@ def main():
     (output / "_alhazen.pyi").write_text(writer.write(), encoding="utf-8")
     package = package_stub(importlib.import_module("alhazen"), extension, writer.problems)
     (output / "__init__.pyi").write_text(package, encoding="utf-8")
-    for problem in writer.problems if options.strict else []:
+    for problem in dict.fromkeys(writer.problems) if options.strict else []:
         print(f"write-stubs: {problem}", file=sys.stderr)
     sys.exit(1 if options.strict and writer.problems else 0)
 

@@ -10,7 +10,7 @@
 namespace ALHAZEN_NAMESPACE {
 
 /// Reads EXR (all channels of its parts that have the size of its image, unchanged), PNG, JPEG, TGA, BMP, QOI, HDR, PFM
-/// or WebP (R, G and B; formats for displays are decoded to linear). Throws InputError.
+/// or WebP (R, G and B; formats for displays are decoded to linear). Throws InputError, OutOfMemoryError.
 RenderedImage read_image(const std::string& file);
 
 }  // namespace ALHAZEN_NAMESPACE

@@ -43,8 +43,9 @@ struct BuildReport {
 /// - other values, kinds and numbers of lights, also by settings, and another emission of shapes that emit before and
 ///   after, as long as layers for light groups need no other groups;
 /// - another environment;
-/// - other transforms of instances and of shapes in the world, as long as no instance of a group begins or ceases to be
-///   the only one that moves during the exposure, and no shape with a one-sided material is copied or moved.
+/// - other transforms of instances and of shapes in the world, as long as no group begins or ceases to have an instance
+///   that moves during the exposure, no triangle begins or ceases to have an area, and, where materials are one-sided,
+///   nothing moves but instances of groups that have BVHs of their own.
 /// All else is built anew as a whole: meshes, images, what there is in groups, and which shapes and instances there
 /// are. docs/library.md says what each takes.
 ///

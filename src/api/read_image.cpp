@@ -2,12 +2,13 @@
 
 #include <utility>
 
+#include "api/caller_errors.h"
 #include "images/image.h"
 
 namespace ALHAZEN_NAMESPACE {
 
 RenderedImage read_image(const std::string& file) {
-  impl::Image read = impl::read_image({file});
+  impl::Image read = impl::for_caller([&] { return impl::read_image({file}); });
   RenderedImage image;
   image.width = read.width;
   image.height = read.height;

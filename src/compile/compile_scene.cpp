@@ -86,6 +86,7 @@ class SceneCompiler {
     flat.origins = std::move(origins_);
     flat.origins.triangles = std::move(out_.triangle_origins);
     out_.move_into(flat);
+    materials_.derived = std::move(out_.derived_materials);
     if (options_.for_cameras) flat.materials = std::make_shared<const CompiledMaterials>(materials_);
     flat.object_names = names_.objects();
     flat.material_names = names_.materials();

@@ -40,6 +40,10 @@ struct BackOpenings {
   std::vector<std::array<uint32_t, 2>> opened;  ///< by surface: the one that is absent, and the one that is lit through
   bool has_only_delta_lights = false;
   uint32_t lets_light_through = 0;  ///< of the scene with nothing open
+  // What the backs that are open now were searched for: the camera with the size of its image, and the state of the
+  // scene.
+  std::vector<std::byte> viewpoint;
+  uint64_t generation = 0;
 };
 
 struct CompiledMaterials;

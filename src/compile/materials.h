@@ -17,6 +17,7 @@ struct CompiledMaterials {
   std::vector<ImagePyramid> images;    ///< by index into scene.images
   std::vector<bool> filtered_images;
   std::vector<std::string> names;  ///< by material
+  std::vector<DerivedMaterial> derived;
   CoatModel coats = CoatModel::lossless;
 };
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <map>
 #include <utility>
 #include <vector>
@@ -246,7 +248,8 @@ class SurfacesWithFeature {
     const auto [entry, is_new] = materials_.try_emplace(material, static_cast<uint32_t>(out_.materials.size()));
     if (is_new) {
       MaterialRecord<Real> record = out_.materials[material];
-      record.features |= MaterialFeatures::cutout | feature_;
+      out_.derived_materials.push_back({material, MaterialFeatures::cutout | feature_});
+      record.features |= out_.derived_materials.back().features;
       out_.materials.push_back(record);
     }
     return entry->second;
@@ -357,10 +360,26 @@ void close_backs(CompiledScene<Real>& scene) {
   ++scene.generation;
 }
 
+namespace {
+
+/// What the search for backs depends on besides the scene.
+template <class Real>
+std::vector<std::byte> viewpoint_of(const CameraRecord<Real>& camera, uint32_t width, uint32_t height) {
+  std::vector<std::byte> bytes(sizeof(camera) + sizeof(width) + sizeof(height));
+  std::memcpy(bytes.data(), &camera, sizeof(camera));
+  std::memcpy(bytes.data() + sizeof(camera), &width, sizeof(width));
+  std::memcpy(bytes.data() + sizeof(camera) + sizeof(width), &height, sizeof(height));
+  return bytes;
+}
+
+}  // namespace
+
 template <class Real>
 void open_seen_backs(uint32_t width, uint32_t height, int threads, CompiledScene<Real>& scene) {
-  const BackOpenings& backs = scene.backs;
+  BackOpenings& backs = scene.backs;
   if (backs.closed.empty()) return;
+  std::vector<std::byte> viewpoint = viewpoint_of(scene.view.camera, width, height);
+  if (backs.generation == scene.generation && backs.viewpoint == viewpoint) return;
   // The arena is the scene's own.
   auto* const triangles = const_cast<TriangleRecord*>(scene.view.triangles);
   close_backs(scene);
@@ -370,6 +389,8 @@ void open_seen_backs(uint32_t width, uint32_t height, int threads, CompiledScene
     if (seen.is_open[i] || seen.is_lit_through[i]) triangles[i].surface = opened[seen.is_open[i] ? 0 : 1];
   }
   if (!seen.is_open.empty()) scene.view.lets_light_through = 1;
+  backs.generation = scene.generation;
+  backs.viewpoint = std::move(viewpoint);
 }
 
 template void split_coincident_sides(SceneArrays<float>&);

@@ -15,14 +15,21 @@ namespace alhazen::impl {
 
 inline constexpr size_t arena_alignment = 64;
 
+/// A material of the arrays that is another one, which stands before it, with additional features.
+struct DerivedMaterial {
+  uint32_t base;
+  uint32_t features;
+};
+
 template <class Real>
 struct SceneArrays {
 #define ALHAZEN_ARRAY(type, name) std::vector<type> name;
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY
 
-  Bounds3<Real> bounds;                          ///< of all surfaces; known once the trees are built
-  std::vector<TriangleOrigin> triangle_origins;  ///< by triangle, if they are kept; else empty
+  Bounds3<Real> bounds;                            ///< of all surfaces; known once the trees are built
+  std::vector<DerivedMaterial> derived_materials;  ///< the last ones, in their order
+  std::vector<TriangleOrigin> triangle_origins;    ///< by triangle, if they are kept; else empty
 
   /// A view of the arrays so far, for functions of the core; it is invalidated when arrays grow.
   SceneView<Real> view() const {

@@ -18,7 +18,9 @@ bool are_same(const TextureRange& a, const TextureRange& b) { return a.first == 
 template <class Real>
 bool have_same_emission(const CompiledMaterials& before, const CompiledMaterials& now, const SceneArrays<Real>& fresh,
                         const SceneView<Real>& view) {
-  if (before.emission.size() != now.emission.size()) return false;
+  const auto range_of = [](const CompiledMaterials& materials, size_t texture) {
+    return texture < materials.emission.size() ? materials.emission[texture] : TextureRange{};
+  };
   const auto are_equal = [](const auto& array, const auto* records, uint32_t count) {
     return array.size() == count && (count == 0 || std::memcmp(array.data(), records, count * sizeof(array[0])) == 0);
   };
@@ -27,9 +29,9 @@ bool have_same_emission(const CompiledMaterials& before, const CompiledMaterials
       !(are_equal(fresh.texture_mappings, view.texture_mappings, view.texture_mappings_count) &&
         are_equal(fresh.images, view.images, view.images_count)))
     return false;
-  for (size_t i = 0; i < now.emission.size(); ++i) {
-    const TextureRange& range = now.emission[i];
-    if (!are_same(before.emission[i], range)) return false;
+  for (size_t i = 0; i < std::max(before.emission.size(), now.emission.size()); ++i) {
+    const TextureRange range = range_of(now, i);
+    if (!are_same(range_of(before, i), range)) return false;
     for (uint32_t k = range.first; k < range.first + range.count; ++k)
       if (std::memcmp(&fresh.textures[k], &view.textures[k], sizeof(fresh.textures[k])) != 0) return false;
   }
@@ -41,16 +43,24 @@ bool have_names(const Scene& scene, const std::vector<std::string>& names) {
                     [](const Material& material, const std::string& name) { return material.name == name; });
 }
 
+/// The sides of one-sided surfaces have records of their own (compile/open_backs.h).
+template <class Real>
+void add_derived(const std::vector<DerivedMaterial>& derived, SceneArrays<Real>& out) {
+  for (const DerivedMaterial& material : derived) {
+    MaterialRecord<Real> record = out.materials[material.base];
+    record.features |= material.features;
+    out.materials.push_back(record);
+  }
+}
+
 /// Whether what was compiled of the shapes is the same with these materials.
 template <class Real>
 bool fit_shapes(const SceneArrays<Real>& fresh, const SceneView<Real>& view) {
-  // Sides of one-sided surfaces get records of their own (compile/open_backs.h).
   if (fresh.materials.size() != view.materials_count) return false;
   for (size_t i = 0; i < fresh.materials.size(); ++i) {
     const MaterialRecord<Real>&a = fresh.materials[i], &b = view.materials[i];
     constexpr uint32_t of_shapes = MaterialFeatures::cutout | MaterialFeatures::one_sided | MaterialFeatures::tangents;
-    if ((a.features & of_shapes) != (b.features & of_shapes) || (b.features & MaterialFeatures::one_sided))
-      return false;
+    if ((a.features & of_shapes) != (b.features & of_shapes)) return false;
     if ((a.opacity.count > 0) != (b.opacity.count > 0)) return false;
   }
   return true;
@@ -66,6 +76,8 @@ bool update_materials(const Scene& description, CompiledScene<Real>& scene) {
   check_mixes(description);
   SceneArrays<Real> fresh;
   CompiledMaterials now = compile_materials_again(description, *scene.materials, fresh);
+  add_derived(scene.materials->derived, fresh);
+  now.derived = scene.materials->derived;
   if (now.needs_uv != scene.materials->needs_uv || !fit_shapes(fresh, scene.view) ||
       !have_same_emission(*scene.materials, now, fresh, scene.view))
     return false;
@@ -77,7 +89,10 @@ bool update_materials(const Scene& description, CompiledScene<Real>& scene) {
   ALHAZEN_REPLACE(texture_mappings)
   ALHAZEN_REPLACE(images)
 #undef ALHAZEN_REPLACE
+  // Without opacity, no material hides or shows the back of another.
+  const bool sees_the_same = scene.backs.generation == scene.generation && scene.backs.lets_light_through == 0;
   replace_fronts(fronts, scene);
+  if (sees_the_same) scene.backs.generation = scene.generation;
   scene.view.has_lobes = 0;
   for (const MaterialRecord<Real>& material : fresh.materials)
     if (has_trait<&MaterialTraits::has_lobes>(material.kind)) scene.view.has_lobes = 1;

@@ -66,17 +66,21 @@ using Planes = std::vector<std::vector<float>>;
 }  // namespace
 
 TEST(Threads, RenderScenesOfTheirOwn) {
-  for (const char* const backend : {"serial", "openmp"}) {
-    Planes expected[threads], found[threads];
-    for (int i = 0; i < threads; ++i) expected[i] = render(scene_of_balls(i), small_image(backend)).planes;
-    at_once([&](int i) { found[i] = render(scene_of_balls(i), small_image(backend)).planes; });
-    for (int i = 0; i < threads; ++i) EXPECT_EQ(found[i], expected[i]) << backend;
-  }
+  for (const char* const backend : {"serial", "openmp"})
+    for (const char* const precision : {"float", "double"}) {
+      Settings settings = small_image(backend);
+      settings.precision = precision;
+      Planes expected[threads], found[threads];
+      for (int i = 0; i < threads; ++i) expected[i] = render(scene_of_balls(i), settings).planes;
+      at_once([&](int i) { found[i] = render(scene_of_balls(i), settings).planes; });
+      for (int i = 0; i < threads; ++i) EXPECT_EQ(found[i], expected[i]) << backend << ", " << precision;
+    }
 }
 
 TEST(Threads, RenderOneScene) {
   const Scene scene = scene_of_balls(3);
   Settings settings = small_image("openmp");
+  settings.width = 12, settings.height = 8;
   settings.aovs = {"albedo", "normal", "object"};
   settings.denoiser = "builtin";
   settings.noise = 0.2;

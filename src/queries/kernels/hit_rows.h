@@ -2,6 +2,7 @@
 
 // What the description calls a primitive that was hit (queries/primitive_origins.h), found without branches.
 
+#include "core/math/scalar.h"
 #include "core/shapes/shape_records.h"
 #include "queries/primitive_origins.h"
 

@@ -59,7 +59,7 @@ struct Stage {
   LightId bulb, sun, environment;
 };
 
-Settings few_samples(const std::string& backend = "serial", const std::string& precision = "float") {
+Settings settings_for(const std::string& backend = "serial", const std::string& precision = "float") {
   Settings settings;
   settings.samples_per_pixel = 4;
   settings.max_depth = 4;
@@ -69,7 +69,7 @@ Settings few_samples(const std::string& backend = "serial", const std::string& p
   return settings;
 }
 
-void expect_same(const RenderedImage& a, const RenderedImage& b) {
+void expect_equal(const RenderedImage& a, const RenderedImage& b) {
   EXPECT_EQ(a.channels, b.channels);
   EXPECT_EQ(a.planes, b.planes);
   EXPECT_EQ(a.warnings, b.warnings);
@@ -98,7 +98,7 @@ struct Checked {
     EXPECT_EQ(parts_of(renderer.start(scene)), parts);
     while (renderer.render_pass()) {
     }
-    expect_same(renderer.finish(), render(scene, renderer.settings()));
+    expect_equal(renderer.finish(), render(scene, renderer.settings()));
   }
 
   Renderer renderer;
@@ -110,7 +110,7 @@ class RendererChanges : public ::testing::TestWithParam<std::string> {
   Settings settings() {
     const std::string text = GetParam(), backend = text.substr(0, text.find(' '));
     if (backend != "cuda" && !impl::make_backend(backend)->status().available) skips = true;
-    return few_samples(backend, text.substr(text.find(' ') + 1));
+    return settings_for(backend, text.substr(text.find(' ') + 1));
   }
 
   bool skips = false;
@@ -161,8 +161,8 @@ TEST_P(RendererChanges, BuildsOnlyTheirParts) {
   checked.expect(scene, "transforms", "a mesh of the world");
   scene.set_transform(stage.ball, Transform::translate({0.5, 0.5, 1}));
   checked.expect(scene, "transforms", "a sphere");
-  scene.set_transform(stage.lamp, Transform::translate({1, 2, 0}) * Transform::rotate(120, {1, 0, 0}) *
-                                      Transform::scale(0.2));
+  scene.set_transform(stage.lamp,
+                      Transform::translate({1, 2, 0}) * Transform::rotate(120, {1, 0, 0}) * Transform::scale(0.2));
   checked.expect(scene, "transforms", "a light with a shape");
   scene.set(stage.clay, CoatedDiffuse{.reflectance = Colour{0.3, 0.3, 0.1}});
   scene.set(stage.sun, DistantLight{.irradiance = 2, .direction = {1, -1, 0}});
@@ -253,7 +253,7 @@ TEST_P(RendererChanges, GivesTheImagesOfRenderAfterAnySequence) {
       EXPECT_FALSE(renderer.start(scene).is_new);
       while (renderer.render_pass()) {
       }
-      expect_same(renderer.finish(), render(scene, settings));
+      expect_equal(renderer.finish(), render(scene, settings));
     }
   }
 }
@@ -261,7 +261,7 @@ TEST_P(RendererChanges, GivesTheImagesOfRenderAfterAnySequence) {
 TEST(RendererChangesOf, ThousandsOfInstancesThatAreAnObject) {
   Stage stage(40'000);  // more triangles than are copied
   Scene& scene = stage.scene;
-  Checked checked(few_samples("openmp"));
+  Checked checked(settings_for("openmp"));
   checked.expect(scene, "everything", "the first image");
   scene.set_transform(stage.instances[5], Transform::translate({0, 0.4, 1}));
   checked.expect(scene, "transforms", "one of them");
@@ -275,7 +275,7 @@ TEST(RendererChangesOf, ThousandsOfInstancesThatAreAnObject) {
 TEST(RendererChangesOf, WhatIsBuiltAsAWhole) {
   Stage stage;
   Scene& scene = stage.scene;
-  Checked checked(few_samples());
+  Checked checked(settings_for());
   checked.expect(scene, "everything", "the first image");
   scene.set_transform(stage.instances[0], {Transform(), Transform::translate({0.2, 0, 0})});
   checked.expect(scene, "everything", "an instance of a group of which none moved before");
@@ -302,7 +302,7 @@ TEST(RendererChangesOf, WhatIsBuiltAsAWhole) {
 TEST(RendererChangesOf, LightsWithGroupsAndNames) {
   Stage stage;
   Scene& scene = stage.scene;
-  Settings settings = few_samples();
+  Settings settings = settings_for();
   settings.aovs = {"light_groups", "object"};
   Checked checked(settings);
   checked.expect(scene, "everything", "the first image");
@@ -319,7 +319,7 @@ TEST(RendererChangesOf, TheNeutralLight) {
   Scene scene;
   scene.add(Shape{Sphere{}});
   scene.set_film({.width = 12, .height = 8});
-  Checked checked(few_samples());
+  Checked checked(settings_for());
   checked.expect(scene, "everything", "the first image");
   const LightId lamp = scene.add(PointLight{10, {0, 3, 3}});
   checked.expect(scene, "lights", "a light of its own");
@@ -334,7 +334,7 @@ TEST(RendererChangesOf, WarningsOfLostLight) {
   Stage stage;
   Scene& scene = stage.scene;
   scene.set(stage.bulb, PointLight{40, {-1, 3, 0}});
-  Checked checked(few_samples());
+  Checked checked(settings_for());
   checked.expect(scene, "everything", "with glass");
   const auto warns = [&] {
     const std::vector<std::string> warnings = checked.renderer.warnings();

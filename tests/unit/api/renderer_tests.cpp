@@ -96,7 +96,76 @@ TEST(Renderer, BuildsOnlyForWhatNeedsIt) {
   room.scene.set(room.floor, Diffuse{.reflectance = room.scene.add(CheckerboardTexture{})});
   expect(true, "a texture over uv");
   settings.look_at = {0, 4, 0.1, 0, 0, 0};
-  expect(true, "a camera by settings");
+  expect(false, "a camera by settings");
+}
+
+TEST(Renderer, BuildsNothingForAnotherDefaultViewOrUnusedTexture) {
+  alhazen::Scene scene;
+  const MaterialId material = scene.add(Diffuse{});
+  scene.add(alhazen::Shape{Sphere{}, material});
+  Settings settings = few_samples();
+  settings.width = 24, settings.height = 16;
+  Renderer renderer(settings);
+  renderer.start(scene);
+  EXPECT_FALSE(renderer.start(scene).is_new);
+  scene.set(material, Diffuse{.reflectance = Colour{1, 0, 0}});  // its first own texture
+  EXPECT_FALSE(renderer.start(scene).is_new);
+  while (renderer.render_pass()) {
+  }
+  expect_same(renderer.finish(), render(scene, settings));
+}
+
+/// A room whose walls are invisible from outside, a card whose two sides coincide, and a window of a lattice.
+struct OneSidedRoom {
+  OneSidedRoom() {
+    const std::vector<float> quad{-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+    const std::vector<uint32_t> front{0, 1, 2, 0, 2, 3}, both{0, 1, 2, 0, 2, 3, 2, 1, 0, 3, 2, 0};
+    const MeshId wall = scene.add(MeshArrays{.positions = quad, .indices = front});
+    const MeshId card = scene.add(MeshArrays{.positions = quad, .indices = both});
+    Material paint(Diffuse{.reflectance = Colour{0.7, 0.5, 0.3}});
+    paint.double_sided = false;
+    walls = scene.add(paint);
+    paint.bsdf = Diffuse{.reflectance = Colour{0.2, 0.5, 0.8}};
+    cards = scene.add(paint);
+    for (const double turn : {0.0, 90.0, 180.0, 270.0})
+      scene.add(alhazen::Shape{wall, walls, Transform::rotate(turn, {0, 1, 0}) * Transform::translate({0, 0, -1})});
+    scene.add(alhazen::Shape{card, cards, Transform::rotate(40, {0, 1, 0}) * Transform::scale(0.4)});
+    scene.add(PointLight{.intensity = 5, .position = {0.2, 3, 1}});
+    scene.look_at({1, 2, 4}, {0, 0, 0});
+    alhazen::Film film = scene.film();
+    film.width = 32, film.height = 24;
+    scene.set_film(film);
+  }
+
+  alhazen::Scene scene;
+  MaterialId walls, cards;
+};
+
+TEST(Renderer, ChangesOneSidedMaterialsInPlace) {
+  OneSidedRoom room;
+  const Settings settings = few_samples();
+  Renderer renderer(settings);
+  renderer.start(room.scene);
+  const auto expect_kept = [&](const char* what) {
+    SCOPED_TRACE(what);
+    EXPECT_FALSE(renderer.start(room.scene).is_new);
+    while (renderer.render_pass()) {
+    }
+    expect_same(renderer.finish(), render(room.scene, settings));
+  };
+  expect_kept("nothing");
+  for (const MaterialId id : {room.walls, room.cards}) {
+    Material material = room.scene.material(id);
+    material.bsdf = Principled{.base_colour = Colour{0.1, 0.9, 0.2}, .metallic = 1};
+    room.scene.set(id, material);
+    expect_kept("another kind");
+    room.scene.look_at({-4, 1, id == room.walls ? -1.0 : 1.0}, {0, 0, 0});
+    expect_kept("another camera");
+  }
+  Material open = room.scene.material(room.walls);
+  open.double_sided = true;
+  room.scene.set(room.walls, open);
+  EXPECT_TRUE(renderer.start(room.scene).is_new);
 }
 
 TEST(Renderer, IsOfTheSceneThatItIsGiven) {

@@ -13,6 +13,7 @@
 
 #include "scene/outline.h"
 #include "support/compiled_scenes.h"
+#include "support/reals.h"
 
 namespace alhazen::impl::test {
 
@@ -101,9 +102,9 @@ Scene whole_scene() {
 
 template <class Real>
 void expect_same_arrays(const CompiledScene<Real>& a, const CompiledScene<Real>& b) {
-#define ALHAZEN_ARRAY(type, name)                                                                       \
-  ASSERT_EQ(a.view.name##_count, b.view.name##_count) << #name;                                         \
-  if (a.view.name##_count > 0) {                                                                        \
+#define ALHAZEN_ARRAY(type, name)                                                                     \
+  ASSERT_EQ(a.view.name##_count, b.view.name##_count) << #name;                                       \
+  if (a.view.name##_count > 0) {                                                                      \
     EXPECT_EQ(std::memcmp(a.view.name, b.view.name, a.view.name##_count * sizeof(type)), 0) << #name; \
   }
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
@@ -165,8 +166,8 @@ class ChangingScene {
   BuiltParts<Real> parts_;
 };
 
-CompileOptions options_for(uint64_t max_copied, BvhLayouts layouts = {BvhLayout::bvh2, BvhLayout::bvh8,
-                                                                      BvhLayout::cwbvh}) {
+CompileOptions options_for(uint64_t max_copied,
+                           BvhLayouts layouts = {BvhLayout::bvh2, BvhLayout::bvh8, BvhLayout::cwbvh}) {
   CompileOptions options;
   options.threads = 1;
   options.layouts = layouts;
@@ -176,59 +177,59 @@ CompileOptions options_for(uint64_t max_copied, BvhLayouts layouts = {BvhLayout:
   return options;
 }
 
-constexpr SceneChanges lights{.lights = true}, maps{.lights = true, .light_maps = true},
-    transforms{.transforms = true}, all{.lights = true, .light_maps = true, .transforms = true};
+constexpr SceneChanges of_lights{.lights = true}, of_maps{.lights = true, .light_maps = true},
+    of_transforms{.transforms = true}, of_all{.lights = true, .light_maps = true, .transforms = true};
 
-MovingTransform moved(const MovingTransform& transform, const Transform& by) {
+MovingTransform moved_by(const MovingTransform& transform, const Transform& by) {
   return {by * transform.start, by * transform.end};
 }
 
 template <class Real>
 class UpdateScene : public ::testing::Test {};
-using Reals = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(UpdateScene, Reals);
 
 TYPED_TEST(UpdateScene, ChangesLights) {
   for (const uint64_t max_copied : {uint64_t{0}, uint64_t{1} << 17}) {
     ChangingScene<TypeParam> scene(whole_scene(), options_for(max_copied));
-    EXPECT_TRUE(scene.change(lights, [](Scene& s) { s.lights[0].radiance = {1, 2, 30}; }));
-    EXPECT_TRUE(scene.change(lights, [](Scene& s) { s.lights[0].position = {1, 20, 30}; }));
-    EXPECT_TRUE(scene.change(lights, [](Scene& s) { s.lights[0].radiance = {}; })) << "one fewer";
-    EXPECT_TRUE(scene.change(lights, [](Scene& s) { s.lights[0].radiance = {1, 1, 1}; })) << "one more";
-    EXPECT_TRUE(scene.change(lights, [](Scene& s) { s.lights.push_back(s.lights[0]); })) << "one more";
-    EXPECT_TRUE(scene.change(lights, [](Scene& s) { s.lights.erase(s.lights.begin()); }));
-    EXPECT_TRUE(scene.change(lights, [](Scene& s) { s.lights[1].kind = LightKind::point; }));
-    EXPECT_TRUE(scene.change(lights, [](Scene& s) { s.lights.back().radiance = {3, 2, 1}; }));
-    EXPECT_TRUE(scene.change(lights, [](Scene& s) {
+    EXPECT_TRUE(scene.change(of_lights, [](Scene& s) { s.lights[0].radiance = {1, 2, 30}; }));
+    EXPECT_TRUE(scene.change(of_lights, [](Scene& s) { s.lights[0].position = {1, 20, 30}; }));
+    EXPECT_TRUE(scene.change(of_lights, [](Scene& s) { s.lights[0].radiance = {}; })) << "one fewer";
+    EXPECT_TRUE(scene.change(of_lights, [](Scene& s) { s.lights[0].radiance = {1, 1, 1}; })) << "one more";
+    EXPECT_TRUE(scene.change(of_lights, [](Scene& s) { s.lights.push_back(s.lights[0]); })) << "one more";
+    EXPECT_TRUE(scene.change(of_lights, [](Scene& s) { s.lights.erase(s.lights.begin()); }));
+    EXPECT_TRUE(scene.change(of_lights, [](Scene& s) { s.lights[1].kind = LightKind::point; }));
+    EXPECT_TRUE(scene.change(of_lights, [](Scene& s) { s.lights.back().radiance = {3, 2, 1}; }));
+    EXPECT_TRUE(scene.change(of_lights, [](Scene& s) {
       s.groups[0].shapes[5].emission->radiance = {9, 9, 9};
       s.groups[2].shapes[1].emission->radiance = {0.5, 9, 9};
     }));
-    EXPECT_TRUE(scene.change(lights, [](Scene& s) { s.groups[0].shapes[5].emission->two_sided = true; }));
-    EXPECT_FALSE(scene.change(lights, [](Scene& s) { s.groups[0].shapes[5].emission->radiance = {}; })) << "no light";
+    EXPECT_TRUE(scene.change(of_lights, [](Scene& s) { s.groups[0].shapes[5].emission->two_sided = true; }));
+    EXPECT_FALSE(scene.change(of_lights, [](Scene& s) { s.groups[0].shapes[5].emission->radiance = {}; }))
+        << "no light";
   }
 }
 
 TYPED_TEST(UpdateScene, ChangesTheEnvironment) {
   ChangingScene<TypeParam> scene(whole_scene(), options_for(0));
-  EXPECT_TRUE(scene.change(lights, [](Scene& s) {
+  EXPECT_TRUE(scene.change(of_lights, [](Scene& s) {
     for (Light& light : s.lights)
       if (light.kind == LightKind::environment) light.radiance = {2, 1, 0.5};
   }));
-  EXPECT_TRUE(scene.change(lights, [](Scene& s) {
+  EXPECT_TRUE(scene.change(of_lights, [](Scene& s) {
     for (Light& light : s.lights)
       if (light.kind == LightKind::environment) light.axes = {{0, 0, 1}, {-1, 0, 0}, {0, 1, 0}};
   }));
-  EXPECT_TRUE(scene.change(maps, [](Scene& s) { s.environments[0] = map_of(32, 50); })) << "of the same size";
-  EXPECT_TRUE(scene.change(maps, [](Scene& s) { s.environments[0] = map_of(48, 3); })) << "of another size";
-  EXPECT_TRUE(scene.change(lights, [](Scene& s) { s.lights[3].radiance = {7, 0, 7}; })) << "the constant one";
-  EXPECT_TRUE(scene.change(maps, [](Scene& s) {
+  EXPECT_TRUE(scene.change(of_maps, [](Scene& s) { s.environments[0] = map_of(32, 50); })) << "of the same size";
+  EXPECT_TRUE(scene.change(of_maps, [](Scene& s) { s.environments[0] = map_of(48, 3); })) << "of another size";
+  EXPECT_TRUE(scene.change(of_lights, [](Scene& s) { s.lights[3].radiance = {7, 0, 7}; })) << "the constant one";
+  EXPECT_TRUE(scene.change(of_maps, [](Scene& s) {
     s.environments.push_back(map_of(16, 4));
     s.lights.push_back(environment_light(1));
   }));
-  EXPECT_TRUE(scene.change(maps, [](Scene& s) {
+  EXPECT_TRUE(scene.change(of_maps, [](Scene& s) {
     std::erase_if(s.lights, [](const Light& light) { return light.kind == LightKind::environment; });
   }));
-  EXPECT_TRUE(scene.change(maps, [](Scene& s) { s.lights.clear(); })) << "shapes alone";
+  EXPECT_TRUE(scene.change(of_maps, [](Scene& s) { s.lights.clear(); })) << "shapes alone";
 }
 
 TYPED_TEST(UpdateScene, MovesInstances) {
@@ -238,22 +239,22 @@ TYPED_TEST(UpdateScene, MovesInstances) {
       ChangingScene<TypeParam> scene(whole_scene(), options_for(max_copied, layouts));
       EXPECT_GT(scene.flat().view.instances_count, 0u);
       for (size_t i = 0; i < scene.scene().instances.size(); ++i)
-        EXPECT_TRUE(scene.change(transforms, [i](Scene& s) {
+        EXPECT_TRUE(scene.change(of_transforms, [i](Scene& s) {
           MovingTransform& transform = s.instances[i].world_from_group;
-          transform = moved(transform, Transform::translate({0.3, 0.1, -0.2}) * Transform::rotate(20, {0, 1, 0}));
+          transform = moved_by(transform, Transform::translate({0.3, 0.1, -0.2}) * Transform::rotate(20, {0, 1, 0}));
         })) << i;
-      EXPECT_TRUE(scene.change(transforms, [](Scene& s) {
+      EXPECT_TRUE(scene.change(of_transforms, [](Scene& s) {
         double offset = 0;
         for (Instance& instance : s.instances)
-          instance.world_from_group = moved(instance.world_from_group, Transform::translate({offset += 3, 0, 0}));
+          instance.world_from_group = moved_by(instance.world_from_group, Transform::translate({offset += 3, 0, 0}));
       })) << "all, so that the tree is another one";
-      EXPECT_TRUE(scene.change(transforms, [](Scene& s) {
+      EXPECT_TRUE(scene.change(of_transforms, [](Scene& s) {
         s.instances[0].world_from_group.start = Transform::scale({-1, 1, 1});  // a mirror image
         s.instances[0].world_from_group.end = s.instances[0].world_from_group.start;
       }));
-      EXPECT_TRUE(scene.change(all, [](Scene& s) {
+      EXPECT_TRUE(scene.change(of_all, [](Scene& s) {
         s.lights[0].radiance = {1, 1, 1};
-        s.instances[3].world_from_group = moved(s.instances[3].world_from_group, Transform::translate({0, 1, 0}));
+        s.instances[3].world_from_group = moved_by(s.instances[3].world_from_group, Transform::translate({0, 1, 0}));
       }));
     }
 }
@@ -261,13 +262,13 @@ TYPED_TEST(UpdateScene, MovesInstances) {
 TYPED_TEST(UpdateScene, MovesShapesOfTheWorld) {
   ChangingScene<TypeParam> scene(whole_scene(), options_for(0));
   for (size_t i = 0; i < scene.scene().groups[0].shapes.size(); ++i)
-    EXPECT_TRUE(scene.change(transforms, [i](Scene& s) {
+    EXPECT_TRUE(scene.change(of_transforms, [i](Scene& s) {
       MovingTransform& transform = s.groups[0].shapes[i].world_from_object;
-      transform = moved(transform, Transform::translate({0.3, 0.1, -0.2}) * Transform::scale({-2, 2, 2}));
+      transform = moved_by(transform, Transform::translate({0.3, 0.1, -0.2}) * Transform::scale({-2, 2, 2}));
     })) << i;
-  EXPECT_TRUE(scene.change(transforms, [](Scene& s) {
+  EXPECT_TRUE(scene.change(of_transforms, [](Scene& s) {
     for (Shape& shape : s.groups[0].shapes)
-      shape.world_from_object = moved(shape.world_from_object, Transform::translate({5, 0, 1}));
+      shape.world_from_object = moved_by(shape.world_from_object, Transform::translate({5, 0, 1}));
   }));
 }
 
@@ -277,7 +278,7 @@ TYPED_TEST(UpdateScene, SaysWhatItCannotDo) {
     Scene described = whole_scene();
     if (one_sided) described.materials.at(0).double_sided = false;
     ChangingScene<TypeParam> scene(std::move(described), options_for(0));
-    EXPECT_FALSE(scene.change(all, work));
+    EXPECT_FALSE(scene.change(of_all, work));
   };
   const Transform up = Transform::translate({0, 1, 0});
   fails("a group that moves and did not", [&](Scene& s) { s.instances[3].world_from_group.end = up; });
@@ -288,17 +289,22 @@ TYPED_TEST(UpdateScene, SaysWhatItCannotDo) {
     const Transform tiny = Transform::scale({1e-200, 1e-200, 1e-200});
     s.groups[0].shapes[4].world_from_object = {tiny, tiny};
   });
-  fails("a one-sided shape", [&](Scene& s) { s.groups[0].shapes[4].world_from_object = {up, up}; }, true);
-  fails("a map that is missing", [&](Scene& s) {
-    s.environments[0].floats.clear();
-  });
+  fails(
+      "a one-sided shape",
+      [&](Scene& s) {
+        s.groups[0].shapes[4].world_from_object = {up, up};
+      },
+      true);
+  fails("a map that is missing", [&](Scene& s) { s.environments[0].floats.clear(); });
 }
 
 /// The arrays change their sizes up and down, and are moved where they do not fit.
 TYPED_TEST(UpdateScene, FollowsManyChanges) {
   ChangingScene<TypeParam> scene(whole_scene(), options_for(0, {BvhLayout::bvh8, BvhLayout::cwbvh}));
   std::mt19937 random(5);
-  const auto number = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto number = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
   const auto index = [&](size_t count) { return std::uniform_int_distribution<size_t>(0, count - 1)(random); };
   const auto any_move = [&] {
     return Transform::translate({number(-3, 3), number(-1, 3), number(-3, 3)}) *
@@ -324,11 +330,9 @@ TYPED_TEST(UpdateScene, FollowsManyChanges) {
     }
   };
   for (int i = 0; i < 60; ++i)
-    EXPECT_TRUE(scene.change(index(4) == 0 ? all : SceneChanges{.lights = true, .transforms = true},
-                             [&](Scene& s) {
-                               for (size_t k = index(4); k > 0; --k) change_any(s);
-                             }))
-        << i;
+    EXPECT_TRUE(scene.change(index(4) == 0 ? of_all : SceneChanges{.lights = true, .transforms = true}, [&](Scene& s) {
+      for (size_t k = index(4); k > 0; --k) change_any(s);
+    })) << i;
 }
 
 }  // namespace
