@@ -236,7 +236,7 @@ namespace ALHAZEN_NAMESPACE {
 
 namespace {
 
-impl::RendererState& present(const std::unique_ptr<impl::RendererState>& state) {
+impl::RendererState& state_of(const std::unique_ptr<impl::RendererState>& state) {
   if (!state) throw InputError("the renderer was moved from: assign another to it first");
   return *state;
 }
@@ -248,13 +248,13 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&& other) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept = default;
 
-const Settings& Renderer::settings() const { return present(state_).asked; }
-void Renderer::set_settings(const Settings& settings) { present(state_).asked = settings; }
+const Settings& Renderer::settings() const { return state_of(state_).asked; }
+void Renderer::set_settings(const Settings& settings) { state_of(state_).asked = settings; }
 
 BuildReport Renderer::start(const Scene& scene, const ProgressFunction& progress) {
   const impl::ThreadDefaults defaults;
   const auto start = std::chrono::steady_clock::now();
-  impl::RendererState& state = present(state_);
+  impl::RendererState& state = state_of(state_);
   impl::refuse_reading_settings(state.asked);
   state.set_image(nullptr);
   state.listen(progress);
@@ -270,16 +270,16 @@ bool Renderer::render_pass(int64_t samples) {
   const impl::ThreadDefaults defaults;
   if (samples < 0) throw InputError("samples of a pass must not be negative");
   return impl::for_caller([&] {
-    return present(state_).under_way().take_pass(static_cast<uint32_t>(std::min<int64_t>(samples, 0xffffff00u)));
+    return state_of(state_).under_way().take_pass(static_cast<uint32_t>(std::min<int64_t>(samples, 0xffffff00u)));
   });
 }
 
 RenderedImage Renderer::image() const {
-  const impl::RendererState& state = present(state_);
+  const impl::RendererState& state = state_of(state_);
   return impl::for_caller([&] { return impl::rendered_image(state.under_way().so_far(), state.diagnostics); });
 }
 
-Progress Renderer::progress() const { return present(state_).under_way().progress(); }
+Progress Renderer::progress() const { return state_of(state_).under_way().progress(); }
 
 void Renderer::stop() {
   if (state_) state_->stop();
@@ -287,7 +287,7 @@ void Renderer::stop() {
 
 RenderedImage Renderer::finish() {
   const impl::ThreadDefaults defaults;
-  impl::RendererState& state = present(state_);
+  impl::RendererState& state = state_of(state_);
   state.under_way();
   const std::unique_ptr<impl::GrowingImage> image = state.set_image(nullptr);
   return state.listener->for_caller([&] { return impl::rendered_image(image->finish(), state.diagnostics); });
@@ -311,7 +311,7 @@ RenderedImage Renderer::render(const Scene& scene, const ProgressFunction& progr
 }
 
 std::vector<Warning> Renderer::warnings() const {
-  return impl::with_field_names(present(state_).diagnostics.public_warnings());
+  return impl::with_field_names(state_of(state_).diagnostics.public_warnings());
 }
 
 }  // namespace ALHAZEN_NAMESPACE
