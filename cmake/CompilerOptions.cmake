@@ -23,7 +23,11 @@ endif()
 if(NOT ALHAZEN_ARCH STREQUAL "")
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-march=${ALHAZEN_ARCH}>)
 endif()
-if(ALHAZEN_SANITIZE OR ALHAZEN_FUZZ)
+if(ALHAZEN_SANITIZE STREQUAL "thread")
+  # -Wno-tsan: a fence in a library's header, which this sanitizer does not know.
+  alhazen_cxx_options(-fsanitize=thread -fno-omit-frame-pointer -Wno-tsan)
+  target_link_options(alhazen_options INTERFACE -fsanitize=thread)
+elseif(ALHAZEN_SANITIZE OR ALHAZEN_FUZZ)
   # Beyond what `undefined` holds: numbers out of an integer's range, NaN among them, and the standard library's checks
   # of indices. The libraries behind the interfaces of C have been built without.
   alhazen_cxx_options(-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all

@@ -7,9 +7,15 @@ include(CMakePackageConfigHelpers)
 alhazen_installed_library()
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/alhazen)
 
-install(TARGETS alhazen_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
-install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/alhazen/scenes COMPONENT program
-        PATTERN __pycache__ EXCLUDE)
+if(TARGET alhazen_cli)
+  install(TARGETS alhazen_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/alhazen/scenes COMPONENT program
+          PATTERN __pycache__ EXCLUDE)
+  include(cmake/Manuals.cmake)
+endif()
+if(TARGET alhazen_python)
+  include(cmake/PythonInstall.cmake)
+endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 install(TARGETS alhazen_installed EXPORT alhazenTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
@@ -48,5 +54,3 @@ if(ALHAZEN_STATIC_LIBRARY)
 endif()
 configure_file(cmake/alhazen.pc.in ${CMAKE_CURRENT_BINARY_DIR}/alhazen.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/alhazen.pc DESTINATION ${pkg_config_folder} COMPONENT development)
-
-include(cmake/Manuals.cmake)

@@ -22,7 +22,7 @@ foreach(file IN LISTS USERS)
   dynamic_symbols(${file} "_Z(N|NK|ZN|ZNK|T[ISTVHW]N|T[hv][^ ]*_NK?|GVN|GVZN|GVZNK)${PRIVATE}[^ ]* [UwVu]" used)
   list(APPEND private ${used})
 endforeach()
-if(NOT public OR NOT private)
+if(NOT public OR (USERS AND NOT private))
   message(FATAL_ERROR "nm finds no symbols of Alhazen in ${LIBRARY} and ${USERS}")
 endif()
 list(SORT public)
@@ -32,11 +32,14 @@ list(REMOVE_DUPLICATES private)
 string(REGEX MATCH "^[0-9]+\\.[0-9]+" soversion ${VERSION})
 list(JOIN public ";\n  " public)
 list(JOIN private ";\n  " private)
+if(private)
+  set(private "global:
+  ${private};")
+endif()
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT
 "ALHAZEN_@soversion@ { global:
   @public@;
 };
-ALHAZEN_PRIVATE_@VERSION@ { global:
-  @private@;
+ALHAZEN_PRIVATE_@VERSION@ { @private@
 local: *; };
 ")

@@ -1,5 +1,5 @@
 # Packages for Debian, one for each component: scripts/package.sh builds them in a folder of their own, with the prefix /usr.
-# A package of bindings is one more component, with its line in `packages` and its name and texts below.
+# A package of further bindings is one more component, with its name and texts below.
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -64,6 +64,19 @@ ${what}
 .
 This package holds what programs that embed Alhazen are compiled with:
 headers, and files for CMake and pkg-config.")
+if(TARGET alhazen_python)
+  # The extension is for one minor version of Python.
+  math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
+  set(python "python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}~)")
+  string(APPEND python ", python3 (<< ${Python3_VERSION_MAJOR}.${next_minor}), python3-numpy")
+  alhazen_package(python python3-alhazen python "${python}, ${same}" "path tracer for pbrt, glTF and Mitsuba scenes (Python 3)
+${what}
+.
+This package holds the Python module, which makes scenes from NumPy arrays
+or files and renders them to arrays.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+      ${PROJECT_SOURCE_DIR}/packaging/debian/python/postinst ${PROJECT_SOURCE_DIR}/packaging/debian/python/prerm)
+endif()
 set(recommended)
 foreach(module IN ITEMS embree cuda optix)
   if(TARGET alhazen_${module})

@@ -18,7 +18,7 @@ set(kernels)
 foreach(set IN LISTS ALHAZEN_KERNEL_SETS)
   string(LENGTH ${set} length)
   foreach(name 17denoising_kernelsEv 20select_double_kernelEjj 19select_float_kernelEjj
-          19select_study_kernelENS0_11StudyKernelEb)
+          19select_study_kernelENS0_11StudyKernelEb 20select_float_queriesEbb 21select_double_queriesEbb)
     list(APPEND kernels -Wl,--undefined=_ZN7alhazen4impl${length}${set}${name})
   endforeach()
 endforeach()

@@ -35,15 +35,19 @@ endfunction()
 # The library as it is installed, from the same objects: of the internals, it exports what the program and the modules use.
 function(alhazen_installed_library)
   get_property(modules GLOBAL PROPERTY ALHAZEN_MODULES)
-  set(users $<TARGET_FILE:alhazen_cli>)
-  foreach(module IN LISTS modules)
-    list(APPEND users $<TARGET_FILE:${module}>)
+  set(targets ${modules})
+  if(TARGET alhazen_cli)
+    list(APPEND targets alhazen_cli)
+  endif()
+  set(users)
+  foreach(target IN LISTS targets)
+    list(APPEND users $<TARGET_FILE:${target}>)
   endforeach()
   add_custom_command(OUTPUT ${ALHAZEN_INSTALLED_SYMBOLS}
     COMMAND ${CMAKE_COMMAND} -DNM=${CMAKE_NM} -DLIBRARY=$<TARGET_FILE:alhazen> "-DUSERS=${users}"
             -DPUBLIC=${ALHAZEN_PUBLIC_SCOPE} -DPRIVATE=${ALHAZEN_PRIVATE_SCOPE} -DVERSION=${PROJECT_VERSION}
             -DOUTPUT=${ALHAZEN_INSTALLED_SYMBOLS} -P ${PROJECT_SOURCE_DIR}/cmake/InstalledSymbols.cmake
-    DEPENDS alhazen alhazen_cli ${modules} ${PROJECT_SOURCE_DIR}/cmake/InstalledSymbols.cmake
+    DEPENDS alhazen ${targets} ${PROJECT_SOURCE_DIR}/cmake/InstalledSymbols.cmake
     VERBATIM COMMENT "Listing the symbols of the installed library")
   add_custom_target(alhazen_installed_symbols DEPENDS ${ALHAZEN_INSTALLED_SYMBOLS})
 
@@ -65,8 +69,9 @@ function(alhazen_same_objects target)
   if(ARGN)
     set(objects $<FILTER:${objects},EXCLUDE,${ARGN}>)
   endif()
-  foreach(set IN LISTS ALHAZEN_KERNEL_SETS)
-    list(APPEND objects $<TARGET_OBJECTS:alhazen_${set}>)
+  get_target_property(kernels alhazen ALHAZEN_KERNELS)
+  foreach(kernel IN LISTS kernels)
+    list(APPEND objects $<TARGET_OBJECTS:${kernel}>)
   endforeach()
   target_sources(${target} PRIVATE ${objects})
   target_include_directories(${target}

@@ -37,6 +37,8 @@ MAY_INCLUDE = {
 EXCEPTIONS = [
     ("core", "immintrin.h", "intrinsics of x86, within core/simd/lanes.h"),
     ("util", "alhazen/error.h", "the bases of what it throws"),
+    ("util", "alhazen/warning.h", "what its warnings become"),
+    ("util", "alhazen/log.h", "what it implements"),
 ]
 
 # The core runs on devices too: of the standard library it may use only headers that need no run time support there.

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what Alhazen is built and tested with, from Debian or Ubuntu; with the argument --program, what the program alone is
-# built with. What is there already is left alone, so a second run does nothing and needs no network.
+# built with; with --python, what `pip install .` needs. What is there already is left alone, so a second run does nothing and
+# needs no network.
 set -euo pipefail
 
 packages=(
@@ -9,14 +10,22 @@ packages=(
   nlohmann-json3-dev libcli11-dev libfmt-dev
   libdraco-dev libmeshoptimizer-dev libwebp-dev libexpat1-dev
 )
-if [[ ${1:-} != --program ]]; then
-  packages+=(libembree-dev libgtest-dev libbenchmark-dev clang-format python3 python3-matplotlib)
-fi
+python=(python3 python3-dev pybind11-dev python3-numpy)
+case ${1:-} in
+  --program) ;;
+  --python) packages+=("${python[@]}" python3-pip python3-venv) ;;
+  *)
+    packages+=(libembree-dev libgtest-dev libbenchmark-dev clang-format python3-matplotlib)
+    # The Python module, and what its tests run: pytest, notebooks, mypy over the stubs, pip in a virtual environment.
+    packages+=("${python[@]}" python3-pytest jupyter-nbconvert python3-ipykernel mypy python3-pip python3-venv)
+    ;;
+esac
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
   echo "install-deps: this is not Debian or Ubuntu. Install these yourself, under the names they have here: a C++20" \
     "compiler with OpenMP (GCC 12 or later), CMake 3.25, Ninja, OpenEXR 3, libpng, libjpeg, zlib, stb, nlohmann-json," \
-    "CLI11, fmt, Embree, Draco, meshoptimizer, libwebp and Expat where they are wanted; for the tests GoogleTest, Google Benchmark, clang-format and Python 3 with matplotlib." >&2
+    "CLI11, fmt, Embree, Draco, meshoptimizer, libwebp and Expat where they are wanted; for the Python module Python 3.11, pybind11 2.10 and NumPy; for the tests" \
+    "GoogleTest, Google Benchmark, clang-format, and Python's matplotlib, pytest, nbconvert, ipykernel, mypy and pip." >&2
   exit 1
 fi
 

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 
 namespace {
@@ -14,15 +15,15 @@ std::atomic<bool> is_interrupted{false};
 }
 
 int main(int argc, char** argv) try {
-  if (argc < 2) return std::fprintf(stderr, "usage: progressive SCENE\n"), 2;
+  if (argc < 2) return std::fprintf(stderr, "usage: progressive SCENE [SAMPLES]\n"), 2;
   std::signal(SIGINT, [](int) { is_interrupted = true; });
 
   const alhazen::Scene scene = alhazen::Scene::load(argv[1]);
-  for (const std::string& warning : scene.warnings()) std::printf("warning: %s\n", warning.c_str());
+  for (const alhazen::Warning& warning : scene.warnings()) std::printf("warning: %s\n", warning.text().c_str());
 
   alhazen::Settings settings;
   settings.width = 320, settings.height = 240;
-  settings.samples_per_pixel = 256;
+  settings.samples_per_pixel = argc > 2 ? std::atoi(argv[2]) : 256;
   alhazen::Renderer renderer(settings);
   renderer.start(scene, [](const alhazen::Progress&) { return !is_interrupted; });
   // Few samples first, so that something is to be seen soon; then twice as many each time.

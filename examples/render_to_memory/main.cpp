@@ -22,7 +22,7 @@ int main(int argc, char** argv) try {
     if (std::printf("%3.0f%%\n", 100 * progress.fraction) < 0) throw std::runtime_error("nobody reads the progress");
     return progress.seconds < seconds;  // false cancels
   });
-  for (const std::string& warning : image.warnings) std::printf("warning: %s\n", warning.c_str());
+  for (const alhazen::Warning& warning : image.warnings) std::printf("warning: %s\n", warning.text().c_str());
 
   if (image.planes.empty()) return std::printf("cancelled before the first sample\n"), 0;
   const float *red = image.plane("R"), *depth = image.plane("depth.Z");

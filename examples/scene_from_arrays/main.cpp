@@ -62,7 +62,7 @@ int main() try {
   scene.set(scene.find_material("clay"), alhazen::Diffuse{.reflectance = 0.05});
   scene.set_environment(alhazen::Colour{0.01, 0.01, 0.03});
   const alhazen::RenderedImage night = alhazen::render(scene, settings);
-  for (const std::string& warning : night.warnings) std::printf("warning: %s\n", warning.c_str());
+  for (const alhazen::Warning& warning : night.warnings) std::printf("warning: %s\n", warning.text().c_str());
   std::printf("%d x %d pixels; green is %.3f by day and %.3f by night\n", day.width, day.height, mean(day, "G"),
               mean(night, "G"));
 } catch (const std::exception& error) {

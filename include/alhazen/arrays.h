@@ -14,7 +14,7 @@
 
 namespace ALHAZEN_NAMESPACE {
 
-/// A view of floats or doubles.
+/// A view of floats or doubles, which must outlive it.
 class Reals {
  public:
   Reals() = default;
@@ -33,7 +33,8 @@ class Reals {
   size_t size_ = 0;
 };
 
-/// A triangle mesh in object space. All arrays but the first two are optional; they have values for each vertex.
+/// A triangle mesh in object space. All arrays but the first two are optional; they have values for each vertex, all of
+/// them finite. Positions are kept in double precision, the others in single.
 struct MeshArrays {
   Reals positions{};                    ///< x, y, z of each vertex
   std::span<const uint32_t> indices{};  ///< three vertices of each triangle, counter-clockwise seen from outside
@@ -44,7 +45,7 @@ struct MeshArrays {
   std::string name{};
 };
 
-/// A mesh as the scene holds it.
+/// A mesh as the scene holds it: arrays that it was not given are empty.
 struct MeshView {
   std::span<const double> positions{};
   std::span<const uint32_t> indices{};
@@ -52,10 +53,12 @@ struct MeshView {
   std::span<const float> colours{};  ///< red, green, blue, alpha
 };
 
+/// How bytes of an image stand for values: by the curve of sRGB, or value / 255.
 enum class Encoding { srgb, linear };
 
 /// An image in memory, rows from the top down, channels interleaved: 1 (grey), 3 (red, green, blue) or 4 (and alpha).
-/// Exactly one of `bytes` and `floats` has width * height * channels values.
+/// Exactly one of `bytes` and `floats` has width * height * channels values, all of them finite, of at most 2^30
+/// texels.
 struct Pixels {
   int width = 0, height = 0, channels = 3;
   std::span<const uint8_t> bytes{};

@@ -1,6 +1,6 @@
 #pragma once
 
-// Lights that are not shapes. Positions and directions are in world space.
+// Lights that are not shapes. Positions and directions are in world space; colours are not negative.
 
 #include <string>
 #include <utility>
@@ -17,24 +17,27 @@ struct Axes {
   Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 };
 
+/// Light from a point, equally in all directions.
 struct PointLight {
   Colour intensity{1};  ///< W / sr
   Vec3 position{};
 };
 
+/// Light from a point within a cone.
 struct SpotLight {
   Colour intensity{1};  ///< W / sr, on the axis
   Vec3 position{};
   Vec3 direction{0, 0, 1};    ///< in which the light travels, of any length but 0
-  double cone_angle = 30;     ///< degrees from the axis to the edge
-  double falloff_start = 25;  ///< degrees from the axis to where it begins to fade
+  double cone_angle = 30;     ///< degrees from the axis to the edge, over 0 and at most 180
+  double falloff_start = 25;  ///< degrees from the axis to where it begins to fade, 0 to `cone_angle`
 };
 
 /// Light from one direction, such as that of the sun.
 struct DistantLight {
   Colour irradiance{1};     ///< W / m^2, at normal incidence
   Vec3 direction{0, 0, 1};  ///< in which the light travels, of any length but 0
-  double angle = 0;  ///< degrees of its disk in the sky (the sun's are 0.53), from 0.01; 0: all from one direction
+  /// Degrees of its disk in the sky (the sun's are 0.53), from 0.01 to 180; 0: all from one direction.
+  double angle = 0;
 };
 
 /// A point light whose intensity is multiplied by a square image over all directions (equal-area octahedral).
@@ -49,7 +52,7 @@ struct ProjectionLight {
   Colour intensity{1};  ///< W / sr, on the axis where the image is 1
   Vec3 position{};
   Axes axes{};
-  double fov = 90;  ///< degrees over the shorter side of the image
+  double fov = 90;  ///< degrees over the shorter side of the image, over 0 and under 180
 };
 
 /// Light from everywhere.

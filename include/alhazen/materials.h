@@ -104,7 +104,7 @@ struct Principled {
   bool thin = false;
   Colour attenuation_colour{1};  ///< what is left of white light after `attenuation_distance` (scene units) within it
   double attenuation_distance = std::numeric_limits<double>::infinity();
-  double dispersion = 0;  ///< 20 / Abbe number
+  double dispersion = 0;  ///< 20 / Abbe number, not negative
   NumberInput clearcoat = 0, clearcoat_roughness = 0;
   TextureId clearcoat_normal_map{};
   double clearcoat_normal_scale = 1;

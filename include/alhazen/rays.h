@@ -97,13 +97,14 @@ class RayQueries {
   /// Reads a scene in any format that `render` reads, and builds a BVH. Of `settings`, only `precision`, `threads`, and
   /// those that choose what is read (confine, search_paths, strict, variant, animation, animation_time, shutter,
   /// frames_per_second, definitions) matter. Throws what `render` throws for a bad scene.
-  static RayQueries from_file(const std::string& scene_file, const Settings& settings = {});
+  static RayQueries from_file(const std::string& scene_file, const Settings& settings = {},
+                              const ProgressFunction& progress = {});
 
   /// Builds a BVH of a copy of the scene's geometry: the scene may be changed and destroyed afterwards, which the
   /// queries do not see. Of `settings`, only `precision` and `threads` matter. Results are the same as those of
   /// `from_file` if the scene was loaded from that file and not changed. Throws InputError for these settings out of
   /// range, and for geometry that cannot be represented in this precision.
-  explicit RayQueries(const Scene& scene, const Settings& settings = {});
+  explicit RayQueries(const Scene& scene, const Settings& settings = {}, const ProgressFunction& progress = {});
 
   /// For scenes that are built within the library.
   explicit RayQueries(std::shared_ptr<const impl::QueryScene> scene);
@@ -129,7 +130,7 @@ class RayQueries {
   const Box& bounds() const;
 
   /// Of the scene reader and of building.
-  const std::vector<std::string>& warnings() const;
+  const std::vector<Warning>& warnings() const;
 
  private:
   std::shared_ptr<const impl::QueryScene> scene_;

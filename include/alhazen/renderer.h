@@ -25,24 +25,34 @@ namespace ALHAZEN_NAMESPACE {
 
 /// What `start` did.
 struct BuildReport {
-  /// False if the scene that was built before is used.
+  /// True if everything was built. False if the scene that was built before is used, with these parts of it built anew:
   bool is_new = false;
-  double seconds = 0;  ///< that `start` took
+  bool materials = false;    ///< values of materials and textures
+  bool lights = false;       ///< values of all lights, and how they are chosen among
+  bool environment = false;  ///< environment maps, and images of lights, with their distributions
+  bool transforms = false;   ///< where shapes and instances are, and the BVH of the world; none of groups
+  double seconds = 0;        ///< that `start` took
 };
 
 /// Keeps what it built of a scene, its BVH above all, and a copy of what it needs: scenes may be changed and destroyed
-/// while it renders. Each `start` compares the scene with what was built. Without building, it takes
-/// - another camera, image size, crop, number of samples, seed, noise target, guiding, denoiser, and layers unless they
-///   need names or light groups that were not built;
+/// while it renders. Each `start` compares the scene with what was built. Nothing is built for another camera (of the
+/// scene or by settings), image size, crop, number of samples, seed, noise target, guiding, denoiser, and layers unless
+/// they need names or light groups that were not built. Only what depends on it is built for
 /// - other values and kinds of materials and textures, as long as no surface begins or ceases to be one-sided, to have
-/// an
-///   opacity, or to use uv coordinates, and no texture of a light changes.
-/// All else is built anew as a whole.
+///   an opacity, or to use uv coordinates, and no texture of a light changes;
+/// - other values, kinds and numbers of lights, also by settings, and another emission of shapes that emit before and
+///   after, as long as layers for light groups need no other groups;
+/// - another environment;
+/// - other transforms of instances and of shapes in the world, as long as no instance of a group begins or ceases to be
+///   the only one that moves during the exposure, and no shape with a one-sided material is copied or moved.
+/// All else is built anew as a whole: meshes, images, what there is in groups, and which shapes and instances there are.
+/// docs/library.md says what each takes.
 ///
 /// Images have the same bits as those of `render(scene, settings)`, whatever was rendered before.
 ///
 /// Of one renderer, functions may be called by one thread at a time, but `stop` by any at any time; several renderers
-/// are independent. All but `stop` throw what `render` throws, and InputError where they are called at the wrong time.
+/// are independent, also of the same scene as long as it is not changed while one of them starts. All but `stop` throw
+/// what `render` throws, and InputError where they are called at the wrong time.
 class Renderer {
  public:
   /// Settings about reading (camera, variant, animation, definitions, ...) must be empty: they are LoadOptions.
@@ -55,7 +65,9 @@ class Renderer {
   /// For the next `start`.
   void set_settings(const Settings& settings);
 
-  /// Begins an image, and drops one that is under way, whose `progress` is called once more.
+  /// Begins an image, and drops one that is under way, whose `progress` is called once more. Throws Cancelled if
+  /// `progress` returns false or `stop` is called before everything is built; then no image is under way, and the
+  /// next `start` builds the scene.
   BuildReport start(const Scene& scene, const ProgressFunction& progress = {});
 
   /// Takes some samples of every pixel: `samples` rounded up to a multiple of 4, but at most those that are left and 64
@@ -68,7 +80,8 @@ class Renderer {
   RenderedImage image() const;
   Progress progress() const;
 
-  /// Ends the pass under way within a few milliseconds; `render_pass` then returns false.
+  /// Ends the pass under way within a few milliseconds; `render_pass` then returns false. A `start` under way ends by
+  /// Cancelled before its next step. Without either it has no effect.
   void stop();
 
   /// Ends an image, after any number of passes: saves its checkpoint, denoises it. Rethrows what `progress` has thrown.
@@ -77,11 +90,12 @@ class Renderer {
   /// Called between passes, on the thread that renders. Returning false stops; an exception does too, and is rethrown.
   using PassFunction = std::function<bool(const Renderer&)>;
 
-  /// All of it: start, passes until there are no more, finish.
+  /// All of it: start, passes until there are no more, finish. Where start is cancelled, the image is empty.
   RenderedImage render(const Scene& scene, const ProgressFunction& progress = {}, const PassFunction& after_pass = {});
 
-  /// Of the scene that was built last and of the image, each once.
-  std::vector<std::string> warnings() const;
+  /// What was warned of while the scene was built last, and since then by the image; each once. Those of the scene's
+  /// reader are Scene::warnings.
+  std::vector<Warning> warnings() const;
 
  private:
   std::unique_ptr<impl::RendererState> state_;

@@ -26,9 +26,11 @@ struct SaveOptions {
 };
 
 /// Writes the image completely or not at all, replacing a file of that name. The extension chooses the format: .exr
-/// (all channels), .png, .jpg (sRGB, clamped to [0, 1]; PNG with A where the image has it), .hdr, .pfm (R, G and B).
-/// Throws InputError for another extension, options out of range and an image without pixels, Error if it cannot be
-/// written.
+/// (all channels, and where the pixels are within the whole image), .png, .jpg (sRGB, clamped to [0, 1]; PNG with A
+/// where the image has it), .hdr, .pfm (R, G and B). Headers have the image's metadata, as those of
+/// the program have (EXR, PNG, JPEG). Throws InputError for another extension, options out of range and an image
+/// without pixels, OutOfMemoryError, and Error if it cannot be written. Any number of threads may save at once, to
+/// different files.
 void save(const RenderedImage& image, const std::string& file, const SaveOptions& options = {});
 
 /// The bytes of the file that `save` writes under a name that ends in .png. Throws what `save` throws, and Error for an

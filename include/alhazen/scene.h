@@ -49,9 +49,10 @@ struct LoadOptions {
   bool strict = false;                      ///< a texture image that is missing is an error
 };
 
-/// A scene that a Settings-driven render or a Renderer takes a copy of. Copies are deep and share nothing; moving is
-/// cheap, and a scene that was moved from can only be assigned to or destroyed. Functions that are const may be called
-/// from several threads at once.
+/// A scene of which renders, Renderers and RayQueries take copies. Copies are deep and share nothing; moving is cheap,
+/// and a scene that was moved from can only be assigned to or destroyed. Functions that are const may be called from
+/// several threads at once, also while others render the scene; while one thread calls any other function of it, no
+/// other thread may use it. Different scenes, copies included, are independent.
 ///
 /// A new scene has nothing in it. Until a camera is given, it is seen as a model is: from the front, the side and
 /// above, whole, with y upwards. As long as it has no light at all, neither emissive shapes nor lights, it is lit by
@@ -60,8 +61,8 @@ struct LoadOptions {
 /// what its reader adds.
 ///
 /// All functions throw InputError, whose message names the argument, for a handle that is not of this scene, and for
-/// values that are not finite or out of the range of their meaning; the scene is then unchanged. Those that add throw
-/// std::bad_alloc, too.
+/// values that are not finite or out of the range of their meaning; the scene is then unchanged. Those that copy, read
+/// or take arrays and images throw OutOfMemoryError, after which the scene is unchanged, too.
 class Scene {
  public:
   Scene();
@@ -72,11 +73,11 @@ class Scene {
   Scene& operator=(Scene&& other) noexcept;
 
   /// Reads a scene (.pbrt, .gltf, .glb, .xml of Mitsuba) or a model (.obj, .ply, .stl). Throws InputError with file,
-  /// line and column.
-  static Scene load(const std::string& file, const LoadOptions& options = {});
+  /// line and column, OutOfMemoryError, what `progress` throws, and Cancelled if it returns false.
+  static Scene load(const std::string& file, const LoadOptions& options = {}, const ProgressFunction& progress = {});
 
   /// What the reader of the file warned of, each with its place.
-  std::vector<std::string> warnings() const;
+  std::vector<Warning> warnings() const;
   std::string file() const;  ///< that it was read from; empty if it was not
 
   // Meshes. -----------------------------------------------------------------------------------------------------------
@@ -210,7 +211,7 @@ class Scene {
   /// World space, of all shapes and instances when the shutter opens; empty if there are none.
   Box bounds() const;
 
-  /// For the library itself.
+  /// For the library itself; programs cannot use what they return.
   const impl::SceneState& state() const;
   impl::SceneState& state();
 

@@ -14,24 +14,24 @@ namespace ALHAZEN_NAMESPACE {
 
 /// Centred at the origin of object space.
 struct Sphere {
-  double radius = 1;
+  double radius = 1;  ///< over 0
 };
 
 /// About the z axis of object space, open at its ends.
 struct Cylinder {
-  double radius = 1, z_min = -1, z_max = 1;
-  double phi_max = 360;  ///< degrees of azimuth from x
+  double radius = 1, z_min = -1, z_max = 1;  ///< over 0; z_min is under z_max
+  double phi_max = 360;                      ///< degrees of azimuth from x, over 0 and at most 360
 };
 
 /// About the z axis of object space, with its normal along z.
 struct Disk {
-  double radius = 1, inner_radius = 0, height = 0;
-  double phi_max = 360;
+  double radius = 1, inner_radius = 0, height = 0;  ///< 0 <= inner_radius < radius; it is at z = height
+  double phi_max = 360;                             ///< as of Cylinder
 };
 
 /// Makes a shape a light.
 struct Emission {
-  Colour radiance{1};  ///< W / (m^2 sr)
+  Colour radiance{1};  ///< W / (m^2 sr), not negative
   bool two_sided = false;
   TextureId texture{};  ///< factor on the radiance; none: 1
 };

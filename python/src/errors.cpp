@@ -28,10 +28,9 @@ PyObject* new_class(py::module_& m, const char* name, const char* doc, const py:
 
 /// Sets an instance of the class with the message and `attributes`.
 template <class... Attributes>
-void raise(PyObject* of_class, const char* message, const Attributes&... attributes) {
+void raise(PyObject* of_class, const std::string& message, const Attributes&... attributes) {
   try {
-    const py::object error = py::reinterpret_borrow<py::object>(of_class)(py::reinterpret_steal<py::object>(
-        PyUnicode_DecodeUTF8(message, static_cast<Py_ssize_t>(std::strlen(message)), "backslashreplace")));
+    const py::object error = py::reinterpret_borrow<py::object>(of_class)(path_text(message));
     (py::setattr(error, attributes.first, attributes.second), ...);
     PyErr_SetObject(of_class, error.ptr());
   } catch (py::error_already_set& failure) {

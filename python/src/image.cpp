@@ -28,7 +28,7 @@ PythonImage new_image(const py::object& pixels, const py::object& encoding, cons
   return image;
 }
 
-std::string repr(const PythonImage& image) {
+std::string image_text(const PythonImage& image) {
   if (!image.pixels) return "<alhazen.Image " + std::string(py::str(py::repr(path_text(image.file)))) + ">";
   return "<alhazen.Image: " + short_repr(*image.pixels) + ">";
 }
@@ -116,7 +116,7 @@ void bind_images(py::module_& m) {
           "'srgb', 'linear' or None.")
       .def_property_readonly(
           "name", [](const PythonImage& self) { return path_text(self.name); }, "str: by which scene.images finds it.")
-      .def("__repr__", &repr);
+      .def("__repr__", &image_text);
 }
 
 }  // namespace alhazen::python

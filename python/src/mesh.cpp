@@ -21,7 +21,7 @@ std::optional<py::array> checked_again(const char* name, const std::optional<py:
 
 py::object shown(const std::optional<py::array>& array) { return array ? py::object(*array) : py::none(); }
 
-std::string repr(const PythonMesh& mesh) {
+std::string mesh_text(const PythonMesh& mesh) {
   std::string text = "<alhazen.Mesh";
   if (!mesh.name.empty()) text += " " + std::string(py::str(py::repr(path_text(mesh.name))));
   text += ": " + std::to_string(mesh.vertices.shape(0)) + " vertices, " + std::to_string(mesh.faces.shape(0)) +
@@ -122,7 +122,7 @@ void bind_meshes(py::module_& m) {
           "name", [](const PythonMesh& self) { return path_text(self.name); },
           [](PythonMesh& self, const py::object& name) { self.name = text("name", name); },
           "str: by which scene.meshes finds it.")
-      .def("__repr__", &repr);
+      .def("__repr__", &mesh_text);
 }
 
 }  // namespace alhazen::python

@@ -59,6 +59,7 @@ py::tuple load_by_settings(const py::object& file, alhazen::Settings settings) {
     const py::gil_scoped_release unlocked;
     scene = std::make_shared<PythonScene>(alhazen::Scene::load(name, options));
   }
+  issue_warnings(scene->read().warnings());
   return py::make_tuple(scene, settings);
 }
 

@@ -16,7 +16,7 @@ std::string count_text(size_t count, const char* one, const char* many) {
   return ", " + std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-std::string repr(const PythonScene& self) {
+std::string scene_text(const PythonScene& self) {
   const alhazen::Scene& scene = self.read();
   std::string text = "<alhazen.Scene";
   if (const std::string file = scene.file(); !file.empty())
@@ -135,7 +135,7 @@ void bind_scene(py::module_& m) {
   py::options options;
   options.disable_function_signatures();
   scene.def(py::init<>(), "__init__(self)\n\nA scene with nothing in it.")
-      .def("__repr__", &repr)
+      .def("__repr__", &scene_text)
       .def("copy", &copy,
            "copy() -> Scene\n\nA copy that shares nothing with it. Parts of it name those of the copy, too.")
       .def("__copy__", &copy)
@@ -144,7 +144,7 @@ void bind_scene(py::module_& m) {
           "warnings",
           [](const PythonScene& self) {
             py::list texts;
-            for (const std::string& warning : self.read().warnings()) texts.append(path_text(warning));
+            for (const auto& warning : self.read().warnings()) texts.append(path_text(warning.text()));
             return texts;
           },
           "What the reader of the file warned of, each with its place: a list of str.")

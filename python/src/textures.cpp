@@ -35,7 +35,7 @@ void bind_texture(py::module_& m, const char* name, const char* doc, std::vector
 constexpr const char* space_doc = "from world space to that of the texture";
 constexpr const char* mapping_doc = "where its coordinates come from";
 constexpr const char* octaves_doc = "number of octaves of noise";
-constexpr const char* roughness_doc = "factor on the amplitude per octave";
+constexpr const char* amplitude_doc = "factor on the amplitude per octave";
 
 void bind_mapping(py::module_& m) {
   bind_value<TextureMapping>(
@@ -76,16 +76,16 @@ void bind_images_of(py::module_& m) {
 void bind_noise(py::module_& m) {
   bind_texture<FbmTexture>(
       m, "FbmTexture", "Perlin noise summed over octaves.",
-      {field("octaves", &FbmTexture::octaves, octaves_doc), field("roughness", &FbmTexture::roughness, roughness_doc),
+      {field("octaves", &FbmTexture::octaves, octaves_doc), field("roughness", &FbmTexture::roughness, amplitude_doc),
        field("texture_from_world", &FbmTexture::texture_from_world, space_doc)});
   bind_texture<WrinkledTexture>(m, "WrinkledTexture", "Absolute values of Perlin noise, summed (turbulence).",
                                 {field("octaves", &WrinkledTexture::octaves, octaves_doc),
-                                 field("roughness", &WrinkledTexture::roughness, roughness_doc),
+                                 field("roughness", &WrinkledTexture::roughness, amplitude_doc),
                                  field("texture_from_world", &WrinkledTexture::texture_from_world, space_doc)});
   bind_texture<MarbleTexture>(
       m, "MarbleTexture", "Veins that noise displaces.",
       {field("octaves", &MarbleTexture::octaves, octaves_doc),
-       field("roughness", &MarbleTexture::roughness, roughness_doc),
+       field("roughness", &MarbleTexture::roughness, amplitude_doc),
        field("scale", &MarbleTexture::scale, "factor on the point"),
        field("variation", &MarbleTexture::variation, "distance by which noise displaces the veins"),
        field("texture_from_world", &MarbleTexture::texture_from_world, space_doc)});

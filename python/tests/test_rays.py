@@ -13,6 +13,7 @@ SCENE = """
 LookAt 0 0 5  0 0 0  0 1 0
 Camera "perspective"
 WorldBegin
+LightSource "distant"
 Shape "sphere" "float radius" 1
 Shape "trianglemesh" "point3 P" [-1 -1 -2  1 -1 -2  1 1 -2  -1 1 -2] "integer indices" [0 1 2  0 2 3]
 ObjectBegin "thing"

@@ -109,9 +109,9 @@ def test_progress_is_called_and_stops(of):
         return len(seen) < 3
 
     image = each_render()[of](progress=progress, **ENDLESS)
-    assert not image.complete and len(seen) >= 3
+    assert not image.complete and len(seen) >= 3 and image.width == 200
     assert [state[0] for state in seen] == sorted(state[0] for state in seen)
-    assert np.asarray(image).mean() > 0.01
+    assert np.asarray(image).mean() > 0
 
 
 def test_what_callbacks_return():
@@ -330,9 +330,9 @@ print("end")
 
 
 def scene_with_a_warning(folder):
+    """The reader warns that it has no lights."""
     file = folder / "warns.pbrt"
-    text = CORNELL.read_text()
-    file.write_text(text.replace("WorldBegin", 'Option "bool nonsense" true\nWorldBegin'))
+    file.write_text('Camera "perspective"\nWorldBegin\nTranslate 0 0 5\nShape "sphere" "float radius" 1\n')
     return file
 
 
@@ -342,8 +342,8 @@ def test_warnings_of_the_library(tmp_path):
         warnings.simplefilter("always")
         image = alhazen.render(file, **SMALL)
         list(alhazen.progressive(file, samples_per_pass=4, **SMALL))
-    assert image.warnings
-    assert len(caught) in (len(image.warnings), 2 * len(image.warnings))
+    assert len(image.warnings) == 1 and "no lights" in image.warnings[0]
+    assert len(caught) == 2
     for warning in caught:
         assert warning.category is alhazen.AlhazenWarning and issubclass(warning.category, UserWarning)
         assert str(warning.message) in image.warnings

@@ -16,7 +16,12 @@ const float* RenderedImage::plane(const std::string& channel) const {
 RenderedImage render(const std::string& scene_file, const Settings& settings, const ProgressFunction& progress) {
   const impl::ThreadDefaults defaults;
   impl::Diagnostics diagnostics;
-  return impl::rendered_image(impl::load_scene(scene_file, settings, diagnostics), settings, progress, diagnostics);
+  impl::Listener listener(progress);
+  listener.watch(diagnostics.activity());
+  return impl::image_for_caller(listener, diagnostics, [&] {
+    return impl::rendered_image(impl::load_scene(scene_file, settings, diagnostics), settings, listener.function(),
+                                diagnostics);
+  });
 }
 
 }  // namespace ALHAZEN_NAMESPACE

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "alhazen/scene.h"
+#include "api/building.h"
 #include "api/scene_state.h"
 #include "pipeline/load_scene.h"
 #include "queries/query_scene.h"
@@ -36,23 +37,32 @@ impl::Precision precision_of(const Settings& settings) {
 
 }  // namespace
 
-RayQueries RayQueries::from_file(const std::string& scene_file, const Settings& settings) {
+RayQueries RayQueries::from_file(const std::string& scene_file, const Settings& settings,
+                                 const ProgressFunction& progress) {
   const impl::ThreadDefaults defaults;
   const impl::Precision precision = precision_of(settings);
   impl::check_setting(settings, "threads");
   impl::Diagnostics diagnostics;
-  impl::LoadedScene loaded = impl::load_scene(scene_file, reading_settings(settings), diagnostics);
-  return RayQueries(
-      std::make_shared<const impl::QueryScene>(std::move(loaded.scene), precision, settings.threads, diagnostics));
+  impl::Listener listener(progress);
+  listener.watch(diagnostics.activity());
+  return listener.for_caller([&] {
+    impl::LoadedScene loaded = impl::load_scene(scene_file, reading_settings(settings), diagnostics);
+    return RayQueries(
+        std::make_shared<const impl::QueryScene>(std::move(loaded.scene), precision, settings.threads, diagnostics));
+  });
 }
 
-RayQueries::RayQueries(const Scene& scene, const Settings& settings) {
+RayQueries::RayQueries(const Scene& scene, const Settings& settings, const ProgressFunction& progress) {
   const impl::ThreadDefaults defaults;
   const impl::Precision precision = precision_of(settings);
   impl::check_setting(settings, "threads");
   impl::Diagnostics diagnostics;
-  scene_ =
-      std::make_shared<const impl::QueryScene>(scene.state().to_render(0), precision, settings.threads, diagnostics);
+  impl::Listener listener(progress);
+  listener.watch(diagnostics.activity());
+  scene_ = listener.for_caller([&] {
+    return std::make_shared<const impl::QueryScene>(scene.state().to_render(0), precision, settings.threads,
+                                                    diagnostics);
+  });
 }
 
 RayQueries::RayQueries(std::shared_ptr<const impl::QueryScene> scene) : scene_(std::move(scene)) {}
@@ -73,6 +83,6 @@ void RayQueries::occluded(const RayArrays<double>& rays, uint8_t* occluded, int 
 
 const Box& RayQueries::bounds() const { return scene_->bounds(); }
 
-const std::vector<std::string>& RayQueries::warnings() const { return scene_->warnings(); }
+const std::vector<Warning>& RayQueries::warnings() const { return scene_->warnings(); }
 
 }  // namespace ALHAZEN_NAMESPACE

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "images/image.h"
+#include "pipeline/write_outputs.h"
 
 namespace alhazen::impl {
 
@@ -19,6 +20,13 @@ void refuse_reading_settings(const Settings& settings) {
   refuse(settings.animation_time.has_value(), "animation_time");
   refuse(settings.shutter.has_value(), "shutter");
   refuse(!settings.definitions.empty(), "definitions");
+}
+
+RenderedImage empty_image(const Diagnostics& diagnostics) {
+  RenderedImage image;
+  image.complete = false;
+  image.warnings = diagnostics.public_warnings();
+  return image;
 }
 
 RenderedImage rendered_image(LoadedScene&& loaded, const Settings& settings, const ProgressFunction& progress,
@@ -38,14 +46,22 @@ RenderedImage rendered_image(const Rendering& rendering, const Diagnostics& diag
     image.height = means.height;
     image.channels = std::move(means.channels);
     image.planes = std::move(means.planes);
+    const RenderSettings& settings = rendering.statistics.settings;
+    image.x = settings.window.x0;
+    image.y = settings.window.y0;
+    image.full_width = settings.width;
+    image.full_height = settings.height;
+    image.metadata = image_metadata(rendering, true);
   }
   const RenderStatistics& statistics = rendering.statistics;
+  image.samples = statistics.mean_samples;
+  image.seconds = statistics.render_seconds;
   image.complete = statistics.complete;
   image.denoiser = statistics.denoiser;
   image.quality = statistics.settings.asked.quality;
   if (statistics.settings.asked.noise > 0)
     image.noise = ReachedNoise{statistics.noise.noise, statistics.noise.below, statistics.noise.mean_samples};
-  for (const Diagnostics::Warning& warning : diagnostics.warnings()) image.warnings.push_back(warning.to_string());
+  image.warnings = diagnostics.public_warnings();
   return image;
 }
 

@@ -3,6 +3,7 @@
 // The last steps of every render of the public interface.
 
 #include "alhazen/alhazen.h"
+#include "api/building.h"
 #include "pipeline/load_scene.h"
 #include "render/renderer.h"
 #include "util/diagnostics.h"
@@ -11,6 +12,22 @@ namespace alhazen::impl {
 
 /// Throws InputError for settings that select what is read from a file: for a scene in memory they come too late.
 void refuse_reading_settings(const Settings& settings);
+
+/// Without samples: what a render returns that was ended while its scene was read or built.
+RenderedImage empty_image(const Diagnostics& diagnostics);
+
+/// Returns the image that `render` returns, or an empty one where the listener or a stop ends the task before it.
+template <class Render>
+RenderedImage image_for_caller(Listener& listener, const Diagnostics& diagnostics, const Render& render) {
+  return listener.for_caller([&] {
+    try {
+      return render();
+    } catch (const Cancelled&) {
+      if (listener.has_thrown()) throw;
+      return empty_image(diagnostics);
+    }
+  });
+}
 
 /// Renders a scene to which `settings` have been applied.
 RenderedImage rendered_image(LoadedScene&& loaded, const Settings& settings, const ProgressFunction& progress,

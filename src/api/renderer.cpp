@@ -9,6 +9,8 @@
 #include "api/rendered_image.h"
 #include "api/scene_state.h"
 #include "compile/render_space.h"
+#include "geometry/quadrics.h"
+#include "pipeline/choose_view.h"
 #include "pipeline/load_scene.h"
 #include "render/renderer.h"
 #include "util/thread_limit.h"
@@ -25,8 +27,7 @@ struct BuildKey {
     return std::tuple(settings.precision, settings.backend, settings.strategy, settings.device, settings.block.x,
                       settings.block.y, settings.chunk.x, settings.chunk.y, settings.threads, settings.texture_budget,
                       settings.integrator == IntegratorKind::path,
-                      std::tie(asked.coats, asked.filter, asked.environment, asked.environment_rotation,
-                               asked.environment_strength, asked.light_scale, asked.confine, asked.search_paths));
+                      std::tie(asked.coats, asked.filter, asked.confine, asked.search_paths));
   }
 
   /// Whether layers need only names and light groups that were built with `built`.
@@ -40,9 +41,38 @@ struct BuildKey {
   const RenderSettings& settings;
 };
 
-/// Whether settings move the camera of the scene.
-bool places_camera(const Settings& s) {
-  return !s.look_at.empty() || !s.orbit.empty() || s.fit || s.fov || s.aperture || s.focus;
+/// What settings change of the lights, and what they say of the camera.
+auto light_settings(const Settings& s) {
+  return std::tuple(s.environment, s.environment_rotation, s.environment_strength, s.light_scale);
+}
+auto camera_settings(const Settings& s) {
+  return std::tuple(s.look_at, s.orbit, s.fit, s.fov, s.aperture, s.focus, aspect_of(s.width, s.height));
+}
+
+/// Whether a camera is placed for all that is in the scene.
+bool fits_scene(const Camera& camera, const Settings& s) {
+  return camera.is_default || s.fit || !s.orbit.empty();
+}
+
+/// The camera that the scene is seen by with these settings, as adapt_scene places it.
+Camera placed_camera_of(const SceneState& scene, const Settings& asked) {
+  const Scene& description = scene.description;
+  const double aspect = aspect_of(asked.width, asked.height);
+  if (fits_scene(description.camera, asked) && has_inexact_quadrics(description)) {
+    const Scene whole = scene.to_render(aspect);
+    return chosen_camera(asked, whole, whole.camera);
+  }
+  const Camera& camera = description.camera;
+  return chosen_camera(asked, description, camera.is_default ? default_camera(description, aspect) : camera);
+}
+
+/// The parts of a scene that a camera is placed for.
+bool is_same_view(const SceneRevisions& a, const SceneRevisions& b) {
+  return a.camera == b.camera && a.geometry == b.geometry && a.transforms == b.transforms && a.film == b.film;
+}
+
+void add_warnings(const std::vector<Diagnostics::Warning>& warnings, Diagnostics& diagnostics) {
+  for (const Diagnostics::Warning& warning : warnings) diagnostics.warn(warning.where, warning.message);
 }
 
 /// Of a film, what is compiled.
@@ -59,30 +89,21 @@ struct RendererState {
   explicit RendererState(const Settings& settings) : asked(settings) {}
   ~RendererState() { set_image(nullptr); }  // its last progress may call `stop`
 
-  /// Begins an image of what was built, if that is possible.
-  bool reuse(const SceneState& scene) {
-    if (!renderer || scene.id != scene_id || places_camera(asked)) return false;
-    SceneRevisions now = scene.revisions;
-    now.camera = revisions.camera, now.film = revisions.film, now.materials = revisions.materials;
-    if (now != revisions) return false;
+  /// Begins an image of what was built, with what has changed built anew, if that is possible.
+  bool reuse(const SceneState& scene, BuildReport& report) {
     const Scene& description = scene.description;
-    if (!is_same_film(description, filter, exposure, coats)) return false;
-    if (description.camera.shutter_open != camera.shutter_open ||
-        description.camera.shutter_close != camera.shutter_close || description.camera.is_default)
-      return false;
+    if (!renderer || !may_reuse(scene)) return false;
     refuse_checkpoint(description.name, scene.inputs.get(), asked);
     const RenderSettings resolved = resolve_settings(asked, description);
     const BuildKey key(resolved), before(*built);
     if (key.fields() != before.fields() || !key.has_names(before)) return false;
-    if (scene.revisions.camera != revisions.camera &&
-        !(renderer->is_in_world_space() && is_in_render_space(description)))
-      return false;
-    diagnostics = build_diagnostics;
     try {
-      if (scene.revisions.materials != revisions.materials && !renderer->change_materials(description)) return false;
-      revisions = scene.revisions;
-      warn_of_settings(description, resolved, diagnostics);
-      set_image(renderer->begin(events(), &description.camera, &resolved));
+      const bool keeps_view = is_same_view(scene.revisions, revisions) && camera_settings(asked) == of_camera;
+      const Camera placed = keeps_view ? camera : placed_camera_of(scene, asked);
+      if (!keeps_view && !(renderer->is_in_world_space() && is_in_render_space(description, placed))) return false;
+      if (!change(scene, placed, report) || !renderer->find_lost_light(resolved)) return false;
+      keep(scene, placed);
+      begin(description, resolved, &camera);
     } catch (...) {
       renderer.reset();  // it may be half changed
       throw;
@@ -90,23 +111,76 @@ struct RendererState {
     return true;
   }
 
-  void build(const SceneState& scene) {
+  void build(const SceneState& scene, BuildReport& report) {
     renderer.reset();
-    diagnostics = Diagnostics();
+    adapted = diagnostics = Diagnostics();
     LoadedScene loaded =
-        adapt_scene(scene.to_render(aspect_of(asked.width, asked.height)), scene.inputs, asked, diagnostics);
+        adapt_scene(scene.to_render(aspect_of(asked.width, asked.height)), scene.inputs, asked, adapted);
     built = std::make_unique<RenderSettings>(resolve_settings(asked, loaded.scene));
-    scene_id = scene.id;
-    revisions = scene.revisions;
+    keep(scene, loaded.scene.camera);
     filter = scene.description.filter;
     exposure = scene.description.film.exposure;
     coats = scene.description.coats;
-    camera = scene.description.camera;
-    renderer = make_scene_renderer(std::move(loaded.scene), *built, loaded.seconds, diagnostics);
-    build_diagnostics = diagnostics;
-    set_image(renderer->begin(events()));
+    renderer = make_scene_renderer(std::move(loaded.scene), *built, loaded.seconds, diagnostics, ForChanges::yes);
+    Diagnostics of_settings;
+    warn_of_settings(scene.description, *built, of_settings);
+    compiled.clear();
+    for (const Diagnostics::Warning& warning : diagnostics.warnings())
+      if (std::none_of(of_settings.warnings().begin(), of_settings.warnings().end(),
+                       [&](const Diagnostics::Warning& other) { return other.message == warning.message; }))
+        compiled.push_back(warning);
+    report.is_new = report.materials = report.lights = report.environment = report.transforms = true;
+    begin(scene.description, *built, nullptr);
   }
 
+ private:
+  /// Whether nothing has changed of what is built as a whole.
+  bool may_reuse(const SceneState& scene) const {
+    const Scene& description = scene.description;
+    return scene.id == scene_id && scene.revisions.geometry == revisions.geometry &&
+           scene.revisions.images == revisions.images && is_same_film(description, filter, exposure, coats) &&
+           description.camera.shutter_open == camera.shutter_open &&
+           description.camera.shutter_close == camera.shutter_close;
+  }
+
+  /// Builds anew what has changed. Returns false if that takes more.
+  bool change(const SceneState& scene, const Camera& placed, BuildReport& report) {
+    const SceneRevisions& now = scene.revisions;
+    report.materials = now.materials != revisions.materials;
+    if (report.materials && !renderer->change_materials(scene.description)) return false;
+    SceneChanges changes;
+    changes.transforms = now.transforms != revisions.transforms;
+    changes.light_maps = now.light_maps != revisions.light_maps || asked.environment != std::get<0>(of_lights);
+    changes.lights = changes.light_maps || now.lights != revisions.lights || now.environment != revisions.environment ||
+                     light_settings(asked) != of_lights;
+    report.lights = changes.lights;
+    report.environment = changes.light_maps;
+    report.transforms = changes.transforms;
+    if (!changes.lights && !changes.transforms) return true;
+    Scene outline = scene.outline_to_render(placed, changes.light_maps);
+    adapted = Diagnostics();
+    adapt_outline(outline, asked, changes.light_maps, adapted);
+    return renderer->change_parts(changes, scene.description.meshes, std::move(outline));
+  }
+
+  void keep(const SceneState& scene, const Camera& placed) {
+    scene_id = scene.id;
+    revisions = scene.revisions;
+    of_lights = light_settings(asked);
+    of_camera = camera_settings(asked);
+    camera = placed;
+  }
+
+  /// Begins an image with the warnings that a build for it alone would give.
+  void begin(const Scene& description, const RenderSettings& settings, const Camera* seen_by) {
+    diagnostics = Diagnostics();
+    add_warnings(adapted.warnings(), diagnostics);
+    warn_of_settings(description, settings, diagnostics);
+    add_warnings(compiled, diagnostics);
+    set_image(renderer->begin(events(), seen_by, seen_by ? &settings : nullptr));
+  }
+
+ public:
   /// `stop` may look at it at any time.
   std::unique_ptr<GrowingImage> set_image(std::unique_ptr<GrowingImage> next) {
     const std::lock_guard lock(mutex);
@@ -115,10 +189,22 @@ struct RendererState {
 
   void stop() {
     const std::lock_guard lock(mutex);
-    if (image) image->stop();
+    if (image)
+      image->stop();
+    else if (listener)
+      listener->cancel();
   }
 
-  RenderEvents events() const { return {progress, {}, {}, {}}; }
+  RenderEvents events() const { return {listener->function(), {}, {}, {}}; }
+
+  /// The progress function of the image that begins.
+  void listen(const ProgressFunction& progress) {
+    auto next = std::make_unique<Listener>(progress);
+    next->watch(diagnostics.activity());
+    next->watch(adapted.activity());
+    const std::lock_guard lock(mutex);
+    listener = std::move(next);
+  }
 
   GrowingImage& under_way() const {
     if (!image) throw InputError("no image is under way: call start first");
@@ -126,12 +212,13 @@ struct RendererState {
   }
 
   Settings asked;
-  Diagnostics diagnostics;        ///< of the scene and the image
-  Diagnostics build_diagnostics;  ///< of the scene alone
-  ProgressFunction progress;
+  Diagnostics diagnostics;  ///< of the scene and the image
+  Diagnostics adapted;      ///< of what settings replace in the scene
+  std::vector<Diagnostics::Warning> compiled;  ///< of what was built
+  std::unique_ptr<Listener> listener;
   std::unique_ptr<RenderSettings> built;  ///< `renderer` refers to it
   std::unique_ptr<SceneRenderer> renderer;
-  std::mutex mutex;                     ///< of `image`
+  std::mutex mutex;                     ///< of `image` and `listener`
   std::unique_ptr<GrowingImage> image;  ///< refers to `renderer`
   // What was built.
   uint32_t scene_id = 0;
@@ -139,7 +226,9 @@ struct RendererState {
   Filter filter;
   double exposure = 1;
   CoatModel coats = CoatModel::lossless;
-  Camera camera;
+  Camera camera;  ///< as it was placed
+  decltype(light_settings(Settings())) of_lights;
+  decltype(camera_settings(Settings())) of_camera;
 };
 
 }  // namespace alhazen::impl
@@ -159,10 +248,11 @@ BuildReport Renderer::start(const Scene& scene, const ProgressFunction& progress
   const auto start = std::chrono::steady_clock::now();
   impl::refuse_reading_settings(state_->asked);
   state_->set_image(nullptr);
-  state_->progress = progress;
+  state_->listen(progress);
   BuildReport report;
-  report.is_new = !state_->reuse(scene.state());
-  if (report.is_new) state_->build(scene.state());
+  state_->listener->for_caller([&] {
+    if (!state_->reuse(scene.state(), report)) state_->build(scene.state(), report);
+  });
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }
@@ -170,11 +260,12 @@ BuildReport Renderer::start(const Scene& scene, const ProgressFunction& progress
 bool Renderer::render_pass(int64_t samples) {
   const impl::ThreadDefaults defaults;
   if (samples < 0) throw InputError("samples of a pass must not be negative");
-  return state_->under_way().take_pass(static_cast<uint32_t>(std::min<int64_t>(samples, 0xffffff00u)));
+  return impl::for_caller(
+      [&] { return state_->under_way().take_pass(static_cast<uint32_t>(std::min<int64_t>(samples, 0xffffff00u))); });
 }
 
 RenderedImage Renderer::image() const {
-  return impl::rendered_image(state_->under_way().so_far(), state_->diagnostics);
+  return impl::for_caller([&] { return impl::rendered_image(state_->under_way().so_far(), state_->diagnostics); });
 }
 
 Progress Renderer::progress() const { return state_->under_way().progress(); }
@@ -185,11 +276,16 @@ RenderedImage Renderer::finish() {
   const impl::ThreadDefaults defaults;
   state_->under_way();
   const std::unique_ptr<impl::GrowingImage> image = state_->set_image(nullptr);
-  return impl::rendered_image(image->finish(), state_->diagnostics);
+  return state_->listener->for_caller([&] { return impl::rendered_image(image->finish(), state_->diagnostics); });
 }
 
 RenderedImage Renderer::render(const Scene& scene, const ProgressFunction& progress, const PassFunction& after_pass) {
-  start(scene, progress);
+  try {
+    start(scene, progress);
+  } catch (const Cancelled&) {
+    if (state_->listener->has_thrown()) throw;
+    return impl::empty_image(state_->diagnostics);
+  }
   try {
     while (render_pass())
       if (after_pass && !after_pass(*this)) break;
@@ -200,10 +296,6 @@ RenderedImage Renderer::render(const Scene& scene, const ProgressFunction& progr
   return finish();
 }
 
-std::vector<std::string> Renderer::warnings() const {
-  std::vector<std::string> texts;
-  for (const impl::Diagnostics::Warning& warning : state_->diagnostics.warnings()) texts.push_back(warning.to_string());
-  return texts;
-}
+std::vector<Warning> Renderer::warnings() const { return state_->diagnostics.public_warnings(); }
 
 }  // namespace ALHAZEN_NAMESPACE

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/caller_errors.h"
 #include "colour/white_point.h"
 #include "images/codecs/encode_png.h"
 #include "images/image.h"
+#include "pipeline/write_outputs.h"
 
 namespace ALHAZEN_NAMESPACE {
 
@@ -32,6 +34,11 @@ void check(const RenderedImage& image, const SaveOptions& options) {
   if (pixels == 0 || image.planes.size() != image.channels.size() ||
       std::any_of(image.planes.begin(), image.planes.end(), [&](const auto& plane) { return plane.size() != pixels; }))
     throw InputError("image: it has no pixels, or its planes do not hold width * height values each");
+  if (image.full_width != 0 || image.full_height != 0) {
+    const auto is_within = [](int64_t first, int64_t size, int64_t full) { return first >= 0 && first + size <= full; };
+    if (!is_within(image.x, image.width, image.full_width) || !is_within(image.y, image.height, image.full_height))
+      throw InputError("image: its pixels from x, y are not within full_width and full_height");
+  }
   if (!std::isfinite(options.exposure)) throw InputError("exposure must be a finite number of stops");
   if (options.white_temperature != 0 && !(options.white_temperature >= impl::min_white_temperature &&
                                           options.white_temperature <= impl::max_white_temperature))
@@ -40,7 +47,12 @@ void check(const RenderedImage& image, const SaveOptions& options) {
   if (options.jpeg_quality < 1 || options.jpeg_quality > 100) throw InputError("jpeg_quality must be from 1 to 100");
 }
 
-impl::WriteOptions write_options(const SaveOptions& options) {
+/// Of an entry of the metadata: only EXR files have layers.
+bool is_about_layers(const std::pair<const std::string, std::string>& entry) {
+  return entry.first.starts_with("cryptomatte/") || entry.first == "object" || entry.first == "material";
+}
+
+impl::WriteOptions write_options(const RenderedImage& image, const std::string& file, const SaveOptions& options) {
   impl::WriteOptions how;
   how.pixel_type = options.single_precision ? impl::ExrPixelType::single : impl::ExrPixelType::half;
   how.exposure = options.exposure;
@@ -48,7 +60,14 @@ impl::WriteOptions write_options(const SaveOptions& options) {
   how.tone_map = tone_map_of(options.tone_mapping);
   how.png_depth = options.png_depth;
   how.jpeg_quality = options.jpeg_quality;
+  how.metadata = image.metadata;
   how.metadata["software"] = std::string("Alhazen ") + version();
+  if (impl::extension_of(file) != "exr") std::erase_if(how.metadata, is_about_layers);
+  if (impl::is_displayed_format(file)) how.metadata["display"] = impl::display_text(how);
+  how.x_offset = image.full_width > 0 ? image.x : 0;
+  how.y_offset = image.full_height > 0 ? image.y : 0;
+  how.full_width = image.full_width;
+  how.full_height = image.full_height;
   return how;
 }
 
@@ -68,14 +87,16 @@ void save(const RenderedImage& image, const std::string& file, const SaveOptions
     throw impl::InputError(
         {file}, "images are written as " + impl::written_extensions() + ": give a name that ends in one of them");
   check(image, options);
-  impl::write_image(file, source_of(image), write_options(options));
+  impl::for_caller([&] { impl::write_image(file, source_of(image), write_options(image, file, options)); });
 }
 
 std::vector<uint8_t> encode_png(const RenderedImage& image, const SaveOptions& options) {
   check(image, options);
   std::vector<uint8_t> bytes;
-  impl::encode_png("an image as PNG", source_of(image), write_options(options),
-                   [&](const uint8_t* data, size_t size) { bytes.insert(bytes.end(), data, data + size); });
+  impl::for_caller([&] {
+    impl::encode_png("an image as PNG", source_of(image), write_options(image, ".png", options),
+                     [&](const uint8_t* data, size_t size) { bytes.insert(bytes.end(), data, data + size); });
+  });
   return bytes;
 }
 

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "api/building.h"
 #include "api/parts.h"
 #include "api/scene_state.h"
 #include "io/read_scene.h"
@@ -15,7 +16,8 @@ namespace ALHAZEN_NAMESPACE {
 Scene::Scene() : state_(std::make_unique<impl::SceneState>()) {}
 Scene::Scene(std::unique_ptr<impl::SceneState> state) : state_(std::move(state)) {}
 Scene::~Scene() = default;
-Scene::Scene(const Scene& other) : state_(std::make_unique<impl::SceneState>(other.state())) {}
+Scene::Scene(const Scene& other)
+    : state_(impl::for_caller([&] { return std::make_unique<impl::SceneState>(other.state()); })) {}
 Scene::Scene(Scene&& other) noexcept = default;
 Scene& Scene::operator=(Scene&& other) noexcept = default;
 
@@ -31,7 +33,7 @@ const impl::SceneState& Scene::state() const {
 
 impl::SceneState& Scene::state() { return const_cast<impl::SceneState&>(std::as_const(*this).state()); }
 
-Scene Scene::load(const std::string& file, const LoadOptions& options) {
+Scene Scene::load(const std::string& file, const LoadOptions& options, const ProgressFunction& progress) {
   Settings settings;
   settings.camera = options.camera;
   settings.variant = options.variant;
@@ -44,16 +46,21 @@ Scene Scene::load(const std::string& file, const LoadOptions& options) {
   settings.confine = options.confine;
   settings.strict = options.strict;
   impl::Diagnostics diagnostics;
-  impl::ReadOptions choice = impl::read_options(settings);
-  choice.record = std::make_shared<impl::InputRecord>();
-  impl::Scene scene = impl::read_scene(file, choice, diagnostics);
-  return Scene(std::make_unique<impl::SceneState>(std::move(scene), diagnostics, choice.record));
+  impl::Listener listener(progress);
+  listener.watch(diagnostics.activity());
+  return listener.for_caller([&] {
+    impl::ReadOptions choice = impl::read_options(settings);
+    choice.record = std::make_shared<impl::InputRecord>();
+    diagnostics.activity().begin("reading the scene");
+    impl::Scene scene = impl::read_scene(file, choice, diagnostics);
+    return Scene(std::make_unique<impl::SceneState>(std::move(scene), diagnostics, choice.record));
+  });
 }
 
-std::vector<std::string> Scene::warnings() const {
-  std::vector<std::string> texts;
-  for (const impl::Diagnostics::Warning& warning : state().warnings) texts.push_back(warning.to_string());
-  return texts;
+std::vector<Warning> Scene::warnings() const {
+  std::vector<Warning> list;
+  for (const impl::Diagnostics::Warning& warning : state().warnings) list.push_back(warning.to_public());
+  return list;
 }
 
 std::string Scene::file() const { return state().is_read ? state().description.name : std::string(); }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "alhazen/scene.h"
+#include "api/caller_errors.h"
 #include "api/image_texels.h"
 #include "api/parts.h"
 #include "io/environment.h"
@@ -136,7 +137,8 @@ void put_image(impl::Scene& scene, impl::Light& light, impl::ImageTexels&& image
   images.push_back(std::move(image));
 }
 
-void count_change(impl::SceneState& state, const impl::Light& light) {
+void count_change(impl::SceneState& state, const impl::Light& light, bool changes_map = false) {
+  if (changes_map && has_image(light.kind)) ++state.revisions.light_maps;
   ++(is_infinite(light) ? state.revisions.environment : state.revisions.lights);
 }
 
@@ -146,7 +148,7 @@ LightId append_light(impl::SceneState& s, impl::Light&& light, impl::ImageTexels
   s.light_places.push_back(static_cast<uint32_t>(s.description.lights.size()));
   s.description.lights.push_back(std::move(light));
   s.lights.add(handle, s.id);
-  count_change(s, s.description.lights.back());
+  count_change(s, s.description.lights.back(), true);
   return impl::handle_of<LightId>(handle, s.lights);
 }
 
@@ -159,7 +161,7 @@ LightId Scene::add(const Light& light, const Pixels& image) {
   described.where.file = light.name;
   impl::ImageTexels map;
   if (has_image(described.kind))
-    map = light_image_of(described.kind, image);
+    map = impl::for_caller([&] { return light_image_of(described.kind, image); });
   else if (is_given(image))
     impl::refuse_argument("image", "is for goniometric, projection and environment lights alone");
   return append_light(state(), std::move(described), std::move(map));
@@ -209,10 +211,10 @@ void Scene::set(LightId id, const Light& light, const Pixels& image) {
   const bool keeps_image = described.kind == present.kind && !is_given(image);
   impl::ImageTexels map;
   if (has_image(described.kind) && !keeps_image)
-    map = light_image_of(described.kind, image);
+    map = impl::for_caller([&] { return light_image_of(described.kind, image); });
   else if (!has_image(described.kind) && is_given(image))
     impl::refuse_argument("image", "is for goniometric, projection and environment lights alone");
-  count_change(s, present);
+  count_change(s, present, !keeps_image);
   if (!keeps_image) {
     if (described.kind != present.kind) {
       free_image(s.description, present);
@@ -222,14 +224,14 @@ void Scene::set(LightId id, const Light& light, const Pixels& image) {
   }
   const bool changes_group = is_infinite(present) != is_infinite(described);
   present = std::move(described);
-  if (changes_group) count_change(s, present);
+  if (changes_group || !keeps_image) count_change(s, present, !keeps_image);
 }
 
 void Scene::remove(LightId light) {
   impl::SceneState& s = state();
   const uint32_t place = impl::index_of("light", light, s);
   std::vector<impl::Light>& lights = s.description.lights;
-  count_change(s, lights[place]);
+  count_change(s, lights[place], true);
   free_image(s.description, lights[place]);
   lights.erase(lights.begin() + place);
   for (uint32_t& other : s.light_places)
@@ -267,12 +269,12 @@ LightId Scene::set_environment(const Colour& radiance) {
 }
 
 LightId Scene::set_environment(const Pixels& image) {
-  impl::ImageTexels map = light_image_of(impl::LightKind::environment, image);
+  impl::ImageTexels map = impl::for_caller([&] { return light_image_of(impl::LightKind::environment, image); });
   return replace_environment(*this, state(), environment_of_map(state().description, image.name), std::move(map));
 }
 
 LightId Scene::load_environment(const std::string& file) {
-  impl::ImageTexels map = impl::read_environment({file});
+  impl::ImageTexels map = impl::for_caller([&] { return impl::read_environment({file}); });
   const std::string fault = impl::environment_fault(map);
   if (!fault.empty()) throw impl::InputError({file}, fault);
   return replace_environment(*this, state(), environment_of_map(state().description, file), std::move(map));

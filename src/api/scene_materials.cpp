@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "alhazen/scene.h"
+#include "api/caller_errors.h"
 #include "api/image_texels.h"
 #include "api/material_slots.h"
 #include "api/parts.h"
@@ -45,16 +46,18 @@ void refuse_mix_within_itself(const impl::Scene& scene, uint32_t part, uint32_t 
 
 }  // namespace
 
-ImageId Scene::add(const Pixels& pixels) { return add_image(state(), impl::image_of_pixels(pixels)); }
+ImageId Scene::add(const Pixels& pixels) {
+  return impl::for_caller([&] { return add_image(state(), impl::image_of_pixels(pixels)); });
+}
 
 ImageId Scene::load_image(const std::string& file, std::optional<Encoding> encoding) {
   const impl::TextureEncoding as = texture_encoding(encoding);
-  return add_image(state(), impl::read_texture({file}, as));
+  return impl::for_caller([&] { return add_image(state(), impl::read_texture({file}, as)); });
 }
 
 ImageId Scene::load_scalar_image(const std::string& file, std::optional<Encoding> encoding) {
   const impl::TextureEncoding as = texture_encoding(encoding);
-  return add_image(state(), impl::read_scalar_texture({file}, as).texels);
+  return impl::for_caller([&] { return add_image(state(), impl::read_scalar_texture({file}, as).texels); });
 }
 
 Pixels Scene::image(ImageId image) const {
@@ -63,7 +66,7 @@ Pixels Scene::image(ImageId image) const {
 
 void Scene::set_image(ImageId image, const Pixels& pixels) {
   const uint32_t index = impl::index_of("image", image, state());
-  state().description.images[index] = impl::image_of_pixels(pixels);
+  state().description.images[index] = impl::for_caller([&] { return impl::image_of_pixels(pixels); });
   ++state().revisions.images;
 }
 

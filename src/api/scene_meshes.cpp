@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "alhazen/scene.h"
+#include "api/caller_errors.h"
 #include "api/parts.h"
 
 namespace ALHAZEN_NAMESPACE {
@@ -120,7 +121,7 @@ std::span<const Value> values_of(const std::vector<Element>& elements) {
 MeshId Scene::add(const MeshArrays& arrays) {
   impl::SceneState& s = state();
   const auto index = static_cast<uint32_t>(s.description.meshes.size());
-  s.description.meshes.push_back(mesh_of(arrays));
+  s.description.meshes.push_back(impl::for_caller([&] { return mesh_of(arrays); }));
   s.meshes.add(index, s.id);
   ++s.revisions.geometry;
   return impl::handle_of<MeshId>(index, s.meshes);
@@ -139,17 +140,17 @@ MeshView Scene::mesh(MeshId mesh) const {
 
 void Scene::set_mesh(MeshId mesh, const MeshArrays& arrays) {
   const uint32_t index = impl::index_of("mesh", mesh, state());
-  state().description.meshes[index] = mesh_of(arrays);
+  state().description.meshes[index] = impl::for_caller([&] { return mesh_of(arrays); });
   ++state().revisions.geometry;
 }
 
 void Scene::set_positions(MeshId mesh, const Reals& positions, const Reals& normals) {
   impl::Mesh& m = state().description.meshes[impl::index_of("mesh", mesh, state())];
-  std::vector<impl::Vec3d> moved = positions_of(positions);
+  std::vector<impl::Vec3d> moved = impl::for_caller([&] { return positions_of(positions); });
   if (moved.size() != m.positions.size())
     impl::refuse_argument("positions", "must be of the " + std::to_string(m.positions.size()) +
                                            " vertices of the mesh, not of " + std::to_string(moved.size()));
-  std::vector<impl::Vec3f> turned = normals_of(normals, moved.size());
+  std::vector<impl::Vec3f> turned = impl::for_caller([&] { return normals_of(normals, moved.size()); });
   m.positions = std::move(moved);
   if (!turned.empty()) m.normals = std::move(turned);
   ++state().revisions.geometry;

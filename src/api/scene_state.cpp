@@ -10,6 +10,7 @@
 #include "geometry/quadrics.h"
 #include "pipeline/choose_view.h"
 #include "scene/default_view.h"
+#include "scene/outline.h"
 
 namespace alhazen::impl {
 
@@ -111,10 +112,17 @@ Camera default_camera(const Scene& scene, double aspect) {
     settings.height = 10'000;
     settings.width = std::max<int64_t>(1, std::llround(aspect * 10'000));
   }
-  Scene turned = scene;
-  camera = placed_camera(settings, camera, turned);
+  camera = chosen_camera(settings, scene, camera);
   camera.is_default = true;
   return camera;
+}
+
+Scene SceneState::outline_to_render(const Camera& camera, bool with_light_maps) const {
+  Scene outline = outline_of(description, with_light_maps);
+  tessellate_inexact_quadrics(outline);
+  outline.camera = camera;
+  if (!is_read && !has_light(outline)) add_neutral_light(outline);
+  return outline;
 }
 
 Scene SceneState::to_render(double aspect) const {

@@ -23,6 +23,7 @@ struct SceneRevisions {
   uint64_t images = 0;       ///< of textures
   uint64_t lights = 0;       ///< lights that are not infinite, their images, and the emission of shapes
   uint64_t environment = 0;  ///< infinite lights and their maps
+  uint64_t light_maps = 0;   ///< environment maps and images of lights, which also count as changes of their lights
   uint64_t camera = 0;
   uint64_t film = 0;  ///< film, pixel filter, defaults of the render, and the way up
 
@@ -99,6 +100,9 @@ struct SceneState {
   /// The description that is compiled: completed by a camera and light where it has none, with meshes for quadrics that
   /// are not exact where they are. `aspect` is that of the image that is asked for, 0: of the film.
   Scene to_render(double aspect) const;
+
+  /// The same of its outline (scene/outline.h), seen by that camera.
+  Scene outline_to_render(const Camera& camera, bool with_light_maps) const;
 };
 
 /// The camera that sees the whole of a scene which has none of its own.

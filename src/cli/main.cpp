@@ -24,7 +24,13 @@ template <class Body>
 int run_guarded(const Body& body) {
   try {
     return body();
-  } catch (const alhazen::impl::InputError& error) {
+  } catch (const alhazen::InputError& error) {
+    alhazen::impl::tell("{}\n", error.what());
+    return alhazen::impl::exit_bad_input;
+  } catch (const alhazen::impl::UnsupportedError& error) {
+    alhazen::impl::tell("{}\n", error.what());
+    return alhazen::impl::exit_bad_input;
+  } catch (const alhazen::impl::TooLargeError& error) {
     alhazen::impl::tell("{}\n", error.what());
     return alhazen::impl::exit_bad_input;
   } catch (const std::bad_alloc&) {
@@ -32,7 +38,7 @@ int run_guarded(const Body& body) {
     alhazen::impl::tell_text(
         "alhazen: out of memory: the task needs more than this machine, or a limit set on it, allows\n");
     return alhazen::impl::exit_failed;
-  } catch (const alhazen::impl::RenderError& error) {  // may have several lines
+  } catch (const alhazen::Error& error) {  // may have several lines
     alhazen::impl::tell("alhazen: {}\n", error.what());
     return alhazen::impl::exit_failed;
   } catch (const std::system_error& error) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "compile/built_parts.h"
 #include "compile/camera.h"
 #include "compile/emission.h"
 #include "compile/images.h"
@@ -31,8 +32,9 @@ namespace {
 template <class Real>
 class SceneCompiler {
  public:
-  SceneCompiler(Scene& scene, const CompileOptions& options, Diagnostics& diagnostics)
-      : scene_(scene), options_(options), diagnostics_(diagnostics) {}
+  /// `parts` may be null.
+  SceneCompiler(Scene& scene, const CompileOptions& options, Diagnostics& diagnostics, BuiltParts<Real>* parts)
+      : scene_(scene), options_(options), diagnostics_(diagnostics), parts_(parts) {}
 
   /// The message for a scene that does not fit into memory.
   std::string too_large() const {
@@ -62,10 +64,13 @@ class SceneCompiler {
       if (material.features & MaterialFeatures::one_sided) has_one_sided_ = true;
       if (has_trait<&MaterialTraits::has_lobes>(material.kind)) flat.view.has_lobes = 1;
     }
-    described_lights_ = add_described_lights(scene_, out_, flat.view, light_measures_);
+    if (parts_) parts_->texture_floats = out_.texel_floats.size();
+    described_lights_ = add_described_lights<Real>(scene_, nullptr, maps_, out_, flat.view, light_measures_);
     place_shapes();
     group_lights(flat);
-    weigh_emission_textures(out_, light_measures_);
+    if (parts_) parts_->areas = measures_of_shapes();
+    weigh_emission_textures(out_.view(), {}, light_measures_);
+    if (parts_) parts_->measures = measures_of_shapes();
     shapes_.warn_of_dropped_triangles();
     for (const TriangleRecord& triangle : out_.triangles) {
       const uint32_t* v = triangle.vertex;
@@ -85,10 +90,27 @@ class SceneCompiler {
     flat.object_names = names_.objects();
     flat.material_names = names_.materials();
     open_seen_backs(static_cast<uint32_t>(width_), static_cast<uint32_t>(height_), options_.threads, flat);
+    if (parts_) keep_parts(flat);
     return flat;
   }
 
  private:
+  std::vector<double> measures_of_shapes() const {
+    return {light_measures_.begin() + static_cast<ptrdiff_t>(described_lights_.size()), light_measures_.end()};
+  }
+
+  void keep_parts(const CompiledScene<Real>& flat) {
+    parts_->can_be_updated = is_zero(flat.world_origin);
+    parts_->options = options_;
+    parts_->maps = std::move(maps_);
+    parts_->described_lights = std::move(described_lights_);
+    parts_->scene = std::move(scene_);
+    parts_->scene.meshes.clear();
+    parts_->scene.images.clear();
+    parts_->scene.environments.clear();
+    parts_->scene.light_images.clear();
+  }
+
   /// Builds the trees, then runs the queries that need rays. They use the binary tree.
   void build_trees_and_query(CompiledScene<Real>& flat) {
     if (has_one_sided_) split_coincident_sides(out_);
@@ -96,10 +118,10 @@ class SceneCompiler {
     CompileOptions options = options_;
     if (has_one_sided_ || checks_lost_light) options.layouts.add(BvhLayout::bvh2);
     diagnostics_.activity().begin("building the BVH");
-    build_trees(options, out_, flat.statistics);
+    build_trees(options, out_, flat.statistics, parts_ ? &parts_->world : nullptr);
     diagnostics_.activity().begin("preparing the lights");
-    add_triangle_emitters(out_);
-    assign_light_probabilities(light_measures_, scene_.light_sampling, out_, flat.view);
+    add_triangle_emitters(out_.view(), out_);
+    assign_light_probabilities(light_measures_, scene_.light_sampling, out_.view(), out_, flat.view);
     const bool opens_later = has_one_sided_ && options_.for_cameras;
     if (has_one_sided_ && !opens_later &&
         open_seen_backs(whole_view(flat), static_cast<uint32_t>(width_), static_cast<uint32_t>(height_),
@@ -107,7 +129,8 @@ class SceneCompiler {
       flat.view.lets_light_through = 1;
     if (checks_lost_light)
       if (const auto lost = find_lost_light(whole_view(flat), options_.path_segments))
-        warn_of_lost_light(*lost, scene_, shapes_.location_of(lost->surface), diagnostics_);
+        warn_of_lost_light(*lost, scene_, shapes_.location_of(lost->surface),
+                           parts_ ? parts_->lost_light : diagnostics_);
     if (opens_later) {
       flat.backs = prepare_openings(whole_view(flat), out_);
       flat.backs.lets_light_through = flat.view.lets_light_through;
@@ -116,7 +139,9 @@ class SceneCompiler {
     if (options_.layouts.has(BvhLayout::bvh2) || out_.bvh2_nodes.empty()) return;
     flat.statistics.tree_bytes -= out_.bvh2_nodes.size() * sizeof(out_.bvh2_nodes[0]);
     flat.statistics.nodes = out_.bvh8_nodes.size();
-    std::vector<Bvh2Node<Real>>().swap(out_.bvh2_nodes);
+    std::vector<Bvh2Node<Real>> nodes;
+    nodes.swap(out_.bvh2_nodes);
+    if (parts_) parts_->search_tree = std::move(nodes);
   }
 
   bool names_things() const { return options_.names_objects || options_.groups_lights; }
@@ -197,7 +222,8 @@ class SceneCompiler {
   void place_shapes() {
     if (names_things()) name_instances(scene_);
     const DescribedIndices described = group_moving_meshes(scene_);
-    const std::vector<bool> is_object = find_objects(scene_, options_.max_copied_triangles);
+    const std::vector<uint64_t> triangles = triangle_counts(scene_);
+    const std::vector<bool> is_object = find_objects(scene_, triangles, options_.max_copied_triangles);
     check_placements(is_object);
     const std::vector<ShapePlacement> world = world_placements(scene_, is_object, described);
     const std::vector<std::vector<ShapePlacement>> objects = object_placements(scene_, is_object, described);
@@ -205,8 +231,21 @@ class SceneCompiler {
     for (const std::vector<ShapePlacement>& object : objects) shapes_.count(object);
     check_meshes(world.size());
     shapes_.reserve();
-    for (const ShapePlacement& p : world) shapes_.place(p);
+    place(world);
     place_objects(objects, described);
+    if (!parts_) return;
+    parts_->placed.push_back(placed_sizes(out_, described_lights_.size()));
+    parts_->described = described;
+    parts_->triangle_counts = triangles;
+    parts_->world_placements = world.size();
+    parts_->is_object = is_object;
+  }
+
+  void place(const std::vector<ShapePlacement>& placements) {
+    for (const ShapePlacement& p : placements) {
+      if (parts_) parts_->placed.push_back(placed_sizes(out_, described_lights_.size()));
+      shapes_.place(p);
+    }
   }
 
   /// Places the shapes of objects, by group, and the instances that refer to them.
@@ -215,7 +254,7 @@ class SceneCompiler {
     for (size_t g = 0; g < objects.size(); ++g) {
       ObjectRecord object{};
       object.first_triangle = static_cast<uint32_t>(out_.triangles.size());
-      for (const ShapePlacement& p : objects[g]) shapes_.place(p);
+      place(objects[g]);
       object.triangle_count = static_cast<uint32_t>(out_.triangles.size()) - object.first_triangle;
       if (object.triangle_count == 0) continue;
       object_of[g] = static_cast<uint32_t>(out_.objects.size());
@@ -228,6 +267,7 @@ class SceneCompiler {
       if (names_things()) out_.instances.back().object_id = names_.object_id(instance);
       if (options_.keeps_origins) origins_.instances.push_back(described.instances[i]);
     }
+    if (parts_) parts_->object_of = std::move(object_of);
   }
 
   /// Checks that the shapes of the world and copies of groups that are no objects fit into memory.
@@ -236,7 +276,7 @@ class SceneCompiler {
     for (const Instance& instance : scene_.instances)
       if (!is_object[instance.group]) placed_shapes_ += scene_.groups[instance.group].shapes.size();
     if (placed_shapes_ * sizeof(ShapePlacement) > physical_memory() / 10 * 9)
-      throw InputError({scene_.name}, too_large());
+      throw TooLargeError({scene_.name}, too_large());
   }
 
   /// Checks that indices can hold the numbers of primitives and instances, and that the triangles fit into memory.
@@ -256,12 +296,14 @@ class SceneCompiler {
   Scene& scene_;
   const CompileOptions& options_;
   Diagnostics& diagnostics_;
+  BuiltParts<Real>* parts_;
   int64_t width_ = 0, height_ = 0;
   SceneArrays<Real> out_;
   CompiledMaterials materials_;
   bool has_one_sided_ = false;
   std::vector<double> light_measures_;    ///< by light, see assign_light_probabilities
   std::vector<size_t> described_lights_;  ///< of the first lights: index into Scene::lights
+  LightMaps<Real> maps_;
   SceneNames names_{scene_};
   SceneOrigins origins_;  ///< but for the triangles, which out_ has
   ShapeBuilder<Real> shapes_{scene_,
@@ -274,21 +316,35 @@ class SceneCompiler {
   uint64_t placed_shapes_ = 0;
 };
 
-}  // namespace
-
 template <class Real>
-CompiledScene<Real> compile_scene(Scene&& scene, const CompileOptions& options, Diagnostics& diagnostics) {
+CompiledScene<Real> compile(Scene& scene, const CompileOptions& options, Diagnostics& diagnostics,
+                            BuiltParts<Real>* parts) {
   limit_default_team();
-  SceneCompiler<Real> compiler(scene, options, diagnostics);
+  SceneCompiler<Real> compiler(scene, options, diagnostics, parts);
   try {
     return compiler.run();
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {
   }
-  throw InputError({scene.name}, compiler.too_large());
+  throw TooLargeError({scene.name}, compiler.too_large());
+}
+
+}  // namespace
+
+template <class Real>
+CompiledScene<Real> compile_scene(Scene&& scene, const CompileOptions& options, Diagnostics& diagnostics) {
+  return compile<Real>(scene, options, diagnostics, nullptr);
+}
+
+template <class Real>
+CompiledScene<Real> compile_scene(Scene&& scene, const CompileOptions& options, Diagnostics& diagnostics,
+                                  BuiltParts<Real>& parts) {
+  return compile<Real>(scene, options, diagnostics, &parts);
 }
 
 template CompiledScene<float> compile_scene(Scene&&, const CompileOptions&, Diagnostics&);
 template CompiledScene<double> compile_scene(Scene&&, const CompileOptions&, Diagnostics&);
+template CompiledScene<float> compile_scene(Scene&&, const CompileOptions&, Diagnostics&, BuiltParts<float>&);
+template CompiledScene<double> compile_scene(Scene&&, const CompileOptions&, Diagnostics&, BuiltParts<double>&);
 
 }  // namespace alhazen::impl

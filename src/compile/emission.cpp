@@ -71,19 +71,20 @@ double mean_factor(const SceneView<Real>& view, const LightRecord<Real>& light, 
 }  // namespace
 
 template <class Real>
-void weigh_emission_textures(const SceneArrays<Real>& arrays, std::vector<double>& measures) {
-  const auto textured = std::count_if(arrays.lights.begin(), arrays.lights.end(),
+void weigh_emission_textures(const SceneView<Real>& view, const std::vector<uint8_t>& is_new,
+                             std::vector<double>& measures) {
+  const auto textured = std::count_if(view.lights, view.lights + view.lights_count,
                                       [](const LightRecord<Real>& light) { return light.texture.count > 0; });
   if (textured == 0) return;
   const int side =
       std::clamp(static_cast<int>(std::sqrt(max_lookups / static_cast<double>(textured))), coarsest, finest);
-  const SceneView<Real> view = arrays.view();
 #pragma omp parallel for schedule(dynamic, 64)
-  for (size_t i = 0; i < arrays.lights.size(); ++i)
-    if (arrays.lights[i].texture.count > 0) measures[i] *= mean_factor(view, arrays.lights[i], side);
+  for (size_t i = 0; i < view.lights_count; ++i)
+    if (view.lights[i].texture.count > 0 && (is_new.empty() || is_new[i]))
+      measures[i] *= mean_factor(view, view.lights[i], side);
 }
 
-template void weigh_emission_textures(const SceneArrays<float>&, std::vector<double>&);
-template void weigh_emission_textures(const SceneArrays<double>&, std::vector<double>&);
+template void weigh_emission_textures(const SceneView<float>&, const std::vector<uint8_t>&, std::vector<double>&);
+template void weigh_emission_textures(const SceneView<double>&, const std::vector<uint8_t>&, std::vector<double>&);
 
 }  // namespace alhazen::impl

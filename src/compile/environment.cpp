@@ -226,25 +226,16 @@ Vec3d mean_radiance(const ImageTexels& map, SphereMapping mapping) {
 
 }  // namespace
 
+namespace {
+
+/// Appends the texels of a map and its distributions.
 template <class Real>
-double add_environment(const Light& light, Scene& scene, SceneArrays<Real>& out) {
-  if (light.environment >= scene.environments.size()) throw InputError(light.where, "the light names no map");
-  ImageTexels& map = scene.environments[light.environment];
+typename LightMaps<Real>::Environment add_map(ImageTexels& map, SphereMapping mapping, const Vec3d& mean_radiance,
+                                              SceneArrays<Real>& out) {
   EnvironmentRecord<Real> record{};
-  record.mapping = mapping_of(light, map);
-  LightRecord<Real> light_record{};
-  light_record.kind = LightKind::environment;
-  light_record.primitive = static_cast<uint32_t>(out.environments.size());
-  light_record.radiance = convert<Real>(mean_radiance(map, record.mapping) * light.radiance);
-  if (!is_finite(light_record.radiance))
-    throw InputError(light.where, "the environment map holds values that are not finite or too large");
-  if (is_zero(light_record.radiance)) return 0;
+  record.mapping = mapping;
   record.width = static_cast<uint32_t>(map.width);
   record.height = static_cast<uint32_t>(map.height);
-  record.light = static_cast<uint32_t>(out.lights.size());
-  record.axes = {convert<Real>(light.axes.tangent), convert<Real>(light.axes.bitangent),
-                 convert<Real>(light.axes.normal)};
-  record.scale = convert<Real>(light.radiance);
   record.first_cdf = out.environment_cdf.size();
   record.cell_columns = std::min(record.width, cells_per_side);
   record.cell_rows = std::min(record.height, cells_per_side);
@@ -252,12 +243,38 @@ double add_environment(const Light& light, Scene& scene, SceneArrays<Real>& out)
   record.first_texel = out.texel_floats.size();
   out.texel_floats.insert(out.texel_floats.end(), map.floats.begin(), map.floats.end());
   std::vector<float>().swap(map.floats);
-  out.environments.push_back(record);
-  out.lights.push_back(light_record);
-  return excess;
+  return {record, mean_radiance, excess};
 }
 
-template double add_environment(const Light&, Scene&, SceneArrays<float>&);
-template double add_environment(const Light&, Scene&, SceneArrays<double>&);
+}  // namespace
+
+template <class Real>
+double add_environment(const Light& light, Scene& scene, LightMaps<Real>& maps, SceneArrays<Real>& out) {
+  if (light.environment >= scene.environments.size()) throw InputError(light.where, "the light names no map");
+  ImageTexels& map = scene.environments[light.environment];
+  maps.environments.resize(scene.environments.size());
+  auto& compiled = maps.environments[light.environment];
+  const SphereMapping mapping = compiled ? compiled->record.mapping : mapping_of(light, map);
+  const Vec3d mean = compiled ? compiled->mean_radiance : mean_radiance(map, mapping);
+  LightRecord<Real> light_record{};
+  light_record.kind = LightKind::environment;
+  light_record.primitive = static_cast<uint32_t>(out.environments.size());
+  light_record.radiance = convert<Real>(mean * light.radiance);
+  if (!is_finite(light_record.radiance))
+    throw InputError(light.where, "the environment map holds values that are not finite or too large");
+  if (is_zero(light_record.radiance)) return 0;
+  if (!compiled) compiled = add_map(map, mapping, mean, out);
+  EnvironmentRecord<Real> record = compiled->record;
+  record.light = static_cast<uint32_t>(out.lights.size());
+  record.axes = {convert<Real>(light.axes.tangent), convert<Real>(light.axes.bitangent),
+                 convert<Real>(light.axes.normal)};
+  record.scale = convert<Real>(light.radiance);
+  out.environments.push_back(record);
+  out.lights.push_back(light_record);
+  return compiled->excess;
+}
+
+template double add_environment(const Light&, Scene&, LightMaps<float>&, SceneArrays<float>&);
+template double add_environment(const Light&, Scene&, LightMaps<double>&, SceneArrays<double>&);
 
 }  // namespace alhazen::impl

@@ -95,7 +95,14 @@ DescribedIndices group_moving_meshes(Scene& scene) {
   return described;
 }
 
-std::vector<bool> find_objects(const Scene& scene, uint64_t max_copied_triangles) {
+std::vector<uint64_t> triangle_counts(const Scene& scene) {
+  std::vector<uint64_t> counts;
+  for (const Mesh& mesh : scene.meshes) counts.push_back(mesh.triangle_count());
+  return counts;
+}
+
+std::vector<bool> find_objects(const Scene& scene, const std::vector<uint64_t>& triangle_counts,
+                               uint64_t max_copied_triangles) {
   std::vector<uint64_t> uses(scene.groups.size()), triangles(scene.groups.size());
   std::vector<bool> moves(scene.groups.size());
   for (const Instance& instance : scene.instances) {
@@ -106,7 +113,10 @@ std::vector<bool> find_objects(const Scene& scene, uint64_t max_copied_triangles
   uint64_t copied = 0;
   for (size_t g = 0; g < scene.groups.size(); ++g) {
     for (const Shape& shape : scene.groups[g].shapes)
-      if (is_in_object(shape)) triangles[g] += mesh_of(scene, shape).triangle_count();
+      if (is_in_object(shape)) {
+        mesh_of(scene, shape);
+        triangles[g] += triangle_counts[shape.mesh];
+      }
     if (uses[g] > 1) copied += uses[g] * triangles[g];
   }
   std::vector<bool> is_object(scene.groups.size());

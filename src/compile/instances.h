@@ -40,8 +40,13 @@ double fraction_of_motion(const Scene& scene, const MovingTransform& transform, 
 DescribedIndices group_moving_meshes(Scene& scene);
 
 /// Selects the groups that become objects: those that move, and those with several instances, unless all copies
-/// together have at most `max_copied_triangles`. Throws InputError for instances of no group and shapes of no mesh.
-std::vector<bool> find_objects(const Scene& scene, uint64_t max_copied_triangles);
+/// together have at most `max_copied_triangles`. `triangle_counts` are those of the meshes. Throws InputError for
+/// instances of no group and shapes of no mesh.
+std::vector<bool> find_objects(const Scene& scene, const std::vector<uint64_t>& triangle_counts,
+                               uint64_t max_copied_triangles);
+
+/// By mesh.
+std::vector<uint64_t> triangle_counts(const Scene& scene);
 
 /// The shapes of the world, and copies of all that no object contains: groups that are no objects, and the lights,
 /// spheres, cylinders and disks of the others. `is_object` is what find_objects returns.

@@ -70,8 +70,7 @@ struct Item {
 };
 
 template <class Real>
-Item item_of(const SceneArrays<Real>& arrays, const SceneView<Real>& view, uint32_t index, double power) {
-  const LightRecord<Real>& light = arrays.lights[index];
+Item item_of(const LightRecord<Real>& light, const SceneView<Real>& view, uint32_t index, double power) {
   Item item{};
   item.light = index;
   LightBounds& b = item.bounds;
@@ -91,18 +90,18 @@ Item item_of(const SceneArrays<Real>& arrays, const SceneView<Real>& view, uint3
   };
   switch (light.kind) {
     case LightKind::triangle: {
-      const TriangleRecord& triangle = arrays.triangles[light.primitive];
-      for (const uint32_t v : triangle.vertex) b.box.extend(convert<double>(arrays.positions[v]));
+      const TriangleRecord& triangle = view.triangles[light.primitive];
+      for (const uint32_t v : triangle.vertex) b.box.extend(convert<double>(view.positions[v]));
       b.normals = {normalize(convert<double>(triangle_front_normal(view, triangle))), 0};
       break;
     }
     case LightKind::sphere: {
-      const SphereRecord<Real>& s = arrays.spheres[light.primitive];
+      const SphereRecord<Real>& s = view.spheres[light.primitive];
       add_ball(convert<double>(s.centre), static_cast<double>(s.radius));
       break;
     }
     case LightKind::moving_sphere: {
-      const MovingSphereRecord<Real>& s = arrays.moving_spheres[light.primitive];
+      const MovingSphereRecord<Real>& s = view.moving_spheres[light.primitive];
       add_ball(convert<double>(s.centre), static_cast<double>(s.radius));
       add_ball(convert<double>(s.centre + s.motion), static_cast<double>(s.radius));
       item.radius += length(convert<double>(s.motion)) / 2;
@@ -240,12 +239,11 @@ class LightTreeBuilder {
 }  // namespace
 
 template <class Real>
-void build_light_tree(const std::vector<double>& weights, SceneArrays<Real>& out) {
-  const SceneView<Real> view = out.view();
+void build_light_tree(const std::vector<double>& weights, const SceneView<Real>& shapes, SceneArrays<Real>& out) {
   std::vector<Item> items;
   for (uint32_t i = 0; i < out.lights.size(); ++i) {
     if (!light_traits(out.lights[i].kind).is_at_infinity && weights[i] > 0)
-      items.push_back(item_of(out, view, i, weights[i]));
+      items.push_back(item_of(out.lights[i], shapes, i, weights[i]));
   }
   // The root, one unused node, and the pairs of children.
   std::vector<LightTreeNode> nodes(2 * items.size());
@@ -258,7 +256,7 @@ void build_light_tree(const std::vector<double>& weights, SceneArrays<Real>& out
   out.light_tree = std::move(nodes);
 }
 
-template void build_light_tree(const std::vector<double>&, SceneArrays<float>&);
-template void build_light_tree(const std::vector<double>&, SceneArrays<double>&);
+template void build_light_tree(const std::vector<double>&, const SceneView<float>&, SceneArrays<float>&);
+template void build_light_tree(const std::vector<double>&, const SceneView<double>&, SceneArrays<double>&);
 
 }  // namespace alhazen::impl

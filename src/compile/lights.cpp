@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "compile/environment.h"
 #include "compile/light_tree_builder.h"
@@ -50,30 +51,43 @@ void set_record(const Light& light, LightRecord<Real>& record) {
   }
 }
 
-/// Appends the image of a light. Returns its luminance integrated over all directions, steradians.
+/// Appends the texels of the image of a light.
 template <class Real>
-double add_light_image(const Light& light, Scene& scene, SceneArrays<Real>& out) {
-  if (light.image >= scene.light_images.size()) throw InputError(light.where, "the light names no image");
-  ImageTexels& image = scene.light_images[light.image];
-  const bool is_sphere = light.kind == LightKind::goniometric;
-  if (image.width < 1 || image.height < 1 || (is_sphere && image.width != image.height) ||
+LightImageRecord<Real> add_texels(const Light& light, const ImageTexels& image, SceneArrays<Real>& out) {
+  if (image.width < 1 || image.height < 1 ||
+      (light.kind == LightKind::goniometric && image.width != image.height) ||
       image.floats.size() != 3 * static_cast<size_t>(image.width) * static_cast<size_t>(image.height))
     throw InputError(light.where, "the image of a light does not hold three values per texel, or is not square");
   LightImageRecord<Real> record{};
   record.first_texel = out.texel_floats.size();
   record.width = static_cast<uint32_t>(image.width);
   record.height = static_cast<uint32_t>(image.height);
+  out.texel_floats.insert(out.texel_floats.end(), image.floats.begin(), image.floats.end());
+  return record;
+}
+
+/// Appends the image of a light. Returns its luminance integrated over all directions, steradians.
+template <class Real>
+double add_light_image(const Light& light, const Scene& scene, const float* texels, LightMaps<Real>& maps,
+                       SceneArrays<Real>& out) {
+  if (light.image >= scene.light_images.size()) throw InputError(light.where, "the light names no image");
+  const ImageTexels& image = scene.light_images[light.image];
+  const bool is_sphere = light.kind == LightKind::goniometric;
+  maps.images.resize(scene.light_images.size());
+  std::optional<LightImageRecord<Real>>& compiled = maps.images[light.image];
+  const float* const floats = compiled ? texels + compiled->first_texel : image.floats.data();
+  if (!compiled) compiled = add_texels(light, image, out);
+  LightImageRecord<Real> record = *compiled;
   record.axes = {convert<Real>(light.axes.tangent), convert<Real>(light.axes.bitangent),
                  convert<Real>(light.axes.normal)};
-  const double width = image.width, height = image.height;
+  const double width = record.width, height = record.height;
   const double half = std::tan(light.fov * std::numbers::pi / 360), shorter = std::min(width, height);
   record.half_width = static_cast<Real>(half * width / shorter);
   record.half_height = static_cast<Real>(half * height / shorter);
   double integral = 0;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const float* t =
-          &image.floats[3 * (static_cast<size_t>(y) * static_cast<size_t>(image.width) + static_cast<size_t>(x))];
+  const float* t = floats;
+  for (uint32_t y = 0; y < record.height; ++y)
+    for (uint32_t x = 0; x < record.width; ++x, t += 3) {
       const Vec3d colour{static_cast<double>(t[0]), static_cast<double>(t[1]), static_cast<double>(t[2])};
       double solid_angle = 4 * std::numbers::pi / (width * height);
       if (!is_sphere) {
@@ -82,7 +96,6 @@ double add_light_image(const Light& light, Scene& scene, SceneArrays<Real>& out)
       }
       integral += luminance(colour) * solid_angle;
     }
-  out.texel_floats.insert(out.texel_floats.end(), image.floats.begin(), image.floats.end());
   out.light_images.push_back(record);
   return integral;
 }
@@ -90,8 +103,8 @@ double add_light_image(const Light& light, Scene& scene, SceneArrays<Real>& out)
 }  // namespace
 
 template <class Real>
-std::vector<size_t> add_described_lights(Scene& scene, SceneArrays<Real>& out, SceneView<Real>& view,
-                                         std::vector<double>& measures) {
+std::vector<size_t> add_described_lights(Scene& scene, const float* texels, LightMaps<Real>& maps,
+                                         SceneArrays<Real>& out, SceneView<Real>& view, std::vector<double>& measures) {
   Vec3d background{};
   std::vector<size_t> described;
   for (const Light& light : scene.lights) {
@@ -111,13 +124,13 @@ std::vector<size_t> add_described_lights(Scene& scene, SceneArrays<Real>& out, S
     }
     const size_t index = out.lights.size();
     if (light.kind == LightKind::environment) {
-      const double excess = add_environment(light, scene, out);
+      const double excess = add_environment(light, scene, maps, out);
       if (out.lights.size() > index) measures.push_back(excess);
     } else if (!is_zero(light.radiance)) {
       if (light_traits(light.kind).has_image) {
         record.primitive = static_cast<uint32_t>(out.light_images.size());
         record.direction = convert<Real>(light.axes.normal);
-        measures.push_back(add_light_image(light, scene, out));
+        measures.push_back(add_light_image(light, scene, texels, maps, out));
       }
       out.lights.push_back(record);
     }
@@ -133,18 +146,18 @@ std::vector<size_t> add_described_lights(Scene& scene, SceneArrays<Real>& out, S
 }
 
 template <class Real>
-bool has_only_delta_lights(const SceneArrays<Real>& out, const SceneView<Real>& view) {
+bool has_only_delta_lights(const std::vector<LightRecord<Real>>& lights, const SceneView<Real>& view) {
   return is_zero(view.background) &&
-         std::all_of(out.lights.begin(), out.lights.end(),
+         std::all_of(lights.begin(), lights.end(),
                      [](const LightRecord<Real>& light) { return !light_traits(light.kind).has_size; });
 }
 
-template bool has_only_delta_lights(const SceneArrays<float>&, const SceneView<float>&);
-template bool has_only_delta_lights(const SceneArrays<double>&, const SceneView<double>&);
+template bool has_only_delta_lights(const std::vector<LightRecord<float>>&, const SceneView<float>&);
+template bool has_only_delta_lights(const std::vector<LightRecord<double>>&, const SceneView<double>&);
 
 template <class Real>
-void assign_light_probabilities(const std::vector<double>& measures, LightSampling sampling, SceneArrays<Real>& out,
-                                SceneView<Real>& view) {
+void assign_light_probabilities(const std::vector<double>& measures, LightSampling sampling,
+                                const SceneView<Real>& shapes, SceneArrays<Real>& out, SceneView<Real>& view) {
   const size_t count = out.lights.size();
   std::vector<double> weights(count);
   double total[2] = {0, 0};
@@ -178,31 +191,27 @@ void assign_light_probabilities(const std::vector<double>& measures, LightSampli
   if (!has_tree) return;
   const double largest = std::numeric_limits<Real>::max();
   view.infinite_irradiance = static_cast<Real>(std::min(total[1], largest));
-  build_light_tree(weights, out);
+  build_light_tree(weights, shapes, out);
 }
 
 template <class Real>
-void add_triangle_emitters(SceneArrays<Real>& out) {
-  SceneView<Real> view;
-  view.triangles = out.triangles.data();
-  view.positions = out.positions.data();
-  view.normals = out.normals.data();
-  view.surfaces = out.surfaces.data();
+void add_triangle_emitters(const SceneView<Real>& shapes, SceneArrays<Real>& out) {
   for (LightRecord<Real>& light : out.lights) {
     if (light.kind != LightKind::triangle) continue;
     light.emitter = static_cast<uint32_t>(out.triangle_emitters.size());
-    out.triangle_emitters.push_back(make_triangle_emitter(view, light));
+    out.triangle_emitters.push_back(make_triangle_emitter(shapes, light));
   }
 }
 
-template std::vector<size_t> add_described_lights(Scene&, SceneArrays<float>&, SceneView<float>&, std::vector<double>&);
-template std::vector<size_t> add_described_lights(Scene&, SceneArrays<double>&, SceneView<double>&,
-                                                  std::vector<double>&);
-template void add_triangle_emitters(SceneArrays<float>&);
-template void add_triangle_emitters(SceneArrays<double>&);
-template void assign_light_probabilities(const std::vector<double>&, LightSampling, SceneArrays<float>&,
-                                         SceneView<float>&);
-template void assign_light_probabilities(const std::vector<double>&, LightSampling, SceneArrays<double>&,
-                                         SceneView<double>&);
+template std::vector<size_t> add_described_lights(Scene&, const float*, LightMaps<float>&, SceneArrays<float>&,
+                                                  SceneView<float>&, std::vector<double>&);
+template std::vector<size_t> add_described_lights(Scene&, const float*, LightMaps<double>&, SceneArrays<double>&,
+                                                  SceneView<double>&, std::vector<double>&);
+template void add_triangle_emitters(const SceneView<float>&, SceneArrays<float>&);
+template void add_triangle_emitters(const SceneView<double>&, SceneArrays<double>&);
+template void assign_light_probabilities(const std::vector<double>&, LightSampling, const SceneView<float>&,
+                                         SceneArrays<float>&, SceneView<float>&);
+template void assign_light_probabilities(const std::vector<double>&, LightSampling, const SceneView<double>&,
+                                         SceneArrays<double>&, SceneView<double>&);
 
 }  // namespace alhazen::impl

@@ -316,7 +316,7 @@ SeenBacks find_seen_backs(const SceneView<Real>& view, uint32_t width, uint32_t 
 template <class Real>
 bool open_seen_backs(const SceneView<Real>& view, uint32_t width, uint32_t height, int threads,
                      SceneArrays<Real>& out) {
-  const SeenBacks seen = find_seen_backs(view, width, height, threads, has_only_delta_lights(out, view));
+  const SeenBacks seen = find_seen_backs(view, width, height, threads, has_only_delta_lights(out.lights, view));
   // The view is not used from here on: it lacks the new surfaces and materials.
   SurfacesWithFeature<Real> absent(out, MaterialFeatures::absent), lit_through(out, MaterialFeatures::lit_through);
   for (size_t i = 0; i < seen.is_open.size(); ++i) {
@@ -330,7 +330,7 @@ bool open_seen_backs(const SceneView<Real>& view, uint32_t width, uint32_t heigh
 template <class Real>
 BackOpenings prepare_openings(const SceneView<Real>& view, SceneArrays<Real>& out) {
   BackOpenings backs;
-  backs.has_only_delta_lights = has_only_delta_lights(out, view);
+  backs.has_only_delta_lights = has_only_delta_lights(out.lights, view);
   const uint32_t end = triangles_in_world(view);
   std::vector<uint8_t> is_needed(out.surfaces.size());
   for (uint32_t i = 0; i < end; ++i) {
@@ -348,13 +348,22 @@ BackOpenings prepare_openings(const SceneView<Real>& view, SceneArrays<Real>& ou
 }
 
 template <class Real>
+void close_backs(CompiledScene<Real>& scene) {
+  const BackOpenings& backs = scene.backs;
+  if (backs.closed.empty()) return;
+  auto* const triangles = const_cast<TriangleRecord*>(scene.view.triangles);  // the arena is the scene's own
+  for (size_t i = 0; i < backs.closed.size(); ++i) triangles[i].surface = backs.closed[i];
+  scene.view.lets_light_through = backs.lets_light_through;
+  ++scene.generation;
+}
+
+template <class Real>
 void open_seen_backs(uint32_t width, uint32_t height, int threads, CompiledScene<Real>& scene) {
   const BackOpenings& backs = scene.backs;
   if (backs.closed.empty()) return;
   // The arena is the scene's own.
   auto* const triangles = const_cast<TriangleRecord*>(scene.view.triangles);
-  for (size_t i = 0; i < backs.closed.size(); ++i) triangles[i].surface = backs.closed[i];
-  scene.view.lets_light_through = backs.lets_light_through;
+  close_backs(scene);
   const SeenBacks seen = find_seen_backs(scene.view, width, height, threads, backs.has_only_delta_lights);
   for (size_t i = 0; i < seen.is_open.size(); ++i) {
     const std::array<uint32_t, 2>& opened = backs.opened[backs.closed[i]];
@@ -369,6 +378,8 @@ template bool open_seen_backs(const SceneView<float>&, uint32_t, uint32_t, int, 
 template bool open_seen_backs(const SceneView<double>&, uint32_t, uint32_t, int, SceneArrays<double>&);
 template BackOpenings prepare_openings(const SceneView<float>&, SceneArrays<float>&);
 template BackOpenings prepare_openings(const SceneView<double>&, SceneArrays<double>&);
+template void close_backs(CompiledScene<float>&);
+template void close_backs(CompiledScene<double>&);
 template void open_seen_backs(uint32_t, uint32_t, int, CompiledScene<float>&);
 template void open_seen_backs(uint32_t, uint32_t, int, CompiledScene<double>&);
 

@@ -28,6 +28,10 @@ bool open_seen_backs(const SceneView<Real>& view, uint32_t width, uint32_t heigh
 template <class Real>
 BackOpenings prepare_openings(const SceneView<Real>& view, SceneArrays<Real>& out);
 
+/// Closes all backs of the compiled `scene` again.
+template <class Real>
+void close_backs(CompiledScene<Real>& scene);
+
 /// Opens the backs that the camera of the compiled `scene` sees, and closes those that another camera saw. The scene
 /// must have the binary tree.
 template <class Real>

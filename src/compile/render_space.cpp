@@ -56,8 +56,8 @@ double distance_to(const Box& box, const Vec3d& p) {
 }
 
 /// The point of the world that becomes the origin.
-Vec3d origin_of(const Scene& scene) {
-  const Vec3d camera = scene.camera.world_from_camera.start.point({});
+Vec3d origin_of(const Scene& scene, const Camera& seen_by) {
+  const Vec3d camera = seen_by.world_from_camera.start.point({});
   double nearest = infinity<double>;
   Box all;
   for (const Box& box : world_boxes(scene)) {
@@ -73,13 +73,13 @@ Vec3d origin_of(const Scene& scene) {
 
 }  // namespace
 
-bool is_in_render_space(const Scene& scene) {
-  const Vec3d origin = origin_of(scene);
+bool is_in_render_space(const Scene& scene, const Camera& camera) {
+  const Vec3d origin = origin_of(scene, camera);
   return is_zero(origin) || !is_finite(origin);
 }
 
 Vec3d move_to_render_space(Scene& scene) {
-  const Vec3d origin = origin_of(scene);
+  const Vec3d origin = origin_of(scene, scene.camera);
   if (is_zero(origin) || !is_finite(origin)) return {};
   const Transform there = Transform::translate(-origin), back = Transform::translate(origin);
   const auto move = [&](MovingTransform& transform) { transform = {there * transform.start, there * transform.end}; };

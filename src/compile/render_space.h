@@ -13,7 +13,7 @@ namespace alhazen::impl {
 /// the world that has become the origin.
 Vec3d move_to_render_space(Scene& scene);
 
-/// Whether it would leave the scene as it is.
-bool is_in_render_space(const Scene& scene);
+/// Whether it would leave the scene, seen by that camera, as it is.
+bool is_in_render_space(const Scene& scene, const Camera& camera);
 
 }  // namespace alhazen::impl

@@ -69,55 +69,104 @@ struct SceneArrays {
   }
 };
 
-/// Some of the arrays.
-struct ArraySet {
-#define ALHAZEN_ARRAY(type, name) bool name = false;
+/// An array whose first elements are replaced by others, which may be more or fewer.
+struct ArrayFront {
+  bool is_replaced = false;
+  const void* elements = nullptr;
+  size_t count = 0;
+  size_t old_count = 0;  ///< number of elements that are replaced
+};
+
+struct ArrayFronts {
+#define ALHAZEN_ARRAY(type, name) ArrayFront name;
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY
 };
 
-/// Replaces these arrays of a compiled scene by those of `fresh`: in place where they have as many elements, else in
-/// another arena to which all others are copied. Throws std::bad_alloc, and the scene is then unchanged.
+/// Replaces an array as a whole.
+template <class Type>
+ArrayFront whole_array(const std::vector<Type>& fresh, uint32_t old_count) {
+  return {true, fresh.data(), fresh.size(), old_count};
+}
+
+/// Replaces the fronts of arrays of a compiled scene: in place if they fit, else in another arena to which all others
+/// are copied. There, an array that has grown or shrunk has room for an eighth more, so that the next change fits.
+/// Throws std::bad_alloc, and the scene is then unchanged.
 template <class Real>
-void replace_arrays(const SceneArrays<Real>& fresh, const ArraySet& replaced, CompiledScene<Real>& scene) {
-  bool fits = true;
-#define ALHAZEN_ARRAY(type, name) fits = fits && (!replaced.name || fresh.name.size() == scene.view.name##_count);
+void replace_fronts(const ArrayFronts& fronts, CompiledScene<Real>& scene) {
+  struct Place {
+    std::byte* start;
+    size_t room;         // to the next array
+    size_t front, tail;  // bytes, after the change
+    size_t old_front;
+    const ArrayFront* change;
+  };
+  std::byte* const arena = scene.arena.get();
+  const auto padded = [](size_t size) { return (size + arena_alignment - 1) / arena_alignment * arena_alignment; };
+  std::vector<Place> places;
+#define ALHAZEN_ARRAY(type, name)                                                                                   \
+  {                                                                                                                 \
+    const ArrayFront& f = fronts.name;                                                                              \
+    const size_t tail = f.is_replaced ? (scene.view.name##_count - f.old_count) * sizeof(type) : 0;                 \
+    places.push_back({arena + (reinterpret_cast<const std::byte*>(scene.view.name) - arena), 0,                     \
+                      f.count * sizeof(type), tail, f.old_count * sizeof(type), f.is_replaced ? &f : nullptr});     \
+    if (f.is_replaced) scene.view.name##_count = static_cast<uint32_t>(scene.view.name##_count - f.old_count + f.count); \
+  }
+  const SceneView<Real> before = scene.view;
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY
+  bool fits = true;
+  for (size_t i = 0; i < places.size(); ++i) {
+    Place& place = places[i];
+    const std::byte* const next = i + 1 < places.size() ? places[i + 1].start : arena + scene.statistics.bytes;
+    place.room = static_cast<size_t>(next - place.start);
+    fits = fits && (!place.change || place.front + place.tail <= place.room);
+  }
+  ++scene.generation;
+  const auto put_front = [](std::byte* to, const Place& place) {
+    if (place.front > 0) std::memcpy(to, place.change->elements, place.front);
+  };
   if (fits) {
-#define ALHAZEN_ARRAY(type, name)                                                                              \
-  if (replaced.name && !fresh.name.empty())                                                                    \
-    std::memcpy(scene.arena.get() + (reinterpret_cast<const std::byte*>(scene.view.name) - scene.arena.get()), \
-                static_cast<const void*>(fresh.name.data()), fresh.name.size() * sizeof(type));
-    ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
-#undef ALHAZEN_ARRAY
+    for (const Place& place : places) {
+      if (!place.change) continue;
+      if (place.front != place.old_front && place.tail > 0)
+        std::memmove(place.start + place.front, place.start + place.old_front, place.tail);
+      put_front(place.start, place);
+    }
     return;
   }
-  const auto padded = [](size_t size) { return (size + arena_alignment - 1) / arena_alignment * arena_alignment; };
   size_t bytes = 0;
-#define ALHAZEN_ARRAY(type, name) \
-  bytes += padded((replaced.name ? fresh.name.size() : scene.view.name##_count) * sizeof(type));
-  ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
-#undef ALHAZEN_ARRAY
+  std::vector<size_t> rooms;
+  for (const Place& place : places) {
+    const size_t size = place.front + place.tail;
+    const bool has_other_size = place.change && place.front != place.old_front;
+    rooms.push_back(place.change ? padded(has_other_size ? size + size / 8 : size) : place.room);
+    bytes += rooms.back();
+  }
   bytes = std::max(bytes, arena_alignment);
-  std::unique_ptr<std::byte, FreeArena> arena(static_cast<std::byte*>(std::aligned_alloc(arena_alignment, bytes)));
-  if (!arena) throw std::bad_alloc();
-  std::byte* next = arena.get();
-  const auto copy = [&](const void* source, size_t size) {
-    std::byte* const place = next;
-    if (size > 0) std::memcpy(place, source, size);
-    std::memset(place + size, 0, padded(size) - size);
-    next += padded(size);
-    return place;
-  };
-#define ALHAZEN_ARRAY(type, name)                                                         \
-  if (replaced.name) scene.view.name##_count = static_cast<uint32_t>(fresh.name.size());  \
-  scene.view.name = reinterpret_cast<const type*>(                                        \
-      copy(replaced.name ? static_cast<const void*>(fresh.name.data()) : scene.view.name, \
-           static_cast<size_t>(scene.view.name##_count) * sizeof(type)));
+  std::unique_ptr<std::byte, FreeArena> other(static_cast<std::byte*>(std::aligned_alloc(arena_alignment, bytes)));
+  if (!other) {
+    scene.view = before;
+    throw std::bad_alloc();
+  }
+  std::byte* next = other.get();
+  for (size_t i = 0; i < places.size(); ++i) {
+    Place& place = places[i];
+    if (place.change) {
+      put_front(next, place);
+      if (place.tail > 0) std::memcpy(next + place.front, place.start + place.old_front, place.tail);
+      std::memset(next + place.front + place.tail, 0, rooms[i] - place.front - place.tail);
+    } else if (place.room > 0) {
+      std::memcpy(next, place.start, place.room);
+    }
+    place.start = next;
+    next += rooms[i];
+  }
+  const Place* place = places.data();
+#define ALHAZEN_ARRAY(type, name) scene.view.name = reinterpret_cast<const type*>((place++)->start);
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
 #undef ALHAZEN_ARRAY
-  scene.arena = std::move(arena);
+  scene.arena = std::move(other);
   scene.statistics.bytes = bytes;
 }
 

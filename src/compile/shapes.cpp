@@ -389,23 +389,30 @@ uint32_t ShapeBuilder<Real>::add_surface(const Shape& shape, uint32_t light, uin
   return static_cast<uint32_t>(out_.surfaces.size() - 1);
 }
 
-/// Transparent emitters are found by BSDF sampling alone: light samples do not account for their transparency.
 template <class Real>
-uint32_t ShapeBuilder<Real>::add_light(const Shape& shape, LightKind kind, size_t primitive, double area) {
+LightRecord<Real> shape_light(const Shape& shape, const Scene& scene, const CompiledMaterials& materials) {
   const Emission& emission = *shape.emission;
-  static const Material opaque;
-  const Material& material = shape.material == no_index ? opaque : scene_.materials[material_of(scene_, shape)];
   LightRecord<Real> light{};
-  light.kind = kind;
-  light.primitive = static_cast<uint32_t>(primitive);
   light.radiance = convert<Real>(emission.radiance);
   if (!is_finite(light.radiance))
     throw InputError(shape.where, "the radiance of the light is not finite in this precision: reduce it");
-  light.two_sided = emission.two_sided && material.double_sided ? 1 : 0;
-  if (emission.texture != no_index) light.texture = materials_.emission.at(emission.texture);
+  const bool has_back = shape.material == no_index || scene.materials[material_of(scene, shape)].double_sided;
+  light.two_sided = emission.two_sided && has_back ? 1 : 0;
+  if (emission.texture != no_index) light.texture = materials.emission.at(emission.texture);
+  return light;
+}
+
+/// Transparent emitters are found by BSDF sampling alone: light samples do not account for their transparency.
+template <class Real>
+uint32_t ShapeBuilder<Real>::add_light(const Shape& shape, LightKind kind, size_t primitive, double area) {
+  LightRecord<Real> light = shape_light<Real>(shape, scene_, materials_);
+  light.kind = kind;
+  light.primitive = static_cast<uint32_t>(primitive);
   out_.lights.push_back(light);
   if (names_) light_objects_.push_back(object_id_);
-  light_measures_.push_back(material.alpha == no_index ? area : 0);
+  const bool is_opaque =
+      shape.material == no_index || scene_.materials[material_of(scene_, shape)].alpha == no_index;
+  light_measures_.push_back(is_opaque ? area : 0);
   return static_cast<uint32_t>(out_.lights.size() - 1);
 }
 
@@ -415,6 +422,8 @@ bool ShapeBuilder<Real>::needs_uv(const Shape& shape) const {
   return has_emission_texture || (shape.material != no_index && materials_.needs_uv[shape.material]);
 }
 
+template LightRecord<float> shape_light(const Shape&, const Scene&, const CompiledMaterials&);
+template LightRecord<double> shape_light(const Shape&, const Scene&, const CompiledMaterials&);
 template class ShapeBuilder<float>;
 template class ShapeBuilder<double>;
 

@@ -19,6 +19,11 @@ struct MeshSizes {
   uint64_t triangles = 0, vertices = 0, normals = 0, uvs = 0;
 };
 
+/// The record of a light of a shape that emits, without its kind and primitive. Throws InputError if its radiance is
+/// not finite in this precision.
+template <class Real>
+LightRecord<Real> shape_light(const Shape& shape, const Scene& scene, const CompiledMaterials& materials);
+
 /// Places shapes. Every placement is counted first, so that arrays grow once and a mesh is freed after its last use.
 template <class Real>
 class ShapeBuilder {
@@ -45,8 +50,11 @@ class ShapeBuilder {
   /// Warns once of all triangles that were left out because they have no area.
   void warn_of_dropped_triangles() const;
 
-  /// The location of the shape that has a surface, by index into `surfaces`.
-  const SourceLocation& location_of(uint32_t surface) const { return surface_shapes_[surface]->where; }
+  /// The location of the shape that has a surface, by index into `surfaces`; that of the scene for copies of surfaces,
+  /// which follow all others (compile/open_backs.h).
+  SourceLocation location_of(uint32_t surface) const {
+    return surface < surface_shapes_.size() ? surface_shapes_[surface]->where : SourceLocation{scene_.name};
+  }
 
   /// The ids of the objects that the lights of shapes belong to, if there are names.
   const std::vector<uint32_t>& light_objects() const { return light_objects_; }

@@ -1,8 +1,10 @@
 #include "compile/trees.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "compile/bvh/bvh2_builder.h"
@@ -19,9 +21,22 @@ namespace {
 template <class Real>
 class TreeBuilder {
  public:
-  TreeBuilder(const CompileOptions& options, SceneArrays<Real>& out) : options_(options), out_(out) {}
+  TreeBuilder(const CompileOptions& options, WorldTree<Real>& world, SceneArrays<Real>& out)
+      : options_(options), world_(world), out_(out) {}
 
   void run() {
+    find_object_boxes();
+    build_world();
+    for (ObjectRecord& object : out_.objects) {
+      object.first_primitive = static_cast<uint32_t>(out_.primitives.size());
+      object.bvh2_root = static_cast<uint32_t>(out_.bvh2_nodes.size());
+      object.cwbvh_root = static_cast<uint32_t>(out_.cwbvh_nodes.size());
+      object.bvh8_root = static_cast<uint32_t>(out_.bvh8_nodes.size());
+      build(object.first_triangle, {object.triangle_count}, false);
+    }
+  }
+
+  void build_world() {
     const uint32_t in_world =
         out_.objects.empty() ? static_cast<uint32_t>(out_.triangles.size()) : out_.objects.front().first_triangle;
     PrimitiveCounts counts{};
@@ -30,14 +45,17 @@ class TreeBuilder {
     ALHAZEN_PRIMITIVES(ALHAZEN_COUNT, )
 #undef ALHAZEN_COUNT
     counts[0] = in_world;
-    build(0, counts, out_.instances.size() > 0);
-    for (ObjectRecord& object : out_.objects) {
-      object.first_primitive = static_cast<uint32_t>(out_.primitives.size());
-      object.bvh2_root = static_cast<uint32_t>(out_.bvh2_nodes.size());
-      object.cwbvh_root = static_cast<uint32_t>(out_.cwbvh_nodes.size());
-      object.bvh8_root = static_cast<uint32_t>(out_.bvh8_nodes.size());
-      build(object.first_triangle, {object.triangle_count}, false);
-    }
+    build(0, counts, true);
+    TreeSizes& sizes = world_.sizes;
+    sizes.primitives = out_.primitives.size();
+    sizes.bvh2_nodes = out_.bvh2_nodes.size();
+    sizes.cwbvh_nodes = out_.cwbvh_nodes.size();
+    sizes.cwbvh_primitives = out_.cwbvh_primitives.size();
+    sizes.bvh8_nodes = out_.bvh8_nodes.size();
+#define ALHAZEN_COUNT(X, kind, Record, records, Block, block_array) \
+  sizes.blocks[Bvh8Child::records] = out_.block_array.size();
+    ALHAZEN_PRIMITIVES(ALHAZEN_COUNT, )
+#undef ALHAZEN_COUNT
   }
 
  private:
@@ -57,21 +75,24 @@ class TreeBuilder {
     return boxes;
   }
 
-  /// Boxes about the corners of the objects' own, wider by what rounding of the transform there and back can lose.
-  void add_instance_boxes(std::vector<Bounds3<Real>>& boxes) const {
-    std::vector<Bounds3<Real>> object_boxes(out_.objects.size());
+  void find_object_boxes() {
+    world_.object_boxes.resize(out_.objects.size());
     const SceneView<Real> objects = out_.view();
 #pragma omp parallel for schedule(dynamic)
-    for (size_t o = 0; o < object_boxes.size(); ++o) {
+    for (size_t o = 0; o < world_.object_boxes.size(); ++o) {
       const ObjectRecord& object = out_.objects[o];
       for (uint32_t i = object.first_triangle; i < object.first_triangle + object.triangle_count; ++i)
-        object_boxes[o].extend(bounds_of(objects, out_.triangles[i]));
+        world_.object_boxes[o].extend(bounds_of(objects, out_.triangles[i]));
     }
+  }
+
+  /// Boxes about the corners of the objects' own, wider by what rounding of the transform there and back can lose.
+  void add_instance_boxes(std::vector<Bounds3<Real>>& boxes) const {
     SceneView<Real> view;
     view.instances = out_.instances.data();
     view.instance_motions = out_.instance_motions.data();
     for (uint32_t i = 0; i < out_.instances.size(); ++i) {
-      const Bounds3<Real>& object = object_boxes[out_.instances[i].object];
+      const Bounds3<Real>& object = world_.object_boxes[out_.instances[i].object];
       boxes.push_back(instance_box(instance_at(view, i, Real(0)), object));
       if (out_.instances[i].motion != no_motion)
         boxes.back().extend(instance_box(instance_at(view, i, Real(1)), object));
@@ -91,12 +112,13 @@ class TreeBuilder {
     return box;
   }
 
-  /// Trees over triangles from `first` on, the other kinds that are counted, and instances.
-  void build(uint32_t first, const PrimitiveCounts& counts, bool has_instances) {
+  /// Trees over triangles from `first` on, the other kinds that are counted, and in the world over instances.
+  void build(uint32_t first, const PrimitiveCounts& counts, bool is_world) {
     const BvhLayouts& layouts = options_.layouts;
+    const bool has_instances = is_world && !out_.instances.empty();
     std::vector<Bounds3<Real>> boxes = primitive_boxes(first, counts);
     if (has_instances) add_instance_boxes(boxes);
-    if (first == 0)
+    if (is_world)
       for (const Bounds3<Real>& box : boxes) out_.bounds.extend(box);
     Bvh2<Real> tree;
     if (!layouts.empty()) {
@@ -109,6 +131,9 @@ class TreeBuilder {
       tree.order.resize(boxes.size());
       std::iota(tree.order.begin(), tree.order.end(), 0u);
     }
+    if (is_world)
+      std::copy_if(tree.order.begin(), tree.order.end(), std::back_inserter(world_.triangle_order),
+                   [&](uint32_t i) { return i < counts[0]; });
     const uint32_t first_primitive = static_cast<uint32_t>(out_.primitives.size());
     order_primitives(tree.order, first, counts);
     if (layouts.has(BvhLayout::cwbvh) || layouts.has(BvhLayout::bvh8)) {
@@ -173,31 +198,52 @@ class TreeBuilder {
   }
 
   const CompileOptions& options_;
+  WorldTree<Real>& world_;
   SceneArrays<Real>& out_;
 };
 
 }  // namespace
 
 template <class Real>
-void build_trees(const CompileOptions& options, SceneArrays<Real>& out, SceneStatistics& statistics) {
+void build_trees(const CompileOptions& options, SceneArrays<Real>& out, SceneStatistics& statistics,
+                 WorldTree<Real>* world) {
   const auto start = std::chrono::steady_clock::now();
   size_t primitives = out.instances.size();
 #define ALHAZEN_ADD(X, kind, Record, records, Block, blocks) primitives += out.records.size();
   ALHAZEN_PRIMITIVES(ALHAZEN_ADD, )
 #undef ALHAZEN_ADD
   out.primitives.reserve(primitives);
-  TreeBuilder<Real>(options, out).run();
-  const auto bytes = [](const auto& array) { return array.size() * sizeof(array[0]); };
-  statistics.nodes = options.layouts.has(BvhLayout::bvh2) ? out.bvh2_nodes.size() : out.bvh8_nodes.size();
-  statistics.tree_bytes = bytes(out.bvh2_nodes) + bytes(out.cwbvh_nodes) + bytes(out.cwbvh_primitives) +
-                          bytes(out.bvh8_nodes) + bytes(out.instances);
-#define ALHAZEN_ADD(X, kind, Record, records, Block, blocks) statistics.tree_bytes += bytes(out.blocks);
-  ALHAZEN_PRIMITIVES(ALHAZEN_ADD, )
-#undef ALHAZEN_ADD
+  WorldTree<Real> own;
+  TreeBuilder<Real>(options, world ? *world : own, out).run();
+  count_trees(options, out.view(), statistics);
   statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-template void build_trees(const CompileOptions&, SceneArrays<float>&, SceneStatistics&);
-template void build_trees(const CompileOptions&, SceneArrays<double>&, SceneStatistics&);
+template <class Real>
+void build_world_tree(const CompileOptions& options, SceneArrays<Real>& out, WorldTree<Real>& world) {
+  world.triangle_order.clear();
+  TreeBuilder<Real>(options, world, out).build_world();
+}
+
+template <class Real>
+void count_trees(const CompileOptions& options, const SceneView<Real>& view, SceneStatistics& statistics) {
+  statistics.nodes = options.layouts.has(BvhLayout::bvh2) ? view.bvh2_nodes_count : view.bvh8_nodes_count;
+  const auto bytes = [](const auto* array, uint64_t count) { return count * sizeof(*array); };
+  statistics.tree_bytes = bytes(view.bvh2_nodes, view.bvh2_nodes_count) +
+                          bytes(view.cwbvh_nodes, view.cwbvh_nodes_count) +
+                          bytes(view.cwbvh_primitives, view.cwbvh_primitives_count) +
+                          bytes(view.bvh8_nodes, view.bvh8_nodes_count) + bytes(view.instances, view.instances_count);
+#define ALHAZEN_ADD(X, kind, Record, records, Block, block_array) \
+  statistics.tree_bytes += bytes(view.block_array, view.block_array##_count);
+  ALHAZEN_PRIMITIVES(ALHAZEN_ADD, )
+#undef ALHAZEN_ADD
+}
+
+template void build_trees(const CompileOptions&, SceneArrays<float>&, SceneStatistics&, WorldTree<float>*);
+template void build_trees(const CompileOptions&, SceneArrays<double>&, SceneStatistics&, WorldTree<double>*);
+template void build_world_tree(const CompileOptions&, SceneArrays<float>&, WorldTree<float>&);
+template void build_world_tree(const CompileOptions&, SceneArrays<double>&, WorldTree<double>&);
+template void count_trees(const CompileOptions&, const SceneView<float>&, SceneStatistics&);
+template void count_trees(const CompileOptions&, const SceneView<double>&, SceneStatistics&);
 
 }  // namespace alhazen::impl

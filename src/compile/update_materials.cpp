@@ -69,9 +69,15 @@ bool update_materials(const Scene& description, CompiledScene<Real>& scene) {
   if (now.needs_uv != scene.materials->needs_uv || !fit_shapes(fresh, scene.view) ||
       !have_same_emission(*scene.materials, now, fresh, scene.view))
     return false;
-  ArraySet replaced;
-  replaced.materials = replaced.albedo_tables = replaced.textures = replaced.texture_mappings = replaced.images = true;
-  replace_arrays(fresh, replaced, scene);
+  ArrayFronts fronts;
+#define ALHAZEN_REPLACE(name) fronts.name = whole_array(fresh.name, scene.view.name##_count);
+  ALHAZEN_REPLACE(materials)
+  ALHAZEN_REPLACE(albedo_tables)
+  ALHAZEN_REPLACE(textures)
+  ALHAZEN_REPLACE(texture_mappings)
+  ALHAZEN_REPLACE(images)
+#undef ALHAZEN_REPLACE
+  replace_fronts(fronts, scene);
   scene.view.has_lobes = 0;
   for (const MaterialRecord<Real>& material : fresh.materials)
     if (has_trait<&MaterialTraits::has_lobes>(material.kind)) scene.view.has_lobes = 1;

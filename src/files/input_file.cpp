@@ -110,8 +110,8 @@ std::vector<uint8_t> InputFile::read_all() {
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {
   }
-  throw InputError({name_},
-                   "the file of " + std::to_string(size_ >> 20) + " MiB is too large for the memory of this machine");
+  throw TooLargeError(
+      {name_}, "the file of " + std::to_string(size_ >> 20) + " MiB is too large for the memory of this machine");
 }
 
 std::vector<uint8_t> read_short_text(const InputPath& path) {

@@ -75,19 +75,35 @@ bool is_exact(const Shape& shape, const MovingTransform& outer, bool has_too_man
 
 }  // namespace
 
-void tessellate_inexact_quadrics(Scene& scene) {
-  QuadricMeshes meshes(scene);
-  for (Shape& shape : scene.groups.at(0).shapes)
-    if (shape.type != ShapeType::mesh && !is_exact(shape, {}, false)) meshes.replace(shape);
+namespace {
+
+/// Calls visit(shape) for every quadric that is not exact where it is, or one of its copies is. It may replace them.
+template <class AnyScene, class Visit>
+void for_each_inexact_quadric(AnyScene& scene, const Visit& visit) {
+  for (auto& shape : scene.groups.at(0).shapes)
+    if (shape.type != ShapeType::mesh && !is_exact(shape, {}, false)) visit(shape);
   uint64_t copies = 0;
   for (const Instance& instance : scene.instances) {
     const std::vector<Shape>& shapes = scene.groups.at(instance.group).shapes;
     copies += static_cast<uint64_t>(std::count_if(shapes.begin(), shapes.end(), is_cylinder_or_disk));
   }
   for (const Instance& instance : scene.instances)
-    for (Shape& shape : scene.groups[instance.group].shapes)
+    for (auto& shape : scene.groups[instance.group].shapes)
       if (shape.type != ShapeType::mesh && !is_exact(shape, instance.world_from_group, copies > max_quadric_copies))
-        meshes.replace(shape);
+        visit(shape);
+}
+
+}  // namespace
+
+bool has_inexact_quadrics(const Scene& scene) {
+  bool has_any = false;
+  for_each_inexact_quadric(scene, [&](const Shape&) { has_any = true; });
+  return has_any;
+}
+
+void tessellate_inexact_quadrics(Scene& scene) {
+  QuadricMeshes meshes(scene);
+  for_each_inexact_quadric(scene, [&](Shape& shape) { meshes.replace(shape); });
 }
 
 }  // namespace alhazen::impl

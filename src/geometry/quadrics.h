@@ -20,6 +20,9 @@ Mesh mesh_of_quadric(const Shape& shape);
 /// Instances copy cylinders and disks. Where these were more, they become meshes, which instances share.
 inline constexpr uint64_t max_quadric_copies = 1u << 17;
 
+/// Whether tessellate_inexact_quadrics would replace any.
+bool has_inexact_quadrics(const Scene& scene);
+
 /// Replaces by meshes, one for all equal shapes, spheres that transforms stretch, and cylinders and disks that are not
 /// exact or emit light. The shapes keep their order.
 void tessellate_inexact_quadrics(Scene& scene);

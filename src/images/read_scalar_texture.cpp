@@ -115,7 +115,7 @@ ScalarTexture read_scalar_texture(const InputPath& path, TextureEncoding encodin
   try {
     return read_scalar(path, encoding);
   } catch (const std::bad_alloc&) {
-    throw_malformed(path.name, "is too large for the memory of this machine");
+    throw TooLargeError({path.name}, "is too large for the memory of this machine");
   }
 }
 

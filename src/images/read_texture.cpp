@@ -117,7 +117,7 @@ ImageTexels read_texture(const InputPath& input, TextureEncoding encoding) {
     return decode_texture(path, format, read_bytes(input),
                           encoding == TextureEncoding::data ? TextureEncoding::linear : encoding);
   } catch (const std::bad_alloc&) {
-    throw_malformed(path, "is too large for the memory of this machine");
+    throw TooLargeError({path}, "is too large for the memory of this machine");
   }
 }
 

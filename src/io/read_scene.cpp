@@ -101,9 +101,9 @@ Scene read_scene(const std::string& path, const ReadOptions& options, Diagnostic
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {
   }
-  throw InputError({path},
-                   "the scene is too large for the memory of this machine, or for a limit set on it (ulimit "
-                   "-v): give it fewer or smaller meshes and images");
+  throw TooLargeError({path},
+                      "the scene is too large for the memory of this machine, or for a limit set on it (ulimit "
+                      "-v): give it fewer or smaller meshes and images");
 }
 
 std::vector<Camera> read_camera_path(const std::string& path, const ReadOptions& options,

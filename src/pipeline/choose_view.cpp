@@ -36,7 +36,7 @@ Vec3d nearest_axis(const Vec3d& direction) {
 
 /// Whether the axes of the world are left-handed as the camera shows them, as in pbrt, unless a file mirrors them, and
 /// unlike in glTF.
-bool is_left_handed(const Scene& scene) { return !scene.camera.world_from_camera.start.swaps_handedness(); }
+bool is_left_handed(const Camera& camera) { return !camera.world_from_camera.start.swaps_handedness(); }
 
 /// The axes of a camera that looks along -`backward`.
 ViewAxes axes_towards(const Vec3d& backward, const Vec3d& up) {
@@ -54,15 +54,16 @@ void check_values(const Settings& asked) {
 /// Places cameras in a scene.
 class CameraChoice {
  public:
-  CameraChoice(const Settings& asked, Scene& scene, bool turns)
+  /// `camera` may be that of the scene.
+  CameraChoice(const Settings& asked, const Scene& scene, Camera& camera, bool turns)
       : asked_(asked),
         turns_(turns),
         scene_(scene),
-        camera_(scene.camera),
+        camera_(camera),
         aspect_(aspect_of(asked.width, asked.height)) {
     if (!(aspect_ > 0)) aspect_ = static_cast<double>(scene.film.width) / static_cast<double>(scene.film.height);
     const Transform& transform = camera_.world_from_camera.start;
-    is_left_handed_ = is_left_handed(scene);
+    is_left_handed_ = is_left_handed(camera_);
     up_ = nearest_axis(length(scene.up) > 0 ? scene.up : column(transform, 1));
     for (size_t i = 0; i < 3; ++i) scale_[i] = length(column(transform, i));
   }
@@ -176,7 +177,7 @@ void turn_environments(double degrees, Scene& scene, Diagnostics& diagnostics) {
   bool has_maps = false;
   for (Light& light : scene.lights) {
     if (light.kind != LightKind::environment) continue;
-    const Transform turn = Transform::rotate(is_left_handed(scene) ? -degrees : degrees, light.axes.normal);
+    const Transform turn = Transform::rotate(is_left_handed(scene.camera) ? -degrees : degrees, light.axes.normal);
     light.axes.tangent = turn.direction(light.axes.tangent);
     light.axes.bitangent = turn.direction(light.axes.bitangent);
     has_maps = true;
@@ -205,32 +206,35 @@ void scale_lights(const Settings& asked, Scene& scene, Diagnostics& diagnostics)
 
 }  // namespace
 
-namespace {
+Camera chosen_camera(const Settings& asked, const Scene& scene, const Camera& camera) {
+  check_values(asked);
+  Camera chosen = camera;
+  CameraChoice(asked, scene, chosen, false).apply();
+  return chosen;
+}
 
-void change_lights(const Settings& asked, Scene& scene, Diagnostics& diagnostics) {
+void choose_lights(const Settings& asked, Scene& scene, Diagnostics& diagnostics) {
   if (asked.environment_rotation != 0) turn_environments(asked.environment_rotation, scene, diagnostics);
   scale_lights(asked, scene, diagnostics);
 }
 
-}  // namespace
-
 void choose_view(const Settings& asked, Scene& scene, Diagnostics& diagnostics) {
   check_values(asked);
-  CameraChoice(asked, scene, false).apply();
-  change_lights(asked, scene, diagnostics);
+  CameraChoice(asked, scene, scene.camera, false).apply();
+  choose_lights(asked, scene, diagnostics);
 }
 
 Pivot choose_turning_view(const Settings& asked, Scene& scene, Diagnostics& diagnostics) {
   check_values(asked);
-  CameraChoice choice(asked, scene, true);
+  CameraChoice choice(asked, scene, scene.camera, true);
   choice.apply();
-  change_lights(asked, scene, diagnostics);
+  choose_lights(asked, scene, diagnostics);
   return choice.pivot();
 }
 
 Camera placed_camera(const Settings& asked, const Camera& camera, Scene& scene) {
   scene.camera = camera;
-  CameraChoice(asked, scene, false).apply();
+  CameraChoice(asked, scene, scene.camera, false).apply();
   return scene.camera;
 }
 

@@ -19,6 +19,10 @@ struct Pivot {
 /// that names the setting.
 void choose_view(const Settings& asked, Scene& scene, Diagnostics& diagnostics);
 
+/// The two parts of it. The lights of a scene are chosen once its camera is.
+Camera chosen_camera(const Settings& asked, const Scene& scene, const Camera& camera);
+void choose_lights(const Settings& asked, Scene& scene, Diagnostics& diagnostics);
+
 /// The same for a camera that will turn about the scene: where it is placed to see the whole scene, it does so in every
 /// direction.
 Pivot choose_turning_view(const Settings& asked, Scene& scene, Diagnostics& diagnostics);

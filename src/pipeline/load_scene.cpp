@@ -82,6 +82,18 @@ void refuse_checkpoint(const std::string& path, const InputRecord* inputs, const
   if (inputs) inputs->refuse(settings.checkpoint, "the checkpoint");
 }
 
+void adapt_outline(Scene& outline, const Settings& settings, bool reads_maps, Diagnostics& diagnostics) {
+  if (!settings.environment.empty()) {
+    const InputPath path = path_beside(outline.name, settings.environment, settings.confine);
+    if (reads_maps)
+      use_environment(outline, path);
+    else
+      use_environment(outline, ImageTexels{}, path.name);
+  }
+  apply_settings(settings, outline);
+  choose_lights(settings, outline, diagnostics);
+}
+
 LoadedScene adapt_scene(Scene&& scene, std::shared_ptr<InputRecord> inputs, const Settings& settings,
                         Diagnostics& diagnostics) {
   const auto start = std::chrono::steady_clock::now();

@@ -33,6 +33,9 @@ LoadedScene load_turning_scene(const std::string& path, const Settings& settings
 LoadedScene adapt_scene(Scene&& scene, std::shared_ptr<InputRecord> inputs, const Settings& settings,
                         Diagnostics& diagnostics);
 
+/// The same for the outline of a scene (scene/outline.h) whose camera has been placed. Maps are read if `reads_maps`.
+void adapt_outline(Scene& outline, const Settings& settings, bool reads_maps, Diagnostics& diagnostics);
+
 /// Throws InputError if the checkpoint is the scene's file, or one of those that it was read from. `inputs` may be
 /// null.
 void refuse_checkpoint(const std::string& path, const InputRecord* inputs, const Settings& settings);

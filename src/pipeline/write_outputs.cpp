@@ -62,14 +62,19 @@ std::map<std::string, std::string> metadata_of(const RenderStatistics& s) {
   return metadata;
 }
 
-/// As options of the command line.
+}  // namespace
+
 std::string display_text(const WriteOptions& how) {
   return fmt::format("--exposure {:.10g}", how.exposure) +
          (how.white_temperature > 0 ? fmt::format(" --white-balance {:.10g}", how.white_temperature) : "") +
          " --tone-map " + to_string(how.tone_map);
 }
 
-}  // namespace
+std::map<std::string, std::string> image_metadata(const Rendering& rendering, bool has_layers) {
+  std::map<std::string, std::string> metadata = metadata_of(rendering.statistics);
+  if (has_layers) metadata.merge(rendering.layer_metadata());
+  return metadata;
+}
 
 std::vector<std::string> choose_outputs(const std::vector<std::string>& asked, const std::string& film_filename,
                                         const std::string& scene_path, Diagnostics& diagnostics) {
@@ -121,8 +126,7 @@ void write_output(const std::string& path, const OutputOptions& options, const R
   const std::string format = format_name(path, options);
   const RenderSettings& settings = rendering.statistics.settings;
   WriteOptions how = options.how;
-  how.metadata = metadata_of(rendering.statistics);
-  if (extension_of(format) == "exr") how.metadata.merge(rendering.layer_metadata());
+  how.metadata = image_metadata(rendering, extension_of(format) == "exr");
   if (is_displayed_format(format)) how.metadata["display"] = display_text(how);
   how.x_offset = settings.window.x0;
   how.y_offset = settings.window.y0;

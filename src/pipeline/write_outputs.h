@@ -2,6 +2,7 @@
 
 // Writes the images of a render.
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,12 @@ void check_sizes(const std::vector<std::string>& outputs, const PixelWindow& win
 /// one of `inputs` or of those in `record`. `checkpoint` may be empty.
 void check_files(const std::vector<std::string>& outputs, const std::string& checkpoint,
                  const std::vector<NamedFile>& inputs, const InputRecord& record);
+
+/// What headers of images say: about the render, and if `has_layers` about its layers (EXR alone).
+std::map<std::string, std::string> image_metadata(const Rendering& rendering, bool has_layers);
+
+/// What headers say of how an image is displayed, as options of the command line.
+std::string display_text(const WriteOptions& how);
 
 struct OutputReport {
   std::vector<std::string> written;   ///< paths

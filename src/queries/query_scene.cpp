@@ -60,7 +60,7 @@ QueryScene::QueryScene(Scene&& scene, Precision precision, int threads, Diagnost
     compile<double>(std::move(scene), threads, diagnostics);
   else
     compile<float>(std::move(scene), threads, diagnostics);
-  for (const Diagnostics::Warning& warning : diagnostics.warnings()) warnings_.push_back(warning.to_string());
+  warnings_ = diagnostics.public_warnings();
 }
 
 template <class Real>
@@ -77,6 +77,9 @@ void QueryScene::compile(Scene&& scene, int threads, Diagnostics& diagnostics) {
     return alhazen::Vec3{q.x, q.y, q.z};
   };
   bounds_ = {in_world(box.low), in_world(box.high)};
+  origins_ = primitive_origins(compiled.view, compiled.origins);
+  compiled.origins.triangles = {};
+  compiled.origins.surfaces = {};
 }
 
 template <class Number>
@@ -91,15 +94,10 @@ void QueryScene::answer(const RayArrays<Number>& rays, const HitArrays<Number>& 
   const RayQueryRequest<Number> whole = std::visit(
       [&](const auto& compiled) {
         const Vec3d& origin = compiled.world_origin;
-        return RayQueryRequest<Number>{&compiled.view,
-                                       {origin.x, origin.y, origin.z},
-                                       compiled.origins.triangles.data(),
-                                       compiled.origins.surfaces.data(),
-                                       compiled.origins.instances.data(),
-                                       rays,
-                                       hits,
-                                       occluded,
-                                       0,
+        return RayQueryRequest<Number>{&compiled.view, {origin.x, origin.y, origin.z},
+                                       &origins_,      compiled.origins.instances.data(),
+                                       rays,           hits,
+                                       occluded,       0,
                                        rays.count};
       },
       compiled_);

@@ -8,6 +8,7 @@
 
 #include "alhazen/rays.h"
 #include "compile/compiled_scene.h"
+#include "queries/primitive_origins.h"
 #include "render/sample_kernel.h"
 #include "render/settings.h"
 #include "scene/scene.h"
@@ -31,7 +32,7 @@ class QueryScene {
                 InstructionSet set = instruction_sets().back()) const;
 
   const Box& bounds() const { return bounds_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<alhazen::Warning>& warnings() const { return warnings_; }
 
  private:
   template <class Real>
@@ -41,8 +42,9 @@ class QueryScene {
               InstructionSet set) const;
 
   std::variant<CompiledScene<float>, CompiledScene<double>> compiled_;
+  PrimitiveOrigins origins_;  ///< instead of compiled_'s of triangles and surfaces
   Box bounds_;
-  std::vector<std::string> warnings_;
+  std::vector<alhazen::Warning> warnings_;
 };
 
 }  // namespace alhazen::impl

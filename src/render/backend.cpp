@@ -42,7 +42,7 @@ std::vector<NamedSetting> Backend::named_settings(const RenderSettings& settings
 
 void Backend::require_available() const {
   const BackendStatus here = status();
-  if (!here.available) throw InputError("the backend '" + traits().name + "' is not available: " + here.details);
+  if (!here.available) throw UnsupportedError("the backend '" + traits().name + "' is not available: " + here.details);
 }
 
 void Backend::refuse_blocks(const Settings& asked) const {

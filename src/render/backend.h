@@ -73,7 +73,8 @@ class Backend {
   virtual void start(const RenderSettings&) {}
   /// What rays are traced by.
   virtual BvhLayouts wanted_layouts(const RenderSettings&) const { return {BvhLayout::bvh8}; }
-  /// Builds what rays are traced by, where that is not our own BVH; counts as building it. Called once, after start().
+  /// Builds what rays are traced by, where that is not our own BVH; counts as building it. Called after
+  /// start(), and again when the arena of the scene has changed: what was built before is replaced.
   virtual void prepare(const CompiledScene<float>&) {}
   virtual void prepare(const CompiledScene<double>&) {}
   /// Passes are no larger than this.

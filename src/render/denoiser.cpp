@@ -21,7 +21,7 @@ ChosenDenoiser choose_denoiser(const std::string& asked) {
   if (asked.empty() || asked == "none") return {};
   if (asked != "auto") {
     const std::string problem = make_denoiser(asked)->problem();
-    if (!problem.empty()) throw InputError("the denoiser '" + asked + "' is not available: " + problem);
+    if (!problem.empty()) throw UnsupportedError("the denoiser '" + asked + "' is not available: " + problem);
     return {asked, {}};
   }
   ChosenDenoiser chosen;

@@ -1,5 +1,7 @@
 #include "render/film.h"
 
+#include <atomic>
+
 namespace alhazen::impl {
 
 namespace {
@@ -49,9 +51,19 @@ uint64_t film_bytes(const PixelWindow& window, const AovSet& aovs, const FilmExt
   return pixel * static_cast<uint64_t>(window.pixels());
 }
 
+namespace {
+
+/// Generations of different films are different, for devices that keep a copy of one and are given another.
+uint64_t first_film_generation() {
+  static std::atomic<uint64_t> films{0};
+  return films.fetch_add(1, std::memory_order_relaxed) << 32;
+}
+
+}  // namespace
+
 template <class Real>
 Film<Real>::Film(const PixelWindow& window, const AovSet& aovs, const FilmExtras& extras)
-    : window_(window), aovs_(aovs), has_alpha_(extras.alpha) {
+    : window_(window), aovs_(aovs), has_alpha_(extras.alpha), generation_(first_film_generation()) {
   const size_t pixels = static_cast<size_t>(window.pixels());
   const WantedPlanes wanted(aovs, extras);
 #define ALHAZEN_PLANE(type, name)          \

@@ -1,6 +1,7 @@
 #include "render/guiding.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -209,6 +210,12 @@ VarianceComparison compare_variances(const FilmView<Real>& film, int width, int 
   return result;
 }
 
+/// Those of different images are different, for devices that keep a copy of one and are given another.
+uint64_t first_guide_generation() {
+  static std::atomic<uint64_t> images{0};
+  return images.fetch_add(1, std::memory_order_relaxed) << 32;
+}
+
 }  // namespace
 
 template <class Real>
@@ -218,7 +225,8 @@ Guiding<Real>::Guiding(const RenderSettings& settings, const SceneView<Real>& sc
       width_(settings.window.width()),
       height_(settings.window.height()),
       exposure_(static_cast<double>(scene.exposure)),
-      bounds_(scene.bounds) {
+      bounds_(scene.bounds),
+      generation_(first_guide_generation()) {
   const int64_t pixels = settings.window.pixels();
   const int64_t wanted = std::clamp<int64_t>((first_samples + pixels - 1) / pixels, 1, 256);
   first_ = static_cast<uint32_t>((wanted + samples_per_block - 1) / samples_per_block * samples_per_block);

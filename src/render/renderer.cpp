@@ -15,6 +15,7 @@
 #include "compile/change_camera.h"
 #include "compile/compile_scene.h"
 #include "compile/update_materials.h"
+#include "compile/update_scene.h"
 #include "render/denoiser.h"
 #include "render/pass_loop.h"
 #include "util/thread_limit.h"
@@ -44,8 +45,8 @@ using Clock = std::chrono::steady_clock;
 void check_memory(uint64_t bytes, const std::string& what) {
   const uint64_t memory = static_cast<uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
   if (bytes > memory / 10 * 9)
-    throw InputError(what + " takes " + std::to_string(bytes >> 30) + " GiB, and this machine has " +
-                     std::to_string(memory >> 30) + ": render parts of it with --crop, or with fewer layers");
+    throw TooLargeError(what + " takes " + std::to_string(bytes >> 30) + " GiB, and this machine has " +
+                        std::to_string(memory >> 30) + ": render parts of it with --crop, or with fewer layers");
 }
 
 template <class Real>
@@ -62,8 +63,9 @@ std::unique_ptr<Film<Real>> make_film(const RenderSettings& settings, bool weigh
   try {
     return std::make_unique<Film<Real>>(settings.window, settings.aovs, extras);
   } catch (const std::bad_alloc&) {
-    throw InputError("the image with its layers takes " + std::to_string(bytes >> 20) +
-                     " MiB, more than is left beside the scene: render parts of it with --crop, or with fewer layers");
+    throw TooLargeError(
+        "the image with its layers takes " + std::to_string(bytes >> 20) +
+        " MiB, more than is left beside the scene: render parts of it with --crop, or with fewer layers");
   }
 }
 
@@ -130,10 +132,13 @@ class GrowingImageOf final : public GrowingImage {
   std::unique_ptr<PassLoop<Real>> loop_;
 };
 
+/// What a scene is compiled for.
+enum class Use { one_image, cameras, changes };
+
 template <class Real>
 class RendererOf final : public SceneRenderer {
  public:
-  RendererOf(Scene&& scene, const RenderSettings& settings, double load_seconds, bool for_cameras,
+  RendererOf(Scene&& scene, const RenderSettings& settings, double load_seconds, Use use,
              const std::optional<KernelChoice>& kernel, Diagnostics& diagnostics)
       : settings_(settings), diagnostics_(diagnostics), scene_name_(scene.name) {
     const Clock::time_point start = Clock::now();
@@ -144,9 +149,11 @@ class RendererOf final : public SceneRenderer {
     options.names_objects = wants_names(settings.aovs);
     options.groups_lights = settings.aovs.light_groups;
     options.light_groups = settings.light_groups;
-    options.for_cameras = for_cameras;
-    options.path_segments = settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
-    flat_ = compile_scene<Real>(std::move(scene), options, diagnostics);
+    options.for_cameras = use != Use::one_image;
+    options.path_segments = searched_segments(settings);
+    if (use == Use::changes) parts_ = std::make_unique<BuiltParts<Real>>();
+    flat_ = parts_ ? compile_scene<Real>(std::move(scene), options, diagnostics, *parts_)
+                   : compile_scene<Real>(std::move(scene), options, diagnostics);
     started_.get();
     load_seconds_ = load_seconds + seconds_since(start) - flat_.statistics.build_seconds;
     build_seconds_ = flat_.statistics.build_seconds;
@@ -166,17 +173,17 @@ class RendererOf final : public SceneRenderer {
     statistics.settings = preview ? *preview : settings_;
     statistics.scene = scene_name_;
     Clock::time_point start = Clock::now();
-    if (camera) {
+    if (camera)
       change_camera(*camera, scene_name_, statistics.settings.width, statistics.settings.height, build_threads(),
                     flat_);
-      if (settings_.runs_on_device) drop_backend();
-    }
+    if (parts_)
+      for (const Diagnostics::Warning& warning : parts_->lost_light.warnings())
+        diagnostics_.warn(warning.where, warning.message);
     set_view(statistics.settings);
     statistics.scene_sizes = flat_.statistics;
     statistics.load_seconds = std::exchange(load_seconds_, 0) + seconds_since(start);
     start = Clock::now();
-    if (!is_prepared_) backend_->prepare(flat_);
-    is_prepared_ = true;
+    prepare_backend();
     statistics.build_seconds = std::exchange(build_seconds_, 0) + seconds_since(start);
     return std::make_unique<GrowingImageOf<Real>>(*backend_, flat_, std::move(rendering), events, diagnostics_);
   }
@@ -186,22 +193,42 @@ class RendererOf final : public SceneRenderer {
   bool change_materials(const Scene& description) override {
     const std::byte* const arena = flat_.arena.get();
     if (!update_materials(description, flat_)) return false;
-    // A device has a copy of the scene, and other libraries may refer to its arrays.
-    if (settings_.runs_on_device || flat_.arena.get() != arena) drop_backend();
+    knows_lost_light_ = false;
+    is_prepared_ = is_prepared_ && flat_.arena.get() == arena;
     return true;
   }
 
+  bool change_parts(const SceneChanges& changes, const std::vector<Mesh>& meshes, Scene&& outline) override {
+    const std::byte* const arena = flat_.arena.get();
+    if (!parts_ || !update_scene(changes, meshes, std::move(outline), flat_, *parts_)) return false;
+    knows_lost_light_ = false;
+    is_prepared_ = is_prepared_ && flat_.arena.get() == arena && !changes.transforms;
+    return true;
+  }
+
+  bool find_lost_light(const RenderSettings& settings) override {
+    const uint32_t segments = searched_segments(settings);
+    if (!parts_ || (knows_lost_light_ && segments == parts_->options.path_segments)) return true;
+    knows_lost_light_ = find_lost_light_again(segments, flat_, *parts_);
+    return knows_lost_light_;
+  }
+
  private:
+  static uint32_t searched_segments(const RenderSettings& settings) {
+    return settings.integrator == IntegratorKind::path ? settings.max_segments : 0;
+  }
+
   bool is_on_gpu() const { return settings_.runs_on_device && settings_.device != host_device; }
 
   int build_threads() const { return is_on_gpu() ? 0 : settings_.threads; }
 
-  /// Replaces a backend that has been prepared.
-  void drop_backend() {
-    if (!is_prepared_) return;
-    is_prepared_ = false;  // also if it fails to start
-    make_backend();
-    started_.get();
+  /// A device has a copy of the scene, and other libraries refer to its arrays.
+  void prepare_backend() {
+    if (is_prepared_ && !(settings_.runs_on_device && prepared_generation_ != flat_.generation)) return;
+    is_prepared_ = false;  // also if that fails
+    backend_->prepare(flat_);
+    is_prepared_ = true;
+    prepared_generation_ = flat_.generation;
   }
 
   /// Sets what integrators read of the settings in the scene.
@@ -225,7 +252,10 @@ class RendererOf final : public SceneRenderer {
   CompiledScene<Real> flat_;
   std::unique_ptr<Backend> backend_;
   std::future<void> started_;  ///< waits for the backend, which must outlive it
-  bool is_prepared_ = false;
+  std::unique_ptr<BuiltParts<Real>> parts_;  ///< null if it is not for changes
+  bool knows_lost_light_ = true;
+  bool is_prepared_ = false;          ///< the backend, for where the arena is
+  uint64_t prepared_generation_ = 0;  ///< of the arena
   double load_seconds_ = 0, build_seconds_ = 0;  ///< 0 once an image has counted them
 };
 
@@ -283,26 +313,25 @@ void denoise(Rendering& rendering, Diagnostics& diagnostics) {
 }
 
 std::unique_ptr<SceneRenderer> make_renderer(Scene&& scene, const RenderSettings& settings, double load_seconds,
-                                             bool for_cameras, const std::optional<KernelChoice>& kernel,
+                                             Use use, const std::optional<KernelChoice>& kernel,
                                              Diagnostics& diagnostics) {
   warn_of_settings(scene, settings, diagnostics);
   if (settings.precision == Precision::single)
-    return std::make_unique<RendererOf<float>>(std::move(scene), settings, load_seconds, for_cameras, kernel,
-                                               diagnostics);
-  return std::make_unique<RendererOf<double>>(std::move(scene), settings, load_seconds, for_cameras, kernel,
-                                              diagnostics);
+    return std::make_unique<RendererOf<float>>(std::move(scene), settings, load_seconds, use, kernel, diagnostics);
+  return std::make_unique<RendererOf<double>>(std::move(scene), settings, load_seconds, use, kernel, diagnostics);
 }
 
 }  // namespace
 
 std::unique_ptr<SceneRenderer> make_scene_renderer(Scene&& scene, const RenderSettings& settings, double load_seconds,
-                                                   Diagnostics& diagnostics) {
-  return make_renderer(std::move(scene), settings, load_seconds, true, {}, diagnostics);
+                                                   Diagnostics& diagnostics, ForChanges for_changes) {
+  return make_renderer(std::move(scene), settings, load_seconds,
+                       for_changes == ForChanges::yes ? Use::changes : Use::cameras, {}, diagnostics);
 }
 
 Rendering render_scene(Scene&& scene, const RenderSettings& settings, double load_seconds, const RenderEvents& events,
                        Diagnostics& diagnostics) {
-  return make_renderer(std::move(scene), settings, load_seconds, false, events.kernel, diagnostics)->render(events);
+  return make_renderer(std::move(scene), settings, load_seconds, Use::one_image, events.kernel, diagnostics)->render(events);
 }
 
 }  // namespace alhazen::impl

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "compile/compile_scene.h"
+#include "compile/update_scene.h"
 #include "render/denoiser.h"
 #include "render/film.h"
 #include "render/sample_kernel.h"
@@ -94,15 +95,24 @@ class SceneRenderer {
   /// For the next images: other values of materials and textures, as update_materials does. Returns false where that
   /// does not do.
   virtual bool change_materials(const Scene& description) = 0;
+  /// The same for lights and transforms, as update_scene does. Where that returns false, nothing can be rendered.
+  virtual bool change_parts(const SceneChanges& changes, const std::vector<Mesh>& meshes, Scene&& outline) = 0;
+  /// Makes sure that what lost light there is is known after changes, for an image with such settings; it is warned of
+  /// when the image begins. Returns false where all must be compiled anew for it.
+  virtual bool find_lost_light(const RenderSettings& settings) = 0;
 };
 
 /// Warns of what the settings do not show of the scene. Who makes a renderer need not call it.
 void warn_of_settings(const Scene& scene, const RenderSettings& settings, Diagnostics& diagnostics);
 
+/// What a scene is compiled for, beside several cameras.
+enum class ForChanges { no, yes };
+
 /// Compiles the scene; `settings` and `diagnostics` must outlive what is returned. Images do not depend on which others
-/// were rendered before. Throws as render_scene does.
+/// were rendered before. Its parts can be changed if it is made for that, which takes more memory. Throws as
+/// render_scene does.
 std::unique_ptr<SceneRenderer> make_scene_renderer(Scene&& scene, const RenderSettings& settings, double load_seconds,
-                                                   Diagnostics& diagnostics);
+                                                   Diagnostics& diagnostics, ForChanges for_changes = ForChanges::no);
 
 /// `load_seconds` is the time taken to read the scene, for the statistics. Throws InputError, RenderError,
 /// std::bad_alloc, and anything that `events` throws.

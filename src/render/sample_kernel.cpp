@@ -33,8 +33,9 @@ std::vector<InstructionSet> find_instruction_sets() {
     names += (names.empty() ? "" : ", ") + to_string(set);
   }
   if (sets.empty())
-    throw RenderError("this program can take samples with " + names +
-                      " alone, which this processor lacks: build it here, or with -DALHAZEN_INSTRUCTION_SETS=all");
+    throw alhazen::UnsupportedError(
+        "this program can take samples with " + names +
+        " alone, which this processor lacks: build it here, or with -DALHAZEN_INSTRUCTION_SETS=all");
   return sets;
 }
 

@@ -98,11 +98,22 @@ PixelWindow scene_window(const FilmSettings& film, int width, int height) {
                      width, height);
 }
 
+/// The side that is not given, so that the image has the aspect ratio of the film.
+int64_t side_for(int64_t other, int64_t film_side, int64_t film_other) {
+  return std::max<int64_t>(
+      1, std::llround(static_cast<double>(other) * static_cast<double>(film_side) / static_cast<double>(film_other)));
+}
+
 void resolve_image(const Settings& asked, const Scene& scene, RenderSettings& s) {
   constexpr int64_t longest = 100'000, max_pixels = 1'000'000'000;
-  s.width = static_cast<int>(in_range(asked.width ? asked.width : scene.film.width, 1, longest, "the image's width"));
-  s.height =
-      static_cast<int>(in_range(asked.height ? asked.height : scene.film.height, 1, longest, "the image's height"));
+  const auto side = [&](int64_t own, int64_t other, int64_t film_side, int64_t film_other, const char* name) {
+    if (own != 0) return static_cast<int>(in_range(own, 1, longest, name));
+    if (other <= 0 || other > longest) other = 0;  // refused as the other side
+    return static_cast<int>(
+        in_range(other == 0 ? film_side : side_for(other, film_side, film_other), 1, longest, name));
+  };
+  s.width = side(asked.width, asked.height, scene.film.width, scene.film.height, "the image's width");
+  s.height = side(asked.height, asked.width, scene.film.height, scene.film.width, "the image's height");
   if (asked.crop_window && asked.pixel_bounds) throw InputError("give a crop window or pixel bounds, not both");
   if (asked.crop_window)
     for (const double edge : *asked.crop_window)

@@ -65,6 +65,12 @@ Outcome run_work(const Work& work, const Scene& scene, bool keep_image, const Go
   } catch (const InputError& error) {
     outcome.status = TrialStatus::unavailable;
     outcome.reason = first_line(error.what());
+  } catch (const UnsupportedError& error) {
+    outcome.status = TrialStatus::unavailable;
+    outcome.reason = first_line(error.what());
+  } catch (const TooLargeError& error) {
+    outcome.status = TrialStatus::unavailable;
+    outcome.reason = first_line(error.what());
   } catch (const std::bad_alloc&) {
     outcome.status = TrialStatus::failed;
     outcome.reason = "out of memory";

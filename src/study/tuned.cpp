@@ -175,7 +175,7 @@ RenderSettings resolve_with_tuned(const Settings& asked, const Scene& scene, con
       return usual;
     }
     return resolve_settings(with_engine(asked, entry->engine), scene);
-  } catch (const InputError& error) {
+  } catch (const Error& error) {  // bad input, or a device that is gone
     const std::string message = error.what();
     diagnostics.warn({message.find(path) == std::string::npos ? path : ""},
                      "no tuned engine is used: " + message.substr(0, message.find('\n')));

@@ -1,5 +1,6 @@
 #include "util/diagnostics.h"
 
+#include "util/log.h"
 #include "util/printable.h"
 
 namespace alhazen::impl {
@@ -22,12 +23,36 @@ InputError::InputError(const SourceLocation& where, const std::string& message, 
 
 InputError::InputError(const std::string& message) : alhazen::InputError(printable(message)) {}
 
+UnsupportedError::UnsupportedError(const std::string& message) : alhazen::UnsupportedError(printable(message)) {}
+
+TooLargeError::TooLargeError(const std::string& message) : OutOfMemoryError(printable(message)) {}
+TooLargeError::TooLargeError(const SourceLocation& where, const std::string& message)
+    : OutOfMemoryError(located(where, message)) {}
+
 RenderError::RenderError(const std::string& message) : Error(printable_lines(message)) {}
 
 std::string Diagnostics::Warning::to_string() const { return located(where, message); }
 
+alhazen::Warning Diagnostics::Warning::to_public() const {
+  return {printable(message), where.file, where.line, where.line > 0 ? where.column : 0};
+}
+
 void Diagnostics::warn(const SourceLocation& where, const std::string& message) {
-  if (seen_.insert(message).second) warnings_.push_back({where, message});
+  if (!seen_.insert(message).second) return;
+  warnings_.push_back({where, message});
+  if (is_logged()) log_line(LogLevel::warning, warnings_.back().to_string());
+}
+
+std::vector<alhazen::Warning> Diagnostics::public_warnings() const {
+  std::vector<alhazen::Warning> list;
+  for (const Warning& warning : warnings_) list.push_back(warning.to_public());
+  return list;
 }
 
 }  // namespace alhazen::impl
+
+namespace ALHAZEN_NAMESPACE {
+
+std::string Warning::text() const { return impl::located({file, line, column}, message); }
+
+}  // namespace ALHAZEN_NAMESPACE

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "alhazen/error.h"
+#include "alhazen/warning.h"
 #include "util/activity.h"
 
 namespace alhazen::impl {
@@ -32,7 +33,21 @@ class InputError : public alhazen::InputError {
   InputError(const SourceLocation& where, const std::string& message, const std::string& excerpt = {});
 };
 
-/// A failure while the program runs, such as a full disk or a lack of memory. The command line exits with code 1.
+/// What a setting asks for and this build or this machine does not have. The command line exits with code 2.
+class UnsupportedError : public alhazen::UnsupportedError {
+ public:
+  explicit UnsupportedError(const std::string& message);
+};
+
+/// Input that is too large for the memory of this machine, refused before it is used up or once it is. The command line
+/// exits with code 2.
+class TooLargeError : public OutOfMemoryError {
+ public:
+  explicit TooLargeError(const std::string& message);
+  TooLargeError(const SourceLocation& where, const std::string& message);
+};
+
+/// A failure while the program runs, such as a full disk. The command line exits with code 1, as for every other Error.
 class RenderError : public Error {
  public:
   explicit RenderError(const std::string& message);
@@ -45,10 +60,12 @@ class Diagnostics {
     SourceLocation where;
     std::string message;
     std::string to_string() const;  ///< one printable line
+    alhazen::Warning to_public() const;
   };
 
   void warn(const SourceLocation& where, const std::string& message);
   const std::vector<Warning>& warnings() const { return warnings_; }
+  std::vector<alhazen::Warning> public_warnings() const;
   Activity& activity() { return activity_; }
 
  private:

@@ -194,7 +194,7 @@ TEST_F(Api, WhatWasRenderedBeforeAnExceptionIsInTheCheckpoint) {
   uint64_t first = 0;
   render(scene_, settings, [&](const Progress& progress) {
     first = progress.samples_done;
-    return false;
+    return progress.activity != std::string("rendering");
   });
   EXPECT_GE(first, 4u * 144);
 }
@@ -223,8 +223,13 @@ TEST_F(Api, WarningsComeWithTheImage) {
       "warned.pbrt", cornell_box(8) + "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  0 0 0  0 0 0 ]\n");
   const RenderedImage image = render(scene, quick());
   ASSERT_EQ(image.warnings.size(), 1u);
-  EXPECT_NE(image.warnings[0].find("warned.pbrt:"), std::string::npos);
-  EXPECT_NE(image.warnings[0].find("no area"), std::string::npos);
+  const Warning& warning = image.warnings[0];
+  EXPECT_EQ(warning.file, scene);
+  EXPECT_GT(warning.line, 1);
+  EXPECT_GE(warning.column, 1);
+  EXPECT_NE(warning.message.find("no area"), std::string::npos);
+  EXPECT_EQ(warning.text(),
+            scene + ":" + std::to_string(warning.line) + ":" + std::to_string(warning.column) + ": " + warning.message);
 }
 
 TEST_F(Api, ErrorsAreOneMessage) {

@@ -70,6 +70,9 @@ if command -v pkg-config >/dev/null; then
     read -ra flags <<<"$(pkg-config --static --libs alhazen | sed 's/-lalhazen //')"
     "$compiler" -std=c++20 "-I$prefix/include" "$work/example/main.cpp" "$archive" "${flags[@]}" -o "$work/static"
     expect_example "$work/static"
+    # Kernels are weak symbols, which take nothing out of an archive by themselves.
+    "$compiler" -std=c++20 "-I$prefix/include" "$source/examples/ambient_occlusion/main.cpp" "$archive" "${flags[@]}" -o "$work/static_rays"
+    "$work/static_rays" "$scene" "$work/occlusion.pgm" 278 273 -800 278 273 0 100 || fail "ray queries by the archive"
     ! readelf -d "$work/static" | grep -q 'NEEDED.*libalhazen' || fail "the static program needs the shared library"
   fi
 else

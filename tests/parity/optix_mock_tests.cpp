@@ -411,7 +411,9 @@ TEST(OptixMock, PtxStandsInWhereIrIsRefused) {
 std::string error_of(const OptixFunctionTable& table) {
   try {
     render(table, parity_scene("cornell"), settings_of("path"));
-  } catch (const RenderError& error) {
+  } catch (const OutOfMemoryError& error) {
+    return std::string("out of memory: ") + error.what();
+  } catch (const DeviceError& error) {
     return error.what();
   }
   return "";
@@ -426,7 +428,9 @@ TEST(OptixMock, ErrorsSayWhatFailedAndLeaveNothing) {
   EXPECT_EQ(calls.made, calls.destroyed);
   table = mock_driver();
   calls.build_result = OPTIX_ERROR_DEVICE_OUT_OF_MEMORY;
-  EXPECT_EQ(error_of(table).rfind("OptiX is out of memory while building its acceleration structures: ", 0), 0u);
+  EXPECT_EQ(
+      error_of(table).rfind("out of memory: OptiX is out of memory while building its acceleration structures: ", 0),
+      0u);
   EXPECT_EQ(calls.made, calls.destroyed);
   table = mock_driver();
   calls.context_result = OPTIX_ERROR_CUDA_ERROR;
@@ -478,7 +482,7 @@ TEST(OptixMock, DenoiserThatFails) {
   NoisyImage image;
   image.width = image.height = 1;
   for (NoisyBuffer* buffer : {&image.radiance, &image.albedo, &image.normal}) buffer->mean = {1, 2, 3};
-  EXPECT_THROW(denoiser.denoise(image), RenderError);
+  EXPECT_THROW(denoiser.denoise(image), DeviceError);
 }
 
 TEST(OptixLibraryFile, ThatIsMissingOrAnother) {

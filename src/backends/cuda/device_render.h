@@ -56,7 +56,7 @@ class DeviceRender {
         guide_sums_(executor),
         counter_(executor) {}
 
-  /// Builds the acceleration structure of executors that have their own.
+  /// Builds the acceleration structure of executors that have their own, also when the scene has changed.
   void prepare(const CompiledScene<Real>& scene) {
     upload_scene(scene);
     executor_.build(scene.view, device_scene(scene));
@@ -90,7 +90,7 @@ class DeviceRender {
   // ---- memory of the device -------------------------------------------------------------------------------------
 
   void upload(const RenderPass<Real>& pass) {
-    if (scene_ != &pass.scene) upload_scene(pass.scene);
+    if (scene_ != &pass.scene || scene_generation_ != pass.scene.generation) upload_scene(pass.scene);
     totals_.reserve(1);
     counter_.reserve(1);
     if (host_film_ != &pass.film || film_generation_ != pass.film.generation()) {
@@ -111,6 +111,7 @@ class DeviceRender {
     arena_.reserve(bytes);
     executor_.upload(arena_.data(), scene.arena.get(), bytes);
     scene_ = &scene;
+    scene_generation_ = scene.generation;
   }
 
   /// Returns the view of the scene with its pointers moved from the host's arena to the device's.
@@ -385,7 +386,7 @@ class DeviceRender {
   Buffer<Executor, std::byte> guide_, guide_sums_;
   GuideView<Real> guide_view_;
   bool has_guide_ = false;
-  uint64_t guide_generation_ = 0, film_generation_ = 0;
+  uint64_t scene_generation_ = 0, guide_generation_ = 0, film_generation_ = 0;
   Buffer<Executor, uint32_t> counter_;
   uint64_t items_ = Executor::first_items;
 };

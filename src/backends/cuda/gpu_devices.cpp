@@ -16,7 +16,7 @@ const DeviceList& list_devices() {
 
 std::unique_ptr<Engine> make_gpu_engine(int device, const DeviceRows& rows, Precision precision) {
   const Module& module = load_module<CudaModule>();
-  if (!module.functions) throw InputError(module.problem);
+  if (!module.functions) throw UnsupportedError(module.problem);
   return functions_of<CudaModule>(module).make_engine(device, rows, precision);
 }
 

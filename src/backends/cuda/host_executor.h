@@ -40,7 +40,7 @@ class HostExecutor {
 
   void* allocate(size_t bytes) {
     void* memory = std::malloc(bytes);
-    if (!memory) throw RenderError("out of memory");
+    if (!memory) throw std::bad_alloc();
     std::memset(memory, 0xa5, bytes);  // as on a GPU, uninitialized memory is not zero
     return memory;
   }

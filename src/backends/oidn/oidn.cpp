@@ -23,7 +23,7 @@ class OidnDenoiser final : public Denoiser {
   std::string defect() const override { return library().is_here ? library().problem : std::string(); }
 
   std::vector<float> denoise(const NoisyImage& image, const DenoiseOptions& options) const override {
-    if (!library().problem.empty()) throw InputError(library().problem);
+    if (!library().problem.empty()) throw UnsupportedError(library().problem);
     const Functions& f = library().functions;
     const std::unique_ptr<DeviceHandle, void (*)(DeviceHandle*)> device(f.new_device(device_type_cpu),
                                                                         f.release_device);

@@ -22,7 +22,7 @@ std::string problem() {
 
 const OptixModule& functions() {
   const Module& module = load_module<OptixModule>();
-  if (!module.functions) throw InputError(module.problem);
+  if (!module.functions) throw UnsupportedError(module.problem);
   return functions_of<OptixModule>(module);
 }
 

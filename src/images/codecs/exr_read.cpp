@@ -198,10 +198,10 @@ Image read_exr(const InputPath& input, bool all_parts) {
   const std::string& path = input.name;
   try {
     return read_image_parts(path, read_bytes(input), all_parts);
-  } catch (const InputError&) {
+  } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw_malformed(path, "is too large for the memory of this machine");
+    throw TooLargeError({path}, "is too large for the memory of this machine");
   } catch (const std::exception& error) {
     throw_malformed(path, std::string("not a readable EXR file: ") + error.what());
   }

@@ -372,9 +372,9 @@ Scene parse_gltf(std::span<const uint8_t> bytes, const InputPath& path, const st
       gltf::set_pointed_values(document, *animation, options);
     return gltf::SceneReader(document, options).run();
   } catch (const std::bad_alloc&) {
-    throw InputError({path.name}, "the scene is too large for the memory of this machine");
+    throw TooLargeError({path.name}, "the scene is too large for the memory of this machine");
   } catch (const std::length_error&) {
-    throw InputError({path.name}, "the scene is too large for the memory of this machine");
+    throw TooLargeError({path.name}, "the scene is too large for the memory of this machine");
   }
 }
 

@@ -4,40 +4,56 @@
 
 #include "core/bvh/bvh8/intersector.h"
 #include "core/math/ray.h"
-#include "core/shapes/interaction.h"
+#include "queries/kernels/hit_rows.h"
 
 namespace ALHAZEN_CORE {
+
+/// Vectors of a caller that are read later.
+class LaterVectors {
+ public:
+  LaterVectors() = default;
+  template <class Number>
+  LaterVectors(const Number* array, std::ptrdiff_t stride, size_t first)
+      : step_(static_cast<uintptr_t>(stride) * sizeof(Number)),
+        first_(reinterpret_cast<uintptr_t>(array) + first * step_) {}
+
+  /// Prefetches vector i; there need not be one.
+  ALHAZEN_INLINE void prefetch(uint32_t i) const {
+    __builtin_prefetch(reinterpret_cast<const void*>(first_ + i * step_));
+  }
+
+ private:
+  uintptr_t step_ = 0, first_ = 0;
+};
 
 /// Rays as the core traces them, some of a request's.
 template <class Real>
 struct PreparedRays {
-  /// The rays and their hits stay in the second-level cache.
-  static constexpr uint32_t capacity = 1024;
+  /// The rays and their hits take about the first-level cache, and interleaving rarely runs out of rays.
+  static constexpr uint32_t capacity = 512;
+  static constexpr uint32_t packet = RayPacket<Real>::width;
 
   uint32_t count = 0;
   Ray<Real> rays[capacity];
-  Real limit[capacity];  ///< in units of world space; 0 for rays that hit nothing
-  Real origin[3][capacity], direction[3][capacity], time[capacity];
+  Real limit[capacity];                 ///< in units of world space; 0 for rays that hit nothing
+  bool is_coherent[capacity / packet];  ///< of the whole packets: most of their rays visit the same nodes
+  /// Those of the next chunk. They come into the caches while this one is traced, little by little: all at once would
+  /// wait for memory.
+  LaterVectors next_origins, next_directions;
 
-  /// Returns whether the rays of a packet, of which the first is `first`, start within about `max_spread` of each other
-  /// in directions close to each other, so that most of them visit the same nodes.
-  ALHAZEN_INLINE bool is_coherent(uint32_t first, Real max_spread) const {
-    using V = Lanes<Real, RayPacket<Real>::width>;
-    constexpr Real max_direction_spread = Real(0.125);
-    const auto is_within = [&](const Real* row, Real spread) {
-      return less(V::all(spread), magnitude(V::load(row + first) - V::all(row[first]))) == 0;
-    };
-    return is_within(direction[0], max_direction_spread) && is_within(direction[1], max_direction_spread) &&
-           is_within(direction[2], max_direction_spread) && is_within(origin[0], max_spread) &&
-           is_within(origin[1], max_spread) && is_within(origin[2], max_spread);
+  ALHAZEN_INLINE void prefetch_next(uint32_t i) const {
+    next_origins.prefetch(i);
+    next_directions.prefetch(i);
   }
 };
 
 /// What they hit.
 template <class Real>
 struct ChunkHits {
-  Hit<Real> hit[PreparedRays<Real>::capacity];
-  bool found[PreparedRays<Real>::capacity];
+  Real t[PreparedRays<Real>::capacity];         ///< infinity: a miss
+  Hit<Real> hit[PreparedRays<Real>::capacity];  ///< or missing_hit; unspecified if `t` alone is wanted
+
+  ALHAZEN_INLINE bool found(uint32_t i) const { return t[i] < infinity<Real>; }
 };
 
 template <class Real>
@@ -45,41 +61,48 @@ class ChunkTracer {
  public:
   using Rays = PreparedRays<Real>;
 
-  /// Few primitives are tested faster by brute force, which any rays may share.
-  explicit ChunkTracer(const SceneView<Real>& scene)
-      : scene_(&scene),
-        intersector_(scene),
-        uses_packets_(scene.instances_count == 0 && !BruteForcePackets<Real>(scene).is_worthwhile()),
-        max_spread_(max_component(scene.bounds.high - scene.bounds.low) * Real(1.0 / 128)) {}
+  explicit ChunkTracer(const SceneView<Real>& scene) : intersector_(scene), uses_packets_(scene.instances_count == 0) {}
 
-  /// `prefetches` the records of the primitives that are hit.
-  ALHAZEN_NOINLINE void closest_hits(const Rays& rays, bool prefetches, ChunkHits<Real>& hits) {
+  /// Calls prefetch(hit) for each hit if more than `t` is wanted.
+  template <class Prefetch>
+  ALHAZEN_NOINLINE void closest_hits(const Rays& rays, bool wants_more, const Prefetch& prefetch,
+                                     ChunkHits<Real>& hits) {
     const auto answer = [&](uint32_t i, bool found, const Hit<Real>& hit) {
-      hits.hit[i] = hit;
-      hits.found[i] = found;
-      if (found && prefetches) prefetch_primitive(*scene_, hit.primitive);
+      rays.prefetch_next(i);
+      hits.t[i] = found ? hit.t : infinity<Real>;
+      if (!wants_more) return;
+      hits.hit[i] = found ? hit : missing_hit<Real>;
+      if (found) prefetch(hit);
     };
-    constexpr uint32_t width = RayPacket<Real>::width;
+    constexpr uint32_t width = Rays::packet;
     uint32_t run = 0, others = 0;  // the coherent rays before `first` start at `run`
     for (uint32_t first = 0; first < rays.count; first += width) {
       const uint32_t size = min(width, rays.count - first);
-      if (uses_packets_ && size == width && rays.is_coherent(first, max_spread_)) continue;
+      if (uses_packets_ && size == width && rays.is_coherent[first / width]) continue;
       trace_packets(rays, run, first - run, answer);
       for (uint32_t i = 0; i < size; ++i) others_[others++] = first + i;
       run = first + size;
     }
     trace_packets(rays, run, rays.count - run, answer);
-    intersector_.template trace<false>(
-        others, [&](uint32_t i) -> const Ray<Real>& { return rays.rays[others_[i]]; },
-        [&](uint32_t i) { return rays.limit[others_[i]]; },
-        [&](uint32_t i, bool found, const Hit<Real>& hit) { answer(others_[i], found, hit); });
+    if (others == rays.count)
+      trace_others(
+          others, [&](uint32_t i) -> const Ray<Real>& { return rays.rays[i]; },
+          [&](uint32_t i) { return rays.limit[i]; }, answer);
+    else
+      trace_others(
+          others, [&](uint32_t i) -> const Ray<Real>& { return rays.rays[others_[i]]; },
+          [&](uint32_t i) { return rays.limit[others_[i]]; },
+          [&](uint32_t i, bool found, const Hit<Real>& hit) { answer(others_[i], found, hit); });
   }
 
   ALHAZEN_NOINLINE void occluded(const Rays& rays, uint8_t* to) const {
     intersector_.template trace<true>(
         rays.count, [&](uint32_t i) -> const Ray<Real>& { return rays.rays[i]; },
         [&](uint32_t i) { return rays.limit[i]; },
-        [&](uint32_t i, bool found, const Hit<Real>&) { to[i] = found ? 1 : 0; });
+        [&](uint32_t i, bool found, const Hit<Real>&) {
+          rays.prefetch_next(i);
+          to[i] = found ? 1 : 0;
+        });
   }
 
  private:
@@ -92,10 +115,13 @@ class ChunkTracer {
         [&](uint32_t i, bool found, const Hit<Real>& hit) { answer(first + i, found, hit); });
   }
 
-  const SceneView<Real>* scene_;
+  template <RayLookup<Real> RayOf, LimitLookup<Real> Limit, HitReceiver<Real> Answer>
+  ALHAZEN_NOINLINE void trace_others(uint32_t count, const RayOf& ray, const Limit& t_max, const Answer& answer) const {
+    intersector_.template trace<false>(count, ray, t_max, answer);
+  }
+
   Bvh8Intersector<Real> intersector_;
   bool uses_packets_;
-  Real max_spread_;  ///< of the origins of coherent rays
   uint32_t others_[Rays::capacity];
 };
 

@@ -6,6 +6,7 @@
 
 #include "core/shapes/interaction.h"
 #include "queries/kernels/ray_chunk.h"
+#include "queries/kernels/surface_points.h"
 
 namespace ALHAZEN_CORE {
 
@@ -13,125 +14,110 @@ template <class Real, class Number>
 class HitWriter {
  public:
   HitWriter(const RayQueryRequest<Number>& request, const SceneView<Real>& scene)
-      : request_(&request), hits_(request.hits), scene_(&scene) {}
+      : request_(&request), hits_(request.hits), scene_(&scene), rows_(*request.primitives) {}
 
-  bool wants_surface() const {
-    return hits_.positions || hits_.normals || hits_.shading_normals || hits_.offsets || hits_.uvs;
+  /// Whether anything but the parameters of hits is wanted.
+  bool wants_more() const { return wants_surface() || wants_rows(); }
+
+  /// Prefetches what `write` reads first for a hit.
+  ALHAZEN_INLINE void prefetch(const Hit<Real>& hit) const {
+    if (wants_rows()) __builtin_prefetch(&rows_.of(hit));
+    if (wants_surface()) prefetch_primitive(*scene_, hit.primitive);
   }
-  bool wants_records() const { return wants_surface() || hits_.shapes || hits_.instances; }
 
   /// Writes the results of the rays of a chunk, of which the first is `first` of all.
-  void write(const RayChunk<Real, Number>& rays, const ChunkHits<Real>& results, size_t first) const {
-    const uint32_t count = rays.count;
-    const bool* const found = results.found;
-    const Hit<Real>* const hits = results.hit;
-    if (hits_.primitives || hits_.barycentrics)
-      for (uint32_t i = 0; i < count; ++i)
-        if (found[i] && is_triangle(hits[i])) __builtin_prefetch(request_->triangles + hits[i].primitive.index());
+  void write(const RayChunk<Real, Number>& rays, const ChunkHits<Real>& results, size_t first) {
     if (hits_.t)
-      for (uint32_t i = 0; i < count; ++i)
-        store_number(hits_.t + first + i, found[i] ? rays.parameter(i, hits[i].t) : infinity<Number>);
-    if (hits_.barycentrics)
-      for (uint32_t i = 0; i < count; ++i) write_barycentrics(first + i, found[i], hits[i]);
-    if (hits_.primitives)
-      for (uint32_t i = 0; i < count; ++i)
-        store_number(hits_.primitives + first + i, found[i] ? primitive_of(hits[i]) : invalid_id);
-    if (hits_.shapes || hits_.instances)
-      for (uint32_t i = 0; i < count; ++i) write_ids(first + i, found[i], hits[i]);
+      write_vectors<1>(hits_.t + first, rays.count,
+                       [&](uint32_t i, size_t) ALHAZEN_INLINE_LAMBDA { return rays.parameter(i, results.t[i]); });
+    if (hits_.primitives || hits_.shapes || hits_.instances || hits_.barycentrics)
+      write_ids(results.hit, first, rays.count);
     if (!wants_surface()) return;
-    constexpr uint32_t ahead = 8;
-    for (uint32_t i = 0; i < count; ++i) {
-      if (i + ahead < count && found[i + ahead]) prefetch_vertices(*scene_, hits[i + ahead].primitive);
-      if (found[i])
-        write_surface(first + i, rays.rays[i], hits[i]);
-      else
-        clear_surface(first + i);
+    const WantedOfSurface wanted{hits_.positions || hits_.offsets, hits_.uvs != nullptr};
+    for (uint32_t from = 0; from < rays.count; from += points_.capacity) {
+      const uint32_t some = min(points_.capacity, rays.count - from);
+      points_.meet(*scene_, rays, results, from, some, rows_, wanted);
+      write_surfaces(first + from, some);
     }
   }
 
  private:
-  /// The weights of the vertices of a triangle, in the order of the description.
-  struct Weights {
-    Real of[3];
-  };
-
-  Weights weights_of(const Hit<Real>& hit) const {
-    const uint32_t turn = request_->triangles[hit.primitive.index()].turn;
-    const Real b[3] = {1 - hit.b1 - hit.b2, hit.b1, hit.b2};
-    return {{b[(3 - turn) % 3], b[(4 - turn) % 3], b[(5 - turn) % 3]}};
+  bool wants_surface() const {
+    return hits_.positions || hits_.normals || hits_.shading_normals || hits_.offsets || hits_.uvs;
+  }
+  bool wants_rows() const {
+    return hits_.primitives || hits_.shapes || hits_.instances || hits_.barycentrics || hits_.uvs;
   }
 
-  static bool is_triangle(const Hit<Real>& hit) { return hit.primitive.kind() == PrimitiveKind::triangle; }
-
-  uint32_t primitive_of(const Hit<Real>& hit) const {
-    return is_triangle(hit) ? request_->triangles[hit.primitive.index()].index : 0;
-  }
-
-  void write_barycentrics(size_t ray, bool found, const Hit<Real>& hit) const {
-    const Weights weights = found && is_triangle(hit) ? weights_of(hit) : Weights{};
-    write_vector<2>(hits_.barycentrics, ray, {weights.of[1], weights.of[2]});
-  }
-
-  void write_ids(size_t ray, bool found, const Hit<Real>& hit) const {
-    ShapeOrigin origin;
-    if (found) origin = request_->surfaces[surface_of(*scene_, hit.primitive)];
-    if (found && hit.instance != no_instance) origin.instance = request_->instances[hit.instance];
-    if (hits_.shapes) store_number(hits_.shapes + ray, origin.shape);
-    if (hits_.instances) store_number(hits_.instances + ray, origin.instance);
-  }
-
-  void write_surface(size_t ray, const Ray<Real>& of, const Hit<Real>& hit) const {
-    SurfaceInteraction<Real> si;
-    meet_surface(*scene_, of, hit, si);
-    const double position[3] = {static_cast<double>(si.position.x) + request_->world_origin[0],
-                                static_cast<double>(si.position.y) + request_->world_origin[1],
-                                static_cast<double>(si.position.z) + request_->world_origin[2]};
-    if (hits_.positions) write_vector<3>(hits_.positions, ray, position);
-    if (hits_.normals) write_vector<3>(hits_.normals, ray, {si.normal.x, si.normal.y, si.normal.z});
-    if (hits_.shading_normals)
-      write_vector<3>(hits_.shading_normals, ray, {si.shading_normal.x, si.shading_normal.y, si.shading_normal.z});
-    if (hits_.offsets) write_vector<1>(hits_.offsets, ray, {offset_of(si, position)});
-    if (hits_.uvs) {
-      Vec2<Real> uv = si.uv;
-      if (is_triangle(hit) && scene_->surfaces[si.surface].uv_offset == no_offset) {
-        const Weights weights = weights_of(hit);  // of (0, 0), (1, 0), (1, 1)
-        uv = {weights.of[1] + weights.of[2], weights.of[2]};
-      }
-      write_vector<2>(hits_.uvs, ray, {uv.x, uv.y});
+  ALHAZEN_NOINLINE void write_ids(const Hit<Real>* hits, size_t first, uint32_t count) const {
+    uint32_t* const primitives = hits_.primitives ? hits_.primitives + first : nullptr;
+    uint32_t* const shapes = hits_.shapes ? hits_.shapes + first : nullptr;
+    uint32_t* const instances = hits_.instances ? hits_.instances + first : nullptr;
+    Number* const barycentrics = hits_.barycentrics ? hits_.barycentrics + 2 * first : nullptr;
+    for (uint32_t i = 0; i < count; ++i) {
+      const Hit<Real>& hit = hits[i];
+      const PrimitiveOrigin& row = rows_.of(hit);
+      if (primitives) store_number(primitives + i, row.primitive);
+      if (shapes) store_number(shapes + i, row.shape);
+      if (instances)
+        store_number(instances + i, hit.instance == no_instance ? row.instance : request_->instances[hit.instance]);
+      if (!barycentrics) continue;
+      const Vec2<Real> weights = described_weights(hit, row.turn);  // 0, 0 on other shapes, and of misses
+      store_number(barycentrics + 2 * i, static_cast<Number>(weights.x));
+      store_number(barycentrics + 2 * i + 1, static_cast<Number>(weights.y));
     }
+  }
+
+  ALHAZEN_NOINLINE void write_surfaces(size_t first, uint32_t count) {
+    const double(&from)[3] = request_->world_origin;
+    const auto position = [&](uint32_t i, size_t k) ALHAZEN_INLINE_LAMBDA {
+      return static_cast<double>(points_.point(i).position[static_cast<int>(k)]) + from[k];
+    };
+    const auto if_hit = [&](uint32_t i, auto number) ALHAZEN_INLINE_LAMBDA {
+      return select(points_.is_hit(i) != 0, number, decltype(number)(0));
+    };
+    if (hits_.positions)
+      write_vectors<3>(hits_.positions + 3 * first, count,
+                       [&](uint32_t i, size_t k) ALHAZEN_INLINE_LAMBDA { return if_hit(i, position(i, k)); });
+    if (hits_.normals)
+      write_vectors<3>(hits_.normals + 3 * first, count, [&](uint32_t i, size_t k) ALHAZEN_INLINE_LAMBDA {
+        return if_hit(i, points_.point(i).normal[static_cast<int>(k)]);
+      });
+    if (hits_.shading_normals)
+      write_vectors<3>(hits_.shading_normals + 3 * first, count, [&](uint32_t i, size_t k) ALHAZEN_INLINE_LAMBDA {
+        return if_hit(i, points_.point(i).shading_normal[static_cast<int>(k)]);
+      });
+    if (hits_.offsets)
+      write_vectors<1>(hits_.offsets + first, count, [&](uint32_t i, size_t) ALHAZEN_INLINE_LAMBDA {
+        return if_hit(i, offset_of(points_.point(i), {position(i, 0), position(i, 1), position(i, 2)}));
+      });
+    if (hits_.uvs)
+      write_vectors<2>(hits_.uvs + 2 * first, count, [&](uint32_t i, size_t k) ALHAZEN_INLINE_LAMBDA {
+        const Vec2<Real> uv = points_.uv(i);
+        return if_hit(i, k == 0 ? uv.x : uv.y);
+      });
   }
 
   /// The bound on the error of the position along the normal. The caller rounds the position, the sum of it and the
   /// offset, and the origin of the next ray in render space; `offset_margin` covers the test of that ray against the
   /// same surface, which intersectors skip for the rays of a render (Ray::left).
-  double offset_of(const SurfaceInteraction<Real>& si, const double (&position)[3]) const {
+  ALHAZEN_INLINE double offset_of(const SurfaceInteraction<Real>& si, const Vec3<double>& position) const {
     using Coarse = std::conditional_t<sizeof(Real) < sizeof(Number), Real, Number>;
     const double rounding = static_cast<double>(rounding_bound<Coarse>(3));
-    const auto along = [&](Real normal, Real error, double at) {
+    const auto along = [&](Real normal, Real error, double at) ALHAZEN_INLINE_LAMBDA {
       return std::abs(static_cast<double>(normal)) * (static_cast<double>(error) + rounding * std::abs(at));
     };
-    return offset_margin * (along(si.normal.x, si.position_error.x, position[0]) +
-                            along(si.normal.y, si.position_error.y, position[1]) +
-                            along(si.normal.z, si.position_error.z, position[2]));
+    return offset_margin *
+           (along(si.normal.x, si.position_error.x, position.x) + along(si.normal.y, si.position_error.y, position.y) +
+            along(si.normal.z, si.position_error.z, position.z));
   }
   static constexpr double offset_margin = 4;
-
-  void clear_surface(size_t ray) const {
-    if (hits_.positions) write_vector<3>(hits_.positions, ray, {0, 0, 0});
-    if (hits_.normals) write_vector<3>(hits_.normals, ray, {0, 0, 0});
-    if (hits_.shading_normals) write_vector<3>(hits_.shading_normals, ray, {0, 0, 0});
-    if (hits_.offsets) write_vector<1>(hits_.offsets, ray, {0});
-    if (hits_.uvs) write_vector<2>(hits_.uvs, ray, {0, 0});
-  }
-
-  template <size_t size, class Component = Real>
-  static void write_vector(Number* to, size_t ray, const Component (&vector)[size]) {
-    for (size_t k = 0; k < size; ++k) store_number(to + ray * size + k, static_cast<Number>(vector[k]));
-  }
 
   const RayQueryRequest<Number>* request_;
   HitArrays<Number> hits_;
   const SceneView<Real>* scene_;
+  HitRows rows_;
+  SurfacePoints<Real> points_;
 };
 
 }  // namespace ALHAZEN_CORE

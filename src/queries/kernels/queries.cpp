@@ -11,8 +11,8 @@ namespace {
 
 /// Calls chunk(rays, first) for one chunk after the other.
 template <class Real, class Number, class Function>
-void for_chunks(const RayQueryRequest<Number>& request, const Function& chunk) {
-  RayChunk<Real, Number> rays;
+void for_chunks(const RayQueryRequest<Number>& request, const SceneView<Real>& scene, const Function& chunk) {
+  RayChunk<Real, Number> rays(scene);
   const size_t end = request.first + request.count;
   for (size_t first = request.first; first < end; first += rays.capacity) {
     rays.load(request, first, end - first < rays.capacity ? static_cast<uint32_t>(end - first) : rays.capacity);
@@ -24,18 +24,20 @@ template <class Real, class Number>
 void closest_hits(const RayQueryRequest<Number>& request) {
   const SceneView<Real>& scene = *static_cast<const SceneView<Real>*>(request.scene);
   ChunkTracer<Real> tracer(scene);
-  const HitWriter<Real, Number> writer(request, scene);
+  HitWriter<Real, Number> writer(request, scene);
+  const auto prefetch = [&](const Hit<Real>& hit) ALHAZEN_INLINE_LAMBDA { writer.prefetch(hit); };
   ChunkHits<Real> hits;
-  for_chunks<Real>(request, [&](const RayChunk<Real, Number>& rays, size_t first) {
-    tracer.closest_hits(rays, writer.wants_records(), hits);
+  for_chunks(request, scene, [&](const RayChunk<Real, Number>& rays, size_t first) {
+    tracer.closest_hits(rays, writer.wants_more(), prefetch, hits);
     writer.write(rays, hits, first);
   });
 }
 
 template <class Real, class Number>
 void occluded(const RayQueryRequest<Number>& request) {
-  const ChunkTracer<Real> tracer(*static_cast<const SceneView<Real>*>(request.scene));
-  for_chunks<Real>(request, [&](const RayChunk<Real, Number>& rays, size_t first) {
+  const SceneView<Real>& scene = *static_cast<const SceneView<Real>*>(request.scene);
+  const ChunkTracer<Real> tracer(scene);
+  for_chunks(request, scene, [&](const RayChunk<Real, Number>& rays, size_t first) {
     tracer.occluded(rays, request.occluded + first);
   });
 }

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "alhazen/rays.h"
-#include "compile/scene_origins.h"
+#include "queries/primitive_origins.h"
 
 namespace alhazen::impl {
 
@@ -15,9 +15,8 @@ template <class Number>
 struct RayQueryRequest {
   const void* scene;       ///< SceneView of the precision of the kernel
   double world_origin[3];  ///< CompiledScene::world_origin
-  const TriangleOrigin* triangles;
-  const ShapeOrigin* surfaces;
-  const uint32_t* instances;
+  const PrimitiveOrigins* primitives;
+  const uint32_t* instances;  ///< SceneOrigins::instances
   RayArrays<Number> rays;
   HitArrays<Number> hits;  ///< of closest hits
   uint8_t* occluded;       ///< of occlusion

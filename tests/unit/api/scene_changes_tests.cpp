@@ -124,7 +124,7 @@ TEST_F(SceneChanges, ErrorsAndWarningsOfFilesHaveTheirPlace) {
   EXPECT_THROW(Scene::load(folder_.write_text("good.pbrt", "WorldBegin"), options), InputError);
   const Scene warned = Scene::load(folder_.file("good.pbrt"));
   ASSERT_EQ(warned.warnings().size(), 1u);
-  EXPECT_NE(warned.warnings()[0].find("no shapes"), std::string::npos);
+  EXPECT_NE(warned.warnings()[0].message.find("no shapes"), std::string::npos);
   Settings settings = quick_settings();
   settings.camera = "1";
   EXPECT_NE(error_of([&] { render(warned, settings); }).find("'camera'"), std::string::npos);

@@ -177,7 +177,8 @@ TYPED_TEST(QueryArrays, NoRaysNeedNoArrays) {
 }
 
 TYPED_TEST(QueryArrays, EmptyScenesAreMissed) {
-  const QueryScene scene = query_scene({});
+  const Scene nothing;
+  const QueryScene scene = query_scene(nothing);
   const QueryRays<TypeParam> rays = mixed_rays<TypeParam>(100);
   QueryHits<TypeParam> hits(100);
   std::vector<uint8_t> occluded(100, 7);

@@ -32,7 +32,7 @@ ShapeId shape_below(const alhazen::Scene& scene, double x, double y) {
 }
 
 alhazen::Shape ball_at(double x, double y, MaterialId material = {}) {
-  return {Sphere{0.4}, material, alhazen::Transform::translate({x, y, 0})};
+  return {alhazen::Sphere{0.4}, material, alhazen::Transform::translate({x, y, 0})};
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ TEST(SceneQueries, LeadToTheHandlesOfShapesAndInstances) {
   const std::vector<double> positions{-1, -1, -1, 1, -1, -1, 0, 1, -1};
   const std::vector<uint32_t> indices{0, 1, 2};
   const MeshId mesh = scene.add(MeshArrays{.positions = positions, .indices = indices});
-  const MaterialId red = scene.add(Diffuse{.reflectance = {0.8, 0.1, 0.1}});
+  const MaterialId red = scene.add(alhazen::Diffuse{.reflectance = {0.8, 0.1, 0.1}});
   const ShapeId removed = scene.add(ball_at(-5, 5));
   const ShapeId first = scene.add(ball_at(5, 0));
   const GroupId pair = scene.add_group();

@@ -341,7 +341,7 @@ TEST(OidnDenoiser, NamesAWrongLibrary) {
     if (chosen.name == "optix") continue;
     EXPECT_EQ(chosen.name, "builtin");
     EXPECT_NE(chosen.warning.find(file), std::string::npos) << chosen.warning;
-    EXPECT_THROW(choose_denoiser("oidn"), InputError);
+    EXPECT_THROW(choose_denoiser("oidn"), UnsupportedError);
   }
 }
 

@@ -37,24 +37,24 @@ void check(cudaError_t result, const char* doing) {
   const std::string where = std::string("while ") + doing;
   switch (result) {
     case cudaErrorMemoryAllocation:
-      throw RenderError("the GPU is out of memory " + where +
-                        ": render fewer pixels or layers at once (--size, --crop), in float, or by a CPU backend");
+      throw OutOfMemoryError("the GPU is out of memory " + where +
+                             ": render fewer pixels or layers at once (--size, --crop), in float, or by a CPU backend");
     case cudaErrorNoKernelImageForDevice:
     case cudaErrorInvalidDeviceFunction:
     case cudaErrorUnsupportedPtxVersion:
-      throw InputError(
+      throw UnsupportedError(
           "this binary contains no code for this GPU: build it with ALHAZEN_CUDA_ARCHITECTURES set to the "
           "GPU's compute capability, which 'alhazen devices' prints, or update the driver");
     case cudaErrorNoDevice:
     case cudaErrorInsufficientDriver:
     case cudaErrorSystemDriverMismatch:
-      throw InputError(explain_no_device(result));
+      throw UnsupportedError(explain_no_device(result));
     case cudaErrorLaunchTimeout:
-      throw RenderError("the GPU was stopped " + where +
+      throw DeviceError("the GPU was stopped " + where +
                         " because it took too long: it drives a display; use another GPU, or the strategy wavefront, "
                         "whose launches are short");
     default:
-      throw RenderError("the GPU failed " + where + ": " + cudaGetErrorString(result));
+      throw DeviceError("the GPU failed " + where + ": " + cudaGetErrorString(result));
   }
 }
 

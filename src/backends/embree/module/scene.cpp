@@ -271,10 +271,10 @@ void EmbreeScene::attach(RTCScene to, RTCGeometry geometry, PrimitiveKind kind) 
 void EmbreeScene::check() const {
   const RTCError error = rtcGetDeviceError(device_);
   if (device_ && error == RTC_ERROR_NONE) return;
-  const char* reason = error == RTC_ERROR_OUT_OF_MEMORY     ? "out of memory"
-                       : error == RTC_ERROR_UNSUPPORTED_CPU ? "this processor lacks instructions that it needs"
-                                                            : "an error that it does not explain";
-  throw std::runtime_error(std::string("Embree: ") + reason + " (" + std::to_string(static_cast<int>(error)) + ")");
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw OutOfMemoryError("Embree is out of memory while it builds its BVH");
+  if (error == RTC_ERROR_UNSUPPORTED_CPU)
+    throw UnsupportedError("this processor lacks instructions that Embree needs: use the backend openmp");
+  throw RenderError("Embree failed: error " + std::to_string(static_cast<int>(error)));
 }
 
 }  // namespace alhazen::impl

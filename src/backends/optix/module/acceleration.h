@@ -64,11 +64,11 @@ class Acceleration {
         top_(executor) {
   }
 
-  /// `host` and `device` are views of the same scene in host and device memory. Throws std::runtime_error if meshes
+  /// `host` and `device` are views of the same scene in host and device memory. Throws UnsupportedError if meshes
   /// move.
   void build(OptixDeviceContext context, const SceneView<float>& host, const SceneView<float>& device) {
     if (host.instance_motions_count > 0)
-      throw std::runtime_error("OptiX: moving meshes are not supported; render with --backend cuda");
+      throw UnsupportedError("OptiX: moving meshes are not supported; render with --backend cuda");
     context_ = context;
     traversable_ = 0;
     sbt_offset_ = 0;

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include "util/diagnostics.h"
+#include "util/printable.h"
 
 namespace alhazen::impl::optix {
 
@@ -48,11 +49,11 @@ const OptixLibrary& optix_library() {
 void check(const OptixFunctionTable& functions, OptixResult result, const char* doing, const std::string& log) {
   if (result == OPTIX_SUCCESS) return;
   if (result == OPTIX_ERROR_DEVICE_OUT_OF_MEMORY || result == OPTIX_ERROR_HOST_OUT_OF_MEMORY)
-    throw RenderError(std::string("OptiX is out of memory while ") + doing +
-                      ": render fewer pixels or layers at once (--size, --crop), or by another backend");
+    throw OutOfMemoryError(std::string("OptiX is out of memory while ") + doing +
+                           ": render fewer pixels or layers at once (--size, --crop), or by another backend");
   const char* name = functions.optixGetErrorName ? functions.optixGetErrorName(result) : nullptr;
-  throw RenderError(std::string("OptiX failed while ") + doing + ": " + (name ? name : std::to_string(result)) +
-                    (log.empty() ? "" : ": " + log));
+  throw DeviceError(printable_lines(std::string("OptiX failed while ") + doing + ": " +
+                                    (name ? name : std::to_string(result)) + (log.empty() ? "" : ": " + log)));
 }
 
 }  // namespace alhazen::impl::optix
