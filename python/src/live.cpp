@@ -77,8 +77,8 @@ void SceneLight::set_value(const Value& value) const {
 py::object keep_texture(const std::string& name, py::handle given) {
   if (py::isinstance<Family<Texture>>(given)) return py::cast(given.cast<const Value&>().frozen());
   if (py::isinstance<SceneTexture>(given)) return py::reinterpret_borrow<py::object>(given);
-  if (py::isinstance<PythonImage>(given) || py::isinstance<SceneImage>(given) || PyUnicode_Check(given.ptr()))
-    refuse(name, "must be a texture: make one of the image by alhazen.ImageTexture(image)");
+  if (py::isinstance<PythonImage>(given) || py::isinstance<SceneImage>(given) || is_file_name(given))
+    refuse_given(name, "a number, a color or a texture, which alhazen.ImageTexture(image) makes of an image", given);
   return {};
 }
 

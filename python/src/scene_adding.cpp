@@ -61,10 +61,11 @@ py::object environment(const ScenePointer& scene) {
   return py::none();
 }
 
+/// What is neither an image nor a file: colour() says what is wrong with it.
 bool is_colour(py::handle given) {
+  if (is_file_name(given) || py::isinstance<PythonImage>(given)) return false;
   if (py::isinstance<py::array>(given)) return py::reinterpret_borrow<py::array>(given).ndim() <= 1;
-  return is_sequence(given) ? py::len(given) == 3 && !is_sequence(py::object(given[py::int_(0)]))
-                            : PyFloat_Check(given.ptr()) || PyIndex_Check(given.ptr());
+  return !is_sequence(given) || py::len(given) == 0 || !is_sequence(py::object(given[py::int_(0)]));
 }
 
 void set_environment(const ScenePointer& scene, const py::object& given) {

@@ -1,5 +1,8 @@
 // scene.materials, scene.shapes and so on: the parts of a kind, by position and by name.
 
+#include <algorithm>
+#include <vector>
+
 #include "bind_part.h"
 
 namespace alhazen::python {
@@ -128,12 +131,18 @@ void bind_list(py::module_& m) {
            ("__getitem__(self, key: int | str) -> " + class_name +
             "\n\nKeyError: none, or more than one, is called so. IndexError: there are not as many.")
                .c_str())
-      .def("find", &found<AnyPart>, py::arg("name"),
-           ("find(name: str) -> list[" + class_name + "]\n\nAll of that name.").c_str())
+      .def(
+          "find",
+          [](const Parts<AnyPart>& self, const py::object& wanted) {
+            py::list parts;
+            for (const AnyPart& part : found(self, text("name", wanted))) parts.append(part);
+            return parts;
+          },
+          py::arg("name"), ("find(name: str) -> list[" + class_name + "]\n\nAll of that name.").c_str())
       .def(
           "get",
-          [](const Parts<AnyPart>& self, const std::string& wanted, const py::object& otherwise) -> py::object {
-            const std::vector<AnyPart> named = found(self, wanted);
+          [](const Parts<AnyPart>& self, const py::object& wanted, const py::object& otherwise) -> py::object {
+            const std::vector<AnyPart> named = found(self, text("name", wanted));
             return named.empty() ? otherwise : py::cast(named.front());
           },
           py::arg("name"), py::arg("default") = py::none(),

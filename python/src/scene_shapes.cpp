@@ -254,7 +254,7 @@ py::object add_shape(const std::shared_ptr<PythonScene>& scene, GroupId group, c
   shape.emission = emission_of(emission, changed);
   shape.material = material_of("material", material, changed);
   shape.geometry = geometry_of(geometry, changed);
-  return py::cast(SceneShape(scene, changed.add(shape, group)));
+  return py::cast(SceneShape(scene, scene->change().add(shape, group)));
 }
 
 py::object add_instance(const std::shared_ptr<PythonScene>& scene, GroupId group, const py::kwargs& arguments) {

@@ -235,7 +235,7 @@ def random_array(rng):
         array = np.broadcast_to(array, (2,) + array.shape)[0]
     elif layout == 5:
         array.setflags(write=False)
-    return array.tolist() if rng.random() < 0.1 else array
+    return np.asarray(array).tolist() if rng.random() < 0.1 else array
 
 
 def test_a_thousand_random_arrays():

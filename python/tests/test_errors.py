@@ -52,7 +52,7 @@ def test_names_that_are_no_text(tmp_path):
 
 @pytest.mark.parametrize("make, message", [
     (lambda: alhazen.Principled(ior=-1), "'ior' must be"),
-    (lambda: alhazen.Principled(roughness="rough"), "'roughness' must be a number, not 'rough'"),
+    (lambda: alhazen.Principled(roughness="rough"), "'roughness' must be a number, a color or a texture"),
     (lambda: alhazen.Principled(roughness=True), "'roughness' must be a number, not True"),
     (lambda: alhazen.Principled(roughness=np.ones(3)), "'roughness' must be a number, not an array"),
     (lambda: alhazen.Principled(base_color=(1, 2)), "'base_color' must be a color"),
