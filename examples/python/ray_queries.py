@@ -47,9 +47,10 @@ def main():
     hits = scene.intersect(origin, directions)
 
     # Directions have the length 1 along the camera's axis, so t is the depth.
-    near, far = np.percentile(hits.t[hits.hit], [1, 90])
-    depth = np.where(hits.hit, np.clip((far - hits.t) / (far - near), 0.02, 1), 0)
-    alhazen.RenderedImage(depth).save(f"{options.output}-depth.png")
+    inverse = 1 / hits.t  # 0 after a miss
+    far, near = inverse[hits.hit].min(), inverse[hits.hit].max()
+    shown = np.where(hits.hit, 0.05 + 0.95 * (inverse - far) / (near - far), 0)
+    alhazen.RenderedImage(shown ** 2).save(f"{options.output}-depth.png")
 
     side = np.sign(-np.sum(directions * hits.normal, axis=-1, keepdims=True))  # towards the camera
     start = (hits.position + side * hits.offset[..., None] * hits.normal)[hits.hit]

@@ -20,9 +20,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 MATERIALS = {
-    "gold": alhazen.Conductor.of("gold"),
-    "lacquer": alhazen.Principled(base_color=(0.55, 0.02, 0.03)),
-    "glass": alhazen.Dielectric(ior=1.5),
+    "gold": alhazen.Principled(base_color=(1, 0.77, 0.34), metallic=1),
+    "plastic": alhazen.Principled(base_color=(0.55, 0.02, 0.03)),
+    "glass": alhazen.Principled(transmission=1, ior=1.5),
 }
 
 
@@ -41,7 +41,7 @@ def ball_on_a_floor():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--steps", type=int, default=6, help="values of the roughness, from 0 to 1")
+    parser.add_argument("--steps", type=int, default=6, help="values of the roughness, from 0 to 0.75")
     parser.add_argument("--samples", type=int, default=128, help="per pixel, before denoising")
     parser.add_argument("--size", type=int, default=160, help="pixels of each side of an image")
     parser.add_argument("--output", type=Path, default=Path("roughness.png"))
@@ -53,7 +53,7 @@ def main():
                                 figsize=(options.steps * options.size / 96, len(MATERIALS) * options.size / 92))
     for row, (name, material) in zip(axes, MATERIALS.items()):
         ball.material = material.replace(name=name)
-        for axis, roughness in zip(row, np.linspace(0, 1, options.steps)):
+        for axis, roughness in zip(row, np.linspace(0, 0.75, options.steps)):
             scene.materials[name].roughness = roughness
             image = renderer.render(scene)
             axis.imshow(plt.imread(io.BytesIO(image.png(tone_map="filmic"))))
@@ -61,7 +61,7 @@ def main():
             axis.set_frame_on(False)
             print(f"{name}, roughness {roughness:.2f}: brightest pixel {np.max(image):.1f}")
         row[0].set_ylabel(name)
-    for axis, roughness in zip(axes[-1], np.linspace(0, 1, options.steps)):
+    for axis, roughness in zip(axes[-1], np.linspace(0, 0.75, options.steps)):
         axis.set_xlabel(f"{roughness:.2g}")
     figure.savefig(options.output)
     print(f"{options.output}: {axes.size} images")

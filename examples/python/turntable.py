@@ -24,6 +24,7 @@ def main():
     parser.add_argument("scene", nargs="?", default=STUDIO, help="a scene file (default: studio.glb)")
     parser.add_argument("--frames", type=int, default=36)
     parser.add_argument("--elevation", type=float, default=14, help="degrees above the horizon")
+    parser.add_argument("--distance", type=float, help="scene units; without it the whole scene is seen")
     parser.add_argument("--samples", type=int, default=128, help="per pixel")
     parser.add_argument("--size", type=size, default=(640, 360), metavar="WxH")
     parser.add_argument("--output", type=Path, default=Path("turn"), help="folder of the frames")
@@ -33,7 +34,7 @@ def main():
     renderer = alhazen.Renderer(spp=options.samples, size=options.size, denoiser="auto")
     options.output.mkdir(parents=True, exist_ok=True)
     for frame in range(options.frames):
-        scene.camera.orbit(azimuth=360 * frame / options.frames, elevation=options.elevation)
+        scene.camera.orbit(360 * frame / options.frames, options.elevation, options.distance)
         built = renderer.start(scene)
         while renderer.render_pass():
             pass

@@ -84,13 +84,17 @@ def check_camera(scene, picture, layers, names):
     y, x = np.argwhere((patches == patches[..., :1]).all(axis=-1) & (patches[..., 0] > 0))[::7].T + 1
     pixels = np.stack([x + 0.5, y + 0.5, np.ones(len(x))], axis=-1)
     hits = scene.intersect(eye, pixels @ np.linalg.inv(k).T @ matrix[:3, :3])
-    assert hits.hit.all() and len(x) > 50
-    assert [scene.shapes[shape].name for shape in hits.shape] == [names[number] for number in ids[y, x]]
+    assert hits.hit.all()
+    hit_names = [scene.shapes[shape].name for shape in hits.shape]
+    # Lamps are seen from their front alone, while rays hit both sides.
+    kept = np.array([not name.endswith("box") for name in hit_names])
+    assert kept.sum() > 50
+    assert [name for name in hit_names if not name.endswith("box")] == [names[number] for number in ids[y, x][kept]]
     position, z = project(hits.position)
     np.testing.assert_allclose(position, pixels[:, :2], atol=1e-3)
-    assert np.median(abs(layers["depth"][y, x] / z - 1)) < 0.01
+    assert np.median(abs(layers["depth"][y, x] / z - 1)[kept]) < 0.01
     towards = np.sum(layers["normal"][y, x] * hits.shading_normal, axis=-1)
-    assert np.median(towards) > 0.95
+    assert np.median(towards[kept]) > 0.95
     return seen
 
 
@@ -119,7 +123,7 @@ def test_roughness_sweep(tmp_path):
     brightest = {(name, roughness): float(value) for name, roughness, value in
                  re.findall(r"(\w+), roughness ([\d.]+): brightest pixel ([\d.]+)", printed)}
     assert len(brightest) == 6
-    assert brightest["gold", "0.00"] > 2 * brightest["gold", "1.00"]  # the sun in it
+    assert brightest["gold", "0.00"] > 2 * brightest["gold", "0.75"]  # the sun in it
 
 
 def test_plot_study(tmp_path):
@@ -140,8 +144,9 @@ def test_ray_queries(tmp_path):
                         for name in ("depth", "occlusion"))
     scene = alhazen.load(SCENES / "studio.glb")
     expected = alhazen.render(scene, spp=16, size=(64, 36), layers=["depth"])["depth"]
-    assert (abs((depth == 0) != (expected == 0)).mean()) < 0.03
-    assert np.corrcoef(depth[expected > 0], expected[expected > 0])[0, 1] < -0.9  # near is bright
+    seen = expected > 0
+    assert ((depth > 0) != seen).mean() < 0.05
+    assert np.corrcoef(np.sqrt(depth[seen]), 1 / expected[seen])[0, 1] > 0.95  # near is bright
     assert 0.5 < occlusion[depth > 0].mean() < 0.98 and occlusion.max() > 0.99
 
     camera_rays = runpy.run_path(str(EXAMPLES / "ray_queries.py"))["camera_rays"]
