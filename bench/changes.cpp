@@ -56,8 +56,7 @@ Scene many_instances(int count, int triangles) {
   }
   const GroupId group = scene.add_group();
   scene.add(Shape{scene.add(MeshArrays{.positions = positions, .indices = indices})}, group);
-  for (int i = 0; i < count; ++i)
-    scene.add(Instance{group, Transform::translate({i % 100 - 50.0, 0, i / 100 - 50.0})});
+  for (int i = 0; i < count; ++i) scene.add(Instance{group, Transform::translate({i % 100 - 50.0, 0, i / 100 - 50.0})});
   scene.add(Shape{Disk{100}, {}, Transform::rotate(-90, {1, 0, 0})});
   scene.add(PointLight{500, {0, 20, 0}});
   scene.set_environment(Colour(0.5));
@@ -147,7 +146,9 @@ void move_all(Scene& scene, double step) {
   }
 }
 
-void change_point_light(Scene& scene, double step) { scene.set(scene.lights().front(), PointLight{500, {step, 20, 0}}); }
+void change_point_light(Scene& scene, double step) {
+  scene.set(scene.lights().front(), PointLight{500, {step, 20, 0}});
+}
 
 void change_sky(Scene& scene, double step) { scene.set_environment(Colour(step)); }
 

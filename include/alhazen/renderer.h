@@ -45,8 +45,8 @@ struct BuildReport {
 /// - another environment;
 /// - other transforms of instances and of shapes in the world, as long as no instance of a group begins or ceases to be
 ///   the only one that moves during the exposure, and no shape with a one-sided material is copied or moved.
-/// All else is built anew as a whole: meshes, images, what there is in groups, and which shapes and instances there are.
-/// docs/library.md says what each takes.
+/// All else is built anew as a whole: meshes, images, what there is in groups, and which shapes and instances there
+/// are. docs/library.md says what each takes.
 ///
 /// Images have the same bits as those of `render(scene, settings)`, whatever was rendered before.
 ///

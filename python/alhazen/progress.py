@@ -25,6 +25,9 @@ class ProgressBar:
 
     def __call__(self, progress):
         """Shows an alhazen.Progress."""
+        is_rendering = getattr(progress, "activity", "rendering") == "rendering"
+        if not is_rendering and not self._is_terminal and not self._notebook:
+            return
         text = self.text(progress)
         if self._notebook:
             self._show_in_notebook(text, progress.fraction)
@@ -57,6 +60,9 @@ class ProgressBar:
 
     def text(self, progress):
         """The line that is shown: bar, percent, time so far and time left."""
+        activity = getattr(progress, "activity", "rendering")
+        if activity != "rendering":
+            return (self.description + " " if self.description else "") + f"{activity}, {_clock(progress.seconds)}"
         filled = int(self.width * progress.fraction)
         bar = "#" * filled + "-" * (self.width - filled)
         parts = [f"[{bar}] {100 * progress.fraction:5.1f} %", _clock(progress.seconds)]

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "convert.h"
+#include "interruptible.h"
 
 namespace alhazen::python {
 
@@ -36,10 +37,19 @@ ProgressFunction progress_function(const py::object& progress, std::shared_ptr<c
   };
 }
 
+void run_droppable(const std::function<void(const ProgressFunction&)>& call) {
+  const auto is_dropped = std::make_shared<std::atomic<bool>>(false);
+  const ProgressFunction progress = progress_function(py::none(), is_dropped);
+  run_interruptible([&] { call(progress); }, [&] { *is_dropped = true; });
+}
+
 void bind_progress(py::module_& m) {
   py::options options;
   options.disable_function_signatures();
   py::class_<Progress>(m, "Progress", "How far a render is: what functions given as `progress` get.")
+      .def_property_readonly(
+          "activity", [](const Progress& p) { return p.activity; },
+          "str: 'rendering', or before it what is done to read and build the scene, when only `seconds` is known.")
       .def_readonly("fraction", &Progress::fraction, "float: of the samples, 0 to 1; it does not decrease.")
       .def_readonly("seconds", &Progress::seconds, "float: of rendering so far.")
       .def_readonly("samples_done", &Progress::samples_done, "int: of all pixels.")
@@ -50,8 +60,9 @@ void bind_progress(py::module_& m) {
       .def_readonly("noise", &Progress::noise,
                     "float: with a noise target, its estimate when pixels were last decided on; 0: none yet.")
       .def("__repr__", [](const Progress& p) {
-        char text[96];
-        std::snprintf(text, sizeof(text), "<alhazen.Progress %.1f %% in %.1f s>", 100 * p.fraction, p.seconds);
+        char text[160];
+        std::snprintf(text, sizeof(text), "<alhazen.Progress: %s, %.1f %% in %.1f s>", p.activity, 100 * p.fraction,
+                      p.seconds);
         return std::string(text);
       });
 }

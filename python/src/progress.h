@@ -3,6 +3,7 @@
 // Functions of Python that the library calls back while it renders.
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -23,6 +24,9 @@ bool says_stop(const py::object& result);
 /// The ProgressFunction for the argument `progress`: a callable, True for an alhazen.ProgressBar, or None or False. It
 /// throws RenderDropped once `is_dropped`, and what the callable raises as error_already_set. Needs the GIL.
 ProgressFunction progress_function(const py::object& progress, std::shared_ptr<const std::atomic<bool>> is_dropped);
+
+/// Runs a call that reads or builds, and gives it a progress function, without the GIL; Ctrl-C ends it.
+void run_droppable(const std::function<void(const ProgressFunction&)>& call);
 
 void bind_progress(py::module_& m);
 

@@ -6,6 +6,7 @@
 #include "alhazen/rays.h"
 #include "bindings.h"
 #include "convert.h"
+#include "progress.h"
 #include "python_scene.h"
 #include "python_warnings.h"
 #include "ray_arrays.h"
@@ -58,9 +59,12 @@ py::array occluded(const PythonQueries& of, const RayArguments& arguments, const
 
 std::shared_ptr<const PythonQueries> build(const PythonScene& scene, const alhazen::Settings& settings) {
   const SceneReading reading(scene);
-  const py::gil_scoped_release unlocked;
-  return std::make_shared<const PythonQueries>(
-      PythonQueries{RayQueries(reading.scene(), settings), settings.precision});
+  std::shared_ptr<const PythonQueries> made;
+  run_droppable([&](const ProgressFunction& progress) {
+    made = std::make_shared<const PythonQueries>(
+        PythonQueries{RayQueries(reading.scene(), settings, progress), settings.precision});
+  });
+  return made;
 }
 
 PythonQueries build(const py::object& scene, const alhazen::Settings& settings) {
@@ -68,10 +72,10 @@ PythonQueries build(const py::object& scene, const alhazen::Settings& settings) 
   if (!is_file_name(scene)) refuse_given("scene", "an alhazen.Scene or the name of a file", scene);
   const std::string file = file_name("scene", scene);
   std::unique_ptr<PythonQueries> made;
-  {
-    const py::gil_scoped_release unlocked;
-    made = std::make_unique<PythonQueries>(PythonQueries{RayQueries::from_file(file, settings), settings.precision});
-  }
+  run_droppable([&](const ProgressFunction& progress) {
+    made = std::make_unique<PythonQueries>(
+        PythonQueries{RayQueries::from_file(file, settings, progress), settings.precision});
+  });
   issue_warnings(made->queries.warnings());
   return *made;
 }
@@ -168,11 +172,11 @@ void bind_queries(py::module_& m) {
   options.disable_function_signatures();
   m.attr("INVALID_ID") = invalid_id;
   bind_hits(m);
-  const std::string arguments =
+  const std::string rays_text =
       "(self, origins: array, directions: array, t_max: array | None = None, *, "
       "time: array | None = None, ";
-  const std::string fields = "fields: Sequence[str] | None = None, ", threads = "threads: int = 0",
-                    precision = ", precision: str | None = None";
+  const std::string fields_text = "fields: Sequence[str] | None = None, ", threads_text = "threads: int = 0",
+                    precision_text = ", precision: str | None = None";
   const std::string intersect_doc =
       std::string("\n\nFinds the closest hit of every ray.\n\n") + rays_doc +
       "fields: names of the arrays that are wanted, each of which takes time; None: all. t is always there.\n\n"
@@ -199,7 +203,7 @@ void bind_queries(py::module_& m) {
           },
           py::arg("origins"), py::arg("directions"), py::arg("t_max") = py::none(), py::kw_only(),
           py::arg("time") = py::none(), py::arg("fields") = py::none(), py::arg("threads") = 0,
-          ("intersect" + arguments + fields + threads + ") -> Hits" + intersect_doc).c_str())
+          ("intersect" + rays_text + fields_text + threads_text + ") -> Hits" + intersect_doc).c_str())
       .def(
           "occluded",
           [](const PythonQueries& queries, const py::object& origins, const py::object& directions,
@@ -208,7 +212,7 @@ void bind_queries(py::module_& m) {
           },
           py::arg("origins"), py::arg("directions"), py::arg("t_max") = py::none(), py::kw_only(),
           py::arg("time") = py::none(), py::arg("threads") = 0,
-          ("occluded" + arguments + threads + ") -> array" + occluded_doc).c_str())
+          ("occluded" + rays_text + threads_text + ") -> array" + occluded_doc).c_str())
       .def_property_readonly(
           "bounds", [](const PythonQueries& queries) { return bounds_of(queries.queries); },
           "array: (2, 3), the low and the high corner of a box that contains all surfaces at all times.")
@@ -240,9 +244,10 @@ void bind_queries(py::module_& m) {
         const RayArguments rays{origins, directions, t_max, time};
         return intersect(*queries_of(of, is_double(rays, precision)), rays, fields, threads);
       },
-      "intersect" + arguments + fields + threads + precision + ") -> Hits" + intersect_doc + kept, py::arg("origins"),
-      py::arg("directions"), py::arg("t_max") = py::none(), py::kw_only(), py::arg("time") = py::none(),
-      py::arg("fields") = py::none(), py::arg("threads") = 0, py::arg("precision") = py::none());
+      "intersect" + rays_text + fields_text + threads_text + precision_text + ") -> Hits" + intersect_doc + kept,
+      py::arg("origins"), py::arg("directions"), py::arg("t_max") = py::none(), py::kw_only(),
+      py::arg("time") = py::none(), py::arg("fields") = py::none(), py::arg("threads") = 0,
+      py::arg("precision") = py::none());
   add(
       "occluded",
       [](const PythonScene& of, const py::object& origins, const py::object& directions, const py::object& t_max,
@@ -250,7 +255,7 @@ void bind_queries(py::module_& m) {
         const RayArguments rays{origins, directions, t_max, time};
         return occluded(*queries_of(of, is_double(rays, precision)), rays, threads);
       },
-      "occluded" + arguments + threads + precision + ") -> array" + occluded_doc + kept, py::arg("origins"),
+      "occluded" + rays_text + threads_text + precision_text + ") -> array" + occluded_doc + kept, py::arg("origins"),
       py::arg("directions"), py::arg("t_max") = py::none(), py::kw_only(), py::arg("time") = py::none(),
       py::arg("threads") = 0, py::arg("precision") = py::none());
 }

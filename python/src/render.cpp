@@ -55,10 +55,9 @@ py::tuple load_by_settings(const py::object& file, alhazen::Settings settings) {
   options.strict = settings.strict;
   const std::string name = file_name("scene", file);
   std::shared_ptr<PythonScene> scene;
-  {
-    const py::gil_scoped_release unlocked;
-    scene = std::make_shared<PythonScene>(alhazen::Scene::load(name, options));
-  }
+  run_droppable([&](const ProgressFunction& function) {
+    scene = std::make_shared<PythonScene>(alhazen::Scene::load(name, options, function));
+  });
   issue_warnings(scene->read().warnings());
   return py::make_tuple(scene, settings);
 }

@@ -105,6 +105,12 @@ std::string text_of(const PythonRenderedImage& image) {
   return text + (rendered.complete ? ">" : ", not complete>");
 }
 
+py::dict metadata_of(const RenderedImage& image) {
+  py::dict metadata;
+  for (const auto& [name, text] : image.metadata) metadata[path_text(name)] = path_text(text);
+  return metadata;
+}
+
 /// What is stored in a pickle, but for the planes.
 py::tuple state_of(const PythonRenderedImage& image) {
   const RenderedImage& r = image.rendered();
@@ -113,8 +119,9 @@ py::tuple state_of(const PythonRenderedImage& image) {
     planes.append(py::bytes(reinterpret_cast<const char*>(plane.data()), plane.size() * sizeof(float)));
   const py::object noise = r.noise ? py::object(py::make_tuple(r.noise->noise, r.noise->below, r.noise->mean_samples))
                                    : py::object(py::none());
+  const py::tuple place = py::make_tuple(r.x, r.y, r.full_width, r.full_height);
   return py::make_tuple(r.width, r.height, tuple_of(r.channels), planes, r.complete, noise, r.denoiser, r.quality,
-                        tuple_of(warning_texts(r.warnings)));
+                        tuple_of(warning_texts(r.warnings)), place, r.samples, r.seconds, metadata_of(r));
 }
 
 std::vector<std::string> texts_of(const py::handle& tuple) {
@@ -145,6 +152,15 @@ std::shared_ptr<PythonRenderedImage> image_of_state(const py::tuple& state) {
   r.denoiser = py::cast<std::string>(state[6]);
   r.quality = py::cast<std::string>(state[7]);
   set_warnings(r.warnings, texts_of(py::object(state[8])));
+  const py::tuple place = state[9];
+  r.x = py::cast<int>(place[0]);
+  r.y = py::cast<int>(place[1]);
+  r.full_width = py::cast<int>(place[2]);
+  r.full_height = py::cast<int>(place[3]);
+  r.samples = py::cast<double>(state[10]);
+  r.seconds = py::cast<double>(state[11]);
+  for (const auto& [name, text] : py::cast<py::dict>(state[12]))
+    r.metadata[py::cast<std::string>(name)] = py::cast<std::string>(text);
   return std::make_shared<PythonRenderedImage>(std::move(r));
 }
 
@@ -234,6 +250,14 @@ void bind_rendered_image(py::module_& m) {
             return i.rendered().quality.empty() ? py::object(py::none()) : py::cast(i.rendered().quality);
           },
           "str | None: the quality that was rendered (draft, good or final), or None.")
+      .def_property_readonly(
+          "samples", [](const PythonRenderedImage& i) { return i.rendered().samples; },
+          "float: per pixel, on average; 0 of an image that was not rendered.")
+      .def_property_readonly(
+          "seconds", [](const PythonRenderedImage& i) { return i.rendered().seconds; }, "float: of rendering.")
+      .def_property_readonly(
+          "metadata", [](const PythonRenderedImage& i) { return metadata_of(i.rendered()); },
+          "dict[str, str]: what `save` writes into the headers of files: scene, samples, seed, settings, ...")
       .def_property_readonly(
           "warnings", [](const PythonRenderedImage& i) { return tuple_of(warning_texts(i.rendered().warnings)); },
           "tuple[str, ...]: of the scene reader and the renderer.")

@@ -117,7 +117,8 @@ def test_alpha():
 
 def test_properties(image):
     assert image.complete and image.noise is None and image.denoiser is None and image.quality is None
-    assert image.warnings == ()
+    assert image.warnings == () and image.samples == 4 and image.seconds > 0
+    assert image.metadata["samples"] == "4" and "cornell" in image.metadata["scene"]
     assert repr(image).startswith("<alhazen.RenderedImage 24 x 16, R G B, layers albedo, normal, ")
     noisy = alhazen.render(CORNELL, noise=0.2, spp=256, width=24, height=16)
     assert 0 < noisy.noise.noise < 1 and 0 < noisy.noise.below <= 1 and 0 < noisy.noise.mean_samples <= 256
@@ -204,6 +205,7 @@ def test_images_of_arrays(tmp_path):
 def test_images_are_pickled(image):
     other = pickle.loads(pickle.dumps(image))
     assert other.channels == image.channels and repr(other) == repr(image)
+    assert (other.metadata, other.samples, other.seconds) == (image.metadata, image.samples, image.seconds)
     for channel in image.channels:
         np.testing.assert_array_equal(other[channel], image[channel])
 

@@ -50,9 +50,7 @@ auto camera_settings(const Settings& s) {
 }
 
 /// Whether a camera is placed for all that is in the scene.
-bool fits_scene(const Camera& camera, const Settings& s) {
-  return camera.is_default || s.fit || !s.orbit.empty();
-}
+bool fits_scene(const Camera& camera, const Settings& s) { return camera.is_default || s.fit || !s.orbit.empty(); }
 
 /// The camera that the scene is seen by with these settings, as adapt_scene places it.
 Camera placed_camera_of(const SceneState& scene, const Settings& asked) {
@@ -212,8 +210,8 @@ struct RendererState {
   }
 
   Settings asked;
-  Diagnostics diagnostics;  ///< of the scene and the image
-  Diagnostics adapted;      ///< of what settings replace in the scene
+  Diagnostics diagnostics;                     ///< of the scene and the image
+  Diagnostics adapted;                         ///< of what settings replace in the scene
   std::vector<Diagnostics::Warning> compiled;  ///< of what was built
   std::unique_ptr<Listener> listener;
   std::unique_ptr<RenderSettings> built;  ///< `renderer` refers to it

@@ -49,9 +49,9 @@ struct BuiltParts {
   Diagnostics lost_light;  ///< what was found
 
   LightMaps<Real> maps;
-  size_t texture_floats = 0;              ///< number of texel_floats that are not of maps
-  std::vector<size_t> described_lights;   ///< of the first lights: index into Scene::lights
-  std::vector<double> areas, measures;    ///< of the lights of shapes, see assign_light_probabilities
+  size_t texture_floats = 0;             ///< number of texel_floats that are not of maps
+  std::vector<size_t> described_lights;  ///< of the first lights: index into Scene::lights
+  std::vector<double> areas, measures;   ///< of the lights of shapes, see assign_light_probabilities
 };
 
 /// compile_scene for a scene of which parts will be compiled again. Lost light is not warned of, but kept.

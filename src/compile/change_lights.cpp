@@ -11,9 +11,7 @@ namespace alhazen::impl {
 
 namespace {
 
-bool has_map(const Light& light) {
-  return light.kind == LightKind::environment || light_traits(light.kind).has_image;
-}
+bool has_map(const Light& light) { return light.kind == LightKind::environment || light_traits(light.kind).has_image; }
 
 /// Whether the map of every light is compiled, or has its texels.
 template <class Real>
@@ -65,7 +63,8 @@ void shift_surfaces(size_t before, size_t after, CompiledScene<Real>& scene) {
   if (before == after) return;
   auto* const surfaces = const_cast<SurfaceRecord*>(scene.view.surfaces);  // the arena is the scene's own
   for (uint32_t i = 0; i < scene.view.surfaces_count; ++i)
-    if (surfaces[i].light != no_light) surfaces[i].light += static_cast<uint32_t>(after) - static_cast<uint32_t>(before);
+    if (surfaces[i].light != no_light)
+      surfaces[i].light += static_cast<uint32_t>(after) - static_cast<uint32_t>(before);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ struct CompiledScene {
   SceneView<Real> view;
   SceneStatistics statistics;
   uint64_t generation = 0;  ///< counts the changes of the arena, for those who hold a copy of it
-  Vec3d world_origin{};  ///< the origin of render space, in world space (compile/render_space.h)
+  Vec3d world_origin{};     ///< the origin of render space, in world space (compile/render_space.h)
   /// By id - 1, in the order in which they were found; empty unless they were asked for.
   std::vector<std::string> object_names, material_names;
   std::vector<std::string> light_groups;  ///< their names; likewise

@@ -18,7 +18,7 @@ struct LightMaps {
     double excess;  ///< what add_environment returns
   };
 
-  std::vector<std::optional<Environment>> environments;      ///< by index into Scene::environments
+  std::vector<std::optional<Environment>> environments;       ///< by index into Scene::environments
   std::vector<std::optional<LightImageRecord<Real>>> images;  ///< by index into Scene::light_images, likewise
 };
 

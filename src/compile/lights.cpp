@@ -54,8 +54,7 @@ void set_record(const Light& light, LightRecord<Real>& record) {
 /// Appends the texels of the image of a light.
 template <class Real>
 LightImageRecord<Real> add_texels(const Light& light, const ImageTexels& image, SceneArrays<Real>& out) {
-  if (image.width < 1 || image.height < 1 ||
-      (light.kind == LightKind::goniometric && image.width != image.height) ||
+  if (image.width < 1 || image.height < 1 || (light.kind == LightKind::goniometric && image.width != image.height) ||
       image.floats.size() != 3 * static_cast<size_t>(image.width) * static_cast<size_t>(image.height))
     throw InputError(light.where, "the image of a light does not hold three values per texel, or is not square");
   LightImageRecord<Real> record{};
@@ -147,9 +146,9 @@ std::vector<size_t> add_described_lights(Scene& scene, const float* texels, Ligh
 
 template <class Real>
 bool has_only_delta_lights(const std::vector<LightRecord<Real>>& lights, const SceneView<Real>& view) {
-  return is_zero(view.background) &&
-         std::all_of(lights.begin(), lights.end(),
-                     [](const LightRecord<Real>& light) { return !light_traits(light.kind).has_size; });
+  return is_zero(view.background) && std::all_of(lights.begin(), lights.end(), [](const LightRecord<Real>& light) {
+           return !light_traits(light.kind).has_size;
+         });
 }
 
 template bool has_only_delta_lights(const std::vector<LightRecord<float>>&, const SceneView<float>&);

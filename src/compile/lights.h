@@ -20,8 +20,8 @@ std::vector<size_t> add_described_lights(Scene& scene, const float* texels, Ligh
 
 /// Gives every light its probability: half for infinite lights if there are both kinds, and within each half by power;
 /// finite lights use a light tree if `sampling` requests one. `measures`, by light: for shapes the area times the mean
-/// of the texture, for images the integral over all directions; unused for other kinds. `shapes` has the primitives that
-/// lights refer to, and the images of lights.
+/// of the texture, for images the integral over all directions; unused for other kinds. `shapes` has the primitives
+/// that lights refer to, and the images of lights.
 template <class Real>
 void assign_light_probabilities(const std::vector<double>& measures, LightSampling sampling,
                                 const SceneView<Real>& shapes, SceneArrays<Real>& out, SceneView<Real>& view);

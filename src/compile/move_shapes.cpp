@@ -151,7 +151,7 @@ void shift_objects(const TreeSizes& before, const TreeSizes& after, CompiledScen
 template <class Real>
 bool fits_indices(const TreeSizes& before, const TreeSizes& after, const SceneView<Real>& view) {
   bool fits = view.bvh8_nodes_count - before.bvh8_nodes + after.bvh8_nodes <= Bvh8Child::max_index_count;
-#define ALHAZEN_FITS(X, kind, Record, records, Block, block_array)                                 \
+#define ALHAZEN_FITS(X, kind, Record, records, Block, block_array)                                                  \
   fits = fits && view.block_array##_count - before.blocks[Bvh8Child::records] + after.blocks[Bvh8Child::records] <= \
                      Bvh8Child::max_index_count;
   ALHAZEN_PRIMITIVES(ALHAZEN_FITS, )
@@ -254,8 +254,7 @@ bool move_shapes(const std::vector<MovedShape>& moved, Scene& outline, CompiledS
   if (!moved.empty()) scene.view.has_narrow_triangles = has_narrow_triangles(scene.view);
   if (scene.view.bvh2_nodes_count == 0) options.layouts = parts.options.layouts;
   count_trees(options, scene.view, scene.statistics);
-  scene.statistics.build_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  scene.statistics.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return true;
 }
 

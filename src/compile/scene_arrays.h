@@ -104,13 +104,14 @@ void replace_fronts(const ArrayFronts& fronts, CompiledScene<Real>& scene) {
   std::byte* const arena = scene.arena.get();
   const auto padded = [](size_t size) { return (size + arena_alignment - 1) / arena_alignment * arena_alignment; };
   std::vector<Place> places;
-#define ALHAZEN_ARRAY(type, name)                                                                                   \
-  {                                                                                                                 \
-    const ArrayFront& f = fronts.name;                                                                              \
-    const size_t tail = f.is_replaced ? (scene.view.name##_count - f.old_count) * sizeof(type) : 0;                 \
-    places.push_back({arena + (reinterpret_cast<const std::byte*>(scene.view.name) - arena), 0,                     \
-                      f.count * sizeof(type), tail, f.old_count * sizeof(type), f.is_replaced ? &f : nullptr});     \
-    if (f.is_replaced) scene.view.name##_count = static_cast<uint32_t>(scene.view.name##_count - f.old_count + f.count); \
+#define ALHAZEN_ARRAY(type, name)                                                                               \
+  {                                                                                                             \
+    const ArrayFront& f = fronts.name;                                                                          \
+    const size_t tail = f.is_replaced ? (scene.view.name##_count - f.old_count) * sizeof(type) : 0;             \
+    places.push_back({arena + (reinterpret_cast<const std::byte*>(scene.view.name) - arena), 0,                 \
+                      f.count * sizeof(type), tail, f.old_count * sizeof(type), f.is_replaced ? &f : nullptr}); \
+    if (f.is_replaced)                                                                                          \
+      scene.view.name##_count = static_cast<uint32_t>(scene.view.name##_count - f.old_count + f.count);         \
   }
   const SceneView<Real> before = scene.view;
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)

@@ -410,8 +410,7 @@ uint32_t ShapeBuilder<Real>::add_light(const Shape& shape, LightKind kind, size_
   light.primitive = static_cast<uint32_t>(primitive);
   out_.lights.push_back(light);
   if (names_) light_objects_.push_back(object_id_);
-  const bool is_opaque =
-      shape.material == no_index || scene_.materials[material_of(scene_, shape)].alpha == no_index;
+  const bool is_opaque = shape.material == no_index || scene_.materials[material_of(scene_, shape)].alpha == no_index;
   light_measures_.push_back(is_opaque ? area : 0);
   return static_cast<uint32_t>(out_.lights.size() - 1);
 }

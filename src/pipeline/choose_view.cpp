@@ -56,11 +56,7 @@ class CameraChoice {
  public:
   /// `camera` may be that of the scene.
   CameraChoice(const Settings& asked, const Scene& scene, Camera& camera, bool turns)
-      : asked_(asked),
-        turns_(turns),
-        scene_(scene),
-        camera_(camera),
-        aspect_(aspect_of(asked.width, asked.height)) {
+      : asked_(asked), turns_(turns), scene_(scene), camera_(camera), aspect_(aspect_of(asked.width, asked.height)) {
     if (!(aspect_ > 0)) aspect_ = static_cast<double>(scene.film.width) / static_cast<double>(scene.film.height);
     const Transform& transform = camera_.world_from_camera.start;
     is_left_handed_ = is_left_handed(camera_);

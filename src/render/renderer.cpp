@@ -251,11 +251,11 @@ class RendererOf final : public SceneRenderer {
   std::string scene_name_;
   CompiledScene<Real> flat_;
   std::unique_ptr<Backend> backend_;
-  std::future<void> started_;  ///< waits for the backend, which must outlive it
+  std::future<void> started_;                ///< waits for the backend, which must outlive it
   std::unique_ptr<BuiltParts<Real>> parts_;  ///< null if it is not for changes
   bool knows_lost_light_ = true;
-  bool is_prepared_ = false;          ///< the backend, for where the arena is
-  uint64_t prepared_generation_ = 0;  ///< of the arena
+  bool is_prepared_ = false;                     ///< the backend, for where the arena is
+  uint64_t prepared_generation_ = 0;             ///< of the arena
   double load_seconds_ = 0, build_seconds_ = 0;  ///< 0 once an image has counted them
 };
 
@@ -331,7 +331,8 @@ std::unique_ptr<SceneRenderer> make_scene_renderer(Scene&& scene, const RenderSe
 
 Rendering render_scene(Scene&& scene, const RenderSettings& settings, double load_seconds, const RenderEvents& events,
                        Diagnostics& diagnostics) {
-  return make_renderer(std::move(scene), settings, load_seconds, Use::one_image, events.kernel, diagnostics)->render(events);
+  return make_renderer(std::move(scene), settings, load_seconds, Use::one_image, events.kernel, diagnostics)
+      ->render(events);
 }
 
 }  // namespace alhazen::impl

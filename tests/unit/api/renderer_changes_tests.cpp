@@ -161,8 +161,8 @@ TEST_P(RendererChanges, BuildsOnlyTheirParts) {
   checked.expect(scene, "transforms", "a mesh of the world");
   scene.set_transform(stage.ball, Transform::translate({0.5, 0.5, 1}));
   checked.expect(scene, "transforms", "a sphere");
-  scene.set_transform(stage.lamp, Transform::translate({1, 2, 0}) * Transform::rotate(120, {1, 0, 0}) *
-                                      Transform::scale(0.2));
+  scene.set_transform(stage.lamp,
+                      Transform::translate({1, 2, 0}) * Transform::rotate(120, {1, 0, 0}) * Transform::scale(0.2));
   checked.expect(scene, "transforms", "a light with a shape");
   scene.set(stage.clay, Conductor{});
   scene.set(stage.sun, DistantLight{.irradiance = 2, .direction = {1, -1, 0}});

@@ -101,9 +101,9 @@ Scene whole_scene() {
 
 template <class Real>
 void expect_same_arrays(const CompiledScene<Real>& a, const CompiledScene<Real>& b) {
-#define ALHAZEN_ARRAY(type, name)                                                                       \
-  ASSERT_EQ(a.view.name##_count, b.view.name##_count) << #name;                                         \
-  if (a.view.name##_count > 0) {                                                                        \
+#define ALHAZEN_ARRAY(type, name)                                                                     \
+  ASSERT_EQ(a.view.name##_count, b.view.name##_count) << #name;                                       \
+  if (a.view.name##_count > 0) {                                                                      \
     EXPECT_EQ(std::memcmp(a.view.name, b.view.name, a.view.name##_count * sizeof(type)), 0) << #name; \
   }
   ALHAZEN_SCENE_ARRAYS(ALHAZEN_ARRAY)
@@ -165,8 +165,8 @@ class ChangingScene {
   BuiltParts<Real> parts_;
 };
 
-CompileOptions options_for(uint64_t max_copied, BvhLayouts layouts = {BvhLayout::bvh2, BvhLayout::bvh8,
-                                                                      BvhLayout::cwbvh}) {
+CompileOptions options_for(uint64_t max_copied,
+                           BvhLayouts layouts = {BvhLayout::bvh2, BvhLayout::bvh8, BvhLayout::cwbvh}) {
   CompileOptions options;
   options.threads = 1;
   options.layouts = layouts;
@@ -176,8 +176,8 @@ CompileOptions options_for(uint64_t max_copied, BvhLayouts layouts = {BvhLayout:
   return options;
 }
 
-constexpr SceneChanges lights{.lights = true}, maps{.lights = true, .light_maps = true},
-    transforms{.transforms = true}, all{.lights = true, .light_maps = true, .transforms = true};
+constexpr SceneChanges lights{.lights = true}, maps{.lights = true, .light_maps = true}, transforms{.transforms = true},
+    all{.lights = true, .light_maps = true, .transforms = true};
 
 MovingTransform moved(const MovingTransform& transform, const Transform& by) {
   return {by * transform.start, by * transform.end};
@@ -288,17 +288,22 @@ TYPED_TEST(UpdateScene, SaysWhatItCannotDo) {
     const Transform tiny = Transform::scale({1e-200, 1e-200, 1e-200});
     s.groups[0].shapes[4].world_from_object = {tiny, tiny};
   });
-  fails("a one-sided shape", [&](Scene& s) { s.groups[0].shapes[4].world_from_object = {up, up}; }, true);
-  fails("a map that is missing", [&](Scene& s) {
-    s.environments[0].floats.clear();
-  });
+  fails(
+      "a one-sided shape",
+      [&](Scene& s) {
+        s.groups[0].shapes[4].world_from_object = {up, up};
+      },
+      true);
+  fails("a map that is missing", [&](Scene& s) { s.environments[0].floats.clear(); });
 }
 
 /// The arrays change their sizes up and down, and are moved where they do not fit.
 TYPED_TEST(UpdateScene, FollowsManyChanges) {
   ChangingScene<TypeParam> scene(whole_scene(), options_for(0, {BvhLayout::bvh8, BvhLayout::cwbvh}));
   std::mt19937 random(5);
-  const auto number = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto number = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
   const auto index = [&](size_t count) { return std::uniform_int_distribution<size_t>(0, count - 1)(random); };
   const auto any_move = [&] {
     return Transform::translate({number(-3, 3), number(-1, 3), number(-3, 3)}) *
@@ -324,11 +329,9 @@ TYPED_TEST(UpdateScene, FollowsManyChanges) {
     }
   };
   for (int i = 0; i < 60; ++i)
-    EXPECT_TRUE(scene.change(index(4) == 0 ? all : SceneChanges{.lights = true, .transforms = true},
-                             [&](Scene& s) {
-                               for (size_t k = index(4); k > 0; --k) change_any(s);
-                             }))
-        << i;
+    EXPECT_TRUE(scene.change(index(4) == 0 ? all : SceneChanges{.lights = true, .transforms = true}, [&](Scene& s) {
+      for (size_t k = index(4); k > 0; --k) change_any(s);
+    })) << i;
 }
 
 }  // namespace
