@@ -1,5 +1,6 @@
-# What the Python module is built with: an interpreter that has headers and NumPy, and pybind11. Sets ALHAZEN_WITH_PYTHON.
-# -DPython3_EXECUTABLE=FILE says which interpreter; otherwise it is the first of the path, or that of the system.
+# What the Python module is built with: an interpreter that has headers and NumPy, and pybind11. Sets
+# ALHAZEN_WITH_PYTHON. -DPython3_EXECUTABLE=FILE says which interpreter; otherwise it is the first of the path, or that of
+# the system.
 
 option(ALHAZEN_PYTHON "The Python module, where an interpreter with headers and NumPy and pybind11 are found"
        ${PROJECT_IS_TOP_LEVEL})

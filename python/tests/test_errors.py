@@ -248,3 +248,70 @@ def test_loading_lets_other_threads_run(tmp_path):
         turns += 1
     thread.join()
     assert turns > 100 and len(scenes[0].meshes) == 1
+
+
+JUNK = [None, True, -1, 0, 3, 10**400, 0.5, float("nan"), float("inf"), -1e308, 1 + 2j, "", "box", "\udcff", "a\0b",
+        b"\xff", (), [], {}, set(), (1, 2, 3), (1, 2), [[1]], (None,) * 3, range(3), np.float32(2), np.int64(-5), np.array(3.0),
+        np.zeros(3), np.zeros((4, 4)), np.eye(4), np.full((4, 4), np.nan), np.array("x"), np.array([None] * 3),
+        object(), int, lambda: 0, np.ma.masked, slice(3), memoryview(b"abc"), alhazen.Transform(), alhazen.Diffuse(),
+        alhazen.FbmTexture(), alhazen.PointLight(), alhazen.Sphere(), alhazen.Mapping(), alhazen.Roughness(0.1, 0.2),
+        alhazen.Emission(), alhazen.Scene(), alhazen.Image(np.ones((2, 2)))]
+
+
+def all_values():
+    for name in alhazen.__all__:
+        kind = getattr(alhazen, name)
+        if isinstance(kind, type) and issubclass(kind, alhazen.Value) and kind.__init__ is not alhazen.Value.__init__:
+            try:
+                yield kind()
+            except TypeError:
+                pass  # a base
+
+
+def test_attributes_take_or_refuse_anything():
+    taken = refused = 0
+    for value in list(all_values()):
+        for name in [name for name, member in vars(type(value)).items() if isinstance(member, property)]:
+            for junk in JUNK:
+                before = getattr(value, name)
+                try:
+                    setattr(value, name, junk)
+                except alhazen.InputError as error:
+                    assert str(error), (value, name, junk)
+                    after = getattr(value, name)
+                    assert type(after) is type(before) and repr(after) == repr(before)
+                    refused += 1
+                else:
+                    taken += 1
+                    repr(value), copy.copy(value) == value
+    assert taken > 500 and refused > 3000
+
+
+def test_scenes_take_or_refuse_anything():
+    expected = (alhazen.InputError, TypeError)
+    for junk in JUNK:
+        scene = alhazen.Scene()
+        shape, group = scene.add(alhazen.Sphere(), material=alhazen.Diffuse()), scene.add_group("g")
+        group.add(alhazen.Sphere())
+        instance, light = scene.add(group), scene.add(alhazen.PointLight())
+        mesh = scene.add_mesh(alhazen.Mesh(np.eye(3), [[0, 1, 2]]))
+        calls = [lambda: scene.add(junk), lambda: scene.add_mesh(junk), lambda: scene.add_group(junk),
+                 lambda: group.add(junk), lambda: scene.add(group, transform=junk), lambda: alhazen.Transform(junk),
+                 lambda: scene.add(alhazen.EnvironmentLight(), image=junk), lambda: scene.camera.look_at(junk, junk),
+                 lambda: scene.camera.orbit(junk, junk, junk), lambda: mesh.set_vertices(junk, junk),
+                 lambda: mesh.replace(junk), lambda: scene.shapes.find(junk), lambda: alhazen.Image(junk),
+                 lambda: alhazen.Transform.rotate(junk, junk), lambda: alhazen.Transform() @ junk]
+        for part, names in ((shape, "geometry material transform end_transform emission reverse_orientation name"),
+                            (instance, "group transform end_transform reverse_orientation name"),
+                            (light, "position intensity value name image"), (mesh, "vertices"),
+                            (scene, "camera film pixel_filter defaults up environment"),
+                            (scene.camera, "fov transform kind screen_window value"),
+                            (scene.film, "width pixel_bounds")):
+            calls += [lambda part=part, name=name: setattr(part, name, junk) for name in names.split()]
+        for call in calls:
+            try:
+                call()
+            except expected as error:
+                assert str(error)
+        repr(scene), [repr(part) for parts in (scene.shapes, scene.materials, scene.lights) for part in parts]
+        scene.bounds, scene.camera.value

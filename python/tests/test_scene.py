@@ -239,7 +239,8 @@ def test_camera_writes_back():
     scene.camera.fov = 30
     scene.camera.aperture = 0.1
     assert scene.camera.fov == 30 and scene.camera.aperture == 0.1
-    assert np.allclose(scene.camera.transform[:3, 3], (0, 0, 5)) and np.allclose(scene.camera.transform[:3, 2], (0, 0, -1))
+    assert np.allclose(scene.camera.transform[:3, 3], (0, 0, 5))
+    assert np.allclose(scene.camera.transform[:3, 2], (0, 0, -1))
     scene.camera.look_at((0, 0, 7), (0, 0, 0), up=(1, 0, 0))
     assert scene.camera.focus == pytest.approx(7)
     scene.camera.orbit(90, 0, distance=4)
