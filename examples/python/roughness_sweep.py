@@ -59,7 +59,7 @@ def main():
             axis.imshow(plt.imread(io.BytesIO(image.png(tone_map="filmic"))))
             axis.set(xticks=[], yticks=[])
             axis.set_frame_on(False)
-            print(f"{name}, roughness {roughness:.2f}: brightest pixel {np.max(image):.1f}")
+            print(f"{name}, roughness {roughness:.2f}: brightest pixel {np.max(image):.4g}")
         row[0].set_ylabel(name)
     for axis, roughness in zip(axes[-1], np.linspace(0, 0.75, options.steps)):
         axis.set_xlabel(f"{roughness:.2g}")
