@@ -30,8 +30,8 @@ def test_examples_run(page, tmp_path, monkeypatch):
         exec(compile("\n" * line + block, str(ROOT / page), "exec"), names)
 
 
-def test_settings_in_tables_exist():
-    """Names in the first columns of tables in docs/python.md, such as `alhazen.render`."""
+def test_names_exist():
+    """Names such as `alhazen.render` in docs/python.md."""
     text = (ROOT / "docs/python.md").read_text(encoding="utf-8")
     for name in set(re.findall(r"alhazen\.([A-Za-z_]+(?:\.[A-Za-z_]+)*)", text)):
         owner = alhazen
