@@ -60,6 +60,16 @@ SaveOptions save_options(const py::object& exposure, const py::object& white_bal
   return options;
 }
 
+/// PNG, JPEG, HDR and PFM have R, G and B: those of an image of one channel, such as one of an array (h, w), are this.
+RenderedImage coloured(const RenderedImage& grey) {
+  RenderedImage image = grey;
+  image.channels = {"R", "G", "B"};
+  image.planes.assign(3, grey.planes.front());
+  return image;
+}
+
+bool is_grey(const RenderedImage& image) { return image.channels == std::vector<std::string>{"Y"}; }
+
 void save_image(const PythonRenderedImage& image, const py::object& file, const SaveOptions& options, bool overwrite) {
   const std::string name = file_name("file", file);
   if (!overwrite && std::filesystem::exists(std::filesystem::symlink_status(name))) {
@@ -68,14 +78,15 @@ void save_image(const PythonRenderedImage& image, const py::object& file, const 
     throw py::error_already_set();
   }
   const py::gil_scoped_release unlocked;
-  alhazen::save(image.rendered(), name, options);
+  const bool is_exr = name.ends_with(".exr") || name.ends_with(".EXR");
+  alhazen::save(is_grey(image.rendered()) && !is_exr ? coloured(image.rendered()) : image.rendered(), name, options);
 }
 
 py::bytes png_of(const PythonRenderedImage& image, const SaveOptions& options) {
   std::vector<uint8_t> bytes;
   {
     const py::gil_scoped_release unlocked;
-    bytes = alhazen::encode_png(image.rendered(), options);
+    bytes = alhazen::encode_png(is_grey(image.rendered()) ? coloured(image.rendered()) : image.rendered(), options);
   }
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -254,7 +265,7 @@ void bind_rendered_image(py::module_& m) {
       .def(
           "_repr_png_",
           [](const PythonRenderedImage& i) -> py::object {
-            if (i.rendered().width == 0 || !i.has_channel("R")) return py::none();
+            if (i.rendered().width == 0 || (!i.has_channel("R") && !is_grey(i.rendered()))) return py::none();
             return png_of(i, {});
           },
           "_repr_png_(self) -> bytes | None\n\nHow notebooks show it.")
@@ -279,6 +290,17 @@ void bind_rendered_image(py::module_& m) {
       "reinhard, filmic, aces or agx. png_depth: 8 or 16 bits. jpeg_quality: 1 to 100. exr_type: half or float, of\n"
       "colors. overwrite: False raises FileExistsError for a file that exists.\n\n"
       "Raises InputError for an extension or option that there is none of, Error if the file cannot be written.");
+  image.def(
+      "png",
+      [](const PythonRenderedImage& i, const py::object& exposure, const py::object& white_balance,
+         const py::object& tone_map, const py::object& png_depth) {
+        return png_of(i, save_options(exposure, white_balance, tone_map, png_depth, py::int_(95), py::str("half")));
+      },
+      py::kw_only(), py::arg("exposure") = 0.0, py::arg("white_balance") = py::none(), py::arg("tone_map") = py::none(),
+      py::arg("png_depth") = 8,
+      "png(self, *, exposure: float = 0, white_balance: float | None = None, tone_map: str | None = None, "
+      "png_depth: int = 8) -> bytes\n\n"
+      "The bytes of the file that `save` writes under a name that ends in .png, with the same options.");
   m.def(
       "read_image",
       [](const py::object& file) {

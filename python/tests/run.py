@@ -8,4 +8,4 @@ except ImportError:
     print("pytest is not installed (Debian: python3-pytest): the tests of the Python module are skipped")
     sys.exit(77)
 
-sys.exit(pytest.main(["-q", "-p", "no:cacheprovider", *sys.argv[1:]]))
+sys.exit(pytest.main(["-q", "-rs", "-p", "no:cacheprovider", *sys.argv[1:]]))

@@ -264,8 +264,9 @@ def test_a_backend_that_is_not_there_is_unsupported():
 
 
 JUNK = [None, True, -1, 0, 3, 10**400, 0.5, float("nan"), float("inf"), -1e308, 1 + 2j, "", "box", "\udcff", "a\0b",
-        b"\xff", (), [], {}, set(), (1, 2, 3), (1, 2), [[1]], (None,) * 3, range(3), np.float32(2), np.int64(-5), np.array(3.0),
-        np.zeros(3), np.zeros((4, 4)), np.eye(4), np.full((4, 4), np.nan), np.array("x"), np.array([None] * 3),
+        b"\xff", (), [], {}, set(), (1, 2, 3), (1, 2), [[1]], (None,) * 3, range(3), np.float32(2), np.int64(-5),
+        np.array(3.0), np.zeros(3), np.zeros((4, 4)), np.eye(4), np.full((4, 4), np.nan), np.array("x"),
+        np.array([None] * 3),
         object(), int, lambda: 0, np.ma.masked, slice(3), memoryview(b"abc"), alhazen.Transform(), alhazen.Diffuse(),
         alhazen.FbmTexture(), alhazen.PointLight(), alhazen.Sphere(), alhazen.Mapping(), alhazen.Roughness(0.1, 0.2),
         alhazen.Emission(), alhazen.Scene(), alhazen.Image(np.ones((2, 2)))]

@@ -216,3 +216,23 @@ def test_files_that_are_no_images(tmp_path):
     (tmp_path / "text.png").write_text("no image")
     with pytest.raises(alhazen.InputError, match="text.png"):
         alhazen.read_image(tmp_path / "text.png")
+
+
+def test_png_in_memory_is_the_file(tmp_path):
+    image = alhazen.RenderedImage(np.linspace(0, 1.5, 6 * 8 * 3, dtype=np.float32).reshape(6, 8, 3))
+    for options in ({}, dict(exposure=-1, tone_map="filmic"), dict(png_depth=16)):
+        image.save(tmp_path / "image.png", **options)
+        assert image.png(**options) == (tmp_path / "image.png").read_bytes()
+    with pytest.raises(alhazen.InputError, match="png_depth"):
+        image.png(png_depth=7)
+
+
+@pytest.mark.parametrize("extension", ["png", "pfm", "hdr", "exr"])
+def test_arrays_of_one_channel_are_saved_as_grey(tmp_path, extension):
+    grey = np.linspace(0, 1, 6 * 8, dtype=np.float32).reshape(6, 8)
+    image = alhazen.RenderedImage(grey)
+    image.save(tmp_path / f"grey.{extension}")
+    read = np.asarray(alhazen.read_image(tmp_path / f"grey.{extension}"))
+    assert read.shape == ((6, 8) if extension == "exr" else (6, 8, 3))
+    np.testing.assert_allclose(read if extension == "exr" else read[..., 1], grey, atol=0.01)
+    assert image._repr_png_() == image.png() and len(image.png()) > 50

@@ -337,9 +337,9 @@ TEST(RendererChangesOf, WarningsOfLostLight) {
   Checked checked(settings_for());
   checked.expect(scene, "everything", "with glass");
   const auto warns = [&] {
-    const std::vector<std::string> warnings = checked.renderer.warnings();
+    const std::vector<Warning> warnings = checked.renderer.warnings();
     return std::any_of(warnings.begin(), warnings.end(),
-                       [](const std::string& text) { return text.find("is lost at") != std::string::npos; });
+                       [](const Warning& warning) { return warning.message.find("is lost at") != std::string::npos; });
   };
   EXPECT_TRUE(warns());
   const MaterialId glass = scene.shape(stage.ball).material;
