@@ -44,9 +44,10 @@ void check_reach(const impl::Shape& shape, const impl::MovingTransform& world_fr
                  const char* transform_name) {
   if (shape.type == impl::ShapeType::mesh || group != 0) return;
   const auto is_near = [](const impl::Vec3d& p) { return max_component(abs(p)) < impl::max_reach; };
+  const impl::Scene no_meshes;
   for (const impl::Transform* transform : {&world_from_object.start, &world_from_object.end}) {
     bool fits = true;
-    impl::for_each_point({}, shape, *transform, [&](const impl::Vec3d& p) { fits = fits && is_near(p); });
+    impl::for_each_point(no_meshes, shape, *transform, [&](const impl::Vec3d& p) { fits = fits && is_near(p); });
     if (fits) continue;
     const char* const size = shape.radius < impl::max_reach ? "z_max" : "radius";
     impl::refuse_argument(is_near(shape.reach()) ? transform_name : size,
