@@ -6,10 +6,18 @@
 #include <vector>
 
 #include "alhazen/rays.h"
+#include "queries/query_scene.h"
+#include "render/settings.h"
 #include "scene/scene.h"
 #include "support/random.h"
+#include "util/diagnostics.h"
 
 namespace alhazen::impl::test {
+
+inline QueryScene query_scene(const Scene& description, Precision precision = Precision::single) {
+  Diagnostics diagnostics;
+  return QueryScene(Scene(description), precision, 1, diagnostics);
+}
 
 template <class Number>
 struct QueryRays {

@@ -15,11 +15,6 @@ namespace alhazen::impl::test {
 
 namespace {
 
-QueryScene query_scene(const Scene& description, Precision precision = Precision::single) {
-  Diagnostics diagnostics;
-  return QueryScene(Scene(description), precision, 1, diagnostics);
-}
-
 /// The square [-1, 1]^2 in the plane z = 0, facing +z.
 Mesh square() {
   Mesh mesh;

@@ -14,11 +14,6 @@ namespace alhazen::impl::test {
 
 namespace {
 
-QueryScene query_scene(const Scene& description, Precision precision) {
-  Diagnostics diagnostics;
-  return QueryScene(Scene(description), precision, 1, diagnostics);
-}
-
 /// Rays of a camera, which are traced in packets, with random ones among them: some runs of either end within a packet.
 template <class Number>
 QueryRays<Number> rays_in_runs(size_t count) {
