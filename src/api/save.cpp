@@ -105,7 +105,7 @@ std::vector<uint8_t> encode_png(const RenderedImage& image, const SaveOptions& o
   check(image, options);
   std::vector<uint8_t> bytes;
   impl::for_caller([&] {
-    impl::encode_png("an image as PNG", source_of(image), write_options(image, ".png", options),
+    impl::encode_png("an image as PNG", source_of(image), write_options(image, "image.png", options),
                      [&](const uint8_t* data, size_t size) { bytes.insert(bytes.end(), data, data + size); });
   });
   return bytes;
