@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "alhazen/error.h"
+#include "api/rendered_image.h"
 #include "images/image.h"
 #include "images/metrics/compare.h"
 #include "images/metrics/image_parts.h"
@@ -13,12 +14,7 @@ namespace {
 
 /// Checks the sizes of the planes, and copies those that are compared. `name` is for messages.
 impl::Image compared_part(const RenderedImage& image, const char* name, const CompareOptions& options) {
-  const size_t pixels =
-      image.width > 0 && image.height > 0 ? static_cast<size_t>(image.width) * static_cast<size_t>(image.height) : 0;
-  bool is_whole = pixels > 0 && image.planes.size() == image.channels.size();
-  for (const std::vector<float>& plane : image.planes) is_whole = is_whole && plane.size() == pixels;
-  if (!is_whole)
-    throw InputError(std::string(name) + ": the image has no pixels, or planes that do not hold width * height values");
+  impl::check_planes(image, name);
   impl::Image part{image.width, image.height, {}, {}};
   const bool is_colour = image.plane("R") && image.plane("G") && image.plane("B");
   for (size_t c = 0; c < image.channels.size(); ++c) {
@@ -70,13 +66,7 @@ RenderedImage heat_map(const Comparison& comparison) {
     throw InputError("comparison: its flip_map does not hold width * height values");
   impl::Plane<float> map(static_cast<size_t>(comparison.width), static_cast<size_t>(comparison.height));
   map.values = comparison.flip_map;
-  impl::Image colours = impl::error_colours(map);
-  RenderedImage image;
-  image.width = colours.width;
-  image.height = colours.height;
-  image.channels = std::move(colours.channels);
-  image.planes = std::move(colours.planes);
-  return image;
+  return impl::rendered_image(impl::error_colours(map));
 }
 
 }  // namespace ALHAZEN_NAMESPACE

@@ -36,10 +36,10 @@ impl::Precision precision_of(const Settings& settings) {
   throw impl::InputError("unknown precision '" + settings.precision + "': it may be float, double");
 }
 
-}  // namespace
-
-RayQueries RayQueries::from_file(const std::string& scene_file, const Settings& settings,
-                                 const ProgressFunction& progress) {
+/// Builds the scene that `describe` returns.
+template <class Describe>
+std::shared_ptr<const impl::QueryScene> query_scene_of(const Describe& describe, const Settings& settings,
+                                                       const ProgressFunction& progress) {
   const impl::ThreadDefaults defaults;
   const impl::Precision precision = precision_of(settings);
   impl::for_caller([&] { impl::check_setting(settings, "threads"); });
@@ -47,24 +47,22 @@ RayQueries RayQueries::from_file(const std::string& scene_file, const Settings& 
   impl::Listener listener(progress);
   listener.watch(diagnostics.activity());
   return listener.for_caller([&] {
-    impl::LoadedScene loaded = impl::load_scene(scene_file, reading_settings(settings), diagnostics);
-    return RayQueries(
-        std::make_shared<const impl::QueryScene>(std::move(loaded.scene), precision, settings.threads, diagnostics));
+    return std::make_shared<const impl::QueryScene>(describe(diagnostics), precision, settings.threads, diagnostics);
   });
 }
 
-RayQueries::RayQueries(const Scene& scene, const Settings& settings, const ProgressFunction& progress) {
-  const impl::ThreadDefaults defaults;
-  const impl::Precision precision = precision_of(settings);
-  impl::for_caller([&] { impl::check_setting(settings, "threads"); });
-  impl::Diagnostics diagnostics;
-  impl::Listener listener(progress);
-  listener.watch(diagnostics.activity());
-  scene_ = listener.for_caller([&] {
-    return std::make_shared<const impl::QueryScene>(scene.state().to_render(0), precision, settings.threads,
-                                                    diagnostics);
-  });
+}  // namespace
+
+RayQueries RayQueries::from_file(const std::string& scene_file, const Settings& settings,
+                                 const ProgressFunction& progress) {
+  const auto read = [&](impl::Diagnostics& diagnostics) {
+    return impl::load_scene(scene_file, reading_settings(settings), diagnostics).scene;
+  };
+  return RayQueries(query_scene_of(read, settings, progress));
 }
+
+RayQueries::RayQueries(const Scene& scene, const Settings& settings, const ProgressFunction& progress)
+    : scene_(query_scene_of([&](impl::Diagnostics&) { return scene.state().to_render(0); }, settings, progress)) {}
 
 RayQueries::RayQueries(std::shared_ptr<const impl::QueryScene> scene) : scene_(std::move(scene)) {
   if (!scene_) impl::refuse_argument("scene", "must not be null");

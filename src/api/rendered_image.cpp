@@ -1,10 +1,10 @@
 #include "api/rendered_image.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "api/option_names.h"
-#include "images/image.h"
 #include "pipeline/write_outputs.h"
 
 namespace alhazen::impl {
@@ -38,15 +38,27 @@ RenderedImage rendered_image(LoadedScene&& loaded, const Settings& settings, con
   return rendered_image(rendering, diagnostics);
 }
 
+RenderedImage rendered_image(Image&& planes) {
+  RenderedImage image;
+  image.width = planes.width;
+  image.height = planes.height;
+  image.channels = std::move(planes.channels);
+  image.planes = std::move(planes.planes);
+  return image;
+}
+
+void check_planes(const RenderedImage& image, const std::string& name) {
+  const size_t pixels = static_cast<size_t>(std::max(image.width, 0)) * static_cast<size_t>(std::max(image.height, 0));
+  if (pixels == 0 || image.planes.size() != image.channels.size() ||
+      std::any_of(image.planes.begin(), image.planes.end(), [&](const auto& plane) { return plane.size() != pixels; }))
+    throw InputError(name + ": it has no pixels, or its planes do not hold width * height values each");
+}
+
 RenderedImage rendered_image(const Rendering& rendering, const Diagnostics& diagnostics) {
   RenderedImage image;
   // A film without samples is black, and would look like an image.
   if (rendering.has_samples()) {
-    Image means = image_of(rendering.source());
-    image.width = means.width;
-    image.height = means.height;
-    image.channels = std::move(means.channels);
-    image.planes = std::move(means.planes);
+    image = rendered_image(image_of(rendering.source()));
     const RenderSettings& settings = rendering.statistics.settings;
     image.x = settings.window.x0;
     image.y = settings.window.y0;

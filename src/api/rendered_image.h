@@ -2,8 +2,11 @@
 
 // The last steps of every render of the public interface.
 
+#include <string>
+
 #include "alhazen/alhazen.h"
 #include "api/building.h"
+#include "images/image.h"
 #include "pipeline/load_scene.h"
 #include "render/renderer.h"
 #include "util/diagnostics.h"
@@ -32,6 +35,12 @@ RenderedImage image_for_caller(Listener& listener, const Diagnostics& diagnostic
 /// Renders a scene to which `settings` have been applied.
 RenderedImage rendered_image(LoadedScene&& loaded, const Settings& settings, const ProgressFunction& progress,
                              Diagnostics& diagnostics);
+
+/// An image of planes alone.
+RenderedImage rendered_image(Image&& planes);
+
+/// Throws InputError, which begins with `name`, if an image has no pixels, or a plane not one value for each.
+void check_planes(const RenderedImage& image, const std::string& name);
 
 /// What is rendered so far, with the warnings so far.
 RenderedImage rendered_image(const Rendering& rendering, const Diagnostics& diagnostics);

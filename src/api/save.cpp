@@ -7,6 +7,7 @@
 
 #include "api/arguments.h"
 #include "api/caller_errors.h"
+#include "api/rendered_image.h"
 #include "colour/white_point.h"
 #include "images/codecs/encode_png.h"
 #include "images/image.h"
@@ -33,10 +34,7 @@ impl::ToneMap tone_map_of(ToneMapping mapping) {
 }
 
 void check(const RenderedImage& image, const SaveOptions& options) {
-  const size_t pixels = static_cast<size_t>(std::max(image.width, 0)) * static_cast<size_t>(std::max(image.height, 0));
-  if (pixels == 0 || image.planes.size() != image.channels.size() ||
-      std::any_of(image.planes.begin(), image.planes.end(), [&](const auto& plane) { return plane.size() != pixels; }))
-    throw InputError("image: it has no pixels, or its planes do not hold width * height values each");
+  impl::check_planes(image, "image");
   if (image.full_width != 0 || image.full_height != 0) {
     const auto is_within = [](int64_t first, int64_t size, int64_t full) { return first >= 0 && first + size <= full; };
     if (!is_within(image.x, image.width, image.full_width) || !is_within(image.y, image.height, image.full_height))
