@@ -3,16 +3,9 @@
 # Arguments: the build folder, the C++ compiler.
 set -euo pipefail
 build=$1 compiler=$2
-source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "${BASH_SOURCE[0]}")/../support/shell_test.sh"
 
-fail() {
-  echo "install_test: $1" >&2
-  exit 1
-}
-
-cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" || { cat "$work/install.log"; fail "cmake --install"; }
+install_to "$build" "$work/prefix"
 "$work/prefix/bin/alhazen" --version
 
 build_example() {

@@ -3,16 +3,9 @@
 # and `alhazen devices` says what is wrong with each. Argument: the build folder.
 set -euo pipefail
 build=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-unset ALHAZEN_MODULES
+. "$(dirname "${BASH_SOURCE[0]}")/../support/shell_test.sh"
 
-fail() {
-  echo "modules_test: $1" >&2
-  exit 1
-}
-
-cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" || { cat "$work/install.log"; fail "cmake --install"; }
+install_to "$build" "$work/prefix"
 alhazen=$work/prefix/bin/alhazen
 scene=$work/prefix/share/alhazen/scenes/cornell.pbrt
 library=$(find "$work/prefix" -name 'libalhazen.so*' | head -1)

@@ -3,14 +3,7 @@
 # those that the program takes. Arguments: the program.
 set -euo pipefail
 program=$1
-source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-fail() {
-  echo "completion_test: $1" >&2
-  exit 1
-}
+. "$(dirname "${BASH_SOURCE[0]}")/../support/shell_test.sh"
 
 for shell in bash zsh fish; do "$program" completion $shell >"$work/$shell"; done
 status=0

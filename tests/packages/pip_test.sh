@@ -4,16 +4,9 @@
 # Arguments: the build folder, the interpreter.
 set -euo pipefail
 build=$1 python=$2
-source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-unset ALHAZEN_MODULES PYTHONPATH CMAKE_ARGS
+. "$(dirname "${BASH_SOURCE[0]}")/../support/shell_test.sh"
+unset PYTHONPATH CMAKE_ARGS
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_INDEX=1 PIP_CONFIG_FILE=/dev/null
-
-fail() {
-  echo "pip_test: $1" >&2
-  exit 1
-}
 
 "$python" -c 'import ensurepip, venv' 2>/dev/null || { echo "$python has no venv (Debian: python3-venv)"; exit 77; }
 "$python" -m venv --system-site-packages "$work/venv"

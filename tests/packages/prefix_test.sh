@@ -3,17 +3,9 @@
 # packages of other libraries; manual pages and completions are there. Arguments: the build folder, the C++ compiler.
 set -euo pipefail
 build=$1 compiler=$2
-source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-unset ALHAZEN_MODULES
+. "$(dirname "${BASH_SOURCE[0]}")/../support/shell_test.sh"
 
-fail() {
-  echo "prefix_test: $1" >&2
-  exit 1
-}
-
-cmake --install "$build" --prefix "$work/first" >"$work/install.log" || { cat "$work/install.log"; fail "cmake --install"; }
+install_to "$build" "$work/first"
 if grep -rlaF -e "$source" -e "$(realpath "$build")" -e "$work" "$work/first"; then
   fail "these files name folders of this machine"
 fi

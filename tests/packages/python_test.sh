@@ -2,19 +2,11 @@
 # The Python module of an installed prefix, moved: PYTHONPATH suffices. Arguments: the build folder, the interpreter.
 set -euo pipefail
 build=$1 python=$2
-source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-unset ALHAZEN_MODULES PYTHONPATH
-
-fail() {
-  echo "python_test: $1" >&2
-  exit 1
-}
+. "$(dirname "${BASH_SOURCE[0]}")/../support/shell_test.sh"
+unset PYTHONPATH
 
 for component in library python embree; do
-  cmake --install "$build" --prefix "$work/first" --component $component >"$work/install.log" ||
-    { cat "$work/install.log"; fail "cmake --install"; }
+  install_to "$build" "$work/first" --component $component
 done
 if grep -rlaF -e "$source" -e "$(realpath "$build")" -e "$work" "$work/first"; then
   fail "these files name folders of this machine"

@@ -5,14 +5,7 @@
 set -euo pipefail
 compiler=$1
 shift
-source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-fail() {
-  echo "subproject_test: $1" >&2
-  exit 1
-}
+. "$(dirname "${BASH_SOURCE[0]}")/../support/shell_test.sh"
 
 cp "$source/examples/render_to_memory/main.cpp" "$work/main.cpp"
 cat >"$work/CMakeLists.txt" <<'TEXT'

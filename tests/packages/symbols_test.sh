@@ -3,19 +3,11 @@
 # program or a module uses under a private one. Arguments: the build folder, nm.
 set -euo pipefail
 build=$1 nm=$2
-source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "${BASH_SOURCE[0]}")/../support/shell_test.sh"
 
-fail() {
-  echo "symbols_test: $1" >&2
-  exit 1
-}
-
-number() { sed -n "s/^#define ALHAZEN_VERSION_$1 //p" "$source/include/alhazen/version.h"; }
-public=ALHAZEN_$(number MAJOR).$(number MINOR)
-private=ALHAZEN_PRIVATE_$(number MAJOR).$(number MINOR).$(number PATCH)
-namespace="alhazen::v$(number MAJOR)_$(number MINOR)::"
+public=ALHAZEN_$(version_number MAJOR).$(version_number MINOR)
+private=ALHAZEN_PRIVATE_$(version_number MAJOR).$(version_number MINOR).$(version_number PATCH)
+namespace="alhazen::v$(version_number MAJOR)_$(version_number MINOR)::"
 users=("$build/bin/alhazen")
 for module in "$build"/lib/alhazen/*.so; do
   if [[ -e $module ]]; then users+=("$module"); fi

@@ -4,32 +4,23 @@
 # Arguments: the build folder, the C++ compiler.
 set -euo pipefail
 build=$1 compiler=$2
-source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "${BASH_SOURCE[0]}")/../support/shell_test.sh"
 
-fail() {
-  echo "two_versions_test: $1" >&2
-  exit 1
-}
-
-number() { sed -n "s/^#define ALHAZEN_VERSION_$1 //p" "$source/include/alhazen/version.h"; }
-next=$(($(number MINOR) + 1))
-this_version=$(number MAJOR).$(number MINOR).$(number PATCH)
-next_version=$(number MAJOR).$next.$(number PATCH)
+next=$(($(version_number MINOR) + 1))
+this_version=$(version_number MAJOR).$(version_number MINOR).$(version_number PATCH)
+next_version=$(version_number MAJOR).$next.$(version_number PATCH)
 
 for component in library development; do
-  cmake --install "$build" --prefix "$work/this" --component $component >"$work/install.log" ||
-    { cat "$work/install.log"; fail "cmake --install"; }
+  install_to "$build" "$work/this" --component $component
 done
 library=$(dirname "$(find "$work/this" -name libalhazen.so)")
 mkdir -p "$work/next/lib"
 cp -r "$source/include" "$work/next/include"
 sed -i "s/^#define ALHAZEN_VERSION_MINOR .*/#define ALHAZEN_VERSION_MINOR $next/" "$work/next/include/alhazen/version.h"
-echo "ALHAZEN_$(number MAJOR).$next { global: _ZN7alhazen*; local: *; };" >"$work/next/symbols.map"
+echo "ALHAZEN_$(version_number MAJOR).$next { global: _ZN7alhazen*; local: *; };" >"$work/next/symbols.map"
 "$compiler" -std=c++20 -fPIC -shared -I"$work/next/include" "$source/src/api/version.cpp" \
-  -Wl,-soname,"libalhazen.so.$(number MAJOR).$next" -Wl,--version-script="$work/next/symbols.map" -o "$work/next/lib/libalhazen.so"
-ln -s libalhazen.so "$work/next/lib/libalhazen.so.$(number MAJOR).$next"
+  -Wl,-soname,"libalhazen.so.$(version_number MAJOR).$next" -Wl,--version-script="$work/next/symbols.map" -o "$work/next/lib/libalhazen.so"
+ln -s libalhazen.so "$work/next/lib/libalhazen.so.$(version_number MAJOR).$next"
 
 cat >"$work/this.cpp" <<'TEXT'
 #include <alhazen/scene.h>
