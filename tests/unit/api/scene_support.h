@@ -66,6 +66,39 @@ inline void add_lights(Scene& scene) {
   scene.set_environment(Colour{0.4, 0.5, 0.6});
 }
 
+/// A scene with one or more parts of each kind.
+struct Sample {
+  Scene scene;
+  MeshId mesh;
+  ImageId image;
+  TextureId texture;
+  MaterialId clay, glass;
+  ShapeId floor, ball, part;
+  GroupId group;
+  InstanceId instance;
+  LightId lamp, sky;
+
+  Sample() {
+    scene.set_camera(view_of_pbrt());
+    clay = scene.add(Material(Diffuse{.reflectance = {0.8, 0.4, 0.2}}, "clay"));
+    glass = scene.add(Material(Dielectric{}, "glass"));
+    mesh = scene.add(MeshArrays{.positions = std::span<const float>(floor_positions),
+                                .indices = floor_indices,
+                                .uvs = std::span<const float>(floor_uvs),
+                                .name = "plane"});
+    image = scene.add(
+        Pixels{.width = 2, .height = 1, .channels = 1, .bytes = std::vector<uint8_t>{10, 200}, .name = "grey"});
+    texture = scene.add(Texture(ImageTexture{.image = image}, "paint"));
+    floor = scene.add(Shape{.geometry = mesh, .material = clay, .name = "ground"});
+    ball = scene.add(Shape{Sphere{0.5}, glass});
+    group = scene.add_group("pair");
+    part = scene.add(Shape{Sphere{0.2}, clay}, group);
+    instance = scene.add(Instance{.group = group, .transform = Transform::translate({1, 0, 0})});
+    lamp = scene.add(Light(PointLight{{10, 9, 8}, {1, 3, -2}}, "lamp"));
+    sky = scene.set_environment(Colour(0.3));
+  }
+};
+
 /// Renders text as a pbrt file.
 class SceneTest : public ::testing::Test {
  protected:
