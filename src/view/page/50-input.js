@@ -28,6 +28,9 @@
       listen("wheel", (event) => this.#wheel(event), { passive: false });
       listen("contextmenu", (event) => event.preventDefault());
       listen("keydown", (event) => this.#keyDown(event));
+      // The picture is focused by every press on it; an outline is of use to the keyboard alone.
+      addEventListener("pointerdown", () => document.body.classList.remove("by-keyboard"), { capture: true });
+      addEventListener("keydown", (event) => event.key === "Tab" && document.body.classList.add("by-keyboard"));
       addEventListener("keyup", (event) => this.#release(event.code));
       addEventListener("blur", () => this.#releaseAll());
       document.addEventListener("visibilitychange", () => document.hidden && this.#releaseAll());

@@ -60,7 +60,7 @@
   };
 
   /// A slider with a number beside it. `log`: equal ways are equal factors. A double click restores `initial`.
-  const slider = ({ label, min, max, step = 0.01, initial = 0, log = false, bound = false, digits, unit, onInput, onChange }) => {
+  const slider = ({ label, min, max, step = 0.01, initial = 0, log = false, bound = false, digits = 4, unit, onInput, onChange }) => {
     const to = log ? Math.log : (x) => x, from = log ? Math.exp : (x) => x;
     const id = newId();
     const range = element("input", { type: "range", id, className: "slider", min: to(min), max: to(max),

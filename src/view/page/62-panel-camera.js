@@ -55,8 +55,9 @@
     camera.on("changed", alhazen.oncePerFrame(update));
     app.picture.on("changed", alhazen.oncePerFrame(update));
     app.on("scene", (scene) => {
-      list.setChoices([["", "choose"], ...scene.cameras.map((name, i) => [String(i), name || `camera ${i}`])]);
+      list.setChoices([["", "choose a camera"], ...scene.cameras.map((name, i) => [String(i), name || `camera ${i}`])]);
       list.element.hidden = scene.cameras.length < 2;
+      panel.element.hidden = scene.read_only;
       update();
     });
     return panel;

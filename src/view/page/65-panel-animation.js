@@ -34,7 +34,8 @@
       stop();
       setTime(alhazen.clamp(time + frames / range.fps, range.start, range.end));
     };
-    panel.body.append(group("Animation", button("Previous frame", () => stepBy(-1)), play, button("Next frame", () => stepBy(1))));
+    panel.body.append(group("Animation", button("Back", () => stepBy(-1), { title: "one frame back" }), play,
+      button("Forward", () => stepBy(1), { title: "one frame forward" })));
     app.on("scene", (scene) => {
       const next = scene.read_only ? null : scene.animation;
       panel.element.hidden = !next;

@@ -36,7 +36,7 @@
   const stat = (name, title) => {
     const value = element("span", { className: "stat-value", textContent: "–" });
     const whole = element("span", { className: "stat", title }, value, element("span", { className: "stat-name", textContent: name }));
-    return { element: whole, set: (text) => (value.textContent = text) };
+    return { element: whole, set: (text) => (value.textContent = text), rename: (text) => (whole.lastChild.textContent = text) };
   };
 
   const buildStats = (app) => {
@@ -62,6 +62,7 @@
       stats.samples.set(shortNumber(status.samples ?? 0, 4));
       stats.rays.set(status.mrays > 0 ? shortNumber(status.mrays, 3) : "–");
       stats.viewers.set(String(status.viewers ?? 1));
+      stats.viewers.rename(status.viewers === 1 ? "viewer" : "viewers");
       const part = status.samples_total > 0 ? alhazen.clamp(status.samples / status.samples_total, 0, 1) : 0;
       progress.style.setProperty("--part", `${100 * part}%`);
       progress.setAttribute("aria-valuenow", String(Math.round(100 * part)));

@@ -6,7 +6,7 @@
   /// [keys as they are shown, what it does, and where: edit, read or both]
   const mouse = [
     ["Drag", "turn about the target (orbit), look around (fly), move the picture (inspect)"],
-    ["Right drag, shift + drag", "move the camera sideways"],
+    ["Right drag, Shift + drag", "move the camera sideways"],
     ["Wheel", "distance to the target; zoom in inspect; speed in fly"],
     ["Ctrl + wheel, ctrl + drag", "zoom and move the picture in every mode"],
     ["Click", "name what is there; double click: look at it and focus on it"],
@@ -81,13 +81,14 @@
     show() {
       const keys = (text) => element("dt", {}, ...text.split(" / ").flatMap((part, i) =>
         [...(i ? [" "] : []), element("kbd", { textContent: part })]));
-      const part = (title, rows) => element("section", {}, element("h3", { textContent: title }),
-        element("dl", {}, ...rows.flatMap(([name, what]) => [keys(name), element("dd", { textContent: what })])));
+      const plain = (text) => element("dt", { textContent: text });
+      const part = (title, rows, term = keys) => element("section", {}, element("h3", { textContent: title }),
+        element("dl", {}, ...rows.flatMap(([name, what]) => [term(name), element("dd", { textContent: what })])));
       const listed = this.bindings.filter(([, what, , , where]) => what && !(where === "edit" && this.app.isReadOnly));
       const topics = [...new Set(listed.map((binding) => binding[2]))];
       const close = element("button", { type: "button", className: "button", textContent: "Close", onclick: () => this.dialog.close() });
       this.dialog.replaceChildren(element("header", {}, element("h2", { id: "help-title", textContent: "Mouse and keys" }), close),
-        element("div", { className: "help-parts" }, part("Mouse", mouse),
+        element("div", { className: "help-parts" }, part("Mouse", mouse, plain),
           ...topics.map((topic) => part(topic, listed.filter((binding) => binding[2] === topic)))));
       if (!this.dialog.open) this.dialog.showModal();
     }

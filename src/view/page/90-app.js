@@ -60,6 +60,7 @@
       this.panels = panels;
       this.#buildTabs();
       this.input.setMode("orbit");
+      document.body.classList.add("without-scene");
     }
 
     /// On narrow pages one panel is shown at a time, below the picture.
@@ -154,10 +155,11 @@
         this.input.setMode(scene.read_only ? "inspect" : "orbit");
       }
       byId("failure").hidden = true;
-      byId("scene-name").textContent = scene.name;
+      byId("scene-name").textContent = scene.name.replace(/^.*[/\\]/, "");
       byId("scene-name").title = scene.name;
       document.title = `${scene.name} – Alhazen`;
       document.body.classList.toggle("read-only", scene.read_only);
+      document.body.classList.remove("without-scene");
       this.camera.setScene(scene);
       this.emit("scene", scene);
     }
