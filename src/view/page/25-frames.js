@@ -97,7 +97,8 @@
     });
   };
 
-  /// Emits: image (a LayerImage; its header says which), skipped (the header of a frame that a later one made useless).
+  /// Emits: image (a LayerImage; its header says which), skipped (the header of a frame that a later one made useless),
+  /// broken (the header of one that cannot be decoded).
   alhazen.FrameDecoder = class extends alhazen.Events {
     #queue = [];
     #busy = false;
@@ -131,7 +132,8 @@
           this.emit("image", image);
         } catch (error) {
           console.warn(`frame ${header.frame}:`, error.message);
-          this.emit("skipped", header);
+          // Frames of some tiles that follow would be wrong as well, until there is a whole one.
+          this.emit("broken", header);
         }
       }
       this.#busy = false;

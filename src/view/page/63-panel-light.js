@@ -7,7 +7,9 @@
     const panel = section("light", "Light");
     const values = { rotation: 0, strength: 1, light_scale: 1 };
     const send = alhazen.oncePerFrame(() => app.connection.send({ type: "environment", ...values }));
+    let changed = -Infinity;
     const change = (part) => (value) => {
+      changed = performance.now();
       values[part] = value;
       send();
     };
@@ -29,6 +31,8 @@
       })));
     app.on("scene", (scene) => {
       panel.element.hidden = !scene.environment || scene.read_only;
+      // While a slider is dragged, what comes back is older than what it shows.
+      if (performance.now() - changed < 800) return;
       Object.assign(values, scene.environment ?? {});
       show();
     });

@@ -105,6 +105,7 @@
       connection.on("binary", (buffer) => decoder.receive(buffer));
       decoder.on("image", (image) => picture.receive(image));
       decoder.on("skipped", (header) => connection.send({ type: "ack", frame: header.frame }));
+      decoder.on("broken", alhazen.throttled(() => connection.send({ type: "hello" }), 1000));
       picture.on("drawn", (images) => this.#drawn(images));
       picture.on("changed", () => this.#askForLayers());
       viewport.on("changed", () => this.#resized());
@@ -211,6 +212,7 @@
     #askForLayers() {
       const { layer, other } = this.picture.settings;
       const layers = [...new Set([layer, other].filter(Boolean))];
+      // The colour is shown until there is a denoised picture of the same view.
       if (layers.includes("denoised") && !layers.includes("color")) layers.push("color");
       const wanted = JSON.stringify([layers, this.exact]);
       if (wanted === this.#wanted || !this.connection.isOpen) return;
@@ -307,23 +309,27 @@
       return `${base}${layer === "color" || ending === "exr" ? "" : `-${layer}`}.${ending}`;
     }
 
-    #download(href, name) {
-      const link = element("a", { href, download: name });
+    #offer(blob, name) {
+      const link = element("a", { href: URL.createObjectURL(blob), download: name });
       document.body.append(link);
       link.click();
       link.remove();
+      setTimeout(() => URL.revokeObjectURL(link.href), 10000);
     }
 
     async savePng() {
       const blob = await this.picture.png();
       if (!blob) return notices.say("There is no picture yet.");
-      const url = URL.createObjectURL(blob);
-      this.#download(url, this.#fileName("png"));
-      setTimeout(() => URL.revokeObjectURL(url), 10000);
+      this.#offer(blob, this.#fileName("png"));
     }
 
-    saveExr() {
-      this.#download("save.exr", this.#fileName("exr"));
+    async saveExr() {
+      const answer = await fetch("save.exr").catch(() => null);
+      if (!answer?.ok) {
+        const reason = answer ? (await answer.text()).trim() : "There is no connection to the program.";
+        return notices.say(reason || "The image cannot be saved.", { isError: true, seconds: 8 });
+      }
+      this.#offer(await answer.blob(), this.#fileName("exr"));
     }
   }
 
