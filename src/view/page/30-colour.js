@@ -3,7 +3,7 @@
 
 {
   const toneMaps = ["none", "reinhard", "filmic", "aces", "agx"];
-  const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  const luminance = ([r, g, b]) => 0.2126390058715103 * r + 0.7151686787677559 * g + 0.0721923153607337 * b;
   const clamp01 = (value) => Math.min(Math.max(value, 0), 1);
   const multiply = (rows, v) => rows.map((row) => row[0] * v[0] + row[1] * v[1] + row[2] * v[2]);
 

@@ -14,7 +14,7 @@
 
   const colours = `
   const float largest = 1e30;
-  float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+  float luminance(vec3 c) { return dot(c, vec3(0.21263901, 0.71516868, 0.07219232)); }
 
   vec3 srgb_encode(vec3 c) {
     return mix(1.055 * pow(max(c, 1e-9), vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThanEqual(c, vec3(0.0031308)));

@@ -5,22 +5,34 @@
   const list = (vector, separator) => vector.map(number).join(separator);
   const quoted = (text) => (/^[\w./:@%+,=-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
-  /// A whole command that renders what is seen.
-  const command = (scene, camera, picture) => {
-    const words = ["alhazen", "render", quoted(scene.path ?? scene.name)];
-    words.push("--look-at", [camera.position, camera.target, camera.up].map((v) => list(v, ",")).join(","));
-    if (camera.fov !== null) words.push("--fov", number(camera.fov));
-    if (camera.aperture > 0) {
-      words.push("--aperture", number(camera.aperture));
-      if (camera.focus) words.push("--focus", number(camera.focus));
-    }
-    const size = picture.image?.header;
-    if (size) words.push("--size", `${size.full_width}x${size.full_height}`);
-    if (picture.settings.exposure !== 0) words.push("--exposure", number(picture.settings.exposure));
-    if (picture.settings.toneMap !== "none") words.push("--tone-map", picture.settings.toneMap);
-    if (scene.options) words.push(scene.options);
-    words.push("-o", quoted(`${scene.name.replace(/^.*\//, "").replace(/\.[^.]*$/, "")}.png`));
-    return words.join(" ").replace(/--look-at (?=-)/, "--look-at=").replace(/--exposure (?=-)/, "--exposure=");
+  /// The options that say what is seen, in the order in which a command has them.
+  const viewOptions = ({ camera, size, samples, light, time, exposure, toneMap }) => {
+    const options = [["look-at", [camera.position, camera.target, camera.up].map((v) => list(v, ",")).join(",")]];
+    if (camera.fov !== null) options.push(["fov", number(camera.fov)]);
+    // Zero replaces the lens that the file's camera may have.
+    options.push(["aperture", number(camera.aperture)]);
+    if (camera.aperture > 0 && camera.focus) options.push(["focus", number(camera.focus)]);
+    if (light.rotation !== 0) options.push(["environment-rotate", number(light.rotation)]);
+    if (light.strength !== 1) options.push(["environment-strength", number(light.strength)]);
+    if (light.light_scale !== 1) options.push(["light-scale", number(light.light_scale)]);
+    if (time !== null) options.push(["time", number(time)]);
+    if (size) options.push(["size", `${size[0]}x${size[1]}`]);
+    if (samples > 0) options.push(["spp", number(samples)]);
+    if (exposure !== 0) options.push(["exposure", number(exposure)]);
+    if (toneMap !== "none") options.push(["tone-map", toneMap]);
+    return options;
+  };
+
+  /// A whole command that renders what is seen: the options of the page, and those that the program was started with and
+  /// that the page does not set.
+  const command = (scene, view) => {
+    const options = viewOptions(view);
+    const kept = options.reduce((text, [name]) => text.replace(new RegExp(`(^|\\s)--${name}(=|\\s)\\S+`), ""), scene.options ?? "");
+    const file = `${scene.name.replace(/^.*\//, "").replace(/\.[^.]*$/, "") || "view"}.png`;
+    // Values that begin with a minus are joined to their names, so that they are not taken for options.
+    const words = options.map(([name, value]) => `--${name}${value.startsWith("-") ? "=" : " "}${value}`);
+    return ["alhazen render", quoted(scene.path ?? scene.name), ...words, kept.trim(), "-o", quoted(file)]
+      .filter(Boolean).join(" ");
   };
 
   /// What places the camera in a scene of pbrt, whose camera space is left-handed: scenes of right-handed formats need

@@ -5,7 +5,7 @@
 
   alhazen.lightPanel = (app) => {
     const panel = section("light", "Light");
-    const values = { rotation: 0, strength: 1, light_scale: 1 };
+    const values = app.light;
     const send = alhazen.oncePerFrame(() => app.connection.send({ type: "environment", ...values }));
     let changed = -Infinity;
     const change = (part) => (value) => {
@@ -27,6 +27,7 @@
       group("Light", button("As in the file", () => {
         Object.assign(values, { rotation: 0, strength: 1, light_scale: 1 });
         show();
+        changed = performance.now();
         send();
       })));
     app.on("scene", (scene) => {

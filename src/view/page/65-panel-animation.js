@@ -9,7 +9,7 @@
     let range = null, time = 0, control = null, playing = 0;
     const send = alhazen.oncePerFrame(() => app.connection.send({ type: "time", time }));
     const setTime = (value) => {
-      time = value;
+      time = app.time = value;
       control.set(Number(value.toFixed(4)));
       send();
     };

@@ -10,6 +10,8 @@
     denoises = false;
     exact = false;
     status = {};
+    light = { rotation: 0, strength: 1, light_scale: 1 };
+    time = null;  // of the animation, if the page has set it
     fileSize = [1, 1];
     #paused = false;
     #pickId = 0;
@@ -292,7 +294,12 @@
     // --- What leaves the page ---
 
     command() {
-      return this.scene && this.camera.camera ? alhazen.cameraText.command(this.scene, this.camera.camera, this.picture) : "";
+      if (!this.scene || !this.camera.camera) return "";
+      const header = this.picture.image?.header, { exposure, toneMap } = this.picture.settings;
+      return alhazen.cameraText.command(this.scene, {
+        camera: this.camera.camera, size: header ? [header.full_width, header.full_height] : this.scene.size,
+        samples: this.scene.samples, light: this.light, time: this.time, exposure, toneMap,
+      });
     }
 
     copyCommand() {
