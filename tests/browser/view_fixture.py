@@ -19,6 +19,10 @@ try:
     from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.action_chains import ActionChains
 except ImportError:
+    # The first Python of the path is not always that of the system, for which packages are installed.
+    system = "/usr/bin/python3"
+    if Path(system).exists() and os.path.realpath(sys.executable) != os.path.realpath(system):
+        os.execv(system, [system, *sys.argv])
     print("browser: selenium is missing: install python3-selenium")
     sys.exit(SKIPPED)
 
