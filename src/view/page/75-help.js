@@ -24,6 +24,7 @@
       ["Z", "inspect: move and zoom the picture", "Picture", () => input.setMode("inspect")],
       ["Arrows", "turn the camera; with shift, move it", "Camera", null, "edit"],
       ["+ / -", "nearer and farther", "Camera", null, "edit"],
+      ["Enter", "name what is in the middle; with shift, focus on it", "Camera", null, "edit"],
       ["Ctrl+Z", "undo a move of the camera", "Camera", () => camera.undo(), "edit"],
       ["Ctrl+Shift+Z", "redo it", "Camera", () => camera.redo(), "edit"],
       ["R", "camera as it was at first", "Camera", () => app.resetCamera(), "edit"],
