@@ -5,6 +5,13 @@
   const steepest = 89.5 * (Math.PI / 180);
   const copyOf = (camera) => structuredClone(camera);
 
+  /// With as many digits as the commands have that repeat it (42-camera-text.js), so that they render the same.
+  const rounded = (camera) => {
+    const round = (value) => (typeof value === "number" ? Number(value.toPrecision(9)) : value);
+    return Object.fromEntries(Object.entries(camera).map(([key, value]) =>
+      [key, Array.isArray(value) ? value.map(round) : round(value)]));
+  };
+
   /// Emits: changed (the camera, from whatever cause).
   alhazen.Camera = class extends alhazen.Events {
     camera = null;
@@ -100,7 +107,7 @@
     change(camera) {
       if (!this.camera) return;
       if (!this.#before) this.#remember(this.camera);
-      Object.assign(this.camera, copyOf(camera));
+      Object.assign(this.camera, rounded(camera));
       this.#changed();
     }
 

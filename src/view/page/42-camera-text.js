@@ -1,7 +1,7 @@
 // The camera as text: for a command line, and for a scene of pbrt.
 
 {
-  const number = (value) => alhazen.shortNumber(value, 7);
+  const number = (value) => alhazen.shortNumber(value, 9);
   const list = (vector, separator) => vector.map(number).join(separator);
   const quoted = (text) => (/^[\w./:@%+,=-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 

@@ -69,16 +69,18 @@
     #drawValues(image, x, y, [left, top], size) {
       const context = this.#context, values = image.values(x, y).slice(0, 4);
       const text = Math.min(14, size / 6.2), line = 1.3 * text;
-      const colours = values.length >= 3 ? ["#ff8d85", "#7fdc8a", "#8bb8ff", "#ddd"] : ["#f2f2f2", "#f2f2f2"];
+      const colours = values.length >= 3 ? ["#ff9a92", "#8fdc98", "#9cc0ff", "#e2e3e5"] : ["#f2f2f2", "#f2f2f2"];
       context.font = `500 ${text}px ui-monospace, "SF Mono", "DejaVu Sans Mono", Menlo, Consolas, monospace`;
       context.textAlign = "center";
       context.textBaseline = "middle";
-      context.lineJoin = "round";
-      context.lineWidth = 3;
-      context.strokeStyle = "rgb(0 0 0 / 0.75)";
+      // A plate behind the text: values are read on white pixels as well as on black ones.
+      const height = values.length * line + 0.5 * text;
+      context.fillStyle = "rgb(16 17 18 / 0.62)";
+      context.beginPath();
+      context.roundRect(left + size / 2 - 2.35 * text, top + (size - height) / 2, 4.7 * text, height, 0.3 * text);
+      context.fill();
       values.forEach((value, i) => {
         const down = top + size / 2 + (i - (values.length - 1) / 2) * line;
-        context.strokeText(shortValue(value), left + size / 2, down);
         context.fillStyle = colours[i];
         context.fillText(shortValue(value), left + size / 2, down);
       });

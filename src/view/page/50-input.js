@@ -125,9 +125,13 @@
       const near = Math.hypot(x - this.#lastTap.x, y - this.#lastTap.y) < 12;
       const isDouble = near && event.timeStamp - this.#lastTap.time < 350;
       this.#lastTap = { time: isDouble ? 0 : event.timeStamp, x, y };
-      if (this.isReadOnly || !this.viewport.contains([x, y])) return;
-      const [px, py] = this.viewport.toPicture([x, y]).map(Math.floor);
-      this.emit("pick", { x: px, y: py, focus: isDouble });
+      this.#pickAt([x, y], isDouble);
+    }
+
+    #pickAt(point, focus) {
+      if (this.isReadOnly || !this.viewport.contains(point)) return;
+      const [x, y] = this.viewport.toPicture(point).map(Math.floor);
+      this.emit("pick", { x, y, focus });
     }
 
     #wheel(event) {
@@ -157,6 +161,10 @@
         event.stopPropagation();
         this.#hold(event.code);
         return;
+      }
+      if (event.key === "Enter") {
+        event.preventDefault();
+        return this.#pickAt([this.viewport.width / 2, this.viewport.height / 2], event.shiftKey);
       }
       const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
       const zoom = { "+": 1.15, "=": 1.15, "-": 1 / 1.15 }[event.key];

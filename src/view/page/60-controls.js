@@ -34,27 +34,35 @@
       spellcheck: false, "aria-label": label });
     if (unit) input.title = unit;
     let current = 0;
+    // As much as fits; who types gets all digits.
+    const shown = () => {
+      if (current === null) return "";
+      const text = shortNumber(current, digits);
+      return text.length > 7 ? shortNumber(current, 3) : text;
+    };
     const show = (value) => {
       current = value;
-      if (document.activeElement !== input) input.value = value === null ? "" : shortNumber(value, digits);
+      if (document.activeElement !== input) input.value = shown();
     };
+    input.onfocus = () => {
+      input.value = current === null ? "" : shortNumber(current, 9);
+      input.select();
+    };
+    input.onblur = () => (input.value = shown());
     const commit = (value) => {
       if (!Number.isFinite(value)) return show(current);
       const bounded = clamp(value, min, max);
       if (bounded !== current) onChange(current = bounded);
     };
-    const typed = () => commit(input.value.trim() === "" ? NaN : Number(input.value.replace(",", ".")));
-    input.onchange = () => {
-      typed();
-      input.value = current === null ? "" : shortNumber(current, digits);
-    };
+    input.onchange = () => commit(input.value.trim() === "" ? NaN : Number(input.value.replace(",", ".")));
     input.onkeydown = (event) => {
       const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-      if (event.key === "Escape") input.value = shortNumber(current ?? 0, digits), input.blur();
+      if (event.key === "Escape") input.value = shortNumber(current ?? 0, 9), input.blur();
+      if (event.key === "Enter") input.blur();
       if (!by) return;
       event.preventDefault();
       commit(Number(((current ?? 0) + by * step * (event.shiftKey ? 10 : 1)).toPrecision(12)));
-      input.value = shortNumber(current ?? 0, digits);
+      input.value = shortNumber(current ?? 0, 9);
     };
     return { element: input, set: show };
   };
@@ -127,7 +135,7 @@
   const vector = ({ label, onChange, step = 0.1, names = ["x", "y", "z"] }) => {
     let current = [0, 0, 0];
     const fields = names.map((name, i) =>
-      number({ label: `${label} ${name}`, step, digits: 5, onChange: (value) => {
+      number({ label: `${label} ${name}`, step, onChange: (value) => {
         current = current.with ? current.with(i, value) : Object.assign([...current], { [i]: value });
         onChange(current);
       } }));

@@ -55,6 +55,7 @@
     };
     app.picture.on("drawn", refresh);
     setInterval(refresh, 500);
+    app.on("scene", (scene) => (stats.ms.element.hidden = scene.read_only));
     app.on("status", (status) => {
       const left = status.remaining > 0 && status.activity === "rendering" ? `, ${duration(status.remaining)} left` : "";
       activity.textContent = status.activity + left;
