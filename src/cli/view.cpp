@@ -67,7 +67,7 @@ std::string repeated_options(const Settings& settings) {
   for (const SettingEntry& entry : setting_table()) {
     const std::string name = entry.name, text = entry.text(settings);
     const bool is_of_page = name == "size" || name == "spp" || name == "look-at" || name == "orbit" || name == "fit" ||
-                            name == "fov" || name == "aperture" || name == "focus" || name == "environment-rotation" ||
+                            name == "fov" || name == "aperture" || name == "focus" || name == "environment-rotate" ||
                             name == "environment-strength" || name == "light-scale" || name == "time";
     if (is_of_page || text.empty() || text == entry.text(Settings())) continue;
     options += (options.empty() ? "--" : " --") + name;

@@ -251,6 +251,7 @@ std::string scene_message(const SceneText& s) {
   if (s.animation) animation = {{"start", (*s.animation)[0]}, {"end", (*s.animation)[1]}, {"fps", (*s.animation)[2]}};
   return text_of({{"type", "scene"},
                   {"name", s.name},
+                  {"path", s.path},
                   {"version", version()},
                   {"read_only", s.read_only},
                   {"size", Json::array({s.width, s.height})},

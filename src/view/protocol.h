@@ -92,7 +92,7 @@ PageMessage parse_page_message(std::string_view text);
 // ----------------------------------------------------------------------------------------------
 
 struct SceneText {
-  std::string name;
+  std::string name, path;  ///< of the file; `path` as it was given, to repeat it in commands
   bool read_only = false;
   int width = 0, height = 0;
   ::alhazen::Vec3 up;

@@ -196,6 +196,7 @@ void ViewSession::tell_scene() {
   const Scene& scene = renderer_->scene();
   SceneText text;
   text.name = std::filesystem::path(options_.scene).filename().string();
+  text.path = options_.scene;
   text.width = renderer_->width();
   text.height = renderer_->height();
   text.up = extent_.up;
