@@ -332,10 +332,12 @@ void ViewSession::render_pass() {
 void ViewSession::show(ViewImage&& image) {
   image.picture->number = ++picture_number_;
   image.picture->view = view_;
-  viewers_.show(image.picture, origin_);
-  if (image.picture->step > 1) return;
-  const std::lock_guard lock(mutex_);
-  image_ = std::make_shared<const ViewImage>(std::move(image));
+  const std::shared_ptr<const Picture> picture = image.picture;
+  if (picture->step == 1) {
+    const std::lock_guard lock(mutex_);
+    image_ = std::make_shared<const ViewImage>(std::move(image));
+  }
+  viewers_.show(picture, origin_);
 }
 
 /// What is seen has changed.
