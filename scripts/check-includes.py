@@ -29,7 +29,7 @@ MAY_INCLUDE = {
     "pipeline": {"pipeline"} | BELOW_PIPELINE,
     "study": {"study"} | BELOW_STUDY,
     "api": {"api", "queries", "study"} | BELOW_STUDY,
-    "view": {"view", "images", "files", "util", "alhazen"},
+    "view": {"view", "api", "pipeline", "render", "images", "files", "util", "alhazen"},
     "cli": {"cli", "view", "study"} | BELOW_STUDY - {"core"},
     "alhazen": {"alhazen"},
 }
