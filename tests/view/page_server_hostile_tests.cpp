@@ -107,7 +107,7 @@ TEST(PageServerHostile, DoesNotTakeFramesBeforeTheConnectionIsOpen) {
     EXPECT_EQ(get(server.port(), "/secret/socket",
                   std::string("Host: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n") + fields)
                   .status,
-              fields[23] == '2' ? 426 : 400)
+              fields[24] == '2' ? 426 : 400)
         << fields;
   EXPECT_EQ(server.messages, 0);
   EXPECT_EQ(get(server.port(), "/secret/").status, 200);
