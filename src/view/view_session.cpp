@@ -23,7 +23,8 @@ struct Overloaded : Functions... {
 };
 
 /// The text that the program prints for an error.
-std::string text_of_error() {
+std::string text_of_error(ViewFailure* failure = nullptr) {
+  if (failure) *failure = ViewFailure::input;
   try {
     throw;
   } catch (const ::alhazen::InputError& error) {
@@ -31,8 +32,10 @@ std::string text_of_error() {
   } catch (const ::alhazen::UnsupportedError& error) {
     return error.what();
   } catch (const std::bad_alloc&) {
+    if (failure) *failure = ViewFailure::other;
     return "alhazen: out of memory: the task needs more than this machine, or a limit set on it, allows";
   } catch (const std::exception& error) {
+    if (failure) *failure = ViewFailure::other;
     return std::string("alhazen: ") + error.what();
   }
 }
@@ -147,10 +150,17 @@ void ViewSession::change_status(const Change& change) {
 
 // On the thread that renders. -----------------------------------------------------------------------------------------
 
-void ViewSession::fail(const std::string& message, bool is_fatal) {
+ViewFailure ViewSession::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+void ViewSession::fail(const std::string& message, ViewFailure failure) {
+  const bool is_fatal = failure != ViewFailure::none;
   is_idle_ = true;
   {
     const std::lock_guard lock(mutex_);
+    failure_ = failure;
     if (is_fatal) fatal_error_ = message;
     viewers_.tell_everyone(error_message(message, is_fatal));
   }
@@ -164,7 +174,9 @@ void ViewSession::run() {
     render();
   } catch (const Cancelled&) {  // by stop()
   } catch (...) {
-    fail(text_of_error(), true);
+    ViewFailure failure = ViewFailure::none;
+    const std::string message = text_of_error(&failure);
+    fail(message, failure);
   }
 }
 
@@ -255,7 +267,7 @@ void ViewSession::render() {
         viewers_.tell_everyone(error_message(error, false));
       } else if (was_shown) {
         // What a page has asked for, such as a size, may be too much; the next may not.
-        fail(error, false);
+        fail(error, ViewFailure::none);
       } else {
         throw;
       }

@@ -38,6 +38,9 @@ struct ViewOptions {
   std::function<void(const std::string&)> report = [](const std::string&) {};
 };
 
+/// What has ended a session: what it was given cannot be used, or anything else.
+enum class ViewFailure { none, input, other };
+
 class ViewSession {
  public:
   ViewSession(ViewOptions options, ViewerSender& sender);
@@ -51,6 +54,7 @@ class ViewSession {
   void start();
   /// Ends the render. Nothing is sent any more when it returns.
   void stop();
+  ViewFailure failure() const;
 
  private:
   // On threads of the server.
@@ -76,7 +80,7 @@ class ViewSession {
   void begin_view();
   void begin_image();
   void show(ViewImage&& image);
-  void fail(const std::string& message, bool is_fatal);
+  void fail(const std::string& message, ViewFailure failure);
   void tell_scene();
   void tell_camera(ViewerId by);
   void tell_warnings();
@@ -110,6 +114,7 @@ class ViewSession {
   StatusText status_;
   std::optional<SceneText> scene_text_;
   std::string fatal_error_;
+  ViewFailure failure_ = ViewFailure::none;
   std::vector<std::string> logs_;
   std::set<std::string> layers_;            ///< that are rendered
   std::shared_ptr<const ViewImage> image_;  ///< the last at full resolution
