@@ -284,6 +284,8 @@ void ViewSession::render_next() {
     start_image();
   } else if (!renderer_->is_done() && !mailbox_.is_paused()) {
     render_pass();
+  } else if (renderer_->is_done() && mailbox_.denoises() && !is_denoised_) {
+    denoise();
   } else {
     const char* const activity = renderer_->is_done() ? "done" : "paused";
     change_status([&](StatusText& status) {
@@ -341,6 +343,17 @@ void ViewSession::render_pass() {
   show(std::move(image));
 }
 
+void ViewSession::denoise() {
+  change_status([](StatusText& status) { status.denoising = true; });
+  is_denoised_ = true;
+  ViewImage image = renderer_->denoised();
+  tell_warnings();
+  image.picture->number = ++picture_number_;
+  image.picture->view = view_;
+  viewers_.show(image.picture, origin_);
+  change_status([](StatusText& status) { status.denoising = false; });
+}
+
 void ViewSession::show(ViewImage&& image) {
   image.picture->number = ++picture_number_;
   image.picture->view = view_;
@@ -367,7 +380,8 @@ void ViewSession::begin_view() {
 
 /// The same is to be rendered in another way.
 void ViewSession::begin_image() {
-  is_idle_ = is_started_ = false;
+  is_idle_ = is_started_ = is_denoised_ = false;
+  renderer_->set_denoising(mailbox_.denoises());
   const std::set<std::string> layers = [&] {
     std::set<std::string> wanted = viewers_.wanted_layers();
     wanted.erase("color");
@@ -423,7 +437,7 @@ void ViewSession::apply(Mail& mail) {
       begin_view();
     else
       begin_image();
-  } else if (mail.layers) {
+  } else if (mail.layers || mail.denoise) {
     begin_image();
   }
 }

@@ -72,6 +72,7 @@ class ViewSession {
   void render_coarse();
   void start_image();
   void render_pass();
+  void denoise();
   void apply(Mail& mail);
   template <class Change>
   void apply_for(ViewerId viewer, const Change& change);
@@ -104,6 +105,7 @@ class ViewSession {
   int step_ = 0;                      ///< of the next coarse picture; 0: the image itself
   bool is_first_of_view_ = false;     ///< whether the view has no picture yet
   bool is_started_ = false;           ///< the image
+  bool is_denoised_ = false;          ///< the image, or it cannot be
   bool is_idle_ = false;              ///< after a failure, until something changes
   double published_ = 0;              ///< seconds of the image when it was shown last
   NoiseCurve curve_;
