@@ -101,7 +101,10 @@ void ViewSession::handle(ViewerId viewer, const PageMessage& message) {
                  [&](const DenoiseMessage& m) { mailbox_.denoise(m.on); },
                  [&](const StopMessage&) { throw InputError("stop: only the view of a render has this message"); },
                  [&](const SaveMessage&) { throw InputError("save: only the view of a render has this message"); },
-                 [&](const auto& m) { mailbox_.post(viewer, m); },
+                 [&](const PickMessage&) { throw InputError("pick: objects cannot be picked here"); },
+          [&](const MaterialMessage&) { throw InputError("material: materials cannot be changed here"); },
+          [&](const TimeMessage&) { throw InputError("time: the time cannot be changed here"); },
+          [&](const auto& m) { mailbox_.post(viewer, m); },
              },
              message);
 }
