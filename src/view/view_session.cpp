@@ -102,9 +102,9 @@ void ViewSession::handle(ViewerId viewer, const PageMessage& message) {
                  [&](const StopMessage&) { throw InputError("stop: only the view of a render has this message"); },
                  [&](const SaveMessage&) { throw InputError("save: only the view of a render has this message"); },
                  [&](const PickMessage&) { throw InputError("pick: objects cannot be picked here"); },
-          [&](const MaterialMessage&) { throw InputError("material: materials cannot be changed here"); },
-          [&](const TimeMessage&) { throw InputError("time: the time cannot be changed here"); },
-          [&](const auto& m) { mailbox_.post(viewer, m); },
+                 [&](const MaterialMessage&) { throw InputError("material: materials cannot be changed here"); },
+                 [&](const TimeMessage&) { throw InputError("time: the time cannot be changed here"); },
+                 [&](const auto& m) { mailbox_.post(viewer, m); },
              },
              message);
 }
@@ -304,6 +304,7 @@ void ViewSession::render_coarse() {
   std::optional<ViewImage> image = renderer_->render_coarse(step_, !is_first_of_view_, building());
   if (!image) return;
   tell_warnings();
+  if (is_first_of_view_) change_status([](StatusText& status) { status.activity = "rendering"; });
   show(std::move(*image));
   is_first_of_view_ = false;
   step_ /= 2;
