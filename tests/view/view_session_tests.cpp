@@ -204,6 +204,32 @@ TEST(ViewSession, LayersAreThoseOfTheLibrary) {
   }
 }
 
+TEST(ViewSession, DenoisedPicturesAreThoseOfTheLibrary) {
+  ViewOptions options = options_of("cornell.pbrt", 64, 48, 8);
+  FakeView view(options);
+  view.open(1);
+  ASSERT_TRUE(view.wait_for_frame(1, is_final));
+  view.send(1, {{"type", "denoise"}, {"on", true}});
+  want(view, 1, {"color", "denoised"});
+  const auto frame = view.wait_for_frame(1, [](const json& h) { return h["layer"] == "denoised"; });
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->json["samples"], 8);
+  EXPECT_TRUE(is_final(frame->json));
+  options.settings.denoiser = "auto";
+  expect_same_bits(decode_frame(frame->message), rendered(options, {}));
+  // Of the next camera, too; and none when it is off.
+  view.send_camera(1, camera_at(1), false, 3);
+  ASSERT_TRUE(view.wait_for_frame(
+      1, [&](const json& h) { return h["layer"] == "denoised" && h["view"] > frame->json["view"]; }));
+  view.send(1, {{"type", "denoise"}, {"on", false}});
+  const size_t before = view.sender.sent(1).size();
+  view.send_camera(1, camera_at(2), false, 4);
+  ASSERT_TRUE(view.wait_for_frame(
+      1, [](const json& h) { return h["layer"] == "color" && is_final(h); }, before));
+  const auto sent = view.sender.sent(1);
+  for (size_t i = before; i < sent.size(); ++i) EXPECT_NE(sent[i].json.value("layer", ""), "denoised");
+}
+
 TEST(ViewSession, UnknownLayersAndMessagesAreErrorsOfTheirViewer) {
   FakeView view(options_of("cornell.pbrt"));
   view.open(1);
