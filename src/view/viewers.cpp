@@ -103,7 +103,7 @@ bool Viewers::is_idle() const {
   const std::lock_guard lock(mutex_);
   return std::none_of(viewers_.begin(), viewers_.end(),
                       [](const auto& entry) { return entry.second.is_welcome && entry.second.in_flight; }) &&
-         next_deliveries().empty();
+         next_deliveries().empty() && !has_texts();
 }
 
 void Viewers::tell(ViewerId viewer, const std::string& text) {

@@ -53,7 +53,7 @@ class Viewers {
 
   size_t count() const;
   std::set<std::string> wanted_layers() const;
-  /// Whether every viewer has acknowledged all that is shown and that it wants.
+  /// Whether every viewer has acknowledged all that is shown and that it wants, and has been told all.
   bool is_idle() const;
 
   void tell(ViewerId viewer, const std::string& text);
