@@ -122,6 +122,7 @@ void LiveFeed::show(const ViewImage& image) {
     image.picture->view = view_;
     image_ = image;
     status_.activity = image.picture->is_final ? "done" : "rendering";
+    if (image.picture->is_final) status_.remaining.reset();
     status_.samples = image.picture->samples;
     curve_.add(image.picture);
     status_.error = curve_.error();
