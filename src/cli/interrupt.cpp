@@ -80,6 +80,8 @@ void catch_interrupts() {
   set_pipe_wait_is_over(is_interrupted);
 }
 
+void interrupt() { interrupted = true; }
+
 void write_before_ending(const char* text) { last_text = text; }
 
 bool is_interrupted() { return interrupted.load(std::memory_order_relaxed); }

@@ -4,10 +4,13 @@
 #include <filesystem>
 #include <utility>
 
+#include "cli/interrupt.h"
 #include "cli/rewritten_outputs.h"
 #include "cli/tev_output.h"
 #include "io/read_scene.h"
 #include "util/diagnostics.h"
+#include "util/parse_numbers.h"
+#include "util/quoted.h"
 #include "view/tev_client.h"
 
 namespace alhazen::impl {
@@ -19,6 +22,14 @@ namespace {
 constexpr double rarity = 100, rarity_of_files = 10;
 constexpr double min_interval = 0.2;  ///< seconds
 constexpr double max_write_every = 1e9, min_write_every = 0.01;
+
+int parse_port(const std::string& text) {
+  int port = 0;
+  if (!parse_number(text, port) || port < 0 || port > 65535)
+    throw InputError("--view must be a port, a whole number from 1 to 65535, or 0 for any that is free, not " +
+                     quoted(text));
+  return port;
+}
 
 }  // namespace
 
@@ -37,6 +48,16 @@ void add_live_options(Command& command, RenderOptions& o, const std::string& gro
       .checked([](const std::string& text) { parse_tev_address(text); })
       .implied(TevAddress{}.to_string())
       .value_name("[HOST:PORT]")
+      .group(group)
+      .common();
+  command
+      .add_option(
+          "--view", o.view,
+          "Show the image on a page for browsers while it renders, read-only, and print its URL; on a free port "
+          "if none is given")
+      .checked([](const std::string& text) { parse_port(text); })
+      .implied("0")
+      .value_name("[PORT]")
       .group(group)
       .common();
   command.add_flag("--terminal", o.terminal, "Draw the image in the terminal while it renders, in colours of 24 bits")
@@ -69,6 +90,18 @@ LiveRender::LiveRender(const RenderOptions& o, ProgressPrinter& printer, std::fu
   if (!o.tev.empty())
     outputs_.add(make_tev_output(parse_tev_address(o.tev), max_tev_bytes(), warn),
                  LookSchedule(0, min_interval, rarity));
+  if (!o.view.empty()) {
+    ViewOutputOptions options;
+    options.port = parse_port(o.view);
+    options.outputs = o.output;
+    // A frame with some of its samples would be taken for a finished one.
+    if (o.is_sequence()) options.outputs.paths.clear();
+    options.stop = interrupt;
+    std::unique_ptr<ViewOutput> view = make_view_output(std::move(options));
+    view_ = view.get();
+    printer.tell_lines("view: " + view->url() + "\n");
+    outputs_.add(std::move(view), LookSchedule(0, min_interval, rarity));
+  }
   if (o.terminal) {
     auto terminal = std::make_unique<TerminalPicture>(o.output, printer);
     terminal_ = terminal.get();
@@ -85,7 +118,8 @@ void LiveRender::finish(const Rendering& rendering) {
   if (rendering.has_samples()) outputs_.finish(rendering);
 }
 
-void LiveRender::draw() {
+void LiveRender::report(const Progress& progress) {
+  if (view_) view_->report(progress);
   if (terminal_) terminal_->draw();
 }
 

@@ -10,6 +10,7 @@
 #include "cli/live_outputs.h"
 #include "cli/render_options.h"
 #include "cli/terminal_picture.h"
+#include "cli/view_output.h"
 
 namespace alhazen::impl {
 
@@ -30,11 +31,13 @@ class LiveRender {
   RenderWatcher* begin(const std::string& name);
   void finish(const Rendering& rendering);
   /// Called by the thread that reports progress.
-  void draw();
+  void report(const Progress& progress);
 
  private:
   LiveOutputs outputs_;
-  TerminalPicture* terminal_ = nullptr;  ///< one of them
+  // Two of them, or null:
+  TerminalPicture* terminal_ = nullptr;
+  ViewOutput* view_ = nullptr;
 };
 
 /// What an image with these outputs is called where it is shown.

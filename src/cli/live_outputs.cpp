@@ -4,6 +4,7 @@
 #include <exception>
 #include <limits>
 #include <new>
+#include <thread>
 #include <utility>
 
 namespace alhazen::impl {
@@ -43,6 +44,8 @@ double LiveOutputs::seconds_to_look() {
 }
 
 void LiveOutputs::look(const Rendering& so_far) {
+  const RenderSettings& settings = so_far.statistics.settings;
+  threads_ = settings.runs_on_device ? static_cast<int>(std::thread::hardware_concurrency()) : settings.threads;
   for (Scheduled& one : outputs_) {
     const LookSchedule::Clock::time_point start = LookSchedule::Clock::now();
     one.looked = -1;
@@ -54,11 +57,12 @@ void LiveOutputs::look(const Rendering& so_far) {
 
 void LiveOutputs::has_looked(double seconds) {
   double others = seconds;  // what was done for all of them
+  // While a look lasts nothing is rendered; another thread takes the time of one of those that render.
   for (const Scheduled& one : outputs_) others -= std::max(0.0, one.looked);
   for (Scheduled& one : outputs_)
     if (one.looked >= 0)
-      one.schedule.has_looked(LookSchedule::Clock::now(),
-                              one.looked + std::max(0.0, others) + one.output->take_other_seconds());
+      one.schedule.has_looked(LookSchedule::Clock::now(), one.looked + std::max(0.0, others) +
+                                                              one.output->take_other_seconds() / std::max(1, threads_));
 }
 
 void LiveOutputs::finish(const Rendering& rendering) {

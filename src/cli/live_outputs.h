@@ -64,6 +64,7 @@ class LiveOutputs final : public RenderWatcher {
 
   std::function<void(const std::string&)> warn_;
   std::vector<Scheduled> outputs_;
+  int threads_ = 1;  ///< that render, as far as they use the processors
 };
 
 }  // namespace alhazen::impl

@@ -295,7 +295,7 @@ int run(RenderOptions& options) {
   events.watcher = live.begin(shown_name(options.output.paths, options.scene));
   events.progress = [&](const Progress& progress) {
     printer.show(progress);
-    live.draw();
+    live.report(progress);
     return !is_interrupted();
   };
   events.started = [&](const RenderStatistics& statistics) {

@@ -25,6 +25,7 @@ struct RenderOptions {
   double write_every = 0;  ///< seconds; 0: only at the end
   std::string tev;         ///< an address; empty: none
   bool terminal = false;
+  std::string view;  ///< a port, 0 for any; empty: no page
 
   bool is_sequence() const { return !frames.empty() || turntable != 0; }
 };

@@ -152,7 +152,7 @@ class Sequence {
     ActivityPrinter activity(diagnostics_.activity(), printer_);
     events_.progress = [this](const Progress& progress) {
       printer_.show(progress);
-      live_->draw();
+      live_->report(progress);
       return !is_interrupted();
     };
     events_.warned = [this] { warnings_.show(); };
