@@ -37,14 +37,15 @@
 
     draw() {
       const context = this.#context,
-        { pixelRatio, width, height, scale } = this.viewport;
-      const [w, h] = [Math.round(width * pixelRatio), Math.round(height * pixelRatio)];
-      if (this.canvas.width !== w || this.canvas.height !== h) [this.canvas.width, this.canvas.height] = [w, h];
-      context.setTransform(1, 0, 0, 1, 0, 0);
-      context.clearRect(0, 0, w, h);
+        { pixelRatio, width, height, scale } = this.viewport,
+        image = this.picture.image;
+      const hasGrid = image !== null && image.step === 1 && scale >= gridFrom;
+      this.canvas.hidden = !hasGrid && !this.mark;
+      if (this.canvas.hidden) return;
+      // Setting the size clears it.
+      [this.canvas.width, this.canvas.height] = [Math.round(width * pixelRatio), Math.round(height * pixelRatio)];
       context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
-      const image = this.picture.image;
-      if (image && scale * image.step >= gridFrom) this.#drawGrid(image);
+      if (hasGrid) this.#drawGrid(image);
       if (this.mark) this.#drawMark();
     }
 
