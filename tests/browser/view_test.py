@@ -118,7 +118,7 @@ class CornellPage(unittest.TestCase):
         layers = {"color": ["R", "G", "B"], "albedo": ["albedo.R", "albedo.G", "albedo.B"],
                   "normal": ["normal.X", "normal.Y", "normal.Z"], "depth": ["depth.Z"]}
         self.browser.run("alhazen.app.setExact(true); alhazen.app.chooseLayer('color')")
-        command = self.browser.run("alhazen.app.copyCommand(); return alhazen.lastCopied")
+        command = self.browser.run("alhazen.app.output.copyCommand(); return alhazen.lastCopied")
         folder = self.render(command, "-o", "exact.exr", "--aov", "albedo,normal,depth", "--exr-type", "float",
                              "--exr-compression", "none", "--quality", "none", "--denoise", "none")
         expected = read_exr(folder / "exact.exr")
@@ -135,7 +135,7 @@ class CornellPage(unittest.TestCase):
         self.browser.wait_until_final("color", "float")
         for tone_map in self.browser.run("return alhazen.colour.toneMaps"):
             self.browser.run("alhazen.app.picture.set({ toneMap: arguments[0] })", tone_map)
-            folder = self.render(self.browser.run("return alhazen.app.command()"), "-o", "tone.png", "--quality", "none",
+            folder = self.render(self.browser.run("return alhazen.app.output.command()"), "-o", "tone.png", "--quality", "none",
                                  "--denoise", "none")
             worst = self.browser.driver.execute_async_script("""
                 const done = arguments[arguments.length - 1];
@@ -194,7 +194,7 @@ class CornellPage(unittest.TestCase):
         self.browser.wait("!alhazen.app.camera.isMoving", "the end of the move")
 
     def test_copies_the_camera_for_pbrt(self):
-        text = self.browser.run("alhazen.app.copyPbrt(); return alhazen.lastCopied")
+        text = self.browser.run("alhazen.app.output.copyPbrt(); return alhazen.lastCopied")
         self.assertRegex(text, r'LookAt( *[-\d.e]+){3}\s( *[-\d.e]+){3}\s( *[-\d.e]+){3}\nCamera "perspective" "float fov" \d')
 
     def test_keys_are_listed_and_the_list_closes(self):

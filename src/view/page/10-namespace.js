@@ -81,6 +81,7 @@ const alhazen = {};
 
   /// Copies text and says so. Clipboards need a secure context, which http://127.0.0.1 is and other addresses are not.
   alhazen.copyText = async (text, what) => {
+    alhazen.lastCopied = text;
     try {
       await navigator.clipboard.writeText(text);
     } catch {
@@ -90,7 +91,6 @@ const alhazen = {};
       document.execCommand("copy");
       area.remove();
     }
-    alhazen.lastCopied = text;
     alhazen.notices.say(`Copied ${what}`);
   };
 }

@@ -15,7 +15,8 @@
 
   /// Rotates v about a unit axis by the right-hand rule (Rodrigues).
   const rotate = (v, axis, angle) => {
-    const c = Math.cos(angle), s = Math.sin(angle);
+    const c = Math.cos(angle),
+      s = Math.sin(angle);
     return add(add(scale(v, c), scale(cross(axis, v), s)), scale(axis, dot(axis, v) * (1 - c)));
   };
 

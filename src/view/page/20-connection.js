@@ -1,7 +1,8 @@
 // The WebSocket beside the page. It reconnects by itself, waiting longer after each failure, up to eight seconds.
 
 {
-  const firstWait = 300, longestWait = 8000;  // milliseconds
+  const firstWait = 300,
+    longestWait = 8000; // milliseconds
 
   /// Emits: open, closed ({ wait: milliseconds until the next attempt }), text (a message), binary (an ArrayBuffer).
   alhazen.Connection = class extends alhazen.Events {

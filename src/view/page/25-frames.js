@@ -6,7 +6,9 @@
 
   /// The value of the 16 bits of a half-float.
   const halfValue = (bits) => {
-    const sign = bits & 0x8000 ? -1 : 1, exponent = (bits >> 10) & 31, fraction = bits & 1023;
+    const sign = bits & 0x8000 ? -1 : 1,
+      exponent = (bits >> 10) & 31,
+      fraction = bits & 1023;
     if (exponent === 0) return sign * fraction * 2 ** -24;
     if (exponent === 31) return fraction ? NaN : sign * Infinity;
     return sign * (1 + fraction / 1024) * 2 ** (exponent - 15);
@@ -37,7 +39,8 @@
 
     /// The pixel that shows a place of the whole picture at full resolution, or null.
     pixelAt(fullX, fullY) {
-      const x = Math.floor((fullX - this.header.x) / this.step), y = Math.floor((fullY - this.header.y) / this.step);
+      const x = Math.floor((fullX - this.header.x) / this.step),
+        y = Math.floor((fullY - this.header.y) / this.step);
       return x >= 0 && y >= 0 && x < this.width && y < this.height ? [x, y] : null;
     }
 
@@ -62,7 +65,8 @@
   /// At most `bytes` of what the deflated bytes hold.
   const inflate = async (deflated, bytes) => {
     const stream = new Blob([deflated]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
-    const reader = stream.getReader(), inflated = new Uint8Array(bytes);
+    const reader = stream.getReader(),
+      inflated = new Uint8Array(bytes);
     let count = 0;
     for (;;) {
       const { done, value } = await reader.read();
@@ -80,18 +84,21 @@
     for (let y = 0, i = offset; y < tile.height; ++y) {
       let out = ((tile.y + y) * width + tile.x) * channels + channel;
       for (let x = 0; x < tile.width; ++x, ++i, out += channels) {
-        words[out] = wordBytes === 2
-          ? bytes[i] | (bytes[i + pixels] << 8)
-          : bytes[i] | (bytes[i + pixels] << 8) | (bytes[i + 2 * pixels] << 16) | (bytes[i + 3 * pixels] << 24);
+        words[out] =
+          wordBytes === 2
+            ? bytes[i] | (bytes[i + pixels] << 8)
+            : bytes[i] | (bytes[i + pixels] << 8) | (bytes[i + 2 * pixels] << 16) | (bytes[i + 3 * pixels] << 24);
       }
     }
   };
 
   const tilesOf = (header) => {
-    const across = Math.ceil(header.width / header.tile), down = Math.ceil(header.height / header.tile);
+    const across = Math.ceil(header.width / header.tile),
+      down = Math.ceil(header.height / header.tile);
     const indices = header.tiles ?? Array.from({ length: across * down }, (_, i) => i);
     return indices.map((index) => {
-      const x = (index % across) * header.tile, y = Math.floor(index / across) * header.tile;
+      const x = (index % across) * header.tile,
+        y = Math.floor(index / across) * header.tile;
       if (!(index >= 0) || y >= header.height) throw new Error("a frame has a tile outside of it");
       return { x, y, width: Math.min(header.tile, header.width - x), height: Math.min(header.tile, header.height - y) };
     });
@@ -142,7 +149,8 @@
     async #decode(header) {
       const bytes = await inflate(header.payload, header.bytes);
       delete header.payload;
-      const channels = header.channels.length, wordBytes = header.type === "float" ? 4 : 2;
+      const channels = header.channels.length,
+        wordBytes = header.type === "float" ? 4 : 2;
       const data = this.#startingData(header, header.width * header.height * channels);
       const words = wordBytes === 4 ? new Uint32Array(data.buffer) : data;
       const tiles = tilesOf(header);
@@ -162,8 +170,13 @@
     /// Zeros, or what the viewer's last frame of this layer, size and type held.
     #startingData(header, count) {
       const last = this.#images.get(header.layer);
-      const keeps = header.tiles && last && last.width === header.width && last.height === header.height &&
-        last.header.type === header.type && last.data.length === count;
+      const keeps =
+        header.tiles &&
+        last &&
+        last.width === header.width &&
+        last.height === header.height &&
+        last.header.type === header.type &&
+        last.data.length === count;
       if (keeps) return last.data;
       return header.type === "float" ? new Float32Array(count) : new Uint16Array(count);
     }

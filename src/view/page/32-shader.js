@@ -3,7 +3,7 @@
 
 {
   const number = (value) => (Number.isInteger(value) ? `${value}.0` : String(value));
-  const rows = (m) => `mat3(${m.flat().map(number).join(", ")})`;  // used from the left: vector * matrix
+  const rows = (m) => `mat3(${m.flat().map(number).join(", ")})`; // used from the left: vector * matrix
   const { agxScales, agxInset, agxOutset, colourMaps } = alhazen.colour;
   const knots = (name) => colourMaps[name].map((c) => `vec3(${c.map((x) => number(x / 255)).join(", ")})`).join(", ");
 
@@ -21,10 +21,18 @@
   }
 
   vec3 aces(vec3 c) {
-    vec3 x = c * ${rows([[0.59719, 0.35458, 0.04823], [0.076, 0.90834, 0.01566], [0.0284, 0.13383, 0.83777]])};
+    vec3 x = c * ${rows([
+      [0.59719, 0.35458, 0.04823],
+      [0.076, 0.90834, 0.01566],
+      [0.0284, 0.13383, 0.83777],
+    ])};
     x = min(x, 1e15);
     x = (x * (x + 0.0245786) - 0.000090537) / (x * (0.983729 * x + 0.432951) + 0.238081);
-    return x * ${rows([[1.60475, -0.53108, -0.07367], [-0.10208, 1.10813, -0.00605], [-0.00327, -0.07276, 1.07602]])};
+    return x * ${rows([
+      [1.60475, -0.53108, -0.07367],
+      [-0.10208, 1.10813, -0.00605],
+      [-0.00327, -0.07276, 1.07602],
+    ])};
   }
 
   float agx_encode(float linear) {

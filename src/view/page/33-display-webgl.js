@@ -7,7 +7,10 @@
 
   const build = (gl) => {
     const program = gl.createProgram();
-    for (const [type, source] of [[gl.VERTEX_SHADER, alhazen.shader.vertex], [gl.FRAGMENT_SHADER, alhazen.shader.fragment]]) {
+    for (const [type, source] of [
+      [gl.VERTEX_SHADER, alhazen.shader.vertex],
+      [gl.FRAGMENT_SHADER, alhazen.shader.fragment],
+    ]) {
       const shader = gl.createShader(type);
       gl.shaderSource(shader, source);
       gl.compileShader(shader);
@@ -25,7 +28,7 @@
     #gl;
     #program;
     #uniforms = new Map();
-    #textures = new Map();  // from layers to { texture, image }
+    #textures = new Map(); // from layers to { texture, image }
 
     /// Throws if there is no WebGL2. `onRestored` is called when a lost context is there again and must be drawn anew.
     constructor(canvas, onRestored = () => {}) {
@@ -59,24 +62,40 @@
 
     /// The texture of an image, which is uploaded if it is not the one that its layer showed before.
     #textureOf(image) {
-      const gl = this.#gl, layer = image.header.layer;
+      const gl = this.#gl,
+        layer = image.header.layer;
       const known = this.#textures.get(layer);
       if (known?.image === image) return known.texture;
       const texture = known?.texture ?? gl.createTexture();
-      const count = Math.min(image.channels.length, 4), format = [gl.RED, gl.RG, gl.RGB, gl.RGBA][count - 1];
-      const stored = image.isFloat ? [gl.R32F, gl.RG32F, gl.RGB32F, gl.RGBA32F] : [gl.R16F, gl.RG16F, gl.RGB16F, gl.RGBA16F];
+      const count = Math.min(image.channels.length, 4),
+        format = [gl.RED, gl.RG, gl.RGB, gl.RGBA][count - 1];
+      const stored = image.isFloat
+        ? [gl.R32F, gl.RG32F, gl.RGB32F, gl.RGBA32F]
+        : [gl.R16F, gl.RG16F, gl.RGB16F, gl.RGBA16F];
       gl.bindTexture(gl.TEXTURE_2D, texture);
       gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-      for (const side of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, side, gl.NEAREST);
-      for (const side of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, side, gl.CLAMP_TO_EDGE);
-      gl.texImage2D(gl.TEXTURE_2D, 0, stored[count - 1], image.width, image.height, 0, format,
-        image.isFloat ? gl.FLOAT : gl.HALF_FLOAT, firstChannels(image, count));
+      for (const side of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+        gl.texParameteri(gl.TEXTURE_2D, side, gl.NEAREST);
+      for (const side of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T])
+        gl.texParameteri(gl.TEXTURE_2D, side, gl.CLAMP_TO_EDGE);
+      gl.texImage2D(
+        gl.TEXTURE_2D,
+        0,
+        stored[count - 1],
+        image.width,
+        image.height,
+        0,
+        format,
+        image.isFloat ? gl.FLOAT : gl.HALF_FLOAT,
+        firstChannels(image, count),
+      );
       this.#textures.set(layer, { texture, image });
       return texture;
     }
 
     #setLayer(name, unit, shown) {
-      const gl = this.#gl, { image, kind, range, map } = shown;
+      const gl = this.#gl,
+        { image, kind, range, map } = shown;
       gl.activeTexture(gl.TEXTURE0 + unit);
       gl.bindTexture(gl.TEXTURE_2D, this.#textureOf(image));
       gl.uniform1i(this.#uniform(`image_${name}`), unit);

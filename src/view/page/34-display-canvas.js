@@ -6,13 +6,15 @@
 
   const numberColour = (value) => {
     if (!(value > 0)) return [0.09, 0.09, 0.09];
-    const hue = (value * 0.61803398875) % 1, shade = 0.55 + 0.4 * ((value * 0.7548776662) % 1);
+    const hue = (value * 0.61803398875) % 1,
+      shade = 0.55 + 0.4 * ((value * 0.7548776662) % 1);
     return [0, 0.33, 0.67].map((shift) => shade * (0.55 + 0.45 * Math.cos(2 * Math.PI * (hue + shift))));
   };
 
   /// sRGB from 0 to 1 of the values of a pixel: what the shader computes as well.
   const shownColour = (values, layer, view) => {
-    const [low, high] = layer.range, range = Math.max(high - low, 1e-30);
+    const [low, high] = layer.range,
+      range = Math.max(high - low, 1e-30);
     if (layer.kind === "number") return numberColour(values[0]);
     if (layer.kind === "scalar") {
       const v = clamp01((values[0] - low) / range);
@@ -44,7 +46,7 @@
 
   alhazen.CanvasDisplay = class {
     #context;
-    #converted = new Map();  // from layers to { image, key, canvas }
+    #converted = new Map(); // from layers to { image, key, canvas }
 
     constructor(canvas) {
       this.name = "2D canvas";
@@ -60,12 +62,22 @@
 
     #convert(layer, view) {
       const { image } = layer;
-      const key = JSON.stringify([layer.kind, layer.range, layer.map, view.channel, view.exposure, view.falseColour,
-        view.toneMap, view.markUnusual, view.markClipped]);
+      const key = JSON.stringify([
+        layer.kind,
+        layer.range,
+        layer.map,
+        view.channel,
+        view.exposure,
+        view.falseColour,
+        view.toneMap,
+        view.markUnusual,
+        view.markClipped,
+      ]);
       const known = this.#converted.get(image.header.layer);
       if (known?.image === image && known.key === key) return known.canvas;
       const canvas = alhazen.element("canvas", { width: image.width, height: image.height });
-      const context = canvas.getContext("2d"), pixels = context.createImageData(image.width, image.height);
+      const context = canvas.getContext("2d"),
+        pixels = context.createImageData(image.width, image.height);
       for (let y = 0, i = 0; y < image.height; ++y) {
         for (let x = 0; x < image.width; ++x, i += 4) {
           const values = image.values(x, y).slice(0, 4);
@@ -80,8 +92,11 @@
     }
 
     #drawLayer(layer, view, left, right) {
-      const context = this.#context, { image } = layer, { header } = image;
-      const [x, y] = view.offset, size = view.scale * image.step;
+      const context = this.#context,
+        { image } = layer,
+        { header } = image;
+      const [x, y] = view.offset,
+        size = view.scale * image.step;
       context.save();
       context.beginPath();
       context.rect(left, 0, right - left, this.canvas.height);
@@ -90,8 +105,13 @@
       context.rect(x, y, header.full_width * view.scale, header.full_height * view.scale);
       context.clip();
       context.imageSmoothingEnabled = image.step > 1 || view.smooth || view.scale < 1;
-      context.drawImage(this.#convert(layer, view), x + header.x * view.scale, y + header.y * view.scale,
-        image.width * size, image.height * size);
+      context.drawImage(
+        this.#convert(layer, view),
+        x + header.x * view.scale,
+        y + header.y * view.scale,
+        image.width * size,
+        image.height * size,
+      );
       context.restore();
     }
 

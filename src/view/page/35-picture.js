@@ -19,7 +19,8 @@
   const measuredRange = (image) => {
     const { layer } = image.header;
     if (/normal$/.test(layer)) return [-1, 1];
-    const stride = Math.max(1, Math.floor(image.data.length / 20000)), values = [];
+    const stride = Math.max(1, Math.floor(image.data.length / 20000)),
+      values = [];
     const skipsZero = ["depth", "distance", "position"].includes(layer);
     for (let i = 0; i < image.data.length; i += stride) {
       const value = image.isFloat ? image.data[i] : alhazen.halfValue(image.data[i]);
@@ -27,7 +28,8 @@
     }
     if (values.length === 0) return [0, 1];
     values.sort((a, b) => a - b);
-    const low = values[Math.floor(0.005 * values.length)], high = values[Math.ceil(0.995 * values.length) - 1];
+    const low = values[Math.floor(0.005 * values.length)],
+      high = values[Math.ceil(0.995 * values.length) - 1];
     return high > low ? [low, high] : [Math.min(low, 0), Math.max(high, low + 1)];
   };
 
@@ -35,11 +37,18 @@
   alhazen.Picture = class extends alhazen.Events {
     images = new Map();
     settings = {
-      layer: "color", other: null, split: 0.5, exposure: 0, toneMap: "none", channel: "rgb", falseColour: false,
-      markUnusual: true, markClipped: false,
+      layer: "color",
+      other: null,
+      split: 0.5,
+      exposure: 0,
+      toneMap: "none",
+      channel: "rgb",
+      falseColour: false,
+      markUnusual: true,
+      markClipped: false,
     };
-    ranges = new Map();  // from layers to [low, high] that the user chose
-    maps = new Map();    // from layers to colour maps that the user chose
+    ranges = new Map(); // from layers to [low, high] that the user chose
+    maps = new Map(); // from layers to colour maps that the user chose
     #measured = new Map();
     #fresh = [];
 
@@ -67,7 +76,7 @@
     imageOf(name) {
       const colour = this.images.get("color");
       const image = this.images.get(name);
-      if (!image) return name === this.settings.layer ? colour ?? this.images.values().next().value : null;
+      if (!image) return name === this.settings.layer ? (colour ?? this.images.values().next().value) : null;
       if (name === "denoised" && colour && colour.header.view > image.header.view) return colour;
       return image;
     }
@@ -112,9 +121,13 @@
     view() {
       const ratio = this.viewport.pixelRatio;
       return {
-        ...this.settings, a: this.#layer(this.image), b: this.#layer(this.otherImage),
-        scale: this.viewport.scale * ratio, offset: this.viewport.offset.map((value) => value * ratio),
-        smooth: this.viewport.isSmooth, split: this.settings.split * this.display.canvas.width,
+        ...this.settings,
+        a: this.#layer(this.image),
+        b: this.#layer(this.otherImage),
+        scale: this.viewport.scale * ratio,
+        offset: this.viewport.offset.map((value) => value * ratio),
+        smooth: this.viewport.isSmooth,
+        split: this.settings.split * this.display.canvas.width,
       };
     }
 
@@ -131,11 +144,12 @@
     suitableExposure() {
       const image = this.images.get("color") ?? this.image;
       if (!image || image.channels.length < 3) return 0;
-      let sum = 0, count = 0;
+      let sum = 0,
+        count = 0;
       const stride = Math.max(1, Math.floor((image.width * image.height) / 20000));
       for (let i = 0; i < image.width * image.height; i += stride) {
         const l = alhazen.colour.luminance(image.values(i % image.width, Math.floor(i / image.width)));
-        if (l > 1e-6 && Number.isFinite(l)) sum += Math.log2(l), ++count;
+        if (l > 1e-6 && Number.isFinite(l)) ((sum += Math.log2(l)), ++count);
       }
       return count ? Math.round(10 * (Math.log2(0.18) - sum / count)) / 10 : 0;
     }
@@ -147,7 +161,15 @@
       const { full_width: width, full_height: height } = image.header;
       const canvas = alhazen.element("canvas", { width, height });
       const display = new this.display.constructor(canvas);
-      display.draw({ ...this.view(), b: null, scale: 1, offset: [0, 0], smooth: false, markUnusual: false, markClipped: false });
+      display.draw({
+        ...this.view(),
+        b: null,
+        scale: 1,
+        offset: [0, 0],
+        smooth: false,
+        markUnusual: false,
+        markClipped: false,
+      });
       const blob = await new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
       display.release();
       return blob;

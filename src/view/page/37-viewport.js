@@ -1,7 +1,8 @@
 // Where the picture is in its part of the page: fitted, or zoomed and moved. Lengths are in CSS pixels.
 
 {
-  const smallest = 1 / 32, largest = 256;
+  const smallest = 1 / 32,
+    largest = 256;
 
   /// Emits: changed.
   alhazen.Viewport = class extends alhazen.Events {
@@ -19,7 +20,8 @@
       super();
       this.element = element;
       const update = () => {
-        const box = element.getBoundingClientRect(), centre = [this.width / 2, this.height / 2];
+        const box = element.getBoundingClientRect(),
+          centre = [this.width / 2, this.height / 2];
         this.width = Math.max(1, box.width);
         this.height = Math.max(1, box.height);
         this.pixelRatio = devicePixelRatio || 1;
@@ -51,7 +53,10 @@
       if (!this.pictureWidth) return;
       this.isFitted = true;
       this.scale = Math.min(this.width / this.pictureWidth, this.height / this.pictureHeight);
-      this.offset = [(this.width - this.scale * this.pictureWidth) / 2, (this.height - this.scale * this.pictureHeight) / 2];
+      this.offset = [
+        (this.width - this.scale * this.pictureWidth) / 2,
+        (this.height - this.scale * this.pictureHeight) / 2,
+      ];
     }
 
     fit() {
@@ -61,7 +66,8 @@
 
     /// Zooms so that the point of the picture under `at` stays there.
     zoomTo(scale, at = [this.width / 2, this.height / 2]) {
-      const to = alhazen.clamp(scale, smallest, largest), factor = to / this.scale;
+      const to = alhazen.clamp(scale, smallest, largest),
+        factor = to / this.scale;
       this.offset = this.offset.map((value, i) => at[i] - (at[i] - value) * factor);
       this.scale = to;
       this.isFitted = false;
@@ -78,9 +84,11 @@
       this.offset = [this.offset[0] + dx, this.offset[1] + dy];
       this.isFitted = false;
       // A part of the picture always stays in view.
-      const margin = 40, sizes = [this.pictureWidth * this.scale, this.pictureHeight * this.scale];
+      const margin = 40,
+        sizes = [this.pictureWidth * this.scale, this.pictureHeight * this.scale];
       this.offset = this.offset.map((value, i) =>
-        alhazen.clamp(value, margin - sizes[i], [this.width, this.height][i] - margin));
+        alhazen.clamp(value, margin - sizes[i], [this.width, this.height][i] - margin),
+      );
       this.#snap();
       this.emit("changed");
     }

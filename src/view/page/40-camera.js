@@ -8,8 +8,9 @@
   /// With as many digits as the commands have that repeat it (42-camera-text.js), so that they render the same.
   const rounded = (camera) => {
     const round = (value) => (typeof value === "number" ? Number(value.toPrecision(9)) : value);
-    return Object.fromEntries(Object.entries(camera).map(([key, value]) =>
-      [key, Array.isArray(value) ? value.map(round) : round(value)]));
+    return Object.fromEntries(
+      Object.entries(camera).map(([key, value]) => [key, Array.isArray(value) ? value.map(round) : round(value)]),
+    );
   };
 
   /// Emits: changed (the camera, from whatever cause).
@@ -20,7 +21,7 @@
     isLeftHanded = false;
     #undone = [];
     #done = [];
-    #before = null;  // the camera before the drag under way
+    #before = null; // the camera before the drag under way
     #moving = false;
     #id = 0;
     #send;
@@ -39,7 +40,7 @@
 
     /// The program says where the camera is: at the start, after a reset, or because another viewer moved it.
     receive(camera) {
-      if (this.#before) return;  // what is being dragged is the latest
+      if (this.#before) return; // what is being dragged is the latest
       if (this.camera && JSON.stringify(camera) !== JSON.stringify(this.camera)) this.#remember(this.camera);
       this.camera = copyOf(camera);
       this.emit("changed", this.camera);
@@ -138,7 +139,8 @@
 
     /// The direction turned by angles to the right and upwards, but not past the axis.
     #turned(direction, right, upwards) {
-      const axis = this.axis, sign = this.isLeftHanded ? 1 : -1;
+      const axis = this.axis,
+        sign = this.isLeftHanded ? 1 : -1;
       const turned = rotate(direction, axis, sign * right);
       const elevation = Math.asin(alhazen.clamp(dot(normalize(turned), axis), -1, 1));
       const side = normalize(cross(turned, axis));
@@ -147,13 +149,15 @@
 
     /// Moves about the target: what is near follows the pointer by `dx` and `dy` as angles.
     orbit(dx, dy) {
-      const axis = this.axis, direction = this.#turned(scale(this.forward, this.distance), dx, -dy);
+      const axis = this.axis,
+        direction = this.#turned(scale(this.forward, this.distance), dx, -dy);
       this.change({ position: subtract(this.camera.target, direction), up: axis });
     }
 
     /// Looks around from where it is.
     look(dx, dy) {
-      const axis = this.axis, direction = this.#turned(scale(this.forward, this.distance), dx, -dy);
+      const axis = this.axis,
+        direction = this.#turned(scale(this.forward, this.distance), dx, -dy);
       this.change({ target: add(this.camera.position, direction), up: axis });
     }
 
@@ -169,7 +173,8 @@
 
     /// Changes the distance to the target by a factor. Close to it, the target moves on ahead.
     dolly(factor) {
-      const nearest = 1e-4 * this.radius, to = this.distance * factor;
+      const nearest = 1e-4 * this.radius,
+        to = this.distance * factor;
       const forward = this.forward;
       if (to < nearest) return this.#translate(scale(forward, this.distance * (1 - factor)));
       this.change({ position: subtract(this.camera.target, scale(forward, to)) });

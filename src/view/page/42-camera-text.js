@@ -27,21 +27,31 @@
   /// that the page does not set.
   const command = (scene, view) => {
     const options = viewOptions(view);
-    const kept = options.reduce((text, [name]) => text.replace(new RegExp(`(^|\\s)--${name}(=|\\s)\\S+`), ""), scene.options ?? "");
+    const kept = options.reduce(
+      (text, [name]) => text.replace(new RegExp(`(^|\\s)--${name}(=|\\s)\\S+`), ""),
+      scene.options ?? "",
+    );
     const file = `${scene.name.replace(/^.*\//, "").replace(/\.[^.]*$/, "") || "view"}.png`;
     // Values that begin with a minus are joined to their names, so that they are not taken for options.
     const words = options.map(([name, value]) => `--${name}${value.startsWith("-") ? "=" : " "}${value}`);
     return ["alhazen render", quoted(scene.path ?? scene.name), ...words, kept.trim(), "-o", quoted(file)]
-      .filter(Boolean).join(" ");
+      .filter(Boolean)
+      .join(" ");
   };
 
   /// What places the camera in a scene of pbrt, whose camera space is left-handed: scenes of right-handed formats need
   /// the first axis mirrored.
   const pbrt = (scene, camera) => {
     const lines = scene.left_handed ? [] : ["Scale -1 1 1"];
-    lines.push(`LookAt ${list(camera.position, " ")}`, `       ${list(camera.target, " ")}`, `       ${list(camera.up, " ")}`);
-    const lens = camera.aperture > 0
-      ? ` "float lensradius" ${number(camera.aperture)} "float focaldistance" ${number(camera.focus ?? 1e6)}` : "";
+    lines.push(
+      `LookAt ${list(camera.position, " ")}`,
+      `       ${list(camera.target, " ")}`,
+      `       ${list(camera.up, " ")}`,
+    );
+    const lens =
+      camera.aperture > 0
+        ? ` "float lensradius" ${number(camera.aperture)} "float focaldistance" ${number(camera.focus ?? 1e6)}`
+        : "";
     lines.push(`Camera "perspective" "float fov" ${number(camera.fov ?? 90)}${lens}`);
     return `${lines.join("\n")}\n`;
   };

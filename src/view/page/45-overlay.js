@@ -1,7 +1,8 @@
 // What is drawn over the picture: the grid of pixels and their values when zoomed in far, and a mark where was clicked.
 
 {
-  const gridFrom = 12, valuesFrom = 68;  // CSS pixels for each pixel of the picture
+  const gridFrom = 12,
+    valuesFrom = 68; // CSS pixels for each pixel of the picture
 
   const shortValue = (value) => {
     if (Number.isNaN(value)) return "NaN";
@@ -13,7 +14,7 @@
   };
 
   alhazen.Overlay = class {
-    mark = null;  // a point of the picture, and when it was set
+    mark = null; // a point of the picture, and when it was set
     #context;
 
     constructor(canvas, picture, viewport) {
@@ -35,31 +36,40 @@
     }
 
     draw() {
-      const context = this.#context, { pixelRatio, width, height, scale } = this.viewport;
-      const [w, h] = [Math.round(width * pixelRatio), Math.round(height * pixelRatio)];
-      if (this.canvas.width !== w || this.canvas.height !== h) [this.canvas.width, this.canvas.height] = [w, h];
-      context.setTransform(1, 0, 0, 1, 0, 0);
-      context.clearRect(0, 0, w, h);
+      const context = this.#context,
+        { pixelRatio, width, height, scale } = this.viewport,
+        image = this.picture.image;
+      const hasGrid = image !== null && image.step === 1 && scale >= gridFrom;
+      this.canvas.hidden = !hasGrid && !this.mark;
+      if (this.canvas.hidden) return;
+      // Setting the size clears it.
+      [this.canvas.width, this.canvas.height] = [Math.round(width * pixelRatio), Math.round(height * pixelRatio)];
       context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
-      const image = this.picture.image;
-      if (image && scale * image.step >= gridFrom) this.#drawGrid(image);
+      if (hasGrid) this.#drawGrid(image);
       if (this.mark) this.#drawMark();
     }
 
     #drawGrid(image) {
-      const context = this.#context, { viewport } = this, { header } = image;
-      const first = viewport.toPicture([0, 0]), last = viewport.toPicture([viewport.width, viewport.height]);
+      const context = this.#context,
+        { viewport } = this,
+        { header } = image;
+      const first = viewport.toPicture([0, 0]),
+        last = viewport.toPicture([viewport.width, viewport.height]);
       const place = (value, corner) => Math.floor((value - corner) / image.step);
-      const x0 = Math.max(0, place(first[0], header.x)), x1 = Math.min(image.width, place(last[0], header.x) + 1);
-      const y0 = Math.max(0, place(first[1], header.y)), y1 = Math.min(image.height, place(last[1], header.y) + 1);
+      const x0 = Math.max(0, place(first[0], header.x)),
+        x1 = Math.min(image.width, place(last[0], header.x) + 1);
+      const y0 = Math.max(0, place(first[1], header.y)),
+        y1 = Math.min(image.height, place(last[1], header.y) + 1);
       const size = viewport.scale * image.step;
       const at = (x, y) => viewport.fromPicture([header.x + x * image.step, header.y + y * image.step]);
       context.globalAlpha = alhazen.clamp((size - gridFrom) / gridFrom, 0, 1) * 0.16;
       context.strokeStyle = "#fff";
       context.lineWidth = 1 / viewport.pixelRatio;
       context.beginPath();
-      for (let x = x0; x <= x1; ++x) context.moveTo(at(x, y0)[0], at(x, y0)[1]), context.lineTo(at(x, y1)[0], at(x, y1)[1]);
-      for (let y = y0; y <= y1; ++y) context.moveTo(at(x0, y)[0], at(x0, y)[1]), context.lineTo(at(x1, y)[0], at(x1, y)[1]);
+      for (let x = x0; x <= x1; ++x)
+        (context.moveTo(at(x, y0)[0], at(x, y0)[1]), context.lineTo(at(x, y1)[0], at(x, y1)[1]));
+      for (let y = y0; y <= y1; ++y)
+        (context.moveTo(at(x0, y)[0], at(x0, y)[1]), context.lineTo(at(x1, y)[0], at(x1, y)[1]));
       context.stroke();
       context.globalAlpha = 1;
       if (size < valuesFrom) return;
@@ -67,8 +77,10 @@
     }
 
     #drawValues(image, x, y, [left, top], size) {
-      const context = this.#context, values = image.values(x, y).slice(0, 4);
-      const text = Math.min(14, size / 6.2), line = 1.3 * text;
+      const context = this.#context,
+        values = image.values(x, y).slice(0, 4);
+      const text = Math.min(14, size / 6.2),
+        line = 1.3 * text;
       const colours = values.length >= 3 ? ["#ff9a92", "#8fdc98", "#9cc0ff", "#e2e3e5"] : ["#f2f2f2", "#f2f2f2"];
       context.font = `500 ${text}px ui-monospace, "SF Mono", "DejaVu Sans Mono", Menlo, Consolas, monospace`;
       context.textAlign = "center";
@@ -87,13 +99,22 @@
     }
 
     #drawMark() {
-      const context = this.#context, [x, y] = this.viewport.fromPicture([this.mark.x + 0.5, this.mark.y + 0.5]);
-      for (const [width, style] of [[3.5, "rgb(0 0 0 / 0.6)"], [1.5, "#e8b04b"]]) {
+      const context = this.#context,
+        [x, y] = this.viewport.fromPicture([this.mark.x + 0.5, this.mark.y + 0.5]);
+      for (const [width, style] of [
+        [3.5, "rgb(0 0 0 / 0.6)"],
+        [1.5, "#e8b04b"],
+      ]) {
         context.lineWidth = width;
         context.strokeStyle = style;
         context.beginPath();
         context.arc(x, y, 9, 0, 2 * Math.PI);
-        for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+        for (const [dx, dy] of [
+          [1, 0],
+          [-1, 0],
+          [0, 1],
+          [0, -1],
+        ]) {
           context.moveTo(x + 5 * dx, y + 5 * dy);
           context.lineTo(x + 13 * dx, y + 13 * dy);
         }

@@ -2,16 +2,23 @@
 // is all there is while `alhazen render` runs, they move the picture.
 
 {
-  const flyKeys = { KeyW: [0, 0, 1], KeyS: [0, 0, -1], KeyA: [-1, 0, 0], KeyD: [1, 0, 0], KeyQ: [0, -1, 0], KeyE: [0, 1, 0] };
-  const wheelRest = 180;  // milliseconds without a turn of the wheel that end a motion
+  const flyKeys = {
+    KeyW: [0, 0, 1],
+    KeyS: [0, 0, -1],
+    KeyA: [-1, 0, 0],
+    KeyD: [1, 0, 0],
+    KeyQ: [0, -1, 0],
+    KeyE: [0, 1, 0],
+  };
+  const wheelRest = 180; // milliseconds without a turn of the wheel that end a motion
 
   /// Emits: mode (its name), hover ([x, y] or null), pick ({ x, y, focus: boolean }).
   alhazen.Input = class extends alhazen.Events {
     mode = "orbit";
     isReadOnly = false;
-    flySpeed = 1;  // factor on the scene's radius in a second
+    flySpeed = 1; // factor on the scene's radius in a second
     #pointers = new Map();
-    #gesture = null;  // what a drag does: orbit, look, pan, zoom or move (the picture)
+    #gesture = null; // what a drag does: orbit, look, pan, zoom or move (the picture)
     #lastTap = { time: 0, x: 0, y: 0 };
     #wheelTimer = 0;
     #held = new Set();
@@ -67,7 +74,8 @@
     }
 
     #move(event) {
-      const [x, y] = this.#at(event), pointer = this.#pointers.get(event.pointerId);
+      const [x, y] = this.#at(event),
+        pointer = this.#pointers.get(event.pointerId);
       if (event.pointerType !== "touch" || pointer) this.emit("hover", [x, y]);
       if (!pointer) return;
       const before = [...this.#pointers.values()].map((each) => [each.x, each.y]);
@@ -99,7 +107,8 @@
     #pinch(before, after) {
       const middle = (points) => [(points[0][0] + points[1][0]) / 2, (points[0][1] + points[1][1]) / 2];
       const apart = (points) => Math.max(20, Math.hypot(points[0][0] - points[1][0], points[0][1] - points[1][1]));
-      const [m, n] = [middle(before), middle(after)], factor = apart(after) / apart(before);
+      const [m, n] = [middle(before), middle(after)],
+        factor = apart(after) / apart(before);
       if (this.#gesture === "move") {
         this.viewport.pan(n[0] - m[0], n[1] - m[1]);
         this.viewport.zoomTo(this.viewport.scale * factor, n);

@@ -13,23 +13,51 @@
       values[part] = value;
       send();
     };
-    const rotation = slider({ label: "Rotation", min: -180, max: 180, step: 1, unit: "degrees", onInput: change("rotation") });
-    const strength = slider({ label: "Environment", min: 0.01, max: 100, log: true, initial: 1, unit: "factor",
-      onInput: change("strength") });
-    const scale = slider({ label: "Other lights", min: 0.01, max: 100, log: true, initial: 1, unit: "factor",
-      onInput: change("light_scale") });
+    const rotation = slider({
+      label: "Rotation",
+      min: -180,
+      max: 180,
+      step: 1,
+      unit: "degrees",
+      onInput: change("rotation"),
+    });
+    const strength = slider({
+      label: "Environment",
+      min: 0.01,
+      max: 100,
+      log: true,
+      initial: 1,
+      unit: "factor",
+      onInput: change("strength"),
+    });
+    const scale = slider({
+      label: "Other lights",
+      min: 0.01,
+      max: 100,
+      log: true,
+      initial: 1,
+      unit: "factor",
+      onInput: change("light_scale"),
+    });
     const show = () => {
       rotation.set(values.rotation);
       strength.set(values.strength);
       scale.set(values.light_scale);
     };
-    panel.body.append(rotation.element, strength.element, scale.element,
-      group("Light", button("As in the file", () => {
-        Object.assign(values, { rotation: 0, strength: 1, light_scale: 1 });
-        show();
-        changed = performance.now();
-        send();
-      })));
+    panel.body.append(
+      rotation.element,
+      strength.element,
+      scale.element,
+      group(
+        "Light",
+        button("As in the file", () => {
+          Object.assign(values, { rotation: 0, strength: 1, light_scale: 1 });
+          show();
+          changed = performance.now();
+          send();
+        }),
+      ),
+    );
     app.on("scene", (scene) => {
       panel.element.hidden = !scene.environment || scene.read_only;
       // While a slider is dragged, what comes back is older than what it shows.

@@ -6,12 +6,24 @@
   const { srgbEncode, srgbDecode } = alhazen.colour;
   const list = (vector) => vector.map((value) => shortNumber(value, 5)).join(", ");
 
-  const toHex = (linear) => `#${linear.map((value) =>
-    Math.round(255 * srgbEncode(alhazen.clamp(value, 0, 1))).toString(16).padStart(2, "0")).join("")}`;
-  const fromHex = (hex) => [1, 3, 5].map((i) => Number(srgbDecode(parseInt(hex.slice(i, i + 2), 16) / 255).toPrecision(5)));
+  const toHex = (linear) =>
+    `#${linear
+      .map((value) =>
+        Math.round(255 * srgbEncode(alhazen.clamp(value, 0, 1)))
+          .toString(16)
+          .padStart(2, "0"),
+      )
+      .join("")}`;
+  const fromHex = (hex) =>
+    [1, 3, 5].map((i) => Number(srgbDecode(parseInt(hex.slice(i, i + 2), 16) / 255).toPrecision(5)));
 
   const colourField = (field, onInput) => {
-    const input = element("input", { type: "color", className: "colour", value: toHex(field.value), id: `field-${field.name}` });
+    const input = element("input", {
+      type: "color",
+      className: "colour",
+      value: toHex(field.value),
+      id: `field-${field.name}`,
+    });
     const text = element("span", { className: "value", textContent: list(field.value) });
     input.oninput = () => {
       const value = fromHex(input.value);
@@ -29,23 +41,53 @@
       check.set(field.value);
       return check.element;
     }
-    const max = field.max ?? Math.max(1, 4 * field.value), min = field.min ?? 0;
-    const control = slider({ label: field.label, min, max, step: (max - min) / 200, initial: field.value, onInput, digits: 4,
-      bound: field.max !== undefined && field.max !== null });
+    const max = field.max ?? Math.max(1, 4 * field.value),
+      min = field.min ?? 0;
+    const control = slider({
+      label: field.label,
+      min,
+      max,
+      step: (max - min) / 200,
+      initial: field.value,
+      onInput,
+      digits: 4,
+      bound: field.max !== undefined && field.max !== null,
+    });
     return control.element;
   };
 
   alhazen.objectPanel = (app) => {
     const panel = section("object", "Object");
     const hint = element("p", { className: "hint", textContent: "Click something to see what it is." });
-    const facts = Object.fromEntries(Object.entries({ object: "Object", instance: "Instance", material: "Material",
-      where: "Defined at", position: "Position", distance: "Distance", normal: "Normal" }).map(([key, name]) => [key, fact(name)]));
-    const table = element("dl", { className: "facts", hidden: true }, ...Object.values(facts).flatMap((each) => each.elements));
+    const facts = Object.fromEntries(
+      Object.entries({
+        object: "Object",
+        instance: "Instance",
+        material: "Material",
+        where: "Defined at",
+        position: "Position",
+        distance: "Distance",
+        normal: "Normal",
+      }).map(([key, name]) => [key, fact(name)]),
+    );
+    const table = element(
+      "dl",
+      { className: "facts", hidden: true },
+      ...Object.values(facts).flatMap((each) => each.elements),
+    );
     const fields = element("div", { className: "stack" });
     const changes = element("ol", { className: "changes", "aria-label": "Changes" });
     let listed = [];
-    const changed = element("div", { className: "stack", hidden: true }, element("h3", { textContent: "Changes" }), changes,
-      group("Changes", button("Copy", () => alhazen.copyText(listed.join("\n"), "the list of changes"))));
+    const changed = element(
+      "div",
+      { className: "stack", hidden: true },
+      element("h3", { textContent: "Changes" }),
+      changes,
+      group(
+        "Changes",
+        button("Copy", () => alhazen.copyText(listed.join("\n"), "the list of changes")),
+      ),
+    );
     panel.body.append(hint, table, fields, changed);
 
     let pending = null;
@@ -62,11 +104,19 @@
     const showFields = (picked) => {
       const controls = (picked.fields ?? []).map((field) => {
         const control = fieldControl(field, (value) => change(picked.material, field.name, value));
-        if (field.textured) control.append(element("span", { className: "tag", textContent: "textured",
-          title: "an image or a function sets it; a change replaces that" }));
+        if (field.textured)
+          control.append(
+            element("span", {
+              className: "tag",
+              textContent: "textured",
+              title: "an image or a function sets it; a change replaces that",
+            }),
+          );
         return control;
       });
-      fields.replaceChildren(...(controls.length ? [element("h3", { textContent: `${picked.kind ?? ""} material` }), ...controls] : []));
+      fields.replaceChildren(
+        ...(controls.length ? [element("h3", { textContent: `${picked.kind ?? ""} material` }), ...controls] : []),
+      );
     };
 
     app.on("picked", (picked) => {
@@ -80,7 +130,10 @@
       };
       show("object", picked.object ?? "without a name");
       show("instance", picked.instance ? String(picked.instance) : null);
-      show("material", picked.material_name ? `${picked.material_name}${picked.kind ? ` (${picked.kind})` : ""}` : null);
+      show(
+        "material",
+        picked.material_name ? `${picked.material_name}${picked.kind ? ` (${picked.kind})` : ""}` : null,
+      );
       show("where", picked.where);
       show("position", picked.position ? list(picked.position) : null);
       show("distance", Number.isFinite(picked.distance) ? shortNumber(picked.distance, 5) : null);

@@ -6,7 +6,10 @@
 
   alhazen.animationPanel = (app) => {
     const panel = section("animation", "Animation");
-    let range = null, time = 0, control = null, playing = 0;
+    let range = null,
+      time = 0,
+      control = null,
+      playing = 0;
     const send = alhazen.oncePerFrame(() => app.connection.send({ type: "time", time }));
     const setTime = (value) => {
       time = app.time = value;
@@ -19,7 +22,9 @@
       play.textContent = "Play";
     };
     const start = () => {
-      const run = (playing = performance.now()), from = time, length = range.end - range.start;
+      const run = (playing = performance.now()),
+        from = time,
+        length = range.end - range.start;
       play.textContent = "Pause";
       const step = (now) => {
         if (playing !== run || !app.connection.isOpen) return;
@@ -34,8 +39,14 @@
       stop();
       setTime(alhazen.clamp(time + frames / range.fps, range.start, range.end));
     };
-    panel.body.append(group("Animation", button("Back", () => stepBy(-1), { title: "one frame back" }), play,
-      button("Forward", () => stepBy(1), { title: "one frame forward" })));
+    panel.body.append(
+      group(
+        "Animation",
+        button("Back", () => stepBy(-1), { title: "one frame back" }),
+        play,
+        button("Forward", () => stepBy(1), { title: "one frame forward" }),
+      ),
+    );
     app.on("scene", (scene) => {
       const next = scene.read_only ? null : scene.animation;
       panel.element.hidden = !next;
@@ -46,8 +57,16 @@
       if (!range) return;
       time = scene.time ?? range.start;
       range.fps = range.fps > 0 ? range.fps : 24;
-      control = slider({ label: "Time", min: range.start, max: range.end, step: 1 / range.fps, initial: time, bound: true,
-        unit: "seconds", onInput: (value) => (stop(), setTime(value)) });
+      control = slider({
+        label: "Time",
+        min: range.start,
+        max: range.end,
+        step: 1 / range.fps,
+        initial: time,
+        bound: true,
+        unit: "seconds",
+        onInput: (value) => (stop(), setTime(value)),
+      });
       panel.body.prepend(control.element);
     });
     return panel;

@@ -13,9 +13,18 @@
   /// The estimated error over samples, both on logarithmic axes.
   const curvePlot = () => {
     const [width, height, left, bottom] = [280, 96, 34, 16];
-    const plot = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "curve", role: "img", "aria-label": "Noise over samples" });
-    const figure = element("figure", { className: "plot", hidden: true },
-      element("figcaption", { textContent: "Estimated relative error over samples" }), plot);
+    const plot = svg("svg", {
+      viewBox: `0 0 ${width} ${height}`,
+      class: "curve",
+      role: "img",
+      "aria-label": "Noise over samples",
+    });
+    const figure = element(
+      "figure",
+      { className: "plot", hidden: true },
+      element("figcaption", { textContent: "Estimated relative error over samples" }),
+      plot,
+    );
     const set = (curve) => {
       const points = (curve ?? []).filter(([samples, error]) => samples > 0 && error > 0 && Number.isFinite(error));
       figure.hidden = points.length < 2;
@@ -40,7 +49,9 @@
       }
       label(shortNumber(2 ** x0, 3), x(x0), height - 3, "start");
       label(`${shortNumber(2 ** x1, 4)} samples`, x(x1), height - 3, "end");
-      parts.push(svg("polyline", { points: logs.map((point) => `${x(point[0])},${y(point[1])}`).join(" "), class: "line" }));
+      parts.push(
+        svg("polyline", { points: logs.map((point) => `${x(point[0])},${y(point[1])}`).join(" "), class: "line" }),
+      );
       const last = logs[logs.length - 1];
       parts.push(svg("circle", { cx: x(last[0]), cy: y(last[1]), r: 2.5, class: "point" }));
       plot.replaceChildren(...parts);
@@ -50,34 +61,62 @@
 
   alhazen.renderPanel = (app) => {
     const panel = section("render", "Render");
-    const facts = Object.fromEntries(Object.entries({ activity: "Activity", samples: "Samples", seconds: "Time taken",
-      remaining: "Time left", error: "Noise", size: "Resolution" }).map(([key, name]) => [key, fact(name)]));
+    const facts = Object.fromEntries(
+      Object.entries({
+        activity: "Activity",
+        samples: "Samples",
+        seconds: "Time taken",
+        remaining: "Time left",
+        error: "Noise",
+        size: "Resolution",
+        response: "Response",
+      }).map(([key, name]) => [key, fact(name)]),
+    );
     const table = element("dl", { className: "facts" }, ...Object.values(facts).flatMap((each) => each.elements));
     const plot = curvePlot();
-    const samples = number({ label: "Samples to take", min: 1, max: 1 << 20, step: 1, digits: 7,
-      onChange: (value) => app.connection.send({ type: "samples", samples: Math.round(value) }) });
+    const samples = number({
+      label: "Samples to take",
+      min: 1,
+      max: 1 << 20,
+      step: 1,
+      digits: 7,
+      onChange: (value) => app.connection.send({ type: "samples", samples: Math.round(value) }),
+    });
     const samplesRow = row("Samples", samples.element.id, samples.element);
     const size = select({ label: "Resolution", onChange: (value) => app.chooseSize(value) });
     const pause = button("Pause", () => app.togglePause());
     const stop = button("Stop and write the image", () => app.confirmStop(), { className: "button danger" });
     const save = button("Write the image so far", () => app.connection.send({ type: "save" }));
     const log = element("ul", { className: "log", "aria-label": "Messages of the program" });
-    const messages = element("div", { className: "stack", hidden: true }, element("h3", { textContent: "Messages" }), log);
-    const writable = group("Render", pause), readOnly = group("Render", save, stop);
+    const messages = element(
+      "div",
+      { className: "stack", hidden: true },
+      element("h3", { textContent: "Messages" }),
+      log,
+    );
+    const writable = group("Render", pause),
+      readOnly = group("Render", save, stop);
     panel.body.append(table, plot.element, samplesRow, size.element, writable, readOnly, messages);
 
     const showSizes = () => {
-      const [width, height] = app.fileSize, image = app.picture.image?.header;
+      const [width, height] = app.fileSize,
+        image = app.picture.image?.header;
       const window = app.windowSize();
       const current = image ? `${image.full_width}x${image.full_height}` : `${width}x${height}`;
-      const pairs = [[`${width}x${height}`, `${width} × ${height} (at first)`],
-        [`${Math.ceil(width / 2)}x${Math.ceil(height / 2)}`, `${Math.ceil(width / 2)} × ${Math.ceil(height / 2)} (half)`],
+      const pairs = [
+        [`${width}x${height}`, `${width} × ${height} (at first)`],
+        [
+          `${Math.ceil(width / 2)}x${Math.ceil(height / 2)}`,
+          `${Math.ceil(width / 2)} × ${Math.ceil(height / 2)} (half)`,
+        ],
         [`${2 * width}x${2 * height}`, `${2 * width} × ${2 * height} (double)`],
-        ["window", `${window[0]} × ${window[1]} (fills the window)`]];
+        ["window", `${window[0]} × ${window[1]} (fills the window)`],
+      ];
       if (!pairs.some(([key, name]) => key === current || name.startsWith(current.replace("x", " × "))))
         pairs.push([current, current.replace("x", " × ")]);
       size.setChoices(pairs);
-      if (document.activeElement !== size.control) size.set(pairs.some(([key]) => key === current) ? current : "window");
+      if (document.activeElement !== size.control)
+        size.set(pairs.some(([key]) => key === current) ? current : "window");
     };
 
     app.on("scene", (scene) => {
@@ -87,15 +126,32 @@
       showSizes();
     });
     app.on("status", (status) => {
-      const names = { rendering: "rendering", paused: "paused", done: "done", reading: "reading the scene",
-        building: "building", failed: "failed" };
+      const names = {
+        rendering: "rendering",
+        paused: "paused",
+        done: "done",
+        reading: "reading the scene",
+        building: "building",
+        failed: "failed",
+      };
       facts.activity.set((names[status.activity] ?? status.activity) + (status.denoising ? ", denoising" : ""));
       facts.samples.set(`${shortNumber(status.samples ?? 0, 5)} of ${status.samples_total ?? "–"} per pixel`);
       facts.seconds.set(duration(status.seconds));
-      facts.remaining.set(status.remaining === null || status.remaining === undefined ? "–" : duration(status.remaining));
+      facts.remaining.set(
+        status.remaining === null || status.remaining === undefined ? "–" : duration(status.remaining),
+      );
       facts.error.set(status.error > 0 ? `${shortNumber(100 * status.error, 3)} %` : "–");
       const image = app.picture.image?.header;
-      if (image) facts.size.set(`${image.full_width} × ${image.full_height}${image.step > 1 ? `, at 1/${image.step}` : ""}`);
+      if (image)
+        facts.size.set(`${image.full_width} × ${image.full_height}${image.step > 1 ? `, at 1/${image.step}` : ""}`);
+      const { first, milliseconds } = app.meter;
+      facts.response.set(
+        first === null
+          ? "–"
+          : `first picture after ${Math.round(first)} ms${
+              milliseconds === null ? "" : `, moves after ${Math.round(milliseconds)} ms`
+            }`,
+      );
       plot.set(status.curve);
       if (status.samples_total) samples.set(status.samples_total);
       pause.textContent = status.activity === "paused" ? "Go on" : "Pause";

@@ -8,6 +8,8 @@
   class Meter {
     framesPerSecond = 0;
     milliseconds = null;
+    first = null; // milliseconds from asking for the page to its first picture
+    history = []; // the last hundred of `milliseconds`
     #drawn = [];
     #sent = new Map();
 
@@ -17,11 +19,15 @@
 
     drawn(images) {
       const now = performance.now();
-      if (images.length) this.#drawn.push(now);
+      if (images.length) {
+        this.#drawn.push(now);
+        this.first ??= now;
+      }
       for (const { header } of images) {
         const sent = this.#sent.get(header.camera_id);
         if (sent === undefined) continue;
         this.milliseconds = now - sent;
+        this.history = [...this.history.slice(-99), this.milliseconds];
         for (const id of this.#sent.keys()) if (id <= header.camera_id) this.#sent.delete(id);
       }
       this.update(now);
@@ -35,16 +41,29 @@
 
   const stat = (name, title) => {
     const value = element("span", { className: "stat-value", textContent: "–" });
-    const whole = element("span", { className: "stat", title }, value, element("span", { className: "stat-name", textContent: name }));
-    return { element: whole, set: (text) => (value.textContent = text), rename: (text) => (whole.lastChild.textContent = text) };
+    const whole = element(
+      "span",
+      { className: "stat", title },
+      value,
+      element("span", { className: "stat-name", textContent: name }),
+    );
+    return {
+      element: whole,
+      set: (text) => (value.textContent = text),
+      rename: (text) => (whole.lastChild.textContent = text),
+    };
   };
 
   const buildStats = (app) => {
-    const bar = alhazen.byId("stats"), progress = alhazen.byId("progress"), meter = app.meter;
+    const bar = alhazen.byId("stats"),
+      progress = alhazen.byId("progress"),
+      meter = app.meter;
     const activity = element("span", { className: "activity" });
     const stats = {
-      samples: stat("spp", "samples per pixel so far"), fps: stat("fps", "pictures drawn in the last second"),
-      ms: stat("ms", "from a move of the camera to the first picture of it"), rays: stat("Mray/s", "million rays a second"),
+      samples: stat("spp", "samples per pixel so far"),
+      fps: stat("fps", "pictures drawn in the last second"),
+      ms: stat("ms", "from a move of the camera to the first picture of it"),
+      rays: stat("Mray/s", "million rays a second"),
       viewers: stat("viewers", "pages that are connected"),
     };
     bar.append(activity, ...Object.values(stats).map((each) => each.element));
@@ -57,7 +76,8 @@
     setInterval(refresh, 500);
     app.on("scene", (scene) => (stats.ms.element.hidden = scene.read_only));
     app.on("status", (status) => {
-      const left = status.remaining > 0 && status.activity === "rendering" ? `, ${duration(status.remaining)} left` : "";
+      const left =
+        status.remaining > 0 && status.activity === "rendering" ? `, ${duration(status.remaining)} left` : "";
       activity.textContent = status.activity + left;
       bar.dataset.activity = status.activity;
       stats.samples.set(shortNumber(status.samples ?? 0, 4));
@@ -72,52 +92,87 @@
   };
 
   const buildTools = (app) => {
-    const mode = segments({ label: "What dragging does", choices: [["orbit", "Orbit", "O: drag turns about the target"],
-      ["fly", "Fly", "G: W A S D Q E move, drag looks around"], ["inspect", "Inspect", "Z: drag and wheel move the picture"]],
-    onChange: (value) => (app.input.setMode(value), alhazen.byId("surface").focus()) });
+    const mode = segments({
+      label: "What dragging does",
+      choices: [
+        ["orbit", "Orbit", "O: drag turns about the target"],
+        ["fly", "Fly", "G: W A S D Q E move, drag looks around"],
+        ["inspect", "Inspect", "Z: drag and wheel move the picture"],
+      ],
+      onChange: (value) => (app.input.setMode(value), alhazen.byId("surface").focus()),
+    });
     const zoom = element("output", { className: "zoom", "aria-label": "Zoom" });
     const fit = button("Fit", () => app.viewport.fit(), { title: "F: the whole picture", className: "button plain" });
-    const one = button("1:1", () => app.viewport.oneToOne(), { title: "1: a pixel of the picture is one of the display",
-      className: "button plain" });
-    const help = button("?", () => app.help.show(), { title: "keys", "aria-label": "Keyboard shortcuts",
-      className: "button plain" });
-    const panels = button("Panels", () => app.togglePanels(), { title: "N: hides and shows the panels",
-      className: "button plain only-wide" });
+    const one = button("1:1", () => app.viewport.oneToOne(), {
+      title: "1: a pixel of the picture is one of the display",
+      className: "button plain",
+    });
+    const help = button("?", () => app.help.show(), {
+      title: "keys",
+      "aria-label": "Keyboard shortcuts",
+      className: "button plain",
+    });
+    const panels = button("Panels", () => app.togglePanels(), {
+      title: "N: hides and shows the panels",
+      className: "button plain only-wide",
+    });
     alhazen.byId("tools").append(mode.element, fit, one, zoom, panels, help);
     app.input.on("mode", mode.set);
     mode.set(app.input.mode);
     app.on("scene", (scene) => (mode.element.hidden = scene.read_only));
-    app.viewport.on("changed", () =>
-      (zoom.textContent = `${shortNumber(100 * app.viewport.scale * app.viewport.pixelRatio, 3)}%`));
+    app.viewport.on(
+      "changed",
+      () => (zoom.textContent = `${shortNumber(100 * app.viewport.scale * app.viewport.pixelRatio, 3)}%`),
+    );
   };
 
   const buildReadout = (app) => {
-    const place = element("span", { className: "place" }), values = element("span", { className: "linear" });
-    const swatch = element("span", { className: "swatch", "aria-hidden": "true" }), bytes = element("span", { className: "bytes" });
-    const precision = element("span", { className: "precision" }), shown = element("span", { className: "shown" });
+    const place = element("span", { className: "place" }),
+      values = element("span", { className: "linear" });
+    const swatch = element("span", { className: "swatch", "aria-hidden": "true" }),
+      bytes = element("span", { className: "bytes" });
+    const precision = element("span", { className: "precision" }),
+      shown = element("span", { className: "shown" });
     alhazen.byId("readout").append(place, values, swatch, bytes, precision, shown);
     let at = null;
     const update = () => {
-      const { picture, viewport } = app, { settings } = picture;
+      const { picture, viewport } = app,
+        { settings } = picture;
       const inB = at && settings.other && at[0] > settings.split * viewport.width;
       const image = (inB ? picture.otherImage : null) ?? picture.image;
-      shown.textContent = image ? `${alhazen.layerName(image.header.layer)}${settings.exposure && picture.kindOf(image) ===
-        "radiance" ? `, ${settings.exposure > 0 ? "+" : "−"}${shortNumber(Math.abs(settings.exposure), 3)} stops` : ""}` : "";
+      shown.textContent = image
+        ? `${alhazen.layerName(image.header.layer)}${
+            settings.exposure && picture.kindOf(image) === "radiance"
+              ? `, ${settings.exposure > 0 ? "+" : "−"}${shortNumber(Math.abs(settings.exposure), 3)} stops`
+              : ""
+          }`
+        : "";
       const point = at && image && viewport.contains(at) ? viewport.toPicture(at).map(Math.floor) : null;
       const pixel = point && image.pixelAt(point[0] + 0.5, point[1] + 0.5);
       for (const each of [values, swatch, bytes, precision]) each.hidden = !pixel;
       place.textContent = pixel ? `${point[0]}, ${point[1]}` : app.readoutHint();
       place.classList.toggle("hint", !pixel);
       if (!pixel) return;
-      const numbers = image.values(...pixel), digits = image.isFloat ? 9 : 4;
-      values.replaceChildren(...numbers.slice(0, 8).map((value, i) => element("span", {
-        className: `channel ${numbers.length >= 3 ? "rgb"[i] ?? "" : ""}`, textContent: shortNumber(value, digits),
-        title: image.channels[i] })));
+      const numbers = image.values(...pixel),
+        digits = image.isFloat ? 9 : 4;
+      values.replaceChildren(
+        ...numbers.slice(0, 8).map((value, i) =>
+          element("span", {
+            className: `channel ${numbers.length >= 3 ? ("rgb"[i] ?? "") : ""}`,
+            textContent: shortNumber(value, digits),
+            title: image.channels[i],
+          }),
+        ),
+      );
       const isColour = ["radiance", "colour"].includes(picture.kindOf(image)) && numbers.length >= 3;
       swatch.hidden = bytes.hidden = !isColour;
       if (isColour) {
         const plain = picture.kindOf(image) === "colour";
-        const rgb = alhazen.colour.displayBytes(numbers.slice(0, 3), plain ? 0 : settings.exposure, plain ? "none" : settings.toneMap);
+        const rgb = alhazen.colour.displayBytes(
+          numbers.slice(0, 3),
+          plain ? 0 : settings.exposure,
+          plain ? "none" : settings.toneMap,
+        );
         swatch.style.backgroundColor = `rgb(${rgb.join(" ")})`;
         bytes.textContent = `sRGB ${rgb.join(" ")}  #${rgb.map((value) => value.toString(16).padStart(2, "0")).join("")}`;
       }

@@ -28,27 +28,41 @@
       ["Ctrl+Z", "undo a move of the camera", "Camera", () => camera.undo(), "edit"],
       ["Ctrl+Shift+Z", "redo it", "Camera", () => camera.redo(), "edit"],
       ["R", "camera as it was at first", "Camera", () => app.resetCamera(), "edit"],
-      ["K", "copy as --look-at", "Camera", () => app.copyCommand(), "edit"],
+      ["K", "copy as --look-at", "Camera", () => app.output.copyCommand(), "edit"],
       ["E", "half a stop brighter", "Picture", () => stops(0.5)],
       ["Shift+E", "half a stop darker; also [ and ]", "Picture", () => stops(-0.5)],
       ["[", null, "Picture", () => stops(-0.5)],
       ["]", null, "Picture", () => stops(0.5)],
       ["0", "exposure 0", "Picture", () => picture.set({ exposure: 0 })],
-      ["T", "next tone map", "Picture", () => picture.set({ toneMap: next(alhazen.colour.toneMaps, picture.settings.toneMap) })],
+      [
+        "T",
+        "next tone map",
+        "Picture",
+        () => picture.set({ toneMap: next(alhazen.colour.toneMaps, picture.settings.toneMap) }),
+      ],
       ["L", "next layer", "Picture", () => app.chooseLayer(next(app.layerNames(), picture.settings.layer))],
       ["Shift+L", "layer before", "Picture", () => app.chooseLayer(next(app.layerNames(), picture.settings.layer, -1))],
-      ["C", "next channels", "Picture", () =>
-        picture.set({ channel: next(["rgb", "r", "g", "b", "a", "luminance"], picture.settings.channel) })],
+      [
+        "C",
+        "next channels",
+        "Picture",
+        () => picture.set({ channel: next(["rgb", "r", "g", "b", "a", "luminance"], picture.settings.channel) }),
+      ],
       ["X", "false colour", "Picture", () => picture.set({ falseColour: !picture.settings.falseColour })],
-      ["H", "marks of NaN, infinite, negative", "Picture", () => picture.set({ markUnusual: !picture.settings.markUnusual })],
+      [
+        "H",
+        "marks of NaN, infinite, negative",
+        "Picture",
+        () => picture.set({ markUnusual: !picture.settings.markUnusual }),
+      ],
       ["J", "marks of what is clipped", "Picture", () => picture.set({ markClipped: !picture.settings.markClipped })],
       ["V", "compare layers with a split", "Picture", () => app.toggleSplit()],
       ["F", "the whole picture", "Picture", () => viewport.fit()],
       ["1", "one to one", "Picture", () => viewport.oneToOne()],
       ["D", "denoise when at rest", "Render", () => app.setDenoise(!app.denoises), "edit"],
       ["P", "pause and go on", "Render", () => app.togglePause(), "edit"],
-      ["S", "save PNG", "Render", () => app.savePng()],
-      ["Shift+S", "save EXR", "Render", () => app.saveExr()],
+      ["S", "save PNG", "Render", () => app.output.savePng()],
+      ["Shift+S", "save EXR", "Render", () => app.output.saveExr()],
       ["N", "hide and show the panels", "Page", () => app.togglePanels()],
       ["?", "this list", "Page", () => app.help.show()],
     ];
@@ -71,7 +85,8 @@
 
     #press(event) {
       if (event.altKey || event.defaultPrevented || this.dialog.open) return;
-      if (/^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName) && !/^(range|checkbox)$/.test(event.target.type)) return;
+      if (/^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName) && !/^(range|checkbox)$/.test(event.target.type))
+        return;
       const name = nameOf(event);
       const binding = this.bindings.find(([keys, , , action]) => action && keys === name);
       if (!binding || (binding[4] === "edit" && this.app.isReadOnly)) return;
@@ -80,17 +95,42 @@
     }
 
     show() {
-      const keys = (text) => element("dt", {}, ...text.split(" / ").flatMap((part, i) =>
-        [...(i ? [" "] : []), element("kbd", { textContent: part })]));
+      const keys = (text) =>
+        element(
+          "dt",
+          {},
+          ...text.split(" / ").flatMap((part, i) => [...(i ? [" "] : []), element("kbd", { textContent: part })]),
+        );
       const plain = (text) => element("dt", { textContent: text });
-      const part = (title, rows, term = keys) => element("section", {}, element("h3", { textContent: title }),
-        element("dl", {}, ...rows.flatMap(([name, what]) => [term(name), element("dd", { textContent: what })])));
+      const part = (title, rows, term = keys) =>
+        element(
+          "section",
+          {},
+          element("h3", { textContent: title }),
+          element("dl", {}, ...rows.flatMap(([name, what]) => [term(name), element("dd", { textContent: what })])),
+        );
       const listed = this.bindings.filter(([, what, , , where]) => what && !(where === "edit" && this.app.isReadOnly));
       const topics = [...new Set(listed.map((binding) => binding[2]))];
-      const close = element("button", { type: "button", className: "button", textContent: "Close", onclick: () => this.dialog.close() });
-      this.dialog.replaceChildren(element("header", {}, element("h2", { id: "help-title", textContent: "Mouse and keys" }), close),
-        element("div", { className: "help-parts" }, part("Mouse", mouse, plain),
-          ...topics.map((topic) => part(topic, listed.filter((binding) => binding[2] === topic)))));
+      const close = element("button", {
+        type: "button",
+        className: "button",
+        textContent: "Close",
+        onclick: () => this.dialog.close(),
+      });
+      this.dialog.replaceChildren(
+        element("header", {}, element("h2", { id: "help-title", textContent: "Mouse and keys" }), close),
+        element(
+          "div",
+          { className: "help-parts" },
+          part("Mouse", mouse, plain),
+          ...topics.map((topic) =>
+            part(
+              topic,
+              listed.filter((binding) => binding[2] === topic),
+            ),
+          ),
+        ),
+      );
       if (!this.dialog.open) this.dialog.showModal();
     }
   };
@@ -101,9 +141,20 @@
     say(text, { seconds = 4, key = null, isError = false, action = null } = {}) {
       const box = alhazen.byId("notices");
       if (key) this.clear(key);
-      const notice = element("div", { className: isError ? "notice error" : "notice" }, element("span", { textContent: text }));
-      if (action) notice.append(element("button", { type: "button", className: "button small", textContent: action.label,
-        onclick: action.run }));
+      const notice = element(
+        "div",
+        { className: isError ? "notice error" : "notice" },
+        element("span", { textContent: text }),
+      );
+      if (action)
+        notice.append(
+          element("button", {
+            type: "button",
+            className: "button small",
+            textContent: action.label,
+            onclick: action.run,
+          }),
+        );
       box.append(notice);
       while (box.children.length > 4) box.firstChild.remove();
       if (key) this.lasting.set(key, notice);

@@ -2,7 +2,8 @@
 
 {
   alhazen.buildSplit = (app) => {
-    const { picture, viewport } = app, line = alhazen.byId("split");
+    const { picture, viewport } = app,
+      line = alhazen.byId("split");
     const set = (value) => picture.set({ split: alhazen.clamp(value, 0, 1) });
     line.addEventListener("pointerdown", (event) => {
       line.setPointerCapture(event.pointerId);
@@ -14,8 +15,14 @@
       set((event.clientX - viewport.element.getBoundingClientRect().left) / viewport.width);
     });
     line.addEventListener("keydown", (event) => {
-      const to = { ArrowLeft: picture.settings.split - 0.02, ArrowDown: picture.settings.split - 0.02,
-        ArrowRight: picture.settings.split + 0.02, ArrowUp: picture.settings.split + 0.02, Home: 0, End: 1 }[event.key];
+      const to = {
+        ArrowLeft: picture.settings.split - 0.02,
+        ArrowDown: picture.settings.split - 0.02,
+        ArrowRight: picture.settings.split + 0.02,
+        ArrowUp: picture.settings.split + 0.02,
+        Home: 0,
+        End: 1,
+      }[event.key];
       if (to === undefined) return;
       event.preventDefault();
       set(to);

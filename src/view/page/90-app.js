@@ -11,7 +11,7 @@
     exact = false;
     status = {};
     light = { rotation: 0, strength: 1, light_scale: 1 };
-    time = null;  // of the animation, if the page has set it
+    time = null; // of the animation, if the page has set it
     fileSize = [1, 1];
     #paused = false;
     #pickId = 0;
@@ -30,6 +30,7 @@
         if (this.connection.send({ type: "camera", camera, moving, id })) this.meter.cameraSent(id);
       });
       this.input = new alhazen.Input(byId("surface"), this.camera, this.viewport);
+      this.output = new alhazen.Output(this);
       this.help = new alhazen.Help(this);
       this.#build();
       this.#listen();
@@ -43,7 +44,7 @@
       } catch (error) {
         console.warn(error.message);
         notices.say("Without WebGL2 the picture is drawn more slowly.", { seconds: 8 });
-        const other = canvas.cloneNode();  // a canvas keeps the first kind of context that it was asked for
+        const other = canvas.cloneNode(); // a canvas keeps the first kind of context that it was asked for
         canvas.replaceWith(other);
         return new alhazen.CanvasDisplay(other);
       }
@@ -56,8 +57,14 @@
       alhazen.bars.buildStats(this);
       alhazen.bars.buildReadout(this);
       alhazen.buildSplit(this);
-      const panels = [alhazen.picturePanel, alhazen.cameraPanel, alhazen.lightPanel, alhazen.objectPanel,
-        alhazen.animationPanel, alhazen.renderPanel].map((build) => build(this));
+      const panels = [
+        alhazen.picturePanel,
+        alhazen.cameraPanel,
+        alhazen.lightPanel,
+        alhazen.objectPanel,
+        alhazen.animationPanel,
+        alhazen.renderPanel,
+      ].map((build) => build(this));
       byId("sections").append(...panels.map((panel) => panel.element));
       this.panels = panels;
       this.#buildTabs();
@@ -67,8 +74,16 @@
 
     /// On narrow pages one panel is shown at a time, below the picture.
     #buildTabs() {
-      const tabs = this.panels.map((panel) => element("button", { type: "button", role: "tab", className: "tab",
-        textContent: panel.title, "aria-controls": panel.element.id, onclick: () => choose(panel.name, true) }));
+      const tabs = this.panels.map((panel) =>
+        element("button", {
+          type: "button",
+          role: "tab",
+          className: "tab",
+          textContent: panel.title,
+          "aria-controls": panel.element.id,
+          onclick: () => choose(panel.name, true),
+        }),
+      );
       const choose = (name, toggles = false) => {
         const isOpen = !byId("panels").classList.contains("closed");
         const closes = toggles && this.tab === name && isOpen;
@@ -93,8 +108,11 @@
 
     readoutHint() {
       if (!this.scene) return "";
-      return matchMedia("(pointer: coarse)").matches ? "touch the picture to turn the camera"
-        : this.input.mode === "inspect" ? "values of the pixel under the pointer" : "drag to turn, double click to focus, ? for keys";
+      return matchMedia("(pointer: coarse)").matches
+        ? "touch the picture to turn the camera"
+        : this.input.mode === "inspect"
+          ? "values of the pixel under the pointer"
+          : "drag to turn, double click to focus, ? for keys";
     }
 
     // --- What comes in ---
@@ -107,7 +125,10 @@
       connection.on("binary", (buffer) => decoder.receive(buffer));
       decoder.on("image", (image) => picture.receive(image));
       decoder.on("skipped", (header) => connection.send({ type: "ack", frame: header.frame }));
-      decoder.on("broken", alhazen.throttled(() => connection.send({ type: "hello" }), 1000));
+      decoder.on(
+        "broken",
+        alhazen.throttled(() => connection.send({ type: "hello" }), 1000),
+      );
       picture.on("drawn", (images) => this.#drawn(images));
       picture.on("changed", () => this.#askForLayers());
       viewport.on("changed", () => this.#resized());
@@ -120,7 +141,7 @@
       notices.clear("connection");
       document.body.classList.remove("disconnected");
       this.decoder.reset();
-      this.#wanted = JSON.stringify([["color"], false]);  // what a program sends unless it is asked for something else
+      this.#wanted = JSON.stringify([["color"], false]); // what a program sends unless it is asked for something else
       this.connection.send({ type: "hello" });
       if (this.denoises) this.connection.send({ type: "denoise", on: true });
       this.#askForLayers();
@@ -129,8 +150,10 @@
     #closed(wait) {
       document.body.classList.add("disconnected");
       byId("waiting-text").textContent = "Connecting";
-      notices.say(`No connection to the program. Trying again${wait > 1500 ? ` in ${Math.round(wait / 1000)} s` : ""}.`,
-        { seconds: Infinity, key: "connection", action: { label: "Try now", run: () => this.connection.connect() } });
+      notices.say(
+        `No connection to the program. Trying again${wait > 1500 ? ` in ${Math.round(wait / 1000)} s` : ""}.`,
+        { seconds: Infinity, key: "connection", action: { label: "Try now", run: () => this.connection.connect() } },
+      );
     }
 
     #receive(message) {
@@ -141,7 +164,8 @@
         picked: () => this.#picked(message),
         changes: () => this.emit("changes", message.changes),
         log: () => this.emit("log", message.message),
-        error: () => (message.fatal ? this.#fail(message.message) : notices.say(message.message, { isError: true, seconds: 10 })),
+        error: () =>
+          message.fatal ? this.#fail(message.message) : notices.say(message.message, { isError: true, seconds: 10 }),
       };
       handlers[message.type]?.();
     }
@@ -192,11 +216,12 @@
     }
 
     #resized() {
-      const { width, height, pixelRatio } = this.viewport, { canvas } = this.picture.display;
+      const { width, height, pixelRatio } = this.viewport,
+        { canvas } = this.picture.display;
       const [w, h] = [Math.round(width * pixelRatio), Math.round(height * pixelRatio)];
       if (canvas.width !== w || canvas.height !== h) {
         [canvas.width, canvas.height] = [w, h];
-        this.picture.display.draw(this.picture.view());  // a canvas whose size changes is empty until it is drawn
+        this.picture.display.draw(this.picture.view()); // a canvas whose size changes is empty until it is drawn
       }
       this.picture.redraw();
     }
@@ -234,7 +259,8 @@
     /// The split compares what can be compared best: denoised and noisy, or the picture and its reference.
     toggleSplit() {
       if (this.picture.settings.other) return this.chooseOther(null);
-      const names = this.layerNames(), { layer } = this.picture.settings;
+      const names = this.layerNames(),
+        { layer } = this.picture.settings;
       const other = ["color", "reference", "denoised", ...names].find((name) => name !== layer && names.includes(name));
       if (other) this.chooseOther(other);
     }
@@ -260,8 +286,11 @@
     }
 
     confirmStop() {
-      notices.say("Stop the render and write the image as it is?", { seconds: 8, key: "stop",
-        action: { label: "Stop", run: () => (this.connection.send({ type: "stop" }), notices.clear("stop")) } });
+      notices.say("Stop the render and write the image as it is?", {
+        seconds: 8,
+        key: "stop",
+        action: { label: "Stop", run: () => (this.connection.send({ type: "stop" }), notices.clear("stop")) },
+      });
     }
 
     windowSize() {
@@ -289,54 +318,6 @@
       if (picked.id < this.#pickId) return;
       if (picked.id === this.#focusPick && picked.position) this.camera.focusOn(picked.position);
       this.emit("picked", picked);
-    }
-
-    // --- What leaves the page ---
-
-    command() {
-      if (!this.scene || !this.camera.camera) return "";
-      const header = this.picture.image?.header, { exposure, toneMap } = this.picture.settings;
-      return alhazen.cameraText.command(this.scene, {
-        camera: this.camera.camera, size: header ? [header.full_width, header.full_height] : this.scene.size,
-        samples: this.scene.samples, light: this.light, time: this.time, exposure, toneMap,
-      });
-    }
-
-    copyCommand() {
-      alhazen.copyText(this.command(), "a command that renders this view");
-    }
-
-    copyPbrt() {
-      if (this.camera.camera) alhazen.copyText(alhazen.cameraText.pbrt(this.scene, this.camera.camera), "LookAt and Camera");
-    }
-
-    #fileName(ending) {
-      const base = (this.scene?.name ?? "view").replace(/^.*\//, "").replace(/\.[^.]*$/, "") || "view";
-      const { layer } = this.picture.settings;
-      return `${base}${layer === "color" || ending === "exr" ? "" : `-${layer}`}.${ending}`;
-    }
-
-    #offer(blob, name) {
-      const link = element("a", { href: URL.createObjectURL(blob), download: name });
-      document.body.append(link);
-      link.click();
-      link.remove();
-      setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-    }
-
-    async savePng() {
-      const blob = await this.picture.png();
-      if (!blob) return notices.say("There is no picture yet.");
-      this.#offer(blob, this.#fileName("png"));
-    }
-
-    async saveExr() {
-      const answer = await fetch("save.exr").catch(() => null);
-      if (!answer?.ok) {
-        const reason = answer ? (await answer.text()).trim() : "There is no connection to the program.";
-        return notices.say(reason || "The image cannot be saved.", { isError: true, seconds: 8 });
-      }
-      this.#offer(await answer.blob(), this.#fileName("exr"));
     }
   }
 
