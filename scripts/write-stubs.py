@@ -73,13 +73,22 @@ ATTRIBUTES = {
     "Scene.camera": ("SceneCamera", "SceneCamera | Camera"), "Scene.film": ("SceneFilm", "SceneFilm | Film"),
     "Scene.pixel_filter": ("ScenePixelFilter", "ScenePixelFilter | PixelFilter"),
     "Scene.defaults": ("SceneDefaults", "SceneDefaults | RenderDefaults"), "SceneLight.image": ("array | None", "object"),
-    "SceneShape.geometry": ("SceneMesh | Sphere | Cylinder | Disk",), "SceneShape.material": ("SceneMaterial | None", "object"),
+    "SceneShape.geometry": ("SceneMesh | Sphere | Cylinder | Disk", "SceneMesh | Mesh | Sphere | Cylinder | Disk"), "SceneShape.material": ("SceneMaterial | None", "object"),
     "SceneShape.emission": ("Emission | None", "object"), "SceneShape.group": ("SceneGroup | None",),
     "SceneInstance.group": ("SceneGroup",), "SceneGroup.shapes": ("list[SceneShape]",), "Live.value": ("object",),
     "*.is_moving": ("bool",), "*.scene": ("Scene",), "*.end_transform": ("4x4 array", "4x4 array | Transform"),
     "*.transform": ("4x4 array", "4x4 array | Transform | MovingTransform"),
     **{f"Scene.{kind.lower()}{'es' if kind == 'Mesh' else 's'}": (f"Scene{kind}List",)
        for kind in ("Mesh", "Image", "Texture", "Material", "Shape", "Group", "Instance", "Light")},
+}
+PLACED = "*, transform: object = None, reverse_orientation: bool = False, name: str = ''"
+SHAPED = "*, material: object = None, transform: object = None, emission: object = None, reverse_orientation: bool = False, name: str = ''"
+# Functions that give back what follows from what they take.
+OVERLOADS = {
+    "Scene.add": ["add(what: SceneGroup, " + PLACED + ") -> SceneInstance",
+                  "add(what: Light, *, image: array | Image | path | None = None) -> SceneLight",
+                  "add(what: Material) -> SceneMaterial", "add(what: Texture) -> SceneTexture", "add(what: Image) -> SceneImage",
+                  "add(what: object, " + SHAPED + ") -> SceneShape"],
 }
 COUNTS = {"two": 2, "three": 3, "four": 4}
 # What operators take and give is what Python says of them.
@@ -158,6 +167,8 @@ class Types:
                 arguments = split(inner[0].strip("[]"), ",") if inner[0] != "..." else None
                 listed = "..." if arguments is None else f"[{', '.join(self.union(a, not given) for a in arguments)}]"
                 return f"abc.Callable[{listed}, {self.union(inner[1], given)}]"
+            if given and match[1] in ("tuple", "Tuple") and len(inner) > 1 and set(inner) == {"float"}:
+                return "_Numbers"
             if match[1] in GENERICS:
                 return f"{GENERICS[match[1]]}[{', '.join('...' if a == '...' else self.union(a, given) for a in inner)}]"
         names = re.findall(r"'[^']*'", text)
@@ -255,6 +266,7 @@ class Writer:
             return  # the class has no constructor
         overloaded = doc.startswith(f"{name}(*args, **kwargs)\nOverloaded function.")
         lines = re.findall(rf"^\d+\. ({re.escape(name)}\(.*)$", doc, re.MULTILINE) if overloaded else doc.splitlines()[:1]
+        lines = OVERLOADS.get(place, lines)
         found = [self.signature(line, name, place, with_self) for line in lines]
         if not found or None in found:
             self.problem(place, "its documentation does not begin with a signature")

@@ -3,8 +3,9 @@
 #include "alhazen/error.h"
 
 #include <cerrno>
-#include <filesystem>
+#include <cstring>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "bindings.h"
@@ -60,10 +61,9 @@ std::string with_python_names(const std::string& message) {
   return american(result.substr(0, end)) + result.substr(end);
 }
 
+/// Whether it is about a file that does not exist, rather than what else is wrong with a name.
 bool is_missing(const InputError& error) {
-  std::error_code ignored;
-  return !error.file().empty() && error.line() == 0 &&
-         std::filesystem::symlink_status(error.file(), ignored).type() == std::filesystem::file_type::not_found;
+  return !error.file().empty() && error.line() == 0 && std::string_view(error.what()).ends_with(std::strerror(ENOENT));
 }
 
 /// Most derived classes first.

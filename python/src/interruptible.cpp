@@ -13,49 +13,69 @@ namespace alhazen::python {
 
 namespace {
 
-/// The calls under way, by what stops them.
+/// The calls under way, by what stops them, and the threads that work without the GIL.
 class RunningCalls {
  public:
   using Entry = std::list<const std::function<void()>*>::iterator;
 
-  /// Throws once the interpreter ends.
   Entry add(const std::function<void()>& stop) {
     const std::lock_guard lock(mutex_);
-    if (is_over_) throw alhazen_is_over();
     return stops_.insert(stops_.end(), &stop);
   }
 
+  /// Needs no GIL.
   void remove(Entry entry) {
     const std::lock_guard lock(mutex_);
     stops_.erase(entry);
-    ended_.notify_all();
+    changed_.notify_all();
   }
 
-  /// Stops all and waits until they have ended. Without the GIL, which they need to end.
+  /// Before a thread releases the GIL.
+  void begin_unlocked() {
+    const std::lock_guard lock(mutex_);
+    ++unlocked_;
+  }
+
+  /// Before it takes the GIL again, without it: does not return once the interpreter ends.
+  void wait_where_over() {
+    std::unique_lock lock(mutex_);
+    if (!is_over_ || std::this_thread::get_id() == ending_) return;
+    --unlocked_;
+    changed_.notify_all();
+    never_.wait(lock, [] { return false; });
+  }
+
+  /// Once it has the GIL.
+  void end_unlocked() {
+    const std::lock_guard lock(mutex_);
+    --unlocked_;
+    changed_.notify_all();
+  }
+
+  /// Stops all calls, and waits until they have ended and no other thread is about to take the GIL. Without the GIL.
   void stop_all() {
     std::unique_lock lock(mutex_);
     is_over_ = true;
+    ending_ = std::this_thread::get_id();
     for (const std::function<void()>* stop : stops_) (*stop)();
-    ended_.wait(lock, [this] { return stops_.empty(); });
+    changed_.wait(lock, [this] { return stops_.empty() && unlocked_ == 0; });
   }
 
  private:
-  static py::error_already_set alhazen_is_over() {
-    PyErr_SetString(PyExc_RuntimeError, "the interpreter is shutting down");
-    return {};
-  }
-
   std::mutex mutex_;
-  std::condition_variable ended_;
+  std::condition_variable changed_, never_;
   std::list<const std::function<void()>*> stops_;
+  int unlocked_ = 0;
   bool is_over_ = false;
+  std::thread::id ending_;  ///< the thread that ends the interpreter
 };
 
 /// Never destroyed: daemon threads may outlive static objects.
-RunningCalls& running_calls() {
-  static auto* const calls = new RunningCalls;
-  return *calls;
+RunningCalls*& calls_of_process() {
+  static auto* calls = new RunningCalls;
+  return calls;
 }
+RunningCalls& running_calls() { return *calls_of_process(); }
 
 class RunningCall {
  public:
@@ -89,7 +109,8 @@ void run_beside_signals(const std::function<void()>& call, const std::function<v
   bool has_ended = false;
   std::exception_ptr failure, raised;
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
+    const RunningCall running(stop);
     std::thread thread([&] {
       try {
         call();
@@ -117,12 +138,23 @@ void run_beside_signals(const std::function<void()>& call, const std::function<v
 
 }  // namespace
 
+Unlocked::Unlocked() {
+  running_calls().begin_unlocked();
+  state_ = PyEval_SaveThread();
+}
+
+Unlocked::~Unlocked() {
+  running_calls().wait_where_over();
+  PyEval_RestoreThread(state_);
+  running_calls().end_unlocked();
+}
+
 void run_interruptible(const std::function<void()>& call, const std::function<void()>& stop) {
-  const RunningCall running(stop);
   if (is_main_thread()) {
     run_beside_signals(call, stop);
   } else {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
+    const RunningCall running(stop);
     call();
   }
 }
@@ -132,6 +164,9 @@ void bind_interrupts(py::module_&) {
     const py::gil_scoped_release unlocked;
     running_calls().stop_all();
   }));
+  // Other threads, which may hold its mutex, are not in the child.
+  py::module_::import("os").attr("register_at_fork")(
+      py::arg("after_in_child") = py::cpp_function([] { calls_of_process() = new RunningCalls; }));
 }
 
 }  // namespace alhazen::python

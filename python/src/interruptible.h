@@ -8,6 +8,20 @@
 
 namespace alhazen::python {
 
+/// Releases the GIL for as long as it exists. At the end of the interpreter daemon threads must not take the GIL again:
+/// Python would end them by unwinding, which ends the process where a destructor is on the way. They wait here for the
+/// end of the process instead; the interpreter waits until all threads that are to take the GIL have it.
+class Unlocked {
+ public:
+  Unlocked();
+  ~Unlocked();
+  Unlocked(const Unlocked&) = delete;
+  Unlocked& operator=(const Unlocked&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
+
 /// Runs `call` without the GIL, and returns when it has ended; throws what it throws. Needs the GIL.
 ///
 /// On the main thread, on which alone Python handles signals, `call` runs on a thread of its own, while this one runs

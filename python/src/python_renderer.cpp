@@ -29,7 +29,7 @@ class PythonRenderer::Use {
 
 /// An image under way ends, whose last progress may need the GIL on another thread.
 PythonRenderer::~PythonRenderer() {
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   *is_dropped_ = true;
   const alhazen::Renderer dropped = std::move(renderer_);
 }
@@ -87,7 +87,7 @@ RenderedImage PythonRenderer::image() {
   check_looking();
   std::optional<Use> use;
   if (!is_used_) use.emplace(*this);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return renderer_.image();
 }
 

@@ -42,7 +42,7 @@ class PythonScene : public std::enable_shared_from_this<PythonScene> {
 /// with the GIL held:
 ///
 ///   const SceneReading reading(python_scene);
-///   const py::gil_scoped_release unlocked;
+///   const Unlocked unlocked;
 ///   return alhazen::render(reading.scene(), settings);
 class SceneReading {
  public:

@@ -6,6 +6,7 @@
 #include "alhazen/rays.h"
 #include "bindings.h"
 #include "convert.h"
+#include "interruptible.h"
 #include "progress.h"
 #include "python_scene.h"
 #include "python_warnings.h"
@@ -28,7 +29,7 @@ Hits intersect(const PythonQueries& of, const RayArguments& arguments, const std
   const RayInput<Real> input(arguments);
   HitArrays<Real> arrays;
   Hits hits = Hits::allocate(input.shape, fields, arrays);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   of.queries.closest_hits(input.rays, arrays, threads);
   return hits;
 }
@@ -38,7 +39,7 @@ py::array occluded(const PythonQueries& of, const RayArguments& arguments, int t
   const RayInput<Real> input(arguments);
   py::array_t<bool> blocked(input.shape);
   auto* const bytes = reinterpret_cast<uint8_t*>(blocked.mutable_data());  // 0 and 1, as NumPy has them
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   of.queries.occluded(input.rays, bytes, threads);
   return blocked;
 }

@@ -5,6 +5,7 @@
 
 #include "alhazen/read_image.h"
 #include "convert.h"
+#include "interruptible.h"
 
 namespace alhazen::python {
 
@@ -115,7 +116,7 @@ py::array PythonRenderedImage::layer(const py::object& self, const std::string& 
   py::array_t<float> array({static_cast<size_t>(image_->height), static_cast<size_t>(image_->width), step});
   float* const values = array.mutable_data();
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     const size_t pixels = image_->planes[layer.planes[0]].size();
     for (size_t c = 0; c < step; ++c) {
       const float* const from = image_->planes[layer.planes[c]].data();
@@ -133,7 +134,7 @@ std::shared_ptr<const RenderedImage> image_argument(const char* name, const py::
   if (py::isinstance<PythonRenderedImage>(given)) return py::cast<const PythonRenderedImage&>(given).shared();
   if (!is_file_name(given)) return std::make_shared<const RenderedImage>(image_of_array(name, given));
   const std::string file = file_name(name, given);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return std::make_shared<const RenderedImage>(alhazen::read_image(file));
 }
 

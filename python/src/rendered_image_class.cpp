@@ -11,6 +11,7 @@
 #include "alhazen/save.h"
 #include "convert.h"
 #include "enums.h"
+#include "interruptible.h"
 #include "python_warnings.h"
 #include "rendered_image.h"
 
@@ -77,7 +78,7 @@ void save_image(const PythonRenderedImage& image, const py::object& file, const 
     PyErr_SetFromErrnoWithFilenameObject(PyExc_FileExistsError, path_text(name).ptr());
     throw py::error_already_set();
   }
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   const bool is_exr = name.ends_with(".exr") || name.ends_with(".EXR");
   alhazen::save(is_grey(image.rendered()) && !is_exr ? coloured(image.rendered()) : image.rendered(), name, options);
 }
@@ -85,7 +86,7 @@ void save_image(const PythonRenderedImage& image, const py::object& file, const 
 py::bytes png_of(const PythonRenderedImage& image, const SaveOptions& options) {
   std::vector<uint8_t> bytes;
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     bytes = alhazen::encode_png(is_grey(image.rendered()) ? coloured(image.rendered()) : image.rendered(), options);
   }
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -307,7 +308,7 @@ void bind_rendered_image(py::module_& m) {
         const std::string name = file_name("file", file);
         RenderedImage read;
         {
-          const py::gil_scoped_release unlocked;
+          const Unlocked unlocked;
           read = alhazen::read_image(name);
         }
         return python_image(std::move(read));

@@ -3,6 +3,7 @@
 #include "alhazen/scene.h"
 
 #include "convert.h"
+#include "interruptible.h"
 #include "parts.h"
 #include "value_bindings.h"
 
@@ -31,7 +32,7 @@ std::string scene_text(const PythonScene& self) {
 
 ScenePointer copy(const PythonScene& self) {
   const SceneReading reading(self);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return std::make_shared<PythonScene>(alhazen::Scene(reading.scene()));
 }
 
@@ -84,7 +85,7 @@ ScenePointer load(const py::object& file, const py::object& camera, const py::ob
                             .search_paths = folders_of(search_paths),
                             .confine = flag("confine", confine),
                             .strict = flag("strict", strict)};
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return std::make_shared<PythonScene>(alhazen::Scene::load(name, options));
 }
 

@@ -3,6 +3,7 @@
 #include "convert.h"
 #include "described.h"
 #include "image.h"
+#include "interruptible.h"
 #include "mesh.h"
 #include "parts.h"
 
@@ -86,7 +87,7 @@ void set_environment(const ScenePointer& scene, const py::object& given) {
     return;
   }
   const SceneChange change(*scene);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   change.scene().load_environment(image.file);
 }
 

@@ -57,7 +57,7 @@ void bind_mesh(py::module_& m) {
           "(n, 2) array of float32, or None.")
       .def_property_readonly(
           "colors", [](const SceneMesh& self) { return copied_rows(view_of(self).colours, 4); },
-          "(n, 4) array of float32: linear red, green, blue and alpha; or None.")
+          "(n, 4) array of float32, or None: linear red, green, blue and alpha.")
       .def_property_readonly(
           "tangents", [](const SceneMesh& self) { return copied_rows(view_of(self).tangents, 4); },
           "(n, 4) array of float32, or None.")

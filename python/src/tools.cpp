@@ -11,6 +11,7 @@
 #include "alhazen/devices.h"
 #include "bindings.h"
 #include "convert.h"
+#include "interruptible.h"
 #include "rendered_image.h"
 
 namespace alhazen::python {
@@ -35,7 +36,7 @@ std::shared_ptr<Comparison> compare_images(const py::object& a, const py::object
                                            const py::object& region, const py::object& reduce) {
   const CompareOptions options = compare_options(layer, region, reduce);
   const auto image_a = image_argument("a", a), image_b = image_argument("b", b);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return std::make_shared<Comparison>(alhazen::compare(*image_a, *image_b, options));
 }
 
@@ -155,7 +156,7 @@ void bind_devices(py::module_& m) {
           if (n.available) text += ", denoiser " + n.name;
         return text + ">";
       });
-  m.def("devices", &alhazen::devices, py::call_guard<py::gil_scoped_release>(),
+  m.def("devices", &alhazen::devices, py::call_guard<Unlocked>(),
         "devices() -> Devices\n\n"
         "Lists the backends, their GPUs, the CPU and the denoisers, as `alhazen devices` does.\n\n"
         "Returns an alhazen.Devices. It loads the modules of all backends, which may take a second where there are "

@@ -329,3 +329,24 @@ def test_scenes_take_or_refuse_anything():
                 assert str(error)
         repr(scene), [repr(part) for parts in (scene.shapes, scene.materials, scene.lights) for part in parts]
         scene.bounds, scene.camera.value
+
+
+@pytest.mark.parametrize("protocol", [0, 1])
+def test_old_protocols_of_pickle_are_refused(protocol):
+    for thing in (alhazen.Transform(), alhazen.Scene(), alhazen.Settings()):
+        with pytest.raises(TypeError):
+            pickle.dumps(thing, protocol)
+    with pytest.raises(TypeError, match="no instances of its own"):
+        alhazen.Scene.__mro__[1]()
+
+
+def test_a_file_is_missing_only_where_that_is_what_is_wrong(tmp_path):
+    image = alhazen.render(alhazen.Scene(), spp=1, size=(8, 8))
+    with pytest.raises(alhazen.InputError) as caught:
+        image.save(tmp_path / "x.gif")
+    assert not isinstance(caught.value, FileNotFoundError)
+    with pytest.raises(alhazen.InputError) as caught:
+        alhazen.compare(image, image, layer="none of it")
+    assert not isinstance(caught.value, FileNotFoundError)
+    with pytest.raises(FileNotFoundError):
+        alhazen.load(tmp_path / "absent.glb")

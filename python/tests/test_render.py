@@ -318,15 +318,47 @@ def test_a_renderer_is_used_by_one_thread_and_stopped_by_any():
     assert not images[0].complete
 
 
-def test_the_interpreter_ends_while_a_daemon_thread_renders():
-    process = start_python("""
+@pytest.mark.parametrize("call", [
+    "alhazen.render(file, progress=lambda state: None, spp=1 << 20, width=300, height=300)",
+    "list(alhazen.progressive(file, spp=1 << 20, width=300, height=300))",
+    "renderer = alhazen.Renderer(spp=1 << 20); renderer.start(scene)\n    while renderer.render_pass(4): pass",
+    "while True: alhazen.load(file)",
+    "while True: scene.intersect(np.random.rand(10000, 3), (0, 0, 1))",
+])
+def test_the_interpreter_ends_while_daemon_threads_work(call):
+    code = """
 import sys, threading, time, alhazen
-def run(): alhazen.render(sys.argv[1], progress=lambda state: None, spp=1 << 20, width=300, height=300)
+import numpy as np
+file = sys.argv[1]
+scene = alhazen.load(file)
+def run():
+    CALL
 for _ in range(2): threading.Thread(target=run, daemon=True).start()
-time.sleep(1)
+time.sleep(0.3)
+print("end")
+""".replace("CALL", call)
+    for _ in range(4):
+        process = start_python(code, CORNELL)
+        output, errors = process.communicate(timeout=60)
+        assert (process.returncode, output, errors) == (0, "end\n", "")
+
+
+def test_forked_processes_render_and_trace_rays():
+    process = start_python("""
+import multiprocessing, sys, alhazen
+import numpy as np
+scene = alhazen.load(sys.argv[1])
+rays = np.random.default_rng(1).random((10000, 3))
+def work(_):
+    return np.asarray(scene.intersect(rays, (0, 0, 1), threads=2).t), np.asarray(
+        alhazen.render(scene, spp=4, size=(32, 32), threads=2))
+here = work(0)
+with multiprocessing.get_context("fork").Pool(2) as pool:
+    for there in pool.map(work, range(4)):
+        for a, b in zip(here, there): np.testing.assert_array_equal(a, b)
 print("end")
 """, CORNELL)
-    output, errors = process.communicate(timeout=30)
+    output, errors = process.communicate(timeout=120)
     assert (process.returncode, output) == (0, "end\n"), errors
 
 

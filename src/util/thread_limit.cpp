@@ -88,6 +88,11 @@ int start_and_end(int count) {
   return static_cast<int>(threads.size());
 }
 
+/// The threads of OpenMP do not survive fork(), and GCC's library would wait for them forever at the next loop of the
+/// thread that forked. It ends them before.
+[[maybe_unused]] const int registered =
+    pthread_atfork([] { omp_pause_resource_all(omp_pause_soft); }, nullptr, nullptr);
+
 }  // namespace
 
 ThreadDefaults::ThreadDefaults() : team_(omp_get_max_threads()) {
