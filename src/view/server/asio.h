@@ -2,7 +2,7 @@
 
 // The headers of Boost that the server uses, for the one file that includes them, and short names.
 
-// The queue of events of Linux, and no library of Boost.
+// Boost.System from its headers alone: no library of Boost is linked.
 #define BOOST_ERROR_CODE_HEADER_ONLY
 
 #include <boost/asio/buffer.hpp>

@@ -49,7 +49,7 @@ class Viewer final : public Connection, public std::enable_shared_from_this<View
   void end();
 
   Hub& hub_;
-  websocket::stream<tcp::socket> socket_;
+  websocket::stream<tcp::socket, false> socket_;  ///< without permessage-deflate: what is large is compressed already
   std::shared_ptr<void> slot_;
   const ViewerId id_;
   Outbox outbox_;
