@@ -292,6 +292,7 @@ void ViewSession::render_next() {
   } else {
     const char* const activity = renderer_->is_done() ? "done" : "paused";
     change_status([&](StatusText& status) {
+      is_at_rest_ = true;
       status.activity = activity;
       status.remaining = renderer_->is_done() ? std::optional<double>(0) : std::nullopt;
     });
@@ -316,6 +317,7 @@ void ViewSession::start_image() {
   renderer_->start([this](const Progress& progress) {
     if (progress.samples_total == 0) return !mailbox_.is_ending();
     change_status([&](StatusText& status) {
+      if (is_at_rest_) return;
       status.activity = mailbox_.is_paused() ? "paused" : "rendering";
       const double pixels = std::max(1.0, static_cast<double>(progress.pixels));
       status.samples = static_cast<double>(progress.samples_done) / pixels;
@@ -334,6 +336,10 @@ void ViewSession::start_image() {
 
 void ViewSession::render_pass() {
   const double seconds = renderer_->progress().seconds;
+  {
+    const std::lock_guard lock(mutex_);
+    is_at_rest_ = false;
+  }
   if (!renderer_->render_pass(seconds < 1 ? 0.1 : 0.75)) return;
   ViewImage image = renderer_->image();
   curve_.add(image.picture);
@@ -399,7 +405,11 @@ void ViewSession::begin_image() {
     layers_ = layers;
     layers_.insert(refused_layers_.begin(), refused_layers_.end());
   }
-  if (picture_number_ > 0) change_status([](StatusText& status) { status.activity = "rendering"; });
+  if (picture_number_ > 0)
+    change_status([this](StatusText& status) {
+      is_at_rest_ = true;  // until the next image takes its first pass
+      status.activity = "rendering";
+    });
   step_ = renderer_->suitable_step();
 }
 

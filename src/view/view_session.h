@@ -114,6 +114,7 @@ class ViewSession {
 
   mutable std::mutex mutex_;  ///< of what follows
   StatusText status_;
+  bool is_at_rest_ = false;  ///< no pass is taken: what the image reports of its progress is not news
   std::optional<SceneText> scene_text_;
   std::string fatal_error_;
   ViewFailure failure_ = ViewFailure::none;

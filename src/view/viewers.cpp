@@ -125,6 +125,7 @@ void Viewers::send(ViewerId viewer, const std::shared_ptr<const std::string>& te
 void Viewers::set_status(const std::string& text) {
   {
     const std::lock_guard lock(mutex_);
+    if (status_ && *status_ == text) return;
     status_ = std::make_shared<const std::string>(text);
     for (auto& [id, viewer] : viewers_) viewer.has_status = false;
   }
