@@ -136,6 +136,14 @@ int run(ViewCommand& command) {
   while (!is_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   session.stop();
   sender.set_server(nullptr);
+  switch (session.failure()) {
+    case ViewFailure::input:
+      return exit_bad_input;
+    case ViewFailure::other:
+      return exit_failed;
+    case ViewFailure::none:
+      break;
+  }
   return exit_interrupted;
 }
 

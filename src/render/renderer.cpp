@@ -95,7 +95,11 @@ class GrowingImageOf final : public GrowingImage {
     loop_->begin();
   }
 
-  bool take_pass(uint32_t samples) override { return loop_->take_pass(samples); }
+  bool take_pass(uint32_t samples) override {
+    const bool goes_on = loop_->take_pass(samples);
+    if (goes_on && events_.watcher && events_.watcher->seconds_to_look() <= 0) let_look(*events_.watcher);
+    return goes_on;
+  }
 
   void stop() override { loop_->stop(); }
 
@@ -125,6 +129,14 @@ class GrowingImageOf final : public GrowingImage {
 
  private:
   const RenderSettings& settings() const { return rendering_.statistics.settings; }
+
+  void let_look(RenderWatcher& watcher) {
+    const Clock::time_point start = Clock::now();
+    watcher.look(so_far());
+    const double seconds = seconds_since(start);
+    loop_->count_look(seconds);
+    watcher.has_looked(seconds);
+  }
 
   Rendering rendering_;
   RenderEvents events_;

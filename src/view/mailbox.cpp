@@ -65,7 +65,11 @@ void Mailbox::pause(bool paused) {
   change([&] { mail_.state = true, is_paused_ = paused; });
 }
 void Mailbox::denoise(bool on) {
-  change([&] { mail_.state = true, denoises_ = on; });
+  change([&] {
+    mail_.state = true;
+    mail_.denoise = on && (mail_.denoise || !denoises_);
+    denoises_ = on;
+  });
 }
 void Mailbox::leave(ViewerId viewer) {
   change([&] {

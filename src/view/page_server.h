@@ -21,20 +21,22 @@ struct PageServerOptions {
   int port = 0;
   bool only_this_port = false;
   size_t max_viewers = 16;
-  /// Bytes that may wait to be sent to one viewer. One that reads too slowly for them is disconnected.
+  /// Bytes that may wait to be sent to one viewer, beside the message that is being sent. One that reads too slowly for
+  /// them is disconnected. A single message may be larger.
   size_t max_queued_bytes = size_t{64} << 20;
-  std::string token;  ///< that URLs must have; empty: a random one of 128 bits
+  std::string token = {};  ///< that URLs must have; empty: a random one of 128 bits
 };
 
 /// What a GET request is answered with.
 struct PageResponse {
   int status = 200;
   std::string content_type = "text/plain; charset=utf-8";
-  std::string file_name;  ///< not empty: offered as a download of this name
-  std::string body;
+  std::string file_name = {};  ///< not empty: offered as a download of this name
+  std::string body = {};
 };
 
-/// What the server asks of the program, each on the server's thread, so quickly. None of them may throw.
+/// What the server asks of the program, each on the server's thread, so quickly. None of them may throw. Once the
+/// server's destructor has begun, none is called any more; one that has been called is waited for.
 struct PageEvents {
   std::function<void(ViewerId)> opened;
   std::function<void(ViewerId, std::string_view)> message;  ///< text in UTF-8, at most 1 MiB

@@ -62,6 +62,17 @@ std::array<int64_t, 4> scaled_bounds(const std::array<int64_t, 4>& bounds, doubl
   return {x0, scaled(bounds[1], x, x0 + 1, width), y0, scaled(bounds[3], y, y0 + 1, height)};
 }
 
+/// A picture of the planes, and the rest.
+ViewImage split(RenderedImage&& image) {
+  std::vector<std::vector<float>> planes = std::exchange(image.planes, {});
+  std::vector<std::string> channels = std::exchange(image.channels, {});
+  ViewImage result{nullptr, image};
+  image.planes = std::move(planes);
+  image.channels = std::move(channels);
+  result.picture = make_picture(std::move(image));
+  return result;
+}
+
 }  // namespace
 
 const std::vector<std::pair<std::string, std::vector<std::string>>>& view_layers() {
@@ -176,6 +187,7 @@ Settings ViewRenderer::coarse_settings(int step) const {
   s.noise = 0;
   s.noise_measure = "none";
   s.guiding.clear();
+  s.denoiser = "none";
   // What is built for names of objects and materials serves images without them, but not the other way round.
   if (!is_built_ && names_parts_)
     for (const char* layer : {"object", "material"})
@@ -259,15 +271,18 @@ bool ViewRenderer::render_pass(double seconds) {
   return true;
 }
 
+ViewImage ViewRenderer::denoised() {
+  ViewImage result = split(renderer_.finish());
+  result.picture->is_final = true;
+  std::vector<PictureLayer>& layers = result.picture->layers;
+  std::erase_if(layers, [](const PictureLayer& layer) { return layer.name != "color"; });
+  if (result.description.denoiser.empty()) layers.clear();
+  for (PictureLayer& layer : layers) layer.name = "denoised";
+  return result;
+}
+
 ViewImage ViewRenderer::image() const {
-  ViewImage result;
-  RenderedImage image = renderer_.image();
-  std::vector<std::vector<float>> planes = std::exchange(image.planes, {});
-  std::vector<std::string> channels = std::exchange(image.channels, {});
-  result.description = image;
-  image.planes = std::move(planes);
-  image.channels = std::move(channels);
-  result.picture = make_picture(std::move(image));
+  ViewImage result = split(renderer_.image());
   result.picture->is_final = is_done_;
   return result;
 }

@@ -50,6 +50,8 @@ class ViewRenderer {
   void set_size(int width, int height);
   void set_samples(int64_t samples);
   void set_environment(const EnvironmentMessage& environment);
+  /// Whether the image can be denoised at its end.
+  void set_denoising(bool on) { settings_.denoiser = on ? "auto" : "none"; }
   /// Those of view_layers that are to be rendered.
   void set_layers(const std::set<std::string>& layers);
   bool renders(const std::string& layer) const { return layers_.contains(layer); }
@@ -68,6 +70,9 @@ class ViewRenderer {
   bool render_pass(double seconds);
   bool is_done() const { return is_done_; }
   ViewImage image() const;
+  /// The image denoised, after its last pass: a picture with the layer "denoised" alone, or without any if there is no
+  /// denoiser. Nothing but another start may follow.
+  ViewImage denoised();
   Progress progress() const { return renderer_.progress(); }
   std::vector<Warning> warnings() const { return renderer_.warnings(); }
   int64_t samples() const;  ///< that the image has at its end, as far as is known before it starts

@@ -23,7 +23,8 @@ struct Overloaded : Functions... {
 };
 
 /// The text that the program prints for an error.
-std::string text_of_error() {
+std::string text_of_error(ViewFailure* failure = nullptr) {
+  if (failure) *failure = ViewFailure::input;
   try {
     throw;
   } catch (const ::alhazen::InputError& error) {
@@ -31,8 +32,10 @@ std::string text_of_error() {
   } catch (const ::alhazen::UnsupportedError& error) {
     return error.what();
   } catch (const std::bad_alloc&) {
+    if (failure) *failure = ViewFailure::other;
     return "alhazen: out of memory: the task needs more than this machine, or a limit set on it, allows";
   } catch (const std::exception& error) {
+    if (failure) *failure = ViewFailure::other;
     return std::string("alhazen: ") + error.what();
   }
 }
@@ -98,6 +101,9 @@ void ViewSession::handle(ViewerId viewer, const PageMessage& message) {
                  [&](const DenoiseMessage& m) { mailbox_.denoise(m.on); },
                  [&](const StopMessage&) { throw InputError("stop: only the view of a render has this message"); },
                  [&](const SaveMessage&) { throw InputError("save: only the view of a render has this message"); },
+                 [&](const PickMessage&) { throw InputError("pick: objects cannot be picked here"); },
+                 [&](const MaterialMessage&) { throw InputError("material: materials cannot be changed here"); },
+                 [&](const TimeMessage&) { throw InputError("time: the time cannot be changed here"); },
                  [&](const auto& m) { mailbox_.post(viewer, m); },
              },
              message);
@@ -147,10 +153,17 @@ void ViewSession::change_status(const Change& change) {
 
 // On the thread that renders. -----------------------------------------------------------------------------------------
 
-void ViewSession::fail(const std::string& message, bool is_fatal) {
+ViewFailure ViewSession::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+void ViewSession::fail(const std::string& message, ViewFailure failure) {
+  const bool is_fatal = failure != ViewFailure::none;
   is_idle_ = true;
   {
     const std::lock_guard lock(mutex_);
+    failure_ = failure;
     if (is_fatal) fatal_error_ = message;
     viewers_.tell_everyone(error_message(message, is_fatal));
   }
@@ -164,7 +177,9 @@ void ViewSession::run() {
     render();
   } catch (const Cancelled&) {  // by stop()
   } catch (...) {
-    fail(text_of_error(), true);
+    ViewFailure failure = ViewFailure::none;
+    const std::string message = text_of_error(&failure);
+    fail(message, failure);
   }
 }
 
@@ -255,7 +270,7 @@ void ViewSession::render() {
         viewers_.tell_everyone(error_message(error, false));
       } else if (was_shown) {
         // What a page has asked for, such as a size, may be too much; the next may not.
-        fail(error, false);
+        fail(error, ViewFailure::none);
       } else {
         throw;
       }
@@ -272,6 +287,8 @@ void ViewSession::render_next() {
     start_image();
   } else if (!renderer_->is_done() && !mailbox_.is_paused()) {
     render_pass();
+  } else if (renderer_->is_done() && mailbox_.denoises() && !is_denoised_) {
+    denoise();
   } else {
     const char* const activity = renderer_->is_done() ? "done" : "paused";
     change_status([&](StatusText& status) {
@@ -287,6 +304,7 @@ void ViewSession::render_coarse() {
   std::optional<ViewImage> image = renderer_->render_coarse(step_, !is_first_of_view_, building());
   if (!image) return;
   tell_warnings();
+  if (is_first_of_view_) change_status([](StatusText& status) { status.activity = "rendering"; });
   show(std::move(*image));
   is_first_of_view_ = false;
   step_ /= 2;
@@ -329,13 +347,26 @@ void ViewSession::render_pass() {
   show(std::move(image));
 }
 
-void ViewSession::show(ViewImage&& image) {
+void ViewSession::denoise() {
+  change_status([](StatusText& status) { status.denoising = true; });
+  is_denoised_ = true;
+  ViewImage image = renderer_->denoised();
+  tell_warnings();
   image.picture->number = ++picture_number_;
   image.picture->view = view_;
   viewers_.show(image.picture, origin_);
-  if (image.picture->step > 1) return;
-  const std::lock_guard lock(mutex_);
-  image_ = std::make_shared<const ViewImage>(std::move(image));
+  change_status([](StatusText& status) { status.denoising = false; });
+}
+
+void ViewSession::show(ViewImage&& image) {
+  image.picture->number = ++picture_number_;
+  image.picture->view = view_;
+  const std::shared_ptr<const Picture> picture = image.picture;
+  if (picture->step == 1) {
+    const std::lock_guard lock(mutex_);
+    image_ = std::make_shared<const ViewImage>(std::move(image));
+  }
+  viewers_.show(picture, origin_);
 }
 
 /// What is seen has changed.
@@ -353,7 +384,8 @@ void ViewSession::begin_view() {
 
 /// The same is to be rendered in another way.
 void ViewSession::begin_image() {
-  is_idle_ = is_started_ = false;
+  is_idle_ = is_started_ = is_denoised_ = false;
+  renderer_->set_denoising(mailbox_.denoises());
   const std::set<std::string> layers = [&] {
     std::set<std::string> wanted = viewers_.wanted_layers();
     wanted.erase("color");
@@ -409,7 +441,7 @@ void ViewSession::apply(Mail& mail) {
       begin_view();
     else
       begin_image();
-  } else if (mail.layers) {
+  } else if (mail.layers || mail.denoise) {
     begin_image();
   }
 }

@@ -38,6 +38,9 @@ struct ViewOptions {
   std::function<void(const std::string&)> report = [](const std::string&) {};
 };
 
+/// What has ended a session: what it was given cannot be used, or anything else.
+enum class ViewFailure { none, input, other };
+
 class ViewSession {
  public:
   ViewSession(ViewOptions options, ViewerSender& sender);
@@ -51,6 +54,7 @@ class ViewSession {
   void start();
   /// Ends the render. Nothing is sent any more when it returns.
   void stop();
+  ViewFailure failure() const;
 
  private:
   // On threads of the server.
@@ -68,6 +72,7 @@ class ViewSession {
   void render_coarse();
   void start_image();
   void render_pass();
+  void denoise();
   void apply(Mail& mail);
   template <class Change>
   void apply_for(ViewerId viewer, const Change& change);
@@ -76,7 +81,7 @@ class ViewSession {
   void begin_view();
   void begin_image();
   void show(ViewImage&& image);
-  void fail(const std::string& message, bool is_fatal);
+  void fail(const std::string& message, ViewFailure failure);
   void tell_scene();
   void tell_camera(ViewerId by);
   void tell_warnings();
@@ -100,6 +105,7 @@ class ViewSession {
   int step_ = 0;                      ///< of the next coarse picture; 0: the image itself
   bool is_first_of_view_ = false;     ///< whether the view has no picture yet
   bool is_started_ = false;           ///< the image
+  bool is_denoised_ = false;          ///< the image, or it cannot be
   bool is_idle_ = false;              ///< after a failure, until something changes
   double published_ = 0;              ///< seconds of the image when it was shown last
   NoiseCurve curve_;
@@ -110,6 +116,7 @@ class ViewSession {
   StatusText status_;
   std::optional<SceneText> scene_text_;
   std::string fatal_error_;
+  ViewFailure failure_ = ViewFailure::none;
   std::vector<std::string> logs_;
   std::set<std::string> layers_;            ///< that are rendered
   std::shared_ptr<const ViewImage> image_;  ///< the last at full resolution

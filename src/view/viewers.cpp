@@ -99,6 +99,13 @@ std::set<std::string> Viewers::wanted_layers() const {
   return layers;
 }
 
+bool Viewers::is_idle() const {
+  const std::lock_guard lock(mutex_);
+  return std::none_of(viewers_.begin(), viewers_.end(),
+                      [](const auto& entry) { return entry.second.is_welcome && entry.second.in_flight; }) &&
+         next_deliveries().empty() && !has_texts();
+}
+
 void Viewers::tell(ViewerId viewer, const std::string& text) {
   const std::lock_guard lock(mutex_);
   if (viewers_.contains(viewer)) send(viewer, std::make_shared<const std::string>(text));
@@ -156,9 +163,9 @@ std::shared_ptr<const Picture> Viewers::shown(const std::string& layer) const {
   return found == shown_.end() ? nullptr : found->second.picture;
 }
 
-std::vector<Viewers::Delivery> Viewers::next_deliveries() {
+std::vector<Viewers::Delivery> Viewers::next_deliveries() const {
   std::vector<Delivery> deliveries;
-  for (auto& [id, viewer] : viewers_) {
+  for (const auto& [id, viewer] : viewers_) {
     if (!viewer.is_welcome || viewer.in_flight) continue;
     const FrameType type = viewer.exact ? FrameType::single : FrameType::half;
     for (const std::string& layer : viewer.layers) {

@@ -53,6 +53,8 @@ class Viewers {
 
   size_t count() const;
   std::set<std::string> wanted_layers() const;
+  /// Whether every viewer has acknowledged all that is shown and that it wants, and has been told all.
+  bool is_idle() const;
 
   void tell(ViewerId viewer, const std::string& text);
   void tell_everyone(const std::string& text);
@@ -92,7 +94,7 @@ class Viewers {
   };
 
   void run();
-  std::vector<Delivery> next_deliveries();
+  std::vector<Delivery> next_deliveries() const;
   void deliver(std::vector<Delivery>& deliveries);
   std::shared_ptr<EncodedLayer> encoded(const Delivery& delivery);
   bool has_texts() const;

@@ -52,6 +52,7 @@ class HttpConnection final : public Connection, public std::enable_shared_from_t
   http::request_parser<http::empty_body> parser_;
   std::optional<http::response<http::string_body>> response_;
   std::optional<http::response_serializer<http::string_body>> serializer_;
+  std::string host_;  ///< that the request has named, once that is found to be allowed
   State state_ = State::receiving;
   ServerClock::time_point since_ = ServerClock::now();  ///< of the state or, while it sends, of the last progress
   bool has_ended_ = false;
@@ -91,8 +92,10 @@ inline void HttpConnection::answer() {
   const auto& request = parser_.get();
   const auto text = [](beast::string_view view) { return std::string_view(view.data(), view.size()); };
   if (request.count(http::field::host) != 1) return refuse(400, "This request does not say once which host it is for.");
-  if (!hub_.hosts().allows(text(request[http::field::host])))
+  const std::string_view host = text(request[http::field::host]);
+  if (!hub_.hosts().allows(host))
     return refuse(403, "This server is not known by this name: use the address that the program has printed.");
+  host_ = host;
   const auto target = parse_request_target(text(request.target()));
   if (!target || !equal_tokens(target->token, hub_.options().token))
     return refuse(403, "This address lacks the right token: use the one that the program has printed.");
@@ -109,7 +112,7 @@ inline void HttpConnection::answer() {
         Hub& hub = self->hub_;
         // `self` is moved, so that it is destroyed on the server's thread.
         net::post(hub.context(), [self = std::move(self), response = std::move(response)]() mutable {
-          self->respond({.response = std::move(response), .location = {}, .nonce = {}});
+          self->respond({.response = std::move(response)});
         });
       });
 }
@@ -118,9 +121,12 @@ inline void HttpConnection::open_viewer() {
   const auto& request = parser_.get();
   const auto text = [](beast::string_view view) { return std::string_view(view.data(), view.size()); };
   if (!websocket::is_upgrade(request)) return refuse(426, "This address is for WebSocket.");
+  // 16 bytes in base64 (RFC 6455, section 4.1); Beast takes any.
+  constexpr size_t key_size = 24;
+  if (request[http::field::sec_websocket_key].size() != key_size) return refuse(400, "Sec-WebSocket-Key is malformed.");
   // Programs that are no browsers send no origin, and no page of another site can make them ask.
   for (const auto& field : request)
-    if (field.name() == http::field::origin && !is_same_origin(text(field.value()), text(request[http::field::host])))
+    if (field.name() == http::field::origin && !is_same_origin(text(field.value()), host_))
       return refuse(403, "A page of another site asks for this.");
   if (received_.size() > 0) return refuse(400, "Data came before the connection was open.");
   auto slot = hub_.reserve_viewer();
@@ -134,13 +140,12 @@ inline void HttpConnection::open_viewer() {
 }
 
 inline void HttpConnection::refuse(int status, const std::string& sentence) {
-  respond({.response = Hub::failure(status, sentence), .location = {}, .nonce = {}});
+  respond({.response = Hub::failure(status, sentence)});
 }
 
 inline void HttpConnection::respond(HttpAnswer answer) {
   if (has_ended_) return;
-  const auto host = parser_.is_header_done() ? parser_.get()[http::field::host] : beast::string_view();
-  response_ = make_http_response(std::move(answer), {host.data(), host.size()});
+  response_ = make_http_response(std::move(answer), host_);
   serializer_.emplace(*response_);
   state_ = State::sending;
   since_ = ServerClock::now();

@@ -124,10 +124,7 @@ inline void Hub::closed(ViewerId id) {
 }
 
 inline PageResponse Hub::failure(int status, const std::string& sentence) {
-  PageResponse response;
-  response.status = status;
-  response.body = sentence + '\n';
-  return response;
+  return {.status = status, .body = sentence + '\n'};
 }
 
 inline PageResponse Hub::get(const std::string& path, const std::string& query) {

@@ -15,12 +15,12 @@ namespace alhazen::impl {
 
 struct HttpAnswer {
   PageResponse response;
-  std::string location;  ///< of a redirection
-  std::string nonce;     ///< that scripts and styles must have to be run; empty: none are
+  std::string location = {};  ///< of a redirection
+  std::string nonce = {};     ///< that scripts and styles must have to be run; empty: none are
 };
 
 inline HttpAnswer page_answer() {
-  HttpAnswer answer{.response = {}, .location = {}, .nonce = random_token()};
+  HttpAnswer answer{.response = {}, .nonce = random_token()};
   answer.response.content_type = "text/html; charset=utf-8";
   answer.response.body = with_nonce(page_html(), answer.nonce);
   return answer;
@@ -28,13 +28,13 @@ inline HttpAnswer page_answer() {
 
 /// Without the '/' at the end, what the page asks for would not be below it.
 inline HttpAnswer redirection_to_page(std::string_view token) {
-  HttpAnswer answer{.response = {}, .location = '/' + std::string(token) + '/', .nonce = {}};
+  HttpAnswer answer{.response = {}, .location = '/' + std::string(token) + '/'};
   answer.response.status = 308;
   answer.response.body = "The page is at " + answer.location + '\n';
   return answer;
 }
 
-/// `host` is the field Host of the request, once it has been checked; before, it is empty.
+/// `host` is the field Host of the request, if that is an allowed one.
 inline http::response<http::string_body> make_http_response(HttpAnswer answer, std::string_view host) {
   PageResponse& page = answer.response;
   http::response<http::string_body> response(static_cast<http::status>(page.status), 11);
@@ -44,7 +44,6 @@ inline http::response<http::string_body> make_http_response(HttpAnswer answer, s
   response.set("X-Content-Type-Options", "nosniff");
   response.set("Referrer-Policy", "no-referrer");
   response.set("Cross-Origin-Resource-Policy", "same-origin");
-  response.set("Cross-Origin-Opener-Policy", "same-origin");
   response.set("Content-Security-Policy", content_security_policy(answer.nonce, host));
   if (!page.file_name.empty()) response.set(http::field::content_disposition, attachment_of(page.file_name));
   if (!answer.location.empty()) response.set(http::field::location, answer.location);

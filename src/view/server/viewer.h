@@ -38,6 +38,7 @@ class Viewer final : public Connection, public std::enable_shared_from_this<View
   /// gone shows that the viewer still reads.
   static constexpr size_t frame_bytes = size_t{256} << 10;
   static constexpr auto handshake_time = std::chrono::seconds(10);
+  static constexpr auto closing_time = std::chrono::seconds(2);  ///< for the other side to close, too
   static constexpr auto ping_after = std::chrono::seconds(20);
   static constexpr auto silence_time = std::chrono::seconds(45);
 
@@ -142,8 +143,13 @@ inline void Viewer::close(websocket::close_code code, std::string_view reason) {
 }
 
 inline void Viewer::check_time(ServerClock::time_point now) {
+  // The other side has closed it, or broken the protocol: Beast has answered, and waits for the connection's end.
+  if (is_open_ && !is_closing_ && !socket_.is_open()) {
+    is_closing_ = true;
+    alive_ = now;
+  }
   const auto silence = now - alive_;
-  if (silence > (is_open_ && !is_closing_ ? silence_time : handshake_time)) return drop();
+  if (silence > (is_closing_ ? closing_time : is_open_ ? silence_time : handshake_time)) return drop();
   if (!is_open_ || is_closing_ || is_pinging_ || silence < ping_after) return;
   is_pinging_ = true;
   socket_.async_ping({}, [self = shared_from_this()](error_code error) {
