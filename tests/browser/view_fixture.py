@@ -105,7 +105,7 @@ class Browser:
         kind_matches = f" && image.header.type === '{kind}'" if kind else ""
         self.wait(f"""(() => {{
             const image = alhazen.app.picture.images.get('{layer}'), {{ samples, samples_total }} = alhazen.app.status;
-            return image && image.step === 1 && samples >= samples_total &&
+            return image && image.step === 1 && alhazen.app.picture.isDrawn && samples >= samples_total &&
               (image.header.final || image.header.samples >= samples_total){kind_matches};
         }})()""", f"all samples of {layer}", seconds)
 

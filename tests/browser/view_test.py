@@ -13,10 +13,15 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from view_fixture import SCENES, Browser, Program, read_exr, wait_for
+from view_fixture import ROOT, SCENES, Browser, Program, read_exr, wait_for
 
 ALHAZEN = sys.argv.pop(1) if len(sys.argv) > 1 else ""
 CORNELL = [SCENES / "cornell.pbrt", "--size", "120x80", "--spp", "8"]
+
+
+#: Versions whose sources do not make the answer show no objects.
+answers_clicks = unittest.skipUnless(any('"picked"' in path.read_text() for path in (ROOT / "src/view").glob("*.cpp")),
+                                     "this version does not answer clicks")
 
 
 class CornellPage(unittest.TestCase):
@@ -120,7 +125,7 @@ class CornellPage(unittest.TestCase):
         self.browser.run("alhazen.app.setExact(true); alhazen.app.chooseLayer('color')")
         command = self.browser.run("alhazen.app.output.copyCommand(); return alhazen.lastCopied")
         folder = self.render(command, "-o", "exact.exr", "--aov", "albedo,normal,depth", "--exr-type", "float",
-                             "--exr-compression", "none", "--quality", "none", "--denoise", "none")
+                             "--exr-compression", "none", "--denoise", "none")
         expected = read_exr(folder / "exact.exr")
         for layer, channels in layers.items():
             self.browser.run("alhazen.app.chooseLayer(arguments[0])", layer)
@@ -135,8 +140,8 @@ class CornellPage(unittest.TestCase):
         self.browser.wait_until_final("color", "float")
         for tone_map in self.browser.run("return alhazen.colour.toneMaps"):
             self.browser.run("alhazen.app.picture.set({ toneMap: arguments[0] })", tone_map)
-            folder = self.render(self.browser.run("return alhazen.app.output.command()"), "-o", "tone.png", "--quality", "none",
-                                 "--denoise", "none")
+            folder = self.render(self.browser.run("return alhazen.app.output.command()"), "-o", "tone.png", "--denoise",
+                                 "none")
             worst = self.browser.driver.execute_async_script("""
                 const done = arguments[arguments.length - 1];
                 const pixels = async (blob) => {
@@ -159,12 +164,14 @@ class CornellPage(unittest.TestCase):
                 done(all.map((each) => [...new Uint8Array(each, 0, 4)])));""")
         self.assertEqual(sizes, [[0x76, 0x2f, 0x31, 0x01], [0x89, 0x50, 0x4e, 0x47]])
 
+    @answers_clicks
     def test_a_click_names_what_is_there(self):
         self.browser.click()
         self.browser.wait("!document.querySelector('#section-object .facts').hidden", "what was clicked")
         text = self.browser.run("return alhazen.byId('section-object').innerText")
         self.assertRegex(text, r"cornell\.pbrt:\d+")
 
+    @answers_clicks
     def test_a_change_of_a_material_is_seen_and_told(self):
         self.browser.click(0, 60)
         slider = "document.querySelector('#section-object .stack input')"
@@ -177,6 +184,7 @@ class CornellPage(unittest.TestCase):
         self.assertNotEqual(self.browser.pixels(), before)
         self.browser.wait("document.querySelectorAll('#section-object .changes li').length === 1", "the change in the list")
 
+    @answers_clicks
     def test_a_double_click_focuses_there(self):
         target = self.browser.run("return alhazen.app.camera.camera.target")
         self.browser.click(30, 40)

@@ -72,6 +72,11 @@
       this.redraw();
     }
 
+    /// Whether all that has come is on the display.
+    get isDrawn() {
+      return this.#fresh.length === 0;
+    }
+
     /// The image that the choice of a layer shows: a denoised one that is older than the picture gives way to it.
     imageOf(name) {
       const colour = this.images.get("color");

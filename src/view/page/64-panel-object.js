@@ -24,7 +24,7 @@
       value: toHex(field.value),
       id: `field-${field.name}`,
     });
-    const text = element("span", { className: "value", textContent: list(field.value) });
+    const text = element("span", { className: "value", textContent: field.textured ? "" : list(field.value) });
     input.oninput = () => {
       const value = fromHex(input.value);
       text.textContent = list(value);
@@ -51,7 +51,6 @@
       initial: field.value,
       onInput,
       digits: 4,
-      bound: field.max !== undefined && field.max !== null,
     });
     return control.element;
   };
