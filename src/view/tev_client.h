@@ -33,7 +33,7 @@ class TevClient {
   void show(const std::string& name, Image&& image);
   /// Waits until all is sent, as long as tev goes on reading: it returns after `patience` seconds without progress, and
   /// at once if there is no tev.
-  void flush(double patience = 2);
+  void flush(double patience = 5);
   /// What went wrong first, as a sentence, once; empty if nothing did or it was told. After a failure, each image that
   /// follows may find another tev at the address.
   std::string take_problem();

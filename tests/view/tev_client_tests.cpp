@@ -119,7 +119,7 @@ TEST(TevClient, SendsAllChannelsWithTheirBits) {
     {
       TevClient client(address_of(server));
       client.show("out/a picture.exr", Image(image));
-      client.flush();
+      client.flush(60);
       EXPECT_EQ(client.take_problem(), "");
       EXPECT_GT(client.take_seconds(), 0.0);
     }
@@ -141,10 +141,10 @@ TEST(TevClient, MakesAnImageOnceAndUpdatesIt) {
     TevClient client(address_of(server));
     for (int i = 0; i < 10; ++i) {
       client.show("one", i == 9 ? Image(last) : layered_image(20, 10, static_cast<float>(i)));
-      client.flush();
+      client.flush(60);
     }
     client.show("two", layered_image(5, 5, 3));
-    client.flush();
+    client.flush(60);
   }
   expect_image(server, "one", last);
   expect_image(server, "two", layered_image(5, 5, 3));
@@ -163,7 +163,7 @@ TEST(TevClient, OfManyImagesSendsTheLast) {
     TevClient client(address_of(server));
     for (int i = 0; i < 200; ++i) client.show("many", layered_image(300, 300, static_cast<float>(i)));
     client.show("many", Image(last));
-    client.flush();
+    client.flush(60);
   }
   expect_image(server, "many", last);
 }
@@ -200,7 +200,7 @@ TEST(TevClient, FindsATevThatIsStartedLater) {
   const int port = closed_port();
   TevClient client({"127.0.0.1", port});
   client.show("late", layered_image(8, 8, 0));
-  client.flush();
+  client.flush(60);
   EXPECT_NE(client.take_problem(), "");
   // The port of the server below is another one, so a socket on the first one passes on what comes.
   const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
