@@ -19,14 +19,14 @@ struct PictureLayer {
 };
 
 struct Picture {
-  uint64_t number = 0;                    ///< counts pictures
-  uint64_t view = 0;                      ///< of the camera and all else that it shows; a later view has a larger one
-  int width = 0, height = 0;              ///< pixels that were rendered
-  int full_width = 0, full_height = 0;    ///< of the whole picture at full resolution
-  int x = 0, y = 0;                       ///< of the upper left pixel within the whole, in pixels of the latter
-  int step = 1;                           ///< pixels at full resolution along each side of one that was rendered
-  double samples = 0;                     ///< per pixel, on average
-  bool is_final = false;                  ///< no more samples are to be taken
+  uint64_t number = 0;                  ///< counts pictures
+  uint64_t view = 0;                    ///< of the camera and all else that it shows; a later view has a larger one
+  int width = 0, height = 0;            ///< pixels that were rendered
+  int full_width = 0, full_height = 0;  ///< of the whole picture at full resolution
+  int x = 0, y = 0;                     ///< of the upper left pixel within the whole, in pixels of the latter
+  int step = 1;                         ///< pixels at full resolution along each side of one that was rendered
+  double samples = 0;                   ///< per pixel, on average
+  bool is_final = false;                ///< no more samples are to be taken
   std::vector<PictureLayer> layers;
 
   const PictureLayer* layer(const std::string& name) const;
