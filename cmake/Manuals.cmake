@@ -2,7 +2,7 @@
 
 set(folder ${PROJECT_BINARY_DIR}/share)
 set(page_names alhazen)
-foreach(subcommand render compare devices info study study-report study-tune study-compare completion)
+foreach(subcommand render view compare devices info study study-report study-tune study-compare completion)
   list(APPEND page_names alhazen-${subcommand})
 endforeach()
 set(pages)

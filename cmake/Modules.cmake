@@ -9,7 +9,7 @@ set(ALHAZEN_MODULE_FOLDER ${PROJECT_BINARY_DIR}/lib/alhazen)
 # of a module alone, are left out.
 function(alhazen_interface_header)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.h ${PROJECT_SOURCE_DIR}/include/*.h)
-  list(FILTER headers EXCLUDE REGEX "/src/(cli|study|io|api)/|/backends/[a-z_]+/module/")
+  list(FILTER headers EXCLUDE REGEX "/src/(cli|study|io|api|view)/|/backends/[a-z_]+/module/")
   list(SORT headers)
   set(folder ${PROJECT_BINARY_DIR}/generated)
   list(JOIN headers "\n" lines)

@@ -26,7 +26,7 @@ OUTPUT_OPTIONS = {"-o", "--output", "--outfile", "--diff", "--checkpoint"}
 INPUT_OPTIONS = {"--environment", "--scene"}
 FOREIGN_OPTIONS = {"--fmad", "--preset", "--install", "--prefix", "--upgrade", "--static", "--cflags", "--libs",
                    "--no-install-recommends"}  # of nvcc, CMake, pbrt, pkg-config and apt
-SUBCOMMANDS = {"render", "compare", "devices", "info", "study", "completion"}
+SUBCOMMANDS = {"render", "view", "compare", "devices", "info", "study", "completion"}
 STUDY_SUBCOMMANDS = {"report", "tune", "compare"}
 OPTION = re.compile(r"--?[A-Za-z][\w-]*")
 

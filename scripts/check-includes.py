@@ -29,7 +29,8 @@ MAY_INCLUDE = {
     "pipeline": {"pipeline"} | BELOW_PIPELINE,
     "study": {"study"} | BELOW_STUDY,
     "api": {"api", "queries", "study"} | BELOW_STUDY,
-    "cli": {"cli", "study"} | BELOW_STUDY - {"core"},
+    "view": {"view", "api", "pipeline", "render", "images", "files", "util", "alhazen"},
+    "cli": {"cli", "view", "study"} | BELOW_STUDY - {"core"},
     "alhazen": {"alhazen"},
 }
 

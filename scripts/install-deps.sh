@@ -7,7 +7,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build
   libopenexr-dev libpng-dev libjpeg-dev zlib1g-dev libstb-dev
-  nlohmann-json3-dev libcli11-dev libfmt-dev
+  nlohmann-json3-dev libcli11-dev libfmt-dev libboost-dev
   libdraco-dev libmeshoptimizer-dev libwebp-dev libexpat1-dev
 )
 python=(python3 python3-dev pybind11-dev python3-numpy)
@@ -24,7 +24,7 @@ esac
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
   echo "install-deps: this is not Debian or Ubuntu. Install these yourself, under the names they have here: a C++20" \
     "compiler with OpenMP (GCC 12 or later), CMake 3.25, Ninja, OpenEXR 3, libpng, libjpeg, zlib, stb, nlohmann-json," \
-    "CLI11, fmt, Embree, Draco, meshoptimizer, libwebp and Expat where they are wanted; for the Python module Python 3.11, pybind11 2.10 and NumPy; for the tests" \
+    "CLI11, fmt, Boost's headers, Embree, Draco, meshoptimizer, libwebp and Expat where they are wanted; for the Python module Python 3.11, pybind11 2.10 and NumPy; for the tests" \
     "GoogleTest, Google Benchmark, clang-format, and Python's matplotlib, pytest, nbconvert, ipykernel, mypy and pip." >&2
   exit 1
 fi

@@ -33,7 +33,7 @@ class CommandOption {
   /// May be given more than once, with one value each.
   CommandOption& repeatable();
   /// The value may be left out and is then `value`. A word that follows is its value unless it looks like an option or
-  /// a file, that is, has a dot or a slash or starts with a dash.
+  /// a file, that is, has a dot or a slash or starts with a dash, and does not end in the port of an address.
   CommandOption& implied(const std::string& value);
   /// One value may hold several, with this character between them.
   CommandOption& separated_by(char separator);

@@ -124,6 +124,13 @@ void refuse_missing_value(const std::string& argument) {
     throw InputError(argument.substr(0, argument.size() - 1) + " needs a value, and there is none after its =");
 }
 
+/// Whether it ends as an address does, in a colon and a port: "127.0.0.1:14158".
+bool is_address(const std::string& argument) {
+  const size_t colon = argument.rfind(':');
+  return colon != std::string::npos && colon + 1 < argument.size() &&
+         argument.find_first_not_of("0123456789", colon + 1) == std::string::npos;
+}
+
 /// The arguments without the program's name, with what may be left out.
 std::vector<std::string> complete_arguments(int argc, char** argv) {
   std::vector<std::string> arguments;
@@ -138,7 +145,7 @@ std::vector<std::string> complete_arguments(int argc, char** argv) {
     const auto implied = implied_values().find(arguments.back());
     if (implied == implied_values().end()) continue;
     const std::string next = i + 1 < argc ? argv[i + 1] : "";
-    if (next.empty() || next[0] == '-' || next.find_first_of("./") != std::string::npos)
+    if (next.empty() || next[0] == '-' || (next.find_first_of("./") != std::string::npos && !is_address(next)))
       arguments.push_back(implied->second);
   }
   return arguments;

@@ -1,8 +1,11 @@
 #include "cli/interrupt.h"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <csignal>
 #include <cstdint>
+#include <cstring>
 #include <ctime>
 
 #include "files/atomic_file.h"
@@ -30,6 +33,9 @@ int64_t now() {
 
 std::atomic<bool> hung_up{false};
 
+std::atomic<const char*> last_text{nullptr};
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
 /// When a terminal closes, both its shell and the kernel send SIGHUP, and service managers send it together with
 /// SIGTERM, in either order. Such repetitions do not mean that the user is impatient.
 bool is_repeated_by_itself(int signal_number) {
@@ -48,6 +54,8 @@ extern "C" void handle_interrupt(int signal_number, siginfo_t* info, void*) {
   int64_t never = 0;
   if (asked_at.compare_exchange_strong(never, now())) return;
   if (is_repeated_by_itself(signal_number)) return;
+  if (const char* const text = last_text.load())
+    if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) last_text = nullptr;  // there is nothing else to do
   std::signal(signal_number, SIG_DFL);
   std::raise(signal_number);  // takes effect as this function returns
 }
@@ -71,6 +79,8 @@ void catch_interrupts() {
   }
   set_pipe_wait_is_over(is_interrupted);
 }
+
+void write_before_ending(const char* text) { last_text = text; }
 
 bool is_interrupted() { return interrupted.load(std::memory_order_relaxed); }
 

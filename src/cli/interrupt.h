@@ -9,5 +9,7 @@ namespace alhazen::impl {
 /// when the program started, such as SIGHUP by nohup, stay ignored.
 void catch_interrupts();
 bool is_interrupted();
+/// A second signal writes this text, which must exist until then, to standard error before it ends the program.
+void write_before_ending(const char* text);
 
 }  // namespace alhazen::impl

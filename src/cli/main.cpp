@@ -83,6 +83,7 @@ int run_subcommand(int argc, char** argv) {
   int exit_code = alhazen::impl::exit_done;
   const auto add_subcommands = [&](alhazen::impl::Command& program) {
     alhazen::impl::register_render(program, exit_code);
+    alhazen::impl::register_view(program, exit_code);
     alhazen::impl::register_compare(program, exit_code);
     alhazen::impl::register_devices(program);
     alhazen::impl::register_info(program);

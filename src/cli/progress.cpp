@@ -53,17 +53,22 @@ std::vector<std::string> details_of(const Progress& p) {
   return parts;
 }
 
-/// Columns of the terminal.
-size_t terminal_width() {
-  winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
-}
+size_t terminal_width() { return static_cast<size_t>(terminal_size().columns); }
 
 constexpr size_t longest_bar = 30;
 
 constexpr std::chrono::milliseconds first_word{150}, between_words{100};
 
 }  // namespace
+
+TerminalSize terminal_size() {
+  winsize size{};
+  TerminalSize known{80, 24};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0) return known;
+  if (size.ws_col > 0) known.columns = size.ws_col;
+  if (size.ws_row > 0) known.rows = size.ws_row;
+  return known;
+}
 
 ProgressStyle parse_progress_style(const std::string& name) {
   if (name == "auto") return isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::lines;
@@ -161,6 +166,7 @@ void ProgressPrinter::clear() {
   const std::lock_guard lock(mutex_);
   if (bar_open_) tell_progress("\r\x1b[K");
   bar_open_ = false;
+  bar_.clear();
 }
 
 void ProgressPrinter::finish() {
@@ -177,11 +183,30 @@ void ProgressPrinter::tell_lines(const std::string& lines) {
 void ProgressPrinter::end_bar() {
   if (bar_open_) tell_text("\n");
   bar_open_ = false;
+  bar_.clear();
+  picture_lines_ = 0;
 }
 
 void ProgressPrinter::show_over(const std::string& line) {
   tell_progress("\r" + line + "\x1b[K");
   bar_open_ = true;
+  bar_ = line;
+}
+
+void ProgressPrinter::show_picture(const std::vector<std::string>& lines, bool is_resized) {
+  const std::lock_guard lock(mutex_);
+  constexpr const char *hide_cursor = "\x1b[?25l", *show_cursor = "\x1b[?25h", *clear_all = "\x1b[H\x1b[2J",
+                       *clear_line = "\r\x1b[2K";
+  std::string text = hide_cursor;
+  if (is_resized)
+    text += clear_all;
+  else if (picture_lines_ > 0)
+    text += fmt::format("\x1b[{}A", picture_lines_);
+  // A line that was longer, of a larger picture or the bar, leaves nothing.
+  for (const std::string& line : lines) text += clear_line + line + "\n";
+  text += clear_line + bar_ + show_cursor;
+  tell_text(text);
+  picture_lines_ = static_cast<int>(lines.size());
 }
 
 void ProgressPrinter::show_bar(const Progress& p) {

@@ -13,6 +13,13 @@
 
 namespace alhazen::impl {
 
+/// Of the terminal on standard error; 80 by 24 if it does not say.
+struct TerminalSize {
+  int columns = 0, rows = 0;
+  bool operator==(const TerminalSize&) const = default;
+};
+TerminalSize terminal_size();
+
 enum class ProgressStyle { bar, lines, json, none };
 
 /// `name` is auto, plain, json or none. Throws InputError.
@@ -27,6 +34,9 @@ class ProgressPrinter {
   void begin_frame(int64_t number, size_t index, size_t count);
   /// Says what is done before the render begins; `seconds` since the start.
   void show_activity(const Activity::State& activity, double seconds);
+  /// Shows lines above the bar, on a terminal, in place of those that were shown last if nothing was printed since.
+  /// `is_resized`: since then the terminal has put them elsewhere, so it is cleared.
+  void show_picture(const std::vector<std::string>& lines, bool is_resized);
   /// Ends the bar's line.
   void finish();
   /// Takes the bar's line away.
@@ -48,6 +58,8 @@ class ProgressPrinter {
   double last_shown_ = -1;
   double interval_ = 1;
   bool bar_open_ = false;
+  std::string bar_;        ///< the line
+  int picture_lines_ = 0;  ///< above the line of the cursor
   std::string last_activity_;
   int64_t frame_ = 0;
   size_t frame_index_ = 0, frame_count_ = 0;  ///< 0: it is one image

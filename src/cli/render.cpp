@@ -13,6 +13,7 @@
 #include "cli/frames.h"
 #include "cli/interrupt.h"
 #include "cli/listing.h"
+#include "cli/live_options.h"
 #include "cli/render_options.h"
 #include "cli/sequence.h"
 #include "cli/setting_options.h"
@@ -265,6 +266,7 @@ int run(RenderOptions& options) {
   }
   parse_output_options(options);
   check_standard_output(options);
+  check_live_options(options);
   if (options.is_sequence()) return render_sequence(options);
   for (const std::string& path : options.output.paths) refuse_video(path);
   const ProgressStyle style = parse_progress_style(options.progress);
@@ -285,9 +287,15 @@ int run(RenderOptions& options) {
   if (scene.film.fits_exposure && options.display.exposure.empty())
     options.output.display.exposure = ExposureRule::fitting;
   WarningPrinter warnings(diagnostics, printer);
+  LiveRender live(options, printer, [&](const std::string& warning) {
+    diagnostics.warn({}, warning);
+    warnings.show();
+  });
   RenderEvents events;
+  events.watcher = live.begin(shown_name(options.output.paths, options.scene));
   events.progress = [&](const Progress& progress) {
     printer.show(progress);
+    live.draw();
     return !is_interrupted();
   };
   events.started = [&](const RenderStatistics& statistics) {
@@ -298,6 +306,7 @@ int run(RenderOptions& options) {
   };
   events.warned = [&] { warnings.show(); };
   Rendering rendering = render_scene(std::move(scene), settings, loaded.seconds, events, diagnostics);
+  live.finish(rendering);
   printer.finish();
   warnings.show();
   return finish(options, rendering);
@@ -396,6 +405,7 @@ void register_render(Command& program, int& exit_code) {
       .value_name("FILE")
       .group("While it runs");
   add_running_options(command, *options, "While it runs");
+  add_live_options(command, *options, "While it runs");
   add_setting_options(command, settings, SettingGroup::running, "While it runs");
   command.on_run([options, &exit_code] { exit_code = run(*options); });
 }

@@ -22,6 +22,9 @@ struct RenderOptions {
   int64_t turntable = 0;                  ///< frames of a turn; 0: none
   std::string progress = "auto", stats, config;
   bool quiet = false, verbose = false, list = false;
+  double write_every = 0;  ///< seconds; 0: only at the end
+  std::string tev;         ///< an address; empty: none
+  bool terminal = false;
 
   bool is_sequence() const { return !frames.empty() || turntable != 0; }
 };

@@ -13,6 +13,7 @@
 #include "cli/console.h"
 #include "cli/frames.h"
 #include "cli/interrupt.h"
+#include "cli/live_options.h"
 #include "cli/subcommands.h"
 #include "cli/video.h"
 #include "images/display/display_bytes.h"
@@ -151,6 +152,7 @@ class Sequence {
     ActivityPrinter activity(diagnostics_.activity(), printer_);
     events_.progress = [this](const Progress& progress) {
       printer_.show(progress);
+      live_->draw();
       return !is_interrupted();
     };
     events_.warned = [this] { warnings_.show(); };
@@ -162,6 +164,10 @@ class Sequence {
       if (options_.verbose) print_start(statistics);
     };
     load();
+    live_.emplace(options_, printer_, [this](const std::string& warning) {
+      diagnostics_.warn({}, warning);
+      warnings_.show();
+    });
     size_t index = 0;
     for (const int64_t frame : plan_.frames) {
       const bool is_pending = std::binary_search(pending_.begin(), pending_.end(), frame);
@@ -322,7 +328,14 @@ class Sequence {
     use_exposure(settings_);
   }
 
+  /// What the frame is called where it is shown while it is rendered.
+  std::string name_of(int64_t frame) const {
+    if (!plan_.images.empty()) return plan_.paths_of(frame).front();
+    return fmt::format("{} {}", plan_.videos.front(), frame);
+  }
+
   Rendering rendering_of(int64_t frame) {
+    events_.watcher = live_->begin(name_of(frame));
     if (renderer_) {
       const auto at = std::lower_bound(plan_.frames.begin(), plan_.frames.end(), frame) - plan_.frames.begin();
       return renderer_->render(events_, &cameras_[static_cast<size_t>(at)]);
@@ -349,6 +362,7 @@ class Sequence {
 
   int render_frame(int64_t frame, size_t index) {
     Rendering rendering = rendering_of(frame);
+    live_->finish(rendering);
     printer_.finish();
     warnings_.show();
     const RenderStatistics& statistics = rendering.statistics;
@@ -456,6 +470,7 @@ class Sequence {
   WarningPrinter warnings_;
   bool overwrites_;
   RenderEvents events_;
+  std::optional<LiveRender> live_;
   RenderSettings settings_;
   std::shared_ptr<InputRecord> inputs_ = std::make_shared<InputRecord>();  ///< of the last scene that was read
   std::vector<Camera> cameras_;              ///< of plan_.frames; empty: each frame reads the scene

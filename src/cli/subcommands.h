@@ -14,6 +14,7 @@ inline constexpr int exit_interrupted = 130;
 
 /// `exit_code` receives the program's exit code if it is not that of success.
 void register_render(Command& program, int& exit_code);
+void register_view(Command& program, int& exit_code);
 void register_compare(Command& program, int& exit_code);
 void register_devices(Command& program);
 void register_info(Command& program);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <limits>
 #include <optional>
@@ -26,9 +27,10 @@ inline double seconds_since(std::chrono::steady_clock::time_point start) {
 /// The number of samples of the next pass: whole blocks, enough to make the cost of a pass's end negligible, few enough
 /// for the image to grow evenly and for a time limit to be kept; at the end the remainder that is no whole block. With
 /// a noise target, a pass ends where pixels are decided on. `wanted`, if not 0, is how many there should be.
-/// `per_sample` is the time of one sample of every pixel, 0 before the first pass, also of a render that is resumed.
+/// `per_sample` is the time of one sample of every pixel, 0 before the first pass, also of a render that is resumed. If
+/// nobody waits for the end of the pass, `longest` is infinite, else it is how many seconds it should take at most.
 inline uint32_t pass_size(const RenderSettings& settings, uint32_t max_size, uint32_t wanted, uint32_t samples_done,
-                          double elapsed, double per_sample) {
+                          double elapsed, double per_sample, double longest = std::numeric_limits<double>::infinity()) {
   uint32_t left = settings.samples_per_pixel - samples_done;
   if (settings.asked.noise > 0) left = std::min(left, next_decision(samples_done) - samples_done);
   uint32_t size = std::clamp(settings.samples_per_pixel / 16, max_size / 4, max_size);
@@ -41,6 +43,9 @@ inline uint32_t pass_size(const RenderSettings& settings, uint32_t max_size, uin
                                               1.0, static_cast<double>(max_size)));
     }
   }
+  if (wanted == 0 && std::isfinite(longest))
+    size = per_sample > 0 ? static_cast<uint32_t>(std::clamp(longest / per_sample, 1.0, static_cast<double>(size)))
+                          : samples_per_block;
   if (left < samples_per_block) return left;
   size = (size + samples_per_block - 1) / samples_per_block * samples_per_block;
   return std::min(size, left / samples_per_block * samples_per_block);
@@ -85,6 +90,9 @@ class PassLoop {
     active_ += seconds_since(start);
     return goes_on;
   }
+
+  /// Counts the time of a look at the image, which is part of the render, towards its limit.
+  void count_look(double seconds) { active_ += seconds; }
 
   /// Ends the render after any number of passes. Rethrows what a callback has thrown.
   void finish(RenderStatistics& statistics) {
@@ -135,8 +143,10 @@ class PassLoop {
 
   /// Returns whether another may follow.
   bool take_next_pass(uint32_t wanted) {
-    uint32_t size =
-        pass_size(settings_, backend_.max_samples_per_pass(), wanted, samples_done_, elapsed_, seconds_per_sample());
+    const double longest =
+        events_.watcher ? events_.watcher->seconds_to_look() : std::numeric_limits<double>::infinity();
+    uint32_t size = pass_size(settings_, backend_.max_samples_per_pass(), wanted, samples_done_, elapsed_,
+                              seconds_per_sample(), longest);
     if (guiding_) size = std::min(size, guiding_->samples_left(samples_done_));
     if (settings_.asked.time_limit > 0 && last_pass_per_sample_ > 0 &&
         elapsed_ + last_pass_per_sample_ * size + estimate_seconds_ > settings_.asked.time_limit)

@@ -95,7 +95,11 @@ class GrowingImageOf final : public GrowingImage {
     loop_->begin();
   }
 
-  bool take_pass(uint32_t samples) override { return loop_->take_pass(samples); }
+  bool take_pass(uint32_t samples) override {
+    const bool goes_on = loop_->take_pass(samples);
+    if (goes_on && events_.watcher && events_.watcher->seconds_to_look() <= 0) let_look(*events_.watcher);
+    return goes_on;
+  }
 
   void stop() override { loop_->stop(); }
 
@@ -139,6 +143,14 @@ class GrowingImageOf final : public GrowingImage {
     rendering_.denoised.clear();
     rendering_.statistics.denoiser.clear();
     rendering_.statistics.denoise_seconds = 0;
+  }
+
+  void let_look(RenderWatcher& watcher) {
+    const Clock::time_point start = Clock::now();
+    watcher.look(so_far());
+    const double seconds = seconds_since(start);
+    loop_->count_look(seconds);
+    watcher.has_looked(seconds);
   }
 
   Rendering rendering_;

@@ -28,6 +28,8 @@ struct KernelChoice {
   BvhLayouts layouts;
 };
 
+class RenderWatcher;
+
 struct RenderEvents {
   /// Called about ten times a second, and once at the end, from its own thread. Returning false stops the render. So
   /// does an exception, which render_scene rethrows on the thread that called it.
@@ -36,6 +38,8 @@ struct RenderEvents {
   std::function<void(const RenderStatistics&)> started;
   /// Called between passes, on the thread that called render_scene, if `diagnostics` has a new warning.
   std::function<void()> warned;
+  /// Who looks at the image while it grows; null: nobody.
+  RenderWatcher* watcher = nullptr;
   /// For comparisons of kernels on CPUs.
   std::optional<KernelChoice> kernel = {};
 };
@@ -56,6 +60,21 @@ class Rendering {
   std::map<std::string, std::string> layer_metadata() const;
   /// The input of denoisers, from a film that was made for denoising.
   NoisyImage noisy_image() const;
+};
+
+/// Looks at an image while it grows, between passes, on the thread that renders. The image has the same bits as
+/// without.
+class RenderWatcher {
+ public:
+  virtual ~RenderWatcher() = default;
+  /// In how many seconds it wants to look next; 0 or less: at once. The next pass has so many samples that it ends
+  /// about then, but at least a block.
+  virtual double seconds_to_look() = 0;
+  /// Called between two passes once that time is over: the image as it is, not denoised, with the statistics so far.
+  /// Not called after the last pass. It counts towards the time limit. What it throws, take_pass throws.
+  virtual void look(const Rendering& so_far) = 0;
+  /// How long the look took, with all that was done for it.
+  virtual void has_looked(double seconds) = 0;
 };
 
 /// An image that grows pass by pass. It refers to its SceneRenderer, which renders no other meanwhile.

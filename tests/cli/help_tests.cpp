@@ -12,7 +12,7 @@ namespace {
 class Help : public Command {
  protected:
   static inline const std::vector<std::vector<std::string>> subcommands{
-      {},        {"render"},          {"compare"},       {"devices"},          {"info"},
+      {},        {"render"},          {"compare"},       {"devices"},          {"info"},      {"view"},
       {"study"}, {"study", "report"}, {"study", "tune"}, {"study", "compare"}, {"completion"}};
 
   std::vector<std::string> lines(std::vector<std::string> subcommand, const std::string& flag) const {

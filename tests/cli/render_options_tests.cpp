@@ -78,6 +78,8 @@ TEST_F(RenderOptions, HelpNamesNoneThatIsNotTestedHere) {
       "--camera", "--time", "--animation", "--variant", "--list",
       // Tested in mitsuba_tests.cpp:
       "--define",
+      // Tested in live_tests.cpp:
+      "--write-every", "--tev", "--terminal",
       // Tested in hostile_input_tests.cpp:
       "--confine"};
   const CommandResult help = run({"render", "--help-all"});

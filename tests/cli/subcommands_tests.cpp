@@ -139,7 +139,7 @@ TEST_F(Subcommands, InfoSaysWhatASceneHolds) {
 TEST_F(Subcommands, HelpAndVersion) {
   const CommandResult top = run({"--help"});
   EXPECT_EQ(top.exit_code, 0);
-  for (const char* name : {"render", "compare", "devices", "info"}) {
+  for (const char* name : {"render", "view", "compare", "devices", "info"}) {
     EXPECT_NE(top.out.find(name), std::string::npos) << name;
     const CommandResult help = run({name, "--help"});
     EXPECT_EQ(help.exit_code, 0);
