@@ -81,6 +81,10 @@ class Renderer {
   /// The image so far, with all its layers, not denoised: the mean of the samples of every pixel. Between passes all
   /// pixels have as many, apart from a noise target.
   RenderedImage image() const;
+  /// The same with R, G and B denoised by the denoiser of the settings, which must name one (Settings::denoiser). The
+  /// samples stay as they are: the image goes on with the bits that it would have without. Where denoising fails, or
+  /// `stop` has ended the image, a warning says why and R, G and B are noisy; `denoiser` of the image is then empty.
+  RenderedImage denoised_image();
   Progress progress() const;
 
   /// Ends the pass under way within a few milliseconds; `render_pass` then returns false. A `start` under way ends by

@@ -91,6 +91,13 @@ RenderedImage PythonRenderer::image() {
   return renderer_.image();
 }
 
+RenderedImage PythonRenderer::denoised_image() {
+  const Use use(*this);
+  auto image = run<RenderedImage>([&] { return renderer_.denoised_image(); }, false);
+  issue_warnings();
+  return image;
+}
+
 Progress PythonRenderer::progress() {
   check_looking();
   return renderer_.progress();

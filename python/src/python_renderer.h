@@ -27,6 +27,7 @@ class PythonRenderer {
   BuildReport start(const PythonScene& scene, const py::object& progress);
   bool render_pass(int64_t samples);
   RenderedImage image();
+  RenderedImage denoised_image();
   Progress progress();
   void stop() { renderer_.stop(); }
   RenderedImage finish();

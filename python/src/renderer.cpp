@@ -68,6 +68,12 @@ void bind_renderer(py::module_& m) {
           "The image so far as an alhazen.RenderedImage, with all its layers, not denoised: the mean of the samples of "
           "every\n"
           "pixel.")
+      .def(
+          "denoised_image", [](PythonRenderer& renderer) { return python_image(renderer.denoised_image()); },
+          "denoised_image(self) -> RenderedImage\n\n"
+          "The same with R, G and B denoised by the denoiser of the settings, which must name one. The image goes on "
+          "with\n"
+          "the bits that it would have without.")
       .def_property_readonly("progress", &PythonRenderer::progress, "Progress: of the image under way.")
       .def("stop", &PythonRenderer::stop,
            "stop(self) -> None\n\n"

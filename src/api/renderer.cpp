@@ -279,6 +279,17 @@ RenderedImage Renderer::image() const {
   return impl::for_caller([&] { return impl::rendered_image(state.under_way().so_far(), state.diagnostics); });
 }
 
+RenderedImage Renderer::denoised_image() {
+  const impl::ThreadDefaults defaults;
+  impl::RendererState& state = state_of(state_);
+  return impl::for_caller([&] {
+    impl::GrowingImage& image = state.under_way();
+    if (image.so_far().statistics.settings.denoiser.empty())
+      throw InputError("the image under way has no denoiser: set 'denoiser' before it is started");
+    return impl::rendered_image(image.denoised_so_far(), state.diagnostics);
+  });
+}
+
 Progress Renderer::progress() const { return state_of(state_).under_way().progress(); }
 
 void Renderer::stop() {

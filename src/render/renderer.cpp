@@ -106,11 +106,19 @@ class GrowingImageOf final : public GrowingImage {
   Progress progress() override { return loop_->progress(); }
 
   const Rendering& so_far() override {
+    forget_denoised();
     loop_->describe(rendering_.statistics);
     return rendering_;
   }
 
+  const Rendering& denoised_so_far() override {
+    so_far();
+    if (rendering_.has_samples()) denoise(rendering_, diagnostics_);
+    return rendering_;
+  }
+
   Rendering finish() override {
+    forget_denoised();
     RenderStatistics& statistics = rendering_.statistics;
     loop_->finish(statistics);
     loop_.reset();
@@ -129,6 +137,13 @@ class GrowingImageOf final : public GrowingImage {
 
  private:
   const RenderSettings& settings() const { return rendering_.statistics.settings; }
+
+  /// The image under way is not denoised, whatever was returned of it.
+  void forget_denoised() {
+    rendering_.denoised.clear();
+    rendering_.statistics.denoiser.clear();
+    rendering_.statistics.denoise_seconds = 0;
+  }
 
   void let_look(RenderWatcher& watcher) {
     const Clock::time_point start = Clock::now();

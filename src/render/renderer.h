@@ -91,6 +91,9 @@ class GrowingImage {
   virtual Progress progress() = 0;
   /// The image between two passes, not denoised.
   virtual const Rendering& so_far() = 0;
+  /// The same, denoised by the denoiser of the settings, which must name one. The samples stay as they are. What
+  /// `so_far` has returned is then denoised, too, until it is called again.
+  virtual const Rendering& denoised_so_far() = 0;
   /// Ends the render after any number of passes: saves its checkpoint and denoises the image. Throws what `events` has
   /// thrown. Called once, and nothing after it.
   virtual Rendering finish() = 0;

@@ -54,6 +54,53 @@ TEST(Renderer, GivesTheImagesOfRender) {
   expect_same(renderer.finish(), render(room.scene, settings));
 }
 
+TEST(Renderer, ADenoisedImageOnTheWayLeavesItsBitsAlone) {
+  Room room;
+  Settings settings = few_samples();
+  settings.denoiser = "builtin";
+  Renderer plain(settings), watched(settings);
+  plain.start(room.scene);
+  watched.start(room.scene);
+  while (plain.render_pass(4)) {
+  }
+  for (bool goes_on = true; goes_on;) {
+    goes_on = watched.render_pass(4);
+    const RenderedImage noisy = watched.image(), denoised = watched.denoised_image(), again = watched.image();
+    expect_same(noisy, again);
+    EXPECT_EQ(noisy.denoiser, "");
+    EXPECT_EQ(again.denoiser, "");
+    EXPECT_EQ(denoised.denoiser, "builtin");
+    EXPECT_EQ(denoised.samples, noisy.samples);
+    EXPECT_NE(denoised.planes[0], noisy.planes[0]);
+    EXPECT_EQ(denoised.planes.back(), noisy.planes.back());  // depth
+    if (!goes_on) expect_same(denoised, plain.denoised_image());
+  }
+  const RenderedImage last = watched.denoised_image(), finished = watched.finish();
+  expect_same(last, finished);
+  EXPECT_EQ(finished.denoiser, "builtin");
+  expect_same(finished, plain.finish());
+  expect_same(finished, render(room.scene, settings));
+}
+
+TEST(Renderer, ADenoisedImageNeedsADenoiserAndAnImage) {
+  Room room;
+  Renderer renderer(few_samples());
+  EXPECT_THROW(renderer.denoised_image(), InputError);
+  renderer.start(room.scene);
+  renderer.render_pass(4);
+  EXPECT_THROW(renderer.denoised_image(), InputError);
+  EXPECT_EQ(renderer.image().samples, 4);  // it is still under way
+}
+
+TEST(Renderer, ADenoisedImageWithoutSamplesIsEmpty) {
+  Room room;
+  Settings settings = few_samples();
+  settings.denoiser = "builtin";
+  Renderer renderer(settings);
+  renderer.start(room.scene);
+  EXPECT_EQ(renderer.denoised_image().width, 0);
+}
+
 TEST(Renderer, BuildsOnlyForWhatNeedsIt) {
   Room room;
   Settings settings = few_samples();
