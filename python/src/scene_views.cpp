@@ -112,7 +112,8 @@ void bind_camera_view(py::module_& m) {
   bound
       .def("look_at", &look_at, py::arg("eye") = py::none(), py::arg("target") = py::none(), py::arg("up") = py::none(),
            py::kw_only(), py::arg("origin") = py::none(),
-           "look_at(eye: 3 numbers = None, target: 3 numbers = None, up: 3 numbers | None = None, *, origin: 3 numbers = "
+           "look_at(eye: 3 numbers = None, target: 3 numbers = None, up: 3 numbers | None = None, *, origin: 3 numbers "
+           "= "
            "None) -> None\n\n"
            "Places the camera, and focuses it on the target if its lens has a radius; the rest stays. World space.\n"
            "Without `up` the scene's axis that was upwards stays so. `origin` is another name for `eye`.")

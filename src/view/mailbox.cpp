@@ -51,10 +51,6 @@ void Mailbox::post(ViewerId viewer, const MaterialMessage& message) {
   });
 }
 
-void Mailbox::post(ViewerId viewer, const PickMessage& message) {
-  change([&] { mail_.picks[viewer] = message; });
-}
-
 void Mailbox::ask_for_layers() {
   change([&] { mail_.layers = true; });
 }
@@ -73,7 +69,6 @@ void Mailbox::denoise(bool on) {
 }
 void Mailbox::leave(ViewerId viewer) {
   change([&] {
-    mail_.picks.erase(viewer);
     if (moving_by_ == viewer) is_moving_ = false;
     mail_.state = true;
   });

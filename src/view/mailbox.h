@@ -34,17 +34,16 @@ struct Mail {
   std::optional<From<EnvironmentMessage>> environment;
   std::optional<From<TimeMessage>> time;
   std::map<size_t, From<MaterialMessage>> materials;  ///< by material, values of several messages together
-  std::map<ViewerId, PickMessage> picks;
-  bool layers = false;   ///< a layer is wanted that is not rendered
-  bool reload = false;   ///< the files have changed
-  bool denoise = false;  ///< a denoised picture is wanted, and was not before
-  bool state = false;    ///< paused, or less is wanted
+  bool layers = false;                                ///< a layer is wanted that is not rendered
+  bool reload = false;                                ///< the files have changed
+  bool denoise = false;                               ///< a denoised picture is wanted, and was not before
+  bool state = false;                                 ///< paused, or less is wanted
 
   /// Whether an image that is under way is of no use any more.
   bool outdates_image() const {
     return camera || size || samples || environment || time || !materials.empty() || layers || reload || denoise;
   }
-  bool is_empty() const { return !outdates_image() && picks.empty() && !state; }
+  bool is_empty() const { return !outdates_image() && !state; }
 };
 
 class Mailbox {
@@ -57,7 +56,6 @@ class Mailbox {
   void post(ViewerId viewer, const EnvironmentMessage& message);
   void post(ViewerId viewer, const TimeMessage& message);
   void post(ViewerId viewer, const MaterialMessage& message);
-  void post(ViewerId viewer, const PickMessage& message);
   void ask_for_layers();
   void ask_for_reload();
   void pause(bool paused);

@@ -291,6 +291,37 @@ std::string status_message(const StatusText& s) {
                   {"denoising", s.denoising}});
 }
 
+std::string picked_message(const PickedText& picked) {
+  Json json{{"type", "picked"},    {"id", picked.id},     {"object", nullptr},        {"instance", nullptr},
+            {"where", nullptr},    {"material", nullptr}, {"material_name", nullptr}, {"kind", nullptr},
+            {"position", nullptr}, {"normal", nullptr},   {"distance", nullptr},      {"fields", Json::array()}};
+  const auto set = [&](const char* name, const std::string& text) {
+    if (!text.empty()) json[name] = text;
+  };
+  if (picked.point) {
+    const PickedPoint& point = *picked.point;
+    set("object", point.object);
+    set("instance", point.instance_name);
+    set("where", point.where);
+    json["position"] = json_of(point.position);
+    json["normal"] = json_of(point.normal);
+    json["distance"] = point.distance;
+  }
+  json["material"] = json_of(picked.material_index);
+  set("material_name", picked.material_name);
+  set("kind", picked.kind);
+  constexpr const char* kinds[] = {"number", "bool", "colour"};  // in the order of FieldValue
+  for (const MaterialField& field : picked.fields)
+    json["fields"].push_back({{"name", field.name},
+                              {"label", field.label},
+                              {"kind", kinds[field.value.index()]},
+                              {"value", std::visit([](const auto& value) { return Json(value); }, field.value)},
+                              {"textured", field.is_textured},
+                              {"min", field.min},
+                              {"max", field.max}});
+  return text_of(json);
+}
+
 std::string changes_message(const std::vector<std::string>& changes) {
   return text_of({{"type", "changes"}, {"changes", changes}});
 }

@@ -14,6 +14,7 @@
 
 #include "alhazen/alhazen.h"
 #include "alhazen/geometry.h"
+#include "view/scene_edit.h"
 
 namespace alhazen::impl {
 
@@ -65,10 +66,9 @@ struct PickMessage {
   int x = 0, y = 0;  ///< pixel of the whole picture at full resolution
   uint64_t id = 0;
 };
-using MaterialValue = std::variant<double, bool, std::array<double, 3>>;
 struct MaterialMessage {
   size_t material = 0;
-  std::map<std::string, MaterialValue> values;
+  std::map<std::string, FieldValue> values;
 };
 struct TimeMessage {
   double time = 0;  ///< seconds
@@ -109,6 +109,15 @@ struct SceneText {
   std::string tone_map = "none", options;
 };
 
+/// What is under a pixel that was asked for.
+struct PickedText {
+  uint64_t id = 0;                       ///< of the question
+  std::optional<PickedPoint> point;      ///< none: nothing is there
+  std::optional<size_t> material_index;  ///< in SceneText::materials
+  std::string material_name, kind;
+  std::vector<MaterialField> fields;
+};
+
 struct StatusText {
   const char* activity = "reading";
   double samples = 0;
@@ -123,6 +132,7 @@ struct StatusText {
 std::string scene_message(const SceneText& scene);
 std::string camera_message(const PageCamera& camera, std::optional<uint64_t> id);
 std::string status_message(const StatusText& status);
+std::string picked_message(const PickedText& picked);
 std::string changes_message(const std::vector<std::string>& changes);
 std::string error_message(const std::string& message, bool is_fatal);
 std::string log_message(const std::string& message);

@@ -95,8 +95,8 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& view_layers
   return layers;
 }
 
-ViewRenderer::ViewRenderer(Scene scene, const Settings& settings, Mailbox& mailbox)
-    : scene_(std::move(scene)), settings_(settings), mailbox_(mailbox) {
+ViewRenderer::ViewRenderer(Scene scene, const Settings& settings, Mailbox& mailbox, std::mutex& scene_mutex)
+    : scene_(std::move(scene)), settings_(settings), mailbox_(mailbox), scene_mutex_(scene_mutex) {
   settings_.denoiser = "none";
   Film film = scene_.film();
   if (settings_.width <= 0) std::tie(settings_.width, settings_.height) = default_size(film);
@@ -228,7 +228,10 @@ std::optional<ViewImage> ViewRenderer::render_coarse(int step, bool is_interrupt
   const PixelRegion whole = region();
   const bool is_first = !is_built_;
   const Clock::time_point start = Clock::now();
-  start_coarse(step, whole, progress);
+  {
+    const std::lock_guard lock(scene_mutex_);
+    start_coarse(step, whole, progress);
+  }
   const Clock::time_point started = Clock::now();
   if (!mailbox_.render_pass(renderer_, 1, is_interruptible)) return {};
   const double in_pass = seconds_since(started);
@@ -251,6 +254,7 @@ std::optional<ViewImage> ViewRenderer::render_coarse(int step, bool is_interrupt
 void ViewRenderer::start(const ProgressFunction& progress) {
   renderer_.set_settings(settings_);
   is_done_ = false;
+  const std::lock_guard lock(scene_mutex_);
   renderer_.start(scene_, progress);
   is_built_ = true;
 }

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -31,8 +32,9 @@ class ViewRenderer {
   static constexpr int max_step = 16;
 
   /// Of the settings, those that place the camera are applied to the scene; without a size the film's is taken, scaled
-  /// down to a longer side of 1280 pixels at most.
-  ViewRenderer(::alhazen::Scene scene, const Settings& settings, Mailbox& mailbox);
+  /// down to a longer side of 1280 pixels at most. Other threads may read the scene while they hold `scene_mutex`,
+  /// which is not held during passes.
+  ViewRenderer(::alhazen::Scene scene, const Settings& settings, Mailbox& mailbox, std::mutex& scene_mutex);
 
   // What is rendered. After a change of it, an image that is under way must not be continued. ------------------------
 
@@ -85,6 +87,7 @@ class ViewRenderer {
   ::alhazen::Scene scene_;
   Settings settings_;  ///< of the image; with a size
   Mailbox& mailbox_;
+  std::mutex& scene_mutex_;
   Renderer renderer_;
   ::alhazen::Camera first_camera_;
   std::set<std::string> layers_;

@@ -52,6 +52,7 @@ void ViewSession::start() {
 
 void ViewSession::stop() {
   mailbox_.end();
+  desk_.end();
   if (thread_.joinable()) thread_.join();
 }
 
@@ -101,8 +102,7 @@ void ViewSession::handle(ViewerId viewer, const PageMessage& message) {
                  [&](const DenoiseMessage& m) { mailbox_.denoise(m.on); },
                  [&](const StopMessage&) { throw InputError("stop: only the view of a render has this message"); },
                  [&](const SaveMessage&) { throw InputError("save: only the view of a render has this message"); },
-                 [&](const PickMessage&) { throw InputError("pick: objects cannot be picked here"); },
-                 [&](const MaterialMessage&) { throw InputError("material: materials cannot be changed here"); },
+                 [&](const PickMessage& m) { desk_.ask(viewer, m); },
                  [&](const TimeMessage&) { throw InputError("time: the time cannot be changed here"); },
                  [&](const auto& m) { mailbox_.post(viewer, m); },
              },
@@ -114,6 +114,7 @@ void ViewSession::greet(ViewerId viewer) {
   std::vector<std::string> greetings;
   if (scene_text_) greetings.push_back(scene_message(*scene_text_));
   for (const std::string& log : logs_) greetings.push_back(log_message(log));
+  if (!changes_text_.empty()) greetings.push_back(changes_text_);
   if (!fatal_error_.empty()) greetings.push_back(error_message(fatal_error_, true));
   viewers_.welcome(viewer, greetings);
 }
@@ -200,7 +201,10 @@ void ViewSession::load() {
     viewers_.tell_everyone(log_message(warning.text()));
     options_.report("warning: " + warning.text());
   }
-  renderer_ = std::make_unique<ViewRenderer>(std::move(scene), options_.settings, mailbox_);
+  {
+    const std::lock_guard lock(scene_mutex_);
+    renderer_ = std::make_unique<ViewRenderer>(std::move(scene), options_.settings, mailbox_, scene_mutex_);
+  }
   extent_ = extent_of(renderer_->scene().bounds(), renderer_->scene().up());
   tell_scene();
   tell_camera(0);
@@ -432,6 +436,7 @@ void ViewSession::apply_for(ViewerId viewer, const Change& change) {
 }
 
 void ViewSession::apply(Mail& mail) {
+  const std::lock_guard lock(scene_mutex_);
   const bool has_new_view = mail.camera || mail.size || mail.environment || mail.time || !mail.materials.empty();
   if (mail.camera) apply_for(mail.camera->viewer, [&] { move_camera(*mail.camera); });
   if (mail.size) {
@@ -440,6 +445,7 @@ void ViewSession::apply(Mail& mail) {
   }
   if (mail.samples) renderer_->set_samples(mail.samples->message.samples);
   if (mail.environment) renderer_->set_environment(mail.environment->message);
+  for (const auto& [index, from] : mail.materials) apply_for(from.viewer, [&] { change_material(from.message); });
   if (mail.size || mail.samples || mail.environment) tell_scene();
   if (has_new_view) {
     if (!mail.camera) origin_.reset();
@@ -454,6 +460,42 @@ void ViewSession::apply(Mail& mail) {
   } else if (mail.layers || mail.denoise) {
     begin_image();
   }
+}
+
+void ViewSession::change_material(const MaterialMessage& message) {
+  Scene& scene = renderer_->scene();
+  const std::vector<MaterialId> materials = scene.materials();
+  if (message.material >= materials.size())
+    throw InputError("material: there are " + std::to_string(materials.size()) + " materials, numbered from 0");
+  const MaterialId material = materials[message.material];
+  changes_.remember(scene, material);
+  set_material_fields(scene, material, message.values);
+  const std::string changes = changes_message(changes_.lines(scene));
+  const std::lock_guard lock(mutex_);
+  changes_text_ = changes;
+  viewers_.tell_everyone(changes);
+}
+
+void ViewSession::pick(ViewerId viewer, const PickMessage& message) {
+  apply_for(viewer, [&] {
+    const std::lock_guard lock(scene_mutex_);
+    if (!renderer_) throw InputError("pick: the scene is being read");
+    const Scene& scene = renderer_->scene();
+    PickedText picked;
+    picked.id = message.id;
+    picked.point = picker_.pick(scene, renderer_->width(), renderer_->height(), message.x, message.y);
+    if (picked.point && picked.point->material) {
+      const std::vector<MaterialId> materials = scene.materials();
+      const MaterialId id = picked.point->material;
+      picked.material_index =
+          static_cast<size_t>(std::find(materials.begin(), materials.end(), id) - materials.begin());
+      const Material material = scene.material(id);
+      picked.material_name = scene.name(id);
+      picked.kind = material_kind(material);
+      picked.fields = material_fields(material);
+    }
+    viewers_.tell(viewer, picked_message(picked));
+  });
 }
 
 Camera ViewSession::file_camera(size_t index) {

@@ -19,7 +19,9 @@
 #include "view/mailbox.h"
 #include "view/noise_curve.h"
 #include "view/page_server.h"
+#include "view/pick_desk.h"
 #include "view/protocol.h"
+#include "view/scene_edit.h"
 #include "view/view_renderer.h"
 #include "view/viewers.h"
 
@@ -64,6 +66,9 @@ class ViewSession {
   void want_layers(ViewerId viewer, const LayersMessage& message);
   PageResponse get(const std::string& path, const std::string& query) const;
 
+  // On that of picks.
+  void pick(ViewerId viewer, const PickMessage& message);
+
   // On the thread that renders.
   void run();
   void load();
@@ -77,6 +82,7 @@ class ViewSession {
   template <class Change>
   void apply_for(ViewerId viewer, const Change& change);
   void move_camera(const From<CameraRequest>& request);
+  void change_material(const MaterialMessage& message);
   ::alhazen::Camera file_camera(size_t index);
   void begin_view();
   void begin_image();
@@ -97,8 +103,13 @@ class ViewSession {
   Mailbox mailbox_;
   Viewers viewers_;
 
-  // Of the thread that renders.
+  // Of the thread that renders, and with `scene_mutex_` of that of picks.
+  std::mutex scene_mutex_;
   std::unique_ptr<ViewRenderer> renderer_;
+  MaterialChanges changes_;
+  Picker picker_;  ///< of picks alone
+
+  // Of the thread that renders.
   SceneExtent extent_;
   uint64_t picture_number_ = 0, view_ = 0;
   std::optional<ViewOrigin> origin_;  ///< of the view
@@ -116,12 +127,13 @@ class ViewSession {
   StatusText status_;
   bool is_at_rest_ = false;  ///< no pass is taken: what the image reports of its progress is not news
   std::optional<SceneText> scene_text_;
-  std::string fatal_error_;
+  std::string fatal_error_, changes_text_;
   ViewFailure failure_ = ViewFailure::none;
   std::vector<std::string> logs_;
   std::set<std::string> layers_;            ///< that are rendered
   std::shared_ptr<const ViewImage> image_;  ///< the last at full resolution
 
+  PickDesk desk_{[this](ViewerId viewer, const PickMessage& message) { pick(viewer, message); }};
   std::thread thread_;
 };
 
