@@ -48,8 +48,15 @@
       setTimeout(() => URL.revokeObjectURL(link.href), 10000);
     }
 
+    /// What is shown, at full resolution: by the program, with its metadata, where it can make that, else by the page.
     async savePng() {
-      const blob = await this.#app.picture.png();
+      const { layer, channel, falseColour, exposure, toneMap } = this.#app.picture.settings;
+      let blob = null;
+      if (layer === "color" && channel === "rgb" && !falseColour) {
+        const answer = await fetch(`save.png?exposure=${exposure}&tone_map=${toneMap}`).catch(() => null);
+        if (answer?.ok) blob = await answer.blob();
+      }
+      blob ??= await this.#app.picture.png();
       if (!blob) return notices.say("There is no picture yet.");
       this.#offer(blob, this.#fileName("png"));
     }
