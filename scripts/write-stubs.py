@@ -21,7 +21,7 @@ HEAD = '''\
 import os
 from collections import abc
 from types import TracebackType
-from typing import Any, Generic, Literal, TypeVar, overload
+from typing import Any, Generic, Literal, Protocol, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -38,6 +38,14 @@ class _Attribute(Generic[_Get, _Set]):
     def __get__(self, instance: object, owner: type) -> _Get: ...
     def __set__(self, instance: object, value: _Set) -> None: ...
 
+class _MeshLike(Protocol):
+    """An object of another library, as trimesh.Trimesh."""
+
+    @property
+    def vertices(self) -> Any: ...
+    @property
+    def faces(self) -> Any: ...
+
 _Numbers = abc.Sequence[float] | npt.NDArray[Any]
 _Matrix = abc.Sequence[abc.Sequence[float]] | npt.NDArray[Any]
 _Path = str | bytes | os.PathLike[str] | os.PathLike[bytes]
@@ -46,6 +54,7 @@ _Path = str | bytes | os.PathLike[str] | os.PathLike[bytes]
 TRIPLE = "tuple[float, float, float]"
 # Words of the documentation: what is taken, and what is given back where that differs.
 TYPES = {
+    "mesh-like": ("_MeshLike",),
     "color": ("float | _Numbers", TRIPLE),
     "number": ("float",),
     "array": ("npt.ArrayLike", "npt.NDArray[Any]"),
@@ -88,7 +97,7 @@ OVERLOADS = {
     "Scene.add": ["add(what: SceneGroup, " + PLACED + ") -> SceneInstance",
                   "add(what: Light, *, image: array | Image | path | None = None) -> SceneLight",
                   "add(what: Material) -> SceneMaterial", "add(what: Texture) -> SceneTexture", "add(what: Image) -> SceneImage",
-                  "add(what: object, " + SHAPED + ") -> SceneShape"],
+                  "add(what: Mesh | SceneMesh | Sphere | Cylinder | Disk | mesh-like, " + SHAPED + ") -> SceneShape"],
 }
 COUNTS = {"two": 2, "three": 3, "four": 4}
 # What operators take and give is what Python says of them.
