@@ -140,6 +140,10 @@ class Browser:
         surface = self.driver.find_element("id", "surface")
         ActionChains(self.driver).move_to_element_with_offset(surface, x, y).click().perform()
 
+    def double_click(self, x, y):
+        surface = self.driver.find_element("id", "surface")
+        ActionChains(self.driver).move_to_element_with_offset(surface, x, y).double_click().perform()
+
     def press(self, *keys):
         ActionChains(self.driver).send_keys(*keys).perform()
 
