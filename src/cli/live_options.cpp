@@ -39,8 +39,7 @@ void add_live_options(Command& command, RenderOptions& o, const std::string& gro
                   "Write the files anew while it renders, this often at most, not denoised yet")
       .within(min_write_every, max_write_every)
       .value_name("SECONDS")
-      .group(group)
-      .common();
+      .group(group);
   command
       .add_option("--tev", o.tev,
                   "Show the image and its layers in tev while it renders; at " + TevAddress{}.to_string() +
@@ -48,21 +47,19 @@ void add_live_options(Command& command, RenderOptions& o, const std::string& gro
       .checked([](const std::string& text) { parse_tev_address(text); })
       .implied(TevAddress{}.to_string())
       .value_name("[HOST:PORT]")
-      .group(group)
-      .common();
+      .group(group);
   command
       .add_option(
           "--view", o.view,
-          "Show the image on a page for browsers while it renders, read-only, and print its URL; on a free port "
-          "if none is given")
+          "Show the image in a browser while it renders; read-only, at the URL that it prints, on a free port if "
+          "none is given")
       .checked([](const std::string& text) { parse_port(text); })
       .implied("0")
       .value_name("[PORT]")
       .group(group)
       .common();
   command.add_flag("--terminal", o.terminal, "Draw the image in the terminal while it renders, in colours of 24 bits")
-      .group(group)
-      .common();
+      .group(group);
 }
 
 void check_live_options(const RenderOptions& o) {

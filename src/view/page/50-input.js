@@ -132,7 +132,7 @@
 
     #click(event, { x, y }) {
       const near = Math.hypot(x - this.#lastTap.x, y - this.#lastTap.y) < 12;
-      const isDouble = near && event.timeStamp - this.#lastTap.time < 350;
+      const isDouble = near && event.timeStamp - this.#lastTap.time < 500;
       this.#lastTap = { time: isDouble ? 0 : event.timeStamp, x, y };
       this.#pickAt([x, y], isDouble);
     }
