@@ -97,6 +97,11 @@ class TerminalScreen {
     if (end == std::string::npos) return false;
     const std::string code = pending_.substr(2, end - 2);
     const char command = pending_[end];
+    // Another sequence begins: terminals drop the one that it interrupts, as the end by a second signal does.
+    if (command == '\x1b') {
+      pending_.erase(0, end);
+      return true;
+    }
     pending_.erase(0, end + 1);
     auto& row = cells_[static_cast<size_t>(y_)];
     if (command == 'A') {
