@@ -2,12 +2,11 @@
 
 // Blocks of samples on the CPU backends: requests, batches and statistics.
 
-#include <time.h>
-
 #include <chrono>
 #include <vector>
 
 #include "render/backend.h"
+#include "util/processor_time.h"
 
 namespace alhazen::impl {
 
@@ -19,24 +18,17 @@ class BusyTimer {
   explicit BusyTimer(ThreadStatistics& statistics, bool reads_processor_time = true)
       : statistics_(statistics),
         reads_processor_time_(reads_processor_time),
-        processor_start_(reads_processor_time ? processor_seconds() : 0),
+        processor_start_(reads_processor_time ? thread_processor_seconds() : 0),
         start_(Clock::now()) {}
   ~BusyTimer() {
     statistics_.busy_seconds += std::chrono::duration<double>(Clock::now() - start_).count();
-    if (reads_processor_time_) statistics_.processor_seconds += processor_seconds() - processor_start_;
+    if (reads_processor_time_) statistics_.processor_seconds += thread_processor_seconds() - processor_start_;
   }
   BusyTimer(const BusyTimer&) = delete;
   BusyTimer& operator=(const BusyTimer&) = delete;
 
  private:
   using Clock = std::chrono::steady_clock;
-
-  /// User and system time of the calling thread.
-  static double processor_seconds() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  }
 
   ThreadStatistics& statistics_;
   bool reads_processor_time_;

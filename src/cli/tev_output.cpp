@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace alhazen::impl {
@@ -40,21 +39,7 @@ class TevOutput final : public LiveOutput {
     if (!std::exchange(has_left_out_, true))
       warn_("tev gets the colours alone: all layers together take " +
             std::to_string((plane * source.channels.size()) >> 20) + " MiB, too much for copies of them");
-    Image image{source.width, source.height, {}, {}};
-    std::vector<size_t> kept;
-    for (size_t c = 0; c < source.channels.size(); ++c)
-      if (source.channels[c].find('.') == std::string::npos) kept.push_back(c);
-    const auto width = static_cast<size_t>(source.width);
-    for (const size_t c : kept) image.channels.push_back(source.channels[c]);
-    image.planes.assign(kept.size(), std::vector<float>(width * static_cast<size_t>(source.height)));
-    std::vector<float> row(width * source.channels.size());
-    for (int y = 0; y < source.height; ++y) {
-      source.fill_row(y, row);
-      for (size_t k = 0; k < kept.size(); ++k)
-        std::copy_n(row.begin() + static_cast<ptrdiff_t>(kept[k] * width), width,
-                    image.planes[k].begin() + static_cast<ptrdiff_t>(static_cast<size_t>(y) * width));
-    }
-    return image;
+    return image_of(source, [](const std::string& channel) { return channel.find('.') == std::string::npos; });
   }
 
   TevClient client_;

@@ -86,36 +86,15 @@ class LiveView final : public ViewOutput {
     image.denoiser = statistics.denoiser;
     image.metadata = image_metadata(rendering, false);
     ViewImage view{nullptr, image};
-    copy_channels(source, feed_.wanted_layers(), image);
+    // The colours always, by which the noise is estimated.
+    Image shown = image_of(source, [layers = feed_.wanted_layers()](const std::string& channel) {
+      const std::string layer = layer_of(channel);
+      return layer == "color" || layers.contains(layer);
+    });
+    image.channels = std::move(shown.channels);
+    image.planes = std::move(shown.planes);
     view.picture = make_picture(std::move(image));
     feed_.show(view);
-  }
-
-  /// As make_picture names layers.
-  static std::string layer_of(const std::string& channel) {
-    if (channel == "R" || channel == "G" || channel == "B") return "color";
-    if (channel == "A") return "alpha";
-    return channel.substr(0, channel.rfind('.'));
-  }
-
-  /// Those of the wanted layers, and the colours, by which the noise is estimated.
-  static void copy_channels(const ImageSource& source, const std::set<std::string>& layers, RenderedImage& image) {
-    const auto width = static_cast<size_t>(source.width);
-    std::vector<size_t> kept;
-    for (size_t c = 0; c < source.channels.size(); ++c) {
-      const std::string layer = layer_of(source.channels[c]);
-      if (layer != "color" && !layers.contains(layer)) continue;
-      kept.push_back(c);
-      image.channels.push_back(source.channels[c]);
-    }
-    image.planes.assign(kept.size(), std::vector<float>(width * static_cast<size_t>(source.height)));
-    std::vector<float> row(width * source.channels.size());
-    for (int y = 0; y < source.height; ++y) {
-      source.fill_row(y, row);
-      for (size_t k = 0; k < kept.size(); ++k)
-        std::copy_n(row.begin() + static_cast<ptrdiff_t>(kept[k] * width), width,
-                    image.planes[k].begin() + static_cast<ptrdiff_t>(static_cast<size_t>(y) * width));
-    }
   }
 
   SceneText scene_text(const Rendering& rendering, const ImageSource& source) const {

@@ -25,16 +25,22 @@ ImageSource source_of(const Image& image) {
   return {image.width, image.height, image.channels, fill_row};
 }
 
-Image image_of(const ImageSource& source) {
-  Image image{source.width, source.height, source.channels, {}};
+Image image_of(const ImageSource& source, const std::function<bool(const std::string&)>& keeps) {
+  Image image{source.width, source.height, {}, {}};
+  std::vector<size_t> kept;
+  for (size_t channel = 0; channel < source.channels.size(); ++channel) {
+    if (keeps && !keeps(source.channels[channel])) continue;
+    kept.push_back(channel);
+    image.channels.push_back(source.channels[channel]);
+  }
   const size_t width = static_cast<size_t>(source.width);
-  image.planes.assign(source.channels.size(), std::vector<float>(width * static_cast<size_t>(source.height)));
+  image.planes.assign(kept.size(), std::vector<float>(width * static_cast<size_t>(source.height)));
   std::vector<float> row(width * source.channels.size());
   for (int y = 0; y < source.height; ++y) {
     source.fill_row(y, row);
-    for (size_t channel = 0; channel < image.planes.size(); ++channel)
-      std::copy_n(row.begin() + static_cast<ptrdiff_t>(channel * width), width,
-                  image.planes[channel].begin() + static_cast<ptrdiff_t>(static_cast<size_t>(y) * width));
+    for (size_t i = 0; i < kept.size(); ++i)
+      std::copy_n(row.begin() + static_cast<ptrdiff_t>(kept[i] * width), width,
+                  image.planes[i].begin() + static_cast<ptrdiff_t>(static_cast<size_t>(y) * width));
   }
   return image;
 }

@@ -42,7 +42,7 @@ struct ImageSource {
 ImageSource source_of(const Image& image);
 
 /// Copies all rows into memory.
-Image image_of(const ImageSource& source);
+Image image_of(const ImageSource& source, const std::function<bool(const std::string&)>& keeps = {});
 
 enum class ExrPixelType { half, single };
 /// DWAA and DWAB lose a little, but not of layers other than colours that are parts of their own; the others lose

@@ -1,12 +1,13 @@
 #include "view/live_feed.h"
 
 #include <algorithm>
-#include <atomic>
-#include <ctime>
 #include <thread>
 #include <utility>
 
 #include "util/diagnostics.h"
+#include "util/processor_time.h"
+#include "view/overloaded.h"
+#include "view/page_sender.h"
 #include "view/save_picture.h"
 
 namespace alhazen::impl {
@@ -15,41 +16,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Seconds of processor time of the calling thread.
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-
 constexpr std::chrono::milliseconds poll_interval{20};
 
 }  // namespace
 
 /// Passes messages on, and knows which frames have been drawn and what sending them costs.
-class LiveFeed::Sender final : public ViewerSender {
+class LiveFeed::Sender final : public PageSender {
  public:
-  void set_server(PageServer* server) { server_ = server; }
-
-  void send_text(ViewerId viewer, std::shared_ptr<const std::string> text) override {
-    if (PageServer* const server = server_) server->send_text(viewer, std::move(text));
-  }
-
   /// All frames are sent by one thread, which also compresses them, so its time is the cost of them all.
   void send_binary(ViewerId viewer, std::shared_ptr<const std::string> bytes) override {
-    if (PageServer* const server = server_) server->send_binary(viewer, std::move(bytes));
+    PageSender::send_binary(viewer, std::move(bytes));
     const std::lock_guard lock(mutex_);
-    seconds_ = processor_seconds();
-  }
-
-  size_t queued_bytes(ViewerId viewer) const override {
-    PageServer* const server = server_;
-    return server ? server->queued_bytes(viewer) : 0;
+    seconds_ = thread_processor_seconds();
   }
 
   double take_seconds() {
@@ -58,7 +36,6 @@ class LiveFeed::Sender final : public ViewerSender {
   }
 
  private:
-  std::atomic<PageServer*> server_{nullptr};
   std::mutex mutex_;
   double seconds_ = 0, told_ = 0;
 };
@@ -80,7 +57,7 @@ LiveFeed::LiveFeed(const PageServerOptions& options, LiveFeedEvents events)
   sender_->set_server(server_.get());
 }
 
-/// The thread of the viewers ends before the server that it sends by; the server may still call, and finds them closed.
+/// Nothing is sent by a server that ends; it may still call, and finds the viewers.
 LiveFeed::~LiveFeed() {
   sender_->set_server(nullptr);
   server_.reset();
@@ -98,8 +75,8 @@ void LiveFeed::begin(const SceneText& scene) {
     status_.samples_total = scene.samples;
     status_.error.reset();
     status_.curve.clear();
+    viewers_->tell_everyone(scene_message(*scene_));
   }
-  viewers_->tell_everyone(scene_message(*scene_));
   send_status();
 }
 
@@ -152,13 +129,9 @@ void LiveFeed::report(const Progress& p) {
 void LiveFeed::say(const std::string& warning) { viewers_->tell_everyone(log_message(warning)); }
 
 void LiveFeed::send_status() {
-  StatusText status;
-  {
-    const std::lock_guard lock(mutex_);
-    status_.viewers = viewers_->count();
-    status = status_;
-  }
-  if (status.viewers > 0) viewers_->set_status(status_message(status));
+  const std::lock_guard lock(mutex_);
+  status_.viewers = viewers_->count();
+  if (status_.viewers > 0) viewers_->set_status(status_message(status_));
 }
 
 void LiveFeed::flush(double patience) {
@@ -195,12 +168,12 @@ void LiveFeed::handle(ViewerId viewer, const PageMessage& message) {
 }
 
 void LiveFeed::greet(ViewerId viewer) {
-  std::vector<std::string> greetings;
   {
     const std::lock_guard lock(mutex_);
+    std::vector<std::string> greetings;
     if (scene_) greetings.push_back(scene_message(*scene_));
+    viewers_->welcome(viewer, greetings);
   }
-  viewers_->welcome(viewer, greetings);
   send_status();
 }
 

@@ -8,7 +8,7 @@
 namespace alhazen::impl {
 
 /// Sends by a server, which needs whom it serves first. While there is none, nothing is sent.
-class PageSender final : public ViewerSender {
+class PageSender : public ViewerSender {
  public:
   /// The server, or null before it ends.
   void set_server(PageServer* server) {

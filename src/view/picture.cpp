@@ -5,16 +5,11 @@
 
 namespace alhazen::impl {
 
-namespace {
-
-/// The layer that a channel belongs to: "normal" of "normal.X".
 std::string layer_of(const std::string& channel) {
   if (channel == "R" || channel == "G" || channel == "B") return "color";
   if (channel == "A") return "alpha";
   return channel.substr(0, channel.rfind('.'));
 }
-
-}  // namespace
 
 const PictureLayer* Picture::layer(const std::string& name) const {
   const auto found = std::find_if(layers.begin(), layers.end(), [&](const PictureLayer& l) { return l.name == name; });

@@ -32,6 +32,9 @@ struct Picture {
   const PictureLayer* layer(const std::string& name) const;
 };
 
+/// The layer that a channel belongs to: "normal" of "normal.X".
+std::string layer_of(const std::string& channel);
+
 /// Takes the planes of an image.
 std::shared_ptr<Picture> make_picture(RenderedImage&& image);
 

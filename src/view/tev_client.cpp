@@ -13,7 +13,6 @@
 #include <cerrno>
 #include <chrono>
 #include <condition_variable>
-#include <ctime>
 #include <deque>
 #include <mutex>
 #include <optional>
@@ -24,6 +23,7 @@
 #include "util/diagnostics.h"
 #include "util/parse_numbers.h"
 #include "util/printable.h"
+#include "util/processor_time.h"
 #include "util/quoted.h"
 #include "util/thread_limit.h"
 #include "view/tev_packets.h"
@@ -39,13 +39,6 @@ constexpr Clock::duration connect_patience = std::chrono::seconds(2), send_patie
 constexpr std::chrono::milliseconds poll_interval{50};
 
 std::string message_of(int error) { return std::generic_category().message(error); }
-
-/// Seconds of processor time of the calling thread.
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /// A descriptor that does not block.
 class Socket {
@@ -144,11 +137,11 @@ class TevClient::Sender {
   void run() noexcept {
     try {
       while (std::optional<Shown> next = wait_for_image()) {
-        const double start = processor_seconds();
+        const double start = thread_processor_seconds();
         deliver(*next);
         next.reset();
         const std::lock_guard lock(mutex_);
-        seconds_ += processor_seconds() - start;
+        seconds_ += thread_processor_seconds() - start;
         is_sending_ = false;
         changed_.notify_all();
       }
