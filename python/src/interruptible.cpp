@@ -13,13 +13,23 @@ namespace alhazen::python {
 
 namespace {
 
+/// How many calls under way this thread works for.
+thread_local int calls_of_thread = 0;
+
+}  // namespace
+
+WithinCall::WithinCall() { ++calls_of_thread; }
+WithinCall::~WithinCall() { --calls_of_thread; }
+
 /// The calls under way, by what stops them, and the threads that work without the GIL.
 class RunningCalls {
  public:
   using Entry = std::list<const std::function<void()>*>::iterator;
 
+  /// Without the GIL. Once the interpreter ends, it returns only to what a call under way has called back.
   Entry add(const std::function<void()>& stop) {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
+    if (is_over_ && may_wait()) wait_for_the_end(lock);
     return stops_.insert(stops_.end(), &stop);
   }
 
@@ -36,13 +46,11 @@ class RunningCalls {
     ++unlocked_;
   }
 
-  /// Before it takes the GIL again, without it: does not return once the interpreter ends.
+  /// Before it takes the GIL again, without it: does not return once the interpreter ends, unless a call is still to
+  /// end that needs this thread.
   void wait_where_over() {
     std::unique_lock lock(mutex_);
-    if (!is_over_ || std::this_thread::get_id() == ending_) return;
-    --unlocked_;
-    changed_.notify_all();
-    never_.wait(lock, [] { return false; });
+    if (is_over_ && may_wait()) wait_for_the_end(lock);
   }
 
   /// Once it has the GIL.
@@ -62,6 +70,15 @@ class RunningCalls {
   }
 
  private:
+  bool may_wait() const { return calls_of_thread == 0 && std::this_thread::get_id() != ending_; }
+
+  /// Of the process.
+  void wait_for_the_end(std::unique_lock<std::mutex>& lock) {
+    --unlocked_;
+    changed_.notify_all();
+    never_.wait(lock, [] { return false; });
+  }
+
   std::mutex mutex_;
   std::condition_variable changed_, never_;
   std::list<const std::function<void()>*> stops_;
@@ -70,6 +87,8 @@ class RunningCalls {
   std::thread::id ending_;  ///< the thread that ends the interpreter
 };
 
+namespace {
+
 /// Never destroyed: daemon threads may outlive static objects.
 RunningCalls*& calls_of_process() {
   static auto* calls = new RunningCalls;
@@ -77,15 +96,22 @@ RunningCalls*& calls_of_process() {
 }
 RunningCalls& running_calls() { return *calls_of_process(); }
 
+/// False in a child that was forked by a function that a call has called back.
+bool is_of_this_process(const RunningCalls* calls) { return calls == calls_of_process(); }
+
 class RunningCall {
  public:
-  explicit RunningCall(const std::function<void()>& stop) : entry_(running_calls().add(stop)) {}
-  ~RunningCall() { running_calls().remove(entry_); }
+  explicit RunningCall(const std::function<void()>& stop) : calls_(&running_calls()), entry_(calls_->add(stop)) {}
+  ~RunningCall() {
+    if (is_of_this_process(calls_)) calls_->remove(entry_);
+  }
   RunningCall(const RunningCall&) = delete;
   RunningCall& operator=(const RunningCall&) = delete;
 
  private:
+  RunningCalls* calls_;
   RunningCalls::Entry entry_;
+  WithinCall within_;
 };
 
 bool is_main_thread() {
@@ -112,6 +138,7 @@ void run_beside_signals(const std::function<void()>& call, const std::function<v
     const Unlocked unlocked;
     const RunningCall running(stop);
     std::thread thread([&] {
+      const WithinCall within;
       try {
         call();
       } catch (...) {
@@ -138,15 +165,15 @@ void run_beside_signals(const std::function<void()>& call, const std::function<v
 
 }  // namespace
 
-Unlocked::Unlocked() {
-  running_calls().begin_unlocked();
+Unlocked::Unlocked() : calls_(&running_calls()) {
+  calls_->begin_unlocked();
   state_ = PyEval_SaveThread();
 }
 
 Unlocked::~Unlocked() {
-  running_calls().wait_where_over();
+  if (is_of_this_process(calls_)) calls_->wait_where_over();
   PyEval_RestoreThread(state_);
-  running_calls().end_unlocked();
+  if (is_of_this_process(calls_)) calls_->end_unlocked();
 }
 
 void run_interruptible(const std::function<void()>& call, const std::function<void()>& stop) {

@@ -8,6 +8,8 @@
 
 namespace alhazen::python {
 
+class RunningCalls;
+
 /// Releases the GIL for as long as it exists. At the end of the interpreter daemon threads must not take the GIL again:
 /// Python would end them by unwinding, which ends the process where a destructor is on the way. They wait here for the
 /// end of the process instead; the interpreter waits until all threads that are to take the GIL have it.
@@ -19,7 +21,17 @@ class Unlocked {
   Unlocked& operator=(const Unlocked&) = delete;
 
  private:
+  RunningCalls* calls_;  ///< that count it; those of another process in a child that it has forked
   PyThreadState* state_;
+};
+
+/// While one exists, its thread works for a call under way: it may take the GIL until that has ended.
+class WithinCall {
+ public:
+  WithinCall();
+  ~WithinCall();
+  WithinCall(const WithinCall&) = delete;
+  WithinCall& operator=(const WithinCall&) = delete;
 };
 
 /// Runs `call` without the GIL, and returns when it has ended; throws what it throws. Needs the GIL.

@@ -32,6 +32,7 @@ ProgressFunction progress_function(const py::object& progress, std::shared_ptr<c
   return [called = std::move(called), is_dropped = std::move(is_dropped)](const Progress& state) {
     if (is_dropped->load()) throw RenderDropped();
     if (!called) return true;
+    const WithinCall within;
     const py::gil_scoped_acquire locked;
     return !says_stop((*called)(state));
   };

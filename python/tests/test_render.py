@@ -322,6 +322,9 @@ def test_a_renderer_is_used_by_one_thread_and_stopped_by_any():
     "alhazen.render(file, progress=lambda state: None, spp=1 << 20, width=300, height=300)",
     "list(alhazen.progressive(file, spp=1 << 20, width=300, height=300))",
     "renderer = alhazen.Renderer(spp=1 << 20); renderer.start(scene)\n    while renderer.render_pass(4): pass",
+    "renderer = alhazen.Renderer(spp=1 << 20)\n    renderer.render(scene, after_pass=lambda r: r.image() is not None)",
+    "renderer = alhazen.Renderer(spp=1 << 20)\n    renderer.render(scene, progress=lambda p: time.sleep(0.01))",
+    "while True: alhazen.render(scene, spp=1, size=(32, 32))",
     "while True: alhazen.load(file)",
     "while True: scene.intersect(np.random.rand(10000, 3), (0, 0, 1))",
 ])
