@@ -201,8 +201,9 @@ struct RendererState {
     auto next = std::make_unique<Listener>(progress);
     next->watch(diagnostics.activity());
     next->watch(adapted.activity());
+    // The one before ends after the lock: what it calls may need a lock of its own, whose holder may call `stop`.
     const std::lock_guard lock(mutex);
-    listener = std::move(next);
+    listener.swap(next);
   }
 
   GrowingImage& under_way() const {

@@ -145,11 +145,11 @@ class PassLoop {
   bool take_next_pass(uint32_t wanted) {
     const double longest =
         events_.watcher ? events_.watcher->seconds_to_look() : std::numeric_limits<double>::infinity();
-    uint32_t size = pass_size(settings_, backend_.max_samples_per_pass(), wanted, samples_done_, elapsed_,
+    uint32_t size = pass_size(settings_, backend_.max_samples_per_pass(), wanted, samples_done_, active_,
                               seconds_per_sample(), longest);
     if (guiding_) size = std::min(size, guiding_->samples_left(samples_done_));
     if (settings_.asked.time_limit > 0 && last_pass_per_sample_ > 0 &&
-        elapsed_ + last_pass_per_sample_ * size + estimate_seconds_ > settings_.asked.time_limit)
+        active_ + last_pass_per_sample_ * size + estimate_seconds_ > settings_.asked.time_limit)
       return false;
     if (size % samples_per_block != 0) {
       save_checkpoint();
