@@ -87,12 +87,26 @@ void open_browser(const std::string& url) {
   std::string program = "xdg-open", argument = url;
   char* const arguments[] = {program.data(), argument.data(), nullptr};
   pid_t child = 0;
-  const int problem = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // so that Ctrl-C does not reach it
+  const int problem = posix_spawnp(&child, program.c_str(), &actions, &attributes, arguments, environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (problem != 0) tell("warning: no browser can be started (xdg-open is missing): open the address yourself\n");
 }
 
-bool is_loopback(const std::string& address) { return address.starts_with("127.") || address == "::1"; }
+/// Nothing is sent by the server once this ends, before it.
+class Attachment {
+ public:
+  Attachment(PageSender& sender, PageServer& server) : sender_(sender) { sender.set_server(&server); }
+  ~Attachment() { sender_.set_server(nullptr); }
+  Attachment(const Attachment&) = delete;
+  Attachment& operator=(const Attachment&) = delete;
+
+ private:
+  PageSender& sender_;
+};
 
 ViewOptions view_options(ViewCommand& command) {
   ViewOptions options;
@@ -120,22 +134,21 @@ int run(ViewCommand& command) {
   server_options.port = command.port;
   server_options.max_viewers = static_cast<size_t>(command.viewers);
   PageServer server(server_options, session.events());
-  sender.set_server(&server);
+  const Attachment attached(sender, server);
   catch_interrupts();
   session.start();
-  if (!is_loopback(command.address))
+  if (!server.is_local())
     tell("warning: everyone who can reach {} and has the address of the page sees the scene and can change the view\n",
          printable(command.address));
   print_out("{}\n", server.url());
   const std::string problem = flush_output();
   if (!problem.empty()) throw Error(problem);
-  if (is_loopback(command.address))
+  if (server.is_local())
     tell("from another machine: ssh -L {0}:127.0.0.1:{0} THIS_MACHINE, then open the same address there; Ctrl-C ends\n",
          server.port());
   if (command.opens) open_browser(server.url());
   while (!is_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   session.stop();
-  sender.set_server(nullptr);
   switch (session.failure()) {
     case ViewFailure::input:
       return exit_bad_input;

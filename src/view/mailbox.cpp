@@ -35,9 +35,6 @@ void Mailbox::post(ViewerId viewer, const SamplesMessage& message) {
 void Mailbox::post(ViewerId viewer, const EnvironmentMessage& message) {
   change([&] { mail_.environment = {viewer, message}; });
 }
-void Mailbox::post(ViewerId viewer, const TimeMessage& message) {
-  change([&] { mail_.time = {viewer, message}; });
-}
 
 void Mailbox::post(ViewerId viewer, const MaterialMessage& message) {
   constexpr size_t max_materials = 1024;
@@ -54,16 +51,14 @@ void Mailbox::post(ViewerId viewer, const MaterialMessage& message) {
 void Mailbox::ask_for_layers() {
   change([&] { mail_.layers = true; });
 }
-void Mailbox::ask_for_reload() {
-  change([&] { mail_.reload = true; });
-}
 void Mailbox::pause(bool paused) {
   change([&] { mail_.state = true, is_paused_ = paused; });
 }
 void Mailbox::denoise(bool on) {
   change([&] {
     mail_.state = true;
-    mail_.denoise = on && (mail_.denoise || !denoises_);
+    // It may have ended a pass already, so it is not taken back.
+    mail_.denoise = mail_.denoise || (on && !denoises_);
     denoises_ = on;
   });
 }

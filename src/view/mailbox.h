@@ -32,16 +32,14 @@ struct Mail {
   std::optional<From<SizeMessage>> size;
   std::optional<From<SamplesMessage>> samples;
   std::optional<From<EnvironmentMessage>> environment;
-  std::optional<From<TimeMessage>> time;
   std::map<size_t, From<MaterialMessage>> materials;  ///< by material, values of several messages together
   bool layers = false;                                ///< a layer is wanted that is not rendered
-  bool reload = false;                                ///< the files have changed
   bool denoise = false;                               ///< a denoised picture is wanted, and was not before
   bool state = false;                                 ///< paused, or less is wanted
 
   /// Whether an image that is under way is of no use any more.
   bool outdates_image() const {
-    return camera || size || samples || environment || time || !materials.empty() || layers || reload || denoise;
+    return camera || size || samples || environment || !materials.empty() || layers || denoise;
   }
   bool is_empty() const { return !outdates_image() && !state; }
 };
@@ -54,10 +52,8 @@ class Mailbox {
   void post(ViewerId viewer, const SizeMessage& message);
   void post(ViewerId viewer, const SamplesMessage& message);
   void post(ViewerId viewer, const EnvironmentMessage& message);
-  void post(ViewerId viewer, const TimeMessage& message);
   void post(ViewerId viewer, const MaterialMessage& message);
   void ask_for_layers();
-  void ask_for_reload();
   void pause(bool paused);
   void denoise(bool on);
   /// The viewer is gone, and moves no camera any more.

@@ -45,6 +45,7 @@ class PageServer::Implementation {
       : listening_(options.address, options.port, options.only_this_port),
         port_(listening_.port()),
         url_("http://" + listening_.url_host() + ':' + std::to_string(port_) + '/'),
+        is_local_(listening_.address().is_loopback()),
         acceptor_(context_),
         check_timer_(context_),
         shortage_timer_(context_),
@@ -69,6 +70,7 @@ class PageServer::Implementation {
 
   int port() const { return port_; }
   const std::string& url() const { return url_; }
+  bool is_local() const { return is_local_; }
   const Hub& hub() const { return hub_; }
 
  private:
@@ -146,6 +148,7 @@ class PageServer::Implementation {
   ListeningSocket listening_;
   int port_;
   std::string url_;
+  bool is_local_;
   // What waits in the context keeps connections alive, so it is destroyed after all that they know.
   net::io_context context_{1};
   tcp::acceptor acceptor_;
@@ -164,6 +167,8 @@ PageServer::~PageServer() = default;
 int PageServer::port() const { return implementation_->port(); }
 
 std::string PageServer::url() const { return implementation_->url(); }
+
+bool PageServer::is_local() const { return implementation_->is_local(); }
 
 void PageServer::send_text(ViewerId viewer, std::shared_ptr<const std::string> text) {
   if (const auto found = implementation_->hub().viewer(viewer)) found->send({std::move(text), false});

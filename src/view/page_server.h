@@ -56,6 +56,7 @@ class PageServer {
 
   int port() const;
   std::string url() const;  ///< of the page, with the token
+  bool is_local() const;    ///< whether only this machine reaches it
 
   // Any thread may call these; they do nothing for a viewer that is gone.
 

@@ -17,6 +17,8 @@ int PageServer::port() const { return 0; }
 
 std::string PageServer::url() const { return {}; }
 
+bool PageServer::is_local() const { return true; }
+
 void PageServer::send_text(ViewerId, std::shared_ptr<const std::string>) {}
 
 void PageServer::send_binary(ViewerId, std::shared_ptr<const std::string>) {}

@@ -131,7 +131,8 @@ PixelRay pixel_ray(const ::alhazen::Camera& camera, int width, int height, doubl
   return ray;
 }
 
-std::optional<PickedPoint> Picker::pick(const ::alhazen::Scene& scene, int width, int height, int x, int y) {
+std::optional<PickedPoint> Picker::pick(const ::alhazen::Scene& scene, int width, int height, int x, int y,
+                                        const ProgressFunction& building) {
   if (x < 0 || y < 0 || x >= width || y >= height)
     throw InputError("pick: the pixel " + std::to_string(x) + ", " + std::to_string(y) + " is outside the image of " +
                      std::to_string(width) + " by " + std::to_string(height));
@@ -141,7 +142,7 @@ std::optional<PickedPoint> Picker::pick(const ::alhazen::Scene& scene, int width
     queries_.reset();
     Settings settings;
     settings.precision = "double";  // so that passing through a cutout never finds it again
-    queries_.emplace(scene, settings);
+    queries_.emplace(scene, settings, building);
     built_ = now;
   }
   const PixelRay first = pixel_ray(scene.camera(), width, height, x + 0.5, y + 0.5);

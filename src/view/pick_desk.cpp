@@ -2,9 +2,12 @@
 
 #include <utility>
 
+#include "util/thread_limit.h"
+
 namespace alhazen::impl {
 
-PickDesk::PickDesk(Answer answer) : answer_(std::move(answer)), thread_([this] { run(); }) {}
+PickDesk::PickDesk(Answer answer)
+    : answer_(std::move(answer)), thread_(start_thread("the thread that finds what pixels show", [this] { run(); })) {}
 
 PickDesk::~PickDesk() { end(); }
 

@@ -39,8 +39,9 @@ class Picker {
  public:
   /// Builds the BVH if geometry or transforms have changed since the last time. The camera is that of the scene, for an
   /// image of that size; motion is as when the shutter opens. Nothing where it sees no surface. Throws InputError for
-  /// a pixel outside the image, and what RayQueries throw.
-  std::optional<PickedPoint> pick(const ::alhazen::Scene& scene, int width, int height, int x, int y);
+  /// a pixel outside the image, and what RayQueries throw: Cancelled if `building` returns false.
+  std::optional<PickedPoint> pick(const ::alhazen::Scene& scene, int width, int height, int x, int y,
+                                  const ProgressFunction& building = {});
 
  private:
   struct Built {

@@ -1,5 +1,7 @@
 #include "view/view_camera.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -84,6 +86,17 @@ Camera coarse_camera(const Camera& camera, int full_width, int full_height, cons
   Camera seen = camera;
   seen.screen_window = {left, left + coarse(region.width) * x_scale, top - coarse(region.height) * y_scale, top};
   return seen;
+}
+
+std::string camera_options(const PageCamera& camera) {
+  const Vec3 &position = camera.position, &target = camera.target, &up = camera.up;
+  std::string text = fmt::format("--look-at {},{},{},{},{},{},{},{},{}", position.x, position.y, position.z, target.x,
+                                 target.y, target.z, up.x, up.y, up.z);
+  if (camera.fov) text += fmt::format(" --fov {}", *camera.fov);
+  // Zero replaces the lens that the file's camera may have.
+  text += fmt::format(" --aperture {}", camera.aperture);
+  if (camera.aperture > 0 && camera.focus) text += fmt::format(" --focus {}", *camera.focus);
+  return text;
 }
 
 }  // namespace alhazen::impl

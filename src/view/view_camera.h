@@ -3,6 +3,7 @@
 // Cameras of scenes as pages know them, and back.
 
 #include <array>
+#include <string>
 
 #include "alhazen/camera.h"
 #include "view/protocol.h"
@@ -26,6 +27,9 @@ PageCamera page_camera(const ::alhazen::Camera& camera, const SceneExtent& exten
 
 /// `base`, placed as a page wants it. It stands still, and its handedness is kept.
 ::alhazen::Camera placed_camera(const ::alhazen::Camera& base, const PageCamera& wanted);
+
+/// The options of the command line that place a camera there.
+std::string camera_options(const PageCamera& camera);
 
 /// A part of an image, in pixels: from (x, y) on.
 struct PixelRegion {

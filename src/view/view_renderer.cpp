@@ -110,26 +110,17 @@ ViewRenderer::ViewRenderer(Scene scene, const Settings& settings, Mailbox& mailb
   film.height = settings_.height;
   scene_.set_film(film);
   apply_camera_settings(scene_, settings_);
+  first_bounds_ = settings_.pixel_bounds;
+  first_width_ = settings_.width;
+  first_height_ = settings_.height;
   first_camera_ = scene_.camera();
-}
-
-void ViewRenderer::replace_scene(Scene scene, const std::optional<Camera>& seen_by) {
-  Film film = scene.film();
-  film.pixel_bounds.reset();
-  film.width = settings_.width;
-  film.height = settings_.height;
-  scene.set_film(film);
-  scene_ = std::move(scene);
-  first_camera_ = scene_.camera();
-  if (seen_by) scene_.set_camera(*seen_by);
-  is_built_ = false;
 }
 
 void ViewRenderer::set_size(int width, int height) {
-  if (settings_.pixel_bounds)
+  if (first_bounds_)
     settings_.pixel_bounds =
-        scaled_bounds(*settings_.pixel_bounds, static_cast<double>(width) / static_cast<double>(settings_.width),
-                      static_cast<double>(height) / static_cast<double>(settings_.height), width, height);
+        scaled_bounds(*first_bounds_, static_cast<double>(width) / static_cast<double>(first_width_),
+                      static_cast<double>(height) / static_cast<double>(first_height_), width, height);
   settings_.width = width;
   settings_.height = height;
   seconds_per_sample_ = 0;

@@ -2,6 +2,7 @@
 
 // Renders one scene for viewers: coarse pictures in a moment, then the image itself, pass by pass. Used by one thread.
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -43,9 +44,6 @@ class ViewRenderer {
   ::alhazen::Camera camera() const { return scene_.camera(); }
   const ::alhazen::Camera& first_camera() const { return first_camera_; }
   void set_camera(const ::alhazen::Camera& camera) { scene_.set_camera(camera); }
-  /// A scene that was read anew, or at another time; its camera becomes the first one. Keeps `seen_by`, if that is
-  /// given.
-  void replace_scene(::alhazen::Scene scene, const std::optional<::alhazen::Camera>& seen_by);
   const Settings& settings() const { return settings_; }
   int width() const { return static_cast<int>(settings_.width); }
   int height() const { return static_cast<int>(settings_.height); }
@@ -90,6 +88,8 @@ class ViewRenderer {
   std::mutex& scene_mutex_;
   Renderer renderer_;
   ::alhazen::Camera first_camera_;
+  std::optional<std::array<int64_t, 4>> first_bounds_;  ///< those of pixels at the first size
+  int64_t first_width_ = 0, first_height_ = 0;
   std::set<std::string> layers_;
   bool is_built_ = false, is_done_ = false;
   bool names_parts_ = true;        ///< whether what is built has names for the layers object and material

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <new>
-#include <type_traits>
 #include <utility>
 
 #include "util/diagnostics.h"
 #include "util/quoted.h"
+#include "util/thread_limit.h"
+#include "view/overloaded.h"
 #include "view/save_picture.h"
 
 namespace alhazen::impl {
@@ -17,29 +17,6 @@ namespace {
 /// A camera that moves and sends no more is taken to be at rest after this time.
 constexpr std::chrono::milliseconds rest_time{250};
 
-template <class... Functions>
-struct Overloaded : Functions... {
-  using Functions::operator()...;
-};
-
-/// The text that the program prints for an error.
-std::string text_of_error(ViewFailure* failure = nullptr) {
-  if (failure) *failure = ViewFailure::input;
-  try {
-    throw;
-  } catch (const ::alhazen::InputError& error) {
-    return error.what();
-  } catch (const ::alhazen::UnsupportedError& error) {
-    return error.what();
-  } catch (const std::bad_alloc&) {
-    if (failure) *failure = ViewFailure::other;
-    return "alhazen: out of memory: the task needs more than this machine, or a limit set on it, allows";
-  } catch (const std::exception& error) {
-    if (failure) *failure = ViewFailure::other;
-    return std::string("alhazen: ") + error.what();
-  }
-}
-
 }  // namespace
 
 ViewSession::ViewSession(ViewOptions options, ViewerSender& sender) : options_(std::move(options)), viewers_(sender) {}
@@ -47,7 +24,7 @@ ViewSession::ViewSession(ViewOptions options, ViewerSender& sender) : options_(s
 ViewSession::~ViewSession() { stop(); }
 
 void ViewSession::start() {
-  thread_ = std::thread([this] { run(); });
+  thread_ = start_thread("the thread that renders for pages", [this] { run(); });
 }
 
 void ViewSession::stop() {
@@ -130,8 +107,8 @@ void ViewSession::want_layers(ViewerId viewer, const LayersMessage& message) {
         throw InputError("layers: there is no layer " + quoted(layer));
       is_missing = is_missing || !layers_.contains(layer);
     }
+    viewers_.want(viewer, message.layers, message.exact);
   }
-  viewers_.want(viewer, message.layers, message.exact);
   if (is_missing) mailbox_.ask_for_layers();
 }
 
@@ -144,8 +121,7 @@ PageResponse ViewSession::get(const std::string& path, const std::string& query)
   return save_picture(options_.scene, image.get(), path, query);
 }
 
-template <class Change>
-void ViewSession::change_status(const Change& change) {
+void ViewSession::change_status(const std::function<void(StatusText&)>& change) {
   const std::lock_guard lock(mutex_);
   change(status_);
   status_.viewers = viewers_.count();
@@ -168,7 +144,10 @@ void ViewSession::fail(const std::string& message, ViewFailure failure) {
     if (is_fatal) fatal_error_ = message;
     viewers_.tell_everyone(error_message(message, is_fatal));
   }
-  change_status([](StatusText& status) { status.activity = "failed"; });
+  change_status([](StatusText& status) {
+    status.activity = "failed";
+    status.denoising = false;
+  });
   if (is_fatal) options_.report(message);
 }
 
@@ -194,13 +173,7 @@ ProgressFunction ViewSession::building() {
 void ViewSession::load() {
   change_status([](StatusText& status) { status.activity = "reading"; });
   Scene scene = Scene::load(options_.scene, options_.load, [this](const Progress&) { return !mailbox_.is_ending(); });
-  told_warnings_ = scene.warnings();
-  for (const Warning& warning : told_warnings_) {
-    const std::lock_guard lock(mutex_);
-    logs_.push_back(warning.text());
-    viewers_.tell_everyone(log_message(warning.text()));
-    options_.report("warning: " + warning.text());
-  }
+  tell_new(scene.warnings());
   {
     const std::lock_guard lock(scene_mutex_);
     renderer_ = std::make_unique<ViewRenderer>(std::move(scene), options_.settings, mailbox_, scene_mutex_);
@@ -244,13 +217,17 @@ void ViewSession::tell_camera(ViewerId by) {
   viewers_.set_camera(camera_message(page_camera(renderer_->camera(), extent_), {}), by);
 }
 
-void ViewSession::tell_warnings() {
-  for (const Warning& warning : renderer_->warnings()) {
+void ViewSession::tell_warnings() { tell_new(renderer_->warnings()); }
+
+void ViewSession::tell_new(const std::vector<Warning>& warnings) {
+  for (const Warning& warning : warnings) {
     if (std::find(told_warnings_.begin(), told_warnings_.end(), warning) != told_warnings_.end()) continue;
     told_warnings_.push_back(warning);
-    const std::lock_guard lock(mutex_);
-    logs_.push_back(warning.text());
-    viewers_.tell_everyone(log_message(warning.text()));
+    {
+      const std::lock_guard lock(mutex_);
+      logs_.push_back(warning.text());
+      viewers_.tell_everyone(log_message(warning.text()));
+    }
     options_.report("warning: " + warning.text());
   }
 }
@@ -260,8 +237,8 @@ void ViewSession::render() {
   bool was_shown = false;
   while (!mailbox_.is_ending()) {
     Mail mail = mailbox_.take();
-    if (!mail.is_empty()) apply(mail);
     try {
+      if (!mail.is_empty()) apply(mail);
       render_next();
       was_shown = was_shown || picture_number_ > 0;
     } catch (const Cancelled&) {
@@ -333,7 +310,7 @@ void ViewSession::start_image() {
     return true;
   });
   is_started_ = true;
-  published_ = 0;
+  change_status([this](StatusText& status) { status.samples_total = renderer_->samples(); });
   curve_.clear();
   tell_warnings();
 }
@@ -371,6 +348,7 @@ void ViewSession::denoise() {
 void ViewSession::show(ViewImage&& image) {
   image.picture->number = ++picture_number_;
   image.picture->view = view_;
+  if (placed_) image.description.metadata["settings"] += ' ' + camera_options(*placed_);
   const std::shared_ptr<const Picture> picture = image.picture;
   if (picture->step == 1) {
     const std::lock_guard lock(mutex_);
@@ -396,19 +374,18 @@ void ViewSession::begin_view() {
 void ViewSession::begin_image() {
   is_idle_ = is_started_ = is_denoised_ = false;
   renderer_->set_denoising(mailbox_.denoises());
-  const std::set<std::string> layers = [&] {
-    std::set<std::string> wanted = viewers_.wanted_layers();
-    wanted.erase("color");
-    wanted.erase("denoised");
-    for (const std::string& layer : refused_layers_) wanted.erase(layer);
-    return wanted;
-  }();
-  renderer_->set_layers(layers);
+  std::set<std::string> layers;
   {
+    // As one, so that a layer which is asked for meanwhile is either among these or seen to be missing.
     const std::lock_guard lock(mutex_);
+    layers = viewers_.wanted_layers();
+    layers.erase("color");
+    layers.erase("denoised");
+    for (const std::string& layer : refused_layers_) layers.erase(layer);
     layers_ = layers;
     layers_.insert(refused_layers_.begin(), refused_layers_.end());
   }
+  renderer_->set_layers(layers);
   if (picture_number_ > 0)
     change_status([this](StatusText& status) {
       is_at_rest_ = true;  // until the next image takes its first pass
@@ -422,101 +399,6 @@ std::set<std::string> ViewSession::rendered_layers() const {
   for (const auto& [layer, channels] : view_layers())
     if (renderer_->renders(layer)) layers.insert(layer);
   return layers;
-}
-
-template <class Change>
-void ViewSession::apply_for(ViewerId viewer, const Change& change) {
-  try {
-    change();
-  } catch (const Cancelled&) {
-    throw;
-  } catch (...) {
-    viewers_.tell(viewer, error_message(text_of_error(), false));
-  }
-}
-
-void ViewSession::apply(Mail& mail) {
-  const std::lock_guard lock(scene_mutex_);
-  const bool has_new_view = mail.camera || mail.size || mail.environment || mail.time || !mail.materials.empty();
-  if (mail.camera) apply_for(mail.camera->viewer, [&] { move_camera(*mail.camera); });
-  if (mail.size) {
-    renderer_->set_size(mail.size->message.width, mail.size->message.height);
-    refused_layers_.clear();
-  }
-  if (mail.samples) renderer_->set_samples(mail.samples->message.samples);
-  if (mail.environment) renderer_->set_environment(mail.environment->message);
-  for (const auto& [index, from] : mail.materials) apply_for(from.viewer, [&] { change_material(from.message); });
-  if (mail.size || mail.samples || mail.environment) tell_scene();
-  if (has_new_view) {
-    if (!mail.camera) origin_.reset();
-    begin_view();
-  } else if (mail.samples) {
-    // What is there may have more samples than there are to be.
-    const std::shared_ptr<const Picture> shown = viewers_.shown("color");
-    if (shown && shown->samples > static_cast<double>(mail.samples->message.samples))
-      begin_view();
-    else
-      begin_image();
-  } else if (mail.layers || mail.denoise) {
-    begin_image();
-  }
-}
-
-void ViewSession::change_material(const MaterialMessage& message) {
-  Scene& scene = renderer_->scene();
-  const std::vector<MaterialId> materials = scene.materials();
-  if (message.material >= materials.size())
-    throw InputError("material: there are " + std::to_string(materials.size()) + " materials, numbered from 0");
-  const MaterialId material = materials[message.material];
-  changes_.remember(scene, material);
-  set_material_fields(scene, material, message.values);
-  const std::string changes = changes_message(changes_.lines(scene));
-  const std::lock_guard lock(mutex_);
-  changes_text_ = changes;
-  viewers_.tell_everyone(changes);
-}
-
-void ViewSession::pick(ViewerId viewer, const PickMessage& message) {
-  apply_for(viewer, [&] {
-    const std::lock_guard lock(scene_mutex_);
-    if (!renderer_) throw InputError("pick: the scene is being read");
-    const Scene& scene = renderer_->scene();
-    PickedText picked;
-    picked.id = message.id;
-    picked.point = picker_.pick(scene, renderer_->width(), renderer_->height(), message.x, message.y);
-    if (picked.point && picked.point->material) {
-      const std::vector<MaterialId> materials = scene.materials();
-      const MaterialId id = picked.point->material;
-      picked.material_index =
-          static_cast<size_t>(std::find(materials.begin(), materials.end(), id) - materials.begin());
-      const Material material = scene.material(id);
-      picked.material_name = scene.name(id);
-      picked.kind = material_kind(material);
-      picked.fields = material_fields(material);
-    }
-    viewers_.tell(viewer, picked_message(picked));
-  });
-}
-
-Camera ViewSession::file_camera(size_t index) {
-  LoadOptions load = options_.load;
-  load.camera = std::to_string(index);
-  change_status([](StatusText& status) { status.activity = "reading"; });
-  return Scene::load(options_.scene, load, [this](const Progress&) { return !mailbox_.is_ending(); }).camera();
-}
-
-void ViewSession::move_camera(const From<CameraRequest>& request) {
-  origin_.reset();
-  std::visit(Overloaded{
-                 [&](const CameraMessage& m) {
-                   renderer_->set_camera(placed_camera(renderer_->first_camera(), m.camera));
-                   origin_ = ViewOrigin{request.viewer, m.id};
-                 },
-                 [&](const ResetMessage&) { renderer_->set_camera(renderer_->first_camera()); },
-                 [&](const SelectCameraMessage& m) { renderer_->set_camera(file_camera(m.camera)); },
-             },
-             request.message);
-  if (!std::holds_alternative<CameraMessage>(request.message)) tell_camera(0);
 }
 
 }  // namespace alhazen::impl

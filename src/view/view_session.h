@@ -22,6 +22,7 @@
 #include "view/pick_desk.h"
 #include "view/protocol.h"
 #include "view/scene_edit.h"
+#include "view/view_failure.h"
 #include "view/view_renderer.h"
 #include "view/viewers.h"
 
@@ -39,9 +40,6 @@ struct ViewOptions {
   /// Told of warnings, and of the error that ends all, as lines without a line feed; by the thread that renders.
   std::function<void(const std::string&)> report = [](const std::string&) {};
 };
-
-/// What has ended a session: what it was given cannot be used, or anything else.
-enum class ViewFailure { none, input, other };
 
 class ViewSession {
  public:
@@ -91,13 +89,13 @@ class ViewSession {
   void tell_scene();
   void tell_camera(ViewerId by);
   void tell_warnings();
+  void tell_new(const std::vector<Warning>& warnings);
   std::set<std::string> missing_layers() const;
   std::set<std::string> rendered_layers() const;
   ProgressFunction building();
 
   // On any.
-  template <class Change>
-  void change_status(const Change& change);
+  void change_status(const std::function<void(StatusText&)>& change);
 
   ViewOptions options_;
   Mailbox mailbox_;
@@ -113,12 +111,12 @@ class ViewSession {
   SceneExtent extent_;
   uint64_t picture_number_ = 0, view_ = 0;
   std::optional<ViewOrigin> origin_;  ///< of the view
+  std::optional<PageCamera> placed_;  ///< where a page has placed the camera
   int step_ = 0;                      ///< of the next coarse picture; 0: the image itself
   bool is_first_of_view_ = false;     ///< whether the view has no picture yet
   bool is_started_ = false;           ///< the image
   bool is_denoised_ = false;          ///< the image, or it cannot be
   bool is_idle_ = false;              ///< after a failure, until something changes
-  double published_ = 0;              ///< seconds of the image when it was shown last
   NoiseCurve curve_;
   std::vector<Warning> told_warnings_;
   std::set<std::string> refused_layers_;  ///< that this scene cannot be rendered with

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "util/thread_limit.h"
+
 namespace alhazen::impl {
 
 namespace {
@@ -23,7 +25,8 @@ bool is_better(const Picture& next, const Picture& current) {
 
 }  // namespace
 
-Viewers::Viewers(ViewerSender& sender) : sender_(sender), thread_([this] { run(); }) {}
+Viewers::Viewers(ViewerSender& sender)
+    : sender_(sender), thread_(start_thread("the thread that sends pictures to pages", [this] { run(); })) {}
 
 Viewers::~Viewers() {
   {
@@ -118,8 +121,10 @@ void Viewers::tell_everyone(const std::string& text) {
     if (viewer.is_welcome) send(id, shared);
 }
 
-void Viewers::send(ViewerId viewer, const std::shared_ptr<const std::string>& text) {
-  if (sender_.queued_bytes(viewer) < max_queued_for_texts) sender_.send_text(viewer, text);
+bool Viewers::send(ViewerId viewer, const std::shared_ptr<const std::string>& text) {
+  if (sender_.queued_bytes(viewer) >= max_queued_for_texts) return false;
+  sender_.send_text(viewer, text);
+  return true;
 }
 
 void Viewers::set_status(const std::string& text) {
@@ -151,11 +156,6 @@ void Viewers::show(const std::shared_ptr<const Picture>& picture, const std::opt
     }
   }
   changed_.notify_all();
-}
-
-void Viewers::forget(const std::string& layer) {
-  const std::lock_guard lock(mutex_);
-  shown_.erase(layer);
 }
 
 std::shared_ptr<const Picture> Viewers::shown(const std::string& layer) const {
@@ -191,8 +191,8 @@ bool Viewers::has_texts() const {
 void Viewers::send_texts() {
   for (auto& [id, viewer] : viewers_) {
     if (!viewer.is_welcome) continue;
-    if (camera_ && !std::exchange(viewer.has_camera, true)) send(id, camera_);
-    if (status_ && !std::exchange(viewer.has_status, true)) send(id, status_);
+    if (camera_ && !viewer.has_camera) viewer.has_camera = send(id, camera_);
+    if (status_ && !viewer.has_status) viewer.has_status = send(id, status_);
   }
 }
 
@@ -234,9 +234,10 @@ void Viewers::deliver(std::vector<Delivery>& deliveries) {
     const auto sent = viewer.sent.find(delivery.layer);
     if ((sent == viewer.sent.end() ? nullptr : sent->second) != delivery.previous) continue;
     if (std::find(viewer.layers.begin(), viewer.layers.end(), delivery.layer) == viewer.layers.end()) continue;
-    viewer.sent[delivery.layer] = delivery.encoded;
-    viewer.in_flight = frame;
+    std::shared_ptr<EncodedLayer>& last = viewer.sent[delivery.layer];
     sender_.send_binary(delivery.viewer, texts[i]);
+    last = delivery.encoded;
+    viewer.in_flight = frame;
   }
 }
 
@@ -244,27 +245,28 @@ void Viewers::run() {
   auto next_texts = std::chrono::steady_clock::now();
   std::unique_lock lock(mutex_);
   while (!is_ending_) {
-    const auto now = std::chrono::steady_clock::now();
-    if (has_texts() && now >= next_texts) {
-      send_texts();
-      next_texts = now + text_interval;
-    }
-    if (std::vector<Delivery> deliveries = next_deliveries(); !deliveries.empty()) {
-      lock.unlock();
-      try {
-        deliver(deliveries);
-      } catch (const std::bad_alloc&) {
-        // Without memory for it, this picture is not seen; the next one may be.
-        std::this_thread::sleep_for(text_interval);
+    try {
+      const auto now = std::chrono::steady_clock::now();
+      if (has_texts() && now >= next_texts) {
+        send_texts();
+        next_texts = now + text_interval;
       }
-      deliveries.clear();
-      lock.lock();
-      continue;
+      if (std::vector<Delivery> deliveries = next_deliveries(); !deliveries.empty()) {
+        lock.unlock();
+        deliver(deliveries);
+        deliveries.clear();
+        lock.lock();
+        continue;
+      }
+      if (has_texts())
+        changed_.wait_until(lock, next_texts);
+      else
+        changed_.wait(lock);
+    } catch (const std::bad_alloc&) {
+      // Without memory for it, this picture is not seen; the next one may be.
+      if (!lock.owns_lock()) lock.lock();
+      changed_.wait_for(lock, text_interval);
     }
-    if (has_texts())
-      changed_.wait_until(lock, next_texts);
-    else
-      changed_.wait(lock);
   }
 }
 

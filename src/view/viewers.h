@@ -66,8 +66,6 @@ class Viewers {
   /// Each layer of it is what viewers see from now on, if it is better than what they see: of a later view; or of the
   /// same with smaller pixels, or more samples, or as the last.
   void show(const std::shared_ptr<const Picture>& picture, const std::optional<ViewOrigin>& origin = {});
-  /// The layer is not shown any more until there is another one.
-  void forget(const std::string& layer);
 
   /// What is shown of a layer; null: nothing yet.
   std::shared_ptr<const Picture> shown(const std::string& layer) const;
@@ -99,7 +97,8 @@ class Viewers {
   std::shared_ptr<EncodedLayer> encoded(const Delivery& delivery);
   bool has_texts() const;
   void send_texts();
-  void send(ViewerId viewer, const std::shared_ptr<const std::string>& text);
+  /// False, and nothing is sent, if the viewer has too much still to read.
+  bool send(ViewerId viewer, const std::shared_ptr<const std::string>& text);
 
   ViewerSender& sender_;
   mutable std::mutex mutex_;

@@ -97,4 +97,12 @@ TEST(ViewCamera, CoarsePixelsAreWhereTheirFinePixelsAre) {
   EXPECT_LT(difference / mean, 0.02);
 }
 
+TEST(ViewCamera, IsPlacedByOptionsOfTheCommandLine) {
+  PageCamera camera{{1e6, -2, 0.1}, {0, 0, 0}, {0, 1, 0}, 39.5, 0, 4.0};
+  EXPECT_EQ(camera_options(camera), "--look-at 1000000,-2,0.1,0,0,0,0,1,0 --fov 39.5 --aperture 0");
+  camera.fov.reset();
+  camera.aperture = 0.25;
+  EXPECT_EQ(camera_options(camera), "--look-at 1000000,-2,0.1,0,0,0,0,1,0 --aperture 0.25 --focus 4");
+}
+
 }  // namespace alhazen::impl::test

@@ -69,7 +69,9 @@
       this.images.set(image.header.layer, image);
       this.#measured.delete(image.header.layer);
       this.#fresh.push(image);
-      this.redraw();
+      // A page that is hidden has no animation frames, and what it acknowledges may be waited for.
+      if (document.hidden) this.draw();
+      else this.redraw();
     }
 
     /// Whether all that has come is on the display.
