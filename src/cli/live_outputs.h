@@ -1,6 +1,6 @@
 #pragma once
 
-// What shows or keeps an image while it is rendered: --write-every, --tev, --terminal.
+// What shows or keeps an image while it is rendered: --write-every, --tev, --terminal, --view.
 
 #include <functional>
 #include <limits>
